@@ -1,0 +1,12 @@
+#pragma once
+/// \file kernel_sources.hpp  The kernel texts that the build embeds.
+
+#include <map>
+#include <string>
+
+namespace quadedge::opencl {
+
+/// File name ("edges.cl") -> text, beginning with a #line marker.
+const std::map<std::string, std::string>& embedded_kernels();
+
+}  // namespace quadedge::opencl

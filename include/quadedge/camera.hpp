@@ -1,0 +1,54 @@
+#pragma once
+/// \file camera.hpp  Pinhole cameras, the stereo rig, and the table that undoes lens distortion.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace quadedge {
+
+/// An ideal pinhole camera. Pixel centres at integers, x right, y down; all in pixels.
+struct PinholeCamera {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  int width = 0, height = 0;
+
+  /// 3 x 3 intrinsic matrix K.
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d k;
+    k << fx, 0, cx, 0, fy, cy, 0, 0, 1;
+    return k;
+  }
+  /// Normalised ray gamma = K^-1 (x, y, 1) of a pixel.
+  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const {
+    return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1.0};
+  }
+  /// Pixel of a point in the camera's frame; the caller makes sure that z > 0.
+  Eigen::Vector2d project(const Eigen::Vector3d& point) const {
+    return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
+  }
+};
+
+/// For every pixel of the pinhole image, the place in the recorded image that shows it (pixels, sub-pixel).
+/// Points outside the recorded image are replicated from its border.
+struct UndistortionTable {
+  int width = 0, height = 0;       ///< size of the pinhole image
+  std::vector<float> source_x;     ///< height x width, row-major
+  std::vector<float> source_y;     ///< height x width, row-major
+  bool empty() const { return source_x.empty(); }
+};
+
+/// Two cameras fixed to one another. Images of different sizes are allowed, nothing needs to be rectified.
+struct StereoRig {
+  PinholeCamera left, right;
+  /// Gamma_right = right_from_left * Gamma_left, metres (paper Eq. 1). Rectified: identity and (-baseline, 0, 0).
+  Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
+  UndistortionTable left_undistortion, right_undistortion;  ///< empty where the recorded images are pinhole images
+
+  double baseline() const { return right_from_left.translation().norm(); }
+};
+
+/// Checks that a rig can be used: finite and positive focal lengths, sizes, an orthonormal rotation and a baseline that
+/// is neither zero nor NaN. \throws DataError that names `source` (the calibration file) and the offending value.
+void check_rig(const StereoRig& rig, const char* source);
+
+}  // namespace quadedge

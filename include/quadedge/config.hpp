@@ -1,0 +1,128 @@
+#pragma once
+/// \file config.hpp  Every constant of the method with its default. Angles are degrees here and radians inside.
+///
+/// The structs are the single source of truth: flags and `--config FILE.toml` carry the same names (`stereo.ncc_min`).
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <variant>
+
+namespace quadedge {
+
+/// Third-order edge detection, SPEC section 1.
+struct EdgesConfig {
+  double sigma = 2.0;       ///< Gaussian scale [px]
+  double threshold = 2.0;   ///< smallest gradient magnitude [grey levels per px], exclusive
+  int margin = 10;          ///< no edge nearer to the image border [px]
+  std::string direction_at = "subpixel";  ///< where the third-order direction is evaluated: subpixel | cell
+  bool thinning = false;    ///< keep one edge per pixel along a curve
+  int max_edges = 200000;   ///< capacity per image; more is an overflow that the frame reports
+};
+
+/// Side patches, SPEC section 2.
+struct PatchesConfig {
+  double offset = 5.0;  ///< distance of the patch centres from the edge [px]
+};
+
+/// SIFT descriptors of both sides, SPEC section 2.
+struct SiftConfig {
+  double offset = 8.0;  ///< distance of the key points from the edge [px]
+};
+
+/// Stereo cascade, SPEC section 3.
+struct StereoConfig {
+  double epipolar_distance = 0.5;   ///< [px]
+  double min_depth = 0.0;           ///< nearest depth [m]; 0: from max_disparity, or else from the data set's reader
+  double max_disparity = 0.0;       ///< largest disparity [px]; 0: from min_depth, or else from the data set's reader
+  double orientation = 10.0;        ///< [deg], modulo 180
+  double sift_max = 500.0;          ///< largest SIFT distance
+  double ncc_min = 0.6;             ///< smallest NCC
+  double ncc_nearly_best = 0.9;     ///< share of the best NCC that is kept
+  double sift_nearly_best = 0.4;    ///< best distance / distance that is kept
+  double min_epipolar_angle = 4.0;  ///< edges nearer to their epipolar line take no part [deg]
+  double shift_min_angle = 12.0;    ///< below it the orthogonal projection replaces the shift along the tangent [deg]
+  double shift_max = 3.0;           ///< longest shift along the tangent [px]
+  int refine_steps = 8;             ///< Gauss-Newton steps
+  double refine_tolerance = 1e-3;   ///< [px]
+  double refine_huber = 3.0;        ///< [grey levels]
+  double refine_clamp = 2.0;        ///< longest move along the line [px]
+  double refine_rms_max = 6.0;      ///< [grey levels]
+  double cluster_gap = 1.0;         ///< [px]
+  double cluster_orientation = 20.0;  ///< [deg]
+  int cluster_size_max = 10;        ///< members
+};
+
+/// Temporal cascade, SPEC section 4.
+struct TemporalConfig {
+  double radius = 30.0;             ///< around the same place, without a prediction [px]
+  double radius_predicted = 10.0;   ///< around the predicted place [px]
+  double radius_wide = 0.1;         ///< first pair and after a loss [share of the image width]
+  double orientation = 10.0;        ///< [deg], modulo 360
+  double ncc_min = 0.8;
+  double sift_max = 200.0;
+  double ncc_nearly_best = 0.9;
+  double sift_nearly_best = 0.6;
+  int refine_steps = 8;
+  double refine_tolerance = 1e-3;   ///< [px]
+  double refine_huber = 3.0;        ///< [grey levels]
+  double refine_clamp = 2.0;        ///< longest move [px]
+  double refine_rms_max = 6.0;      ///< [grey levels]
+  double cluster_gap = 1.0;         ///< [px]
+  double cluster_orientation = 20.0;  ///< [deg]
+};
+
+/// Pose from quads, SPEC section 6.
+struct PoseConfig {
+  double length_difference = 0.13;   ///< constraint 1: relative difference of |D|
+  double angle_difference = 0.12;    ///< constraints 2 and 3: difference of the cosines between D and a tangent
+  double tangent_difference = 0.32;  ///< constraint 4: difference of T1.T2
+  double min_angle = 14.0;           ///< constraint 5: D at least this far from T1 [deg]
+  double min_determinant = 0.1;      ///< constraint 6 is informative above this magnitude
+  double inlier_distance = 1.5;      ///< [px], in both images
+  double inlier_orientation = 10.0;  ///< [deg]
+  double confidence = 0.999;         ///< of having drawn an outlier-free sample
+  int max_hypotheses = 2000;
+  bool refine = true;                ///< least squares over the inliers at the end
+  int min_inliers = 12;
+  double min_inlier_share = 0.15;
+  double min_spread = 0.1;           ///< standard deviation of the inliers' place, share of the image diagonal
+};
+
+/// Key stereo rig, SPEC section 7.
+struct OdometryConfig {
+  bool key_rig = true;               ///< false: frame to frame only
+  double key_min_share = 0.3;        ///< chained quads, share of those at the key rig's first frame
+  int key_min_quads = 300;
+  double key_min_inlier_share = 0.4;
+  double key_max_parallax = 40.0;    ///< median [px]
+  double key_max_rotation = 10.0;    ///< [deg]
+  int key_max_frames = 10;
+};
+
+/// The whole configuration.
+struct Config {
+  EdgesConfig edges;
+  PatchesConfig patches;
+  SiftConfig sift;
+  StereoConfig stereo;
+  TemporalConfig temporal;
+  PoseConfig pose;
+  OdometryConfig odometry;
+  std::uint64_t seed = 42;                      ///< the only source of randomness
+  std::map<std::string, std::string> variants;  ///< stage -> kernel variant; a missing stage takes the device's default
+};
+
+/// A pointer to one field of a Config.
+using ConfigField = std::variant<double*, int*, bool*, std::string*, std::uint64_t*>;
+
+/// Calls `visit(name, field, help, low, high)` for every scalar field, in a fixed order; `name` is "section.field" or "seed".
+/// Allowed values are low..high (numbers only). Command line, file reader, file writer and check all use this one list.
+void visit_config(Config& config, const std::function<void(const std::string& name, ConfigField field,
+                                                           const std::string& help, double low, double high)>& visit);
+
+/// \throws UsageError that names the first field outside its range, its value and the range.
+void check_config(const Config& config);
+
+}  // namespace quadedge

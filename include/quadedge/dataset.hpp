@@ -1,0 +1,80 @@
+#pragma once
+/// \file dataset.hpp  Recorded sequences and pairs in the published layouts.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadedge/camera.hpp"
+#include "quadedge/image.hpp"
+#include "quadedge/trajectory.hpp"
+
+namespace quadedge {
+
+/// Files of one stereo frame.
+struct FrameFiles {
+  std::int64_t stamp_ns = 0;
+  std::string left, right;
+};
+
+/// A sequence or a pair on disk: calibration, frame list, and how far disparities reach. Images are not loaded yet.
+struct Dataset {
+  std::string format;   ///< kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 | middlebury-2006 | middlebury-2014 | viso2-quad
+  std::string path;     ///< the sequence's own folder
+  std::string name;     ///< short name for tables
+  StereoRig rig;
+  std::vector<FrameFiles> frames;
+  double max_disparity = 0;  ///< px; the reader's default for this kind of data
+  /// Ground-truth poses of the LEFT CAMERA, empty when there are none. Only evaluation may look at it.
+  Trajectory truth;
+  std::string truth_file;    ///< where it came from
+  std::string disparity_truth;  ///< file with the left view's disparity, empty when there is none
+};
+
+/// Choices of the user.
+struct DatasetOptions {
+  std::string format = "auto";
+  std::string sequence;   ///< KITTI: the sequence's name when `path` holds several
+  int first_frame = 0;    ///< half-open range of frames
+  int last_frame = -1;    ///< -1: to the end
+};
+
+/// Recognises the layout and reads calibration, frame list and ground truth; checks that every image file exists and that
+/// stamps increase. \throws DataError naming the file, what was found and what was expected.
+Dataset open_dataset(const std::string& path, const DatasetOptions& options = {});
+
+/// What `quadedge check` prints: everything wrong with the data, not only the first thing; also decodes every image.
+struct DatasetCheck {
+  std::vector<std::string> facts;     ///< one line each: format, frames, sizes, rate, baseline, truth coverage
+  std::vector<std::string> warnings;  ///< gaps in the stamps, truth covering a part only
+  std::vector<std::string> errors;    ///< what would stop a run
+};
+DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options = {});
+
+/// Reads one image as 8-bit grey. Colour becomes luminance, 16-bit is scaled down.
+/// \throws DataError for a missing, truncated or undecodable file.
+Image read_grey_image(const std::string& path);
+
+/// Reads frames ahead on another thread, in order.
+class FramePrefetcher {
+ public:
+  struct Frame {
+    int number = 0;  ///< index into Dataset::frames
+    std::int64_t stamp_ns = 0;
+    Image left, right;
+  };
+  /// `ahead`: frames kept decoded in advance.
+  explicit FramePrefetcher(const Dataset& dataset, int ahead = 2);
+  ~FramePrefetcher();
+  /// The next frame, or nothing at the end. \throws DataError of the frame that could not be read, also when its size
+  /// differs from the calibration's.
+  std::optional<Frame> next();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace quadedge

@@ -1,0 +1,44 @@
+#pragma once
+/// \file edges.hpp  Third-order edges, stereo edges and quads as the host sees them (structures of arrays).
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace quadedge {
+
+/// Third-order edges of one image in scan order of the doubled grid (row by row, left to right). SPEC section 1.
+struct EdgeSet {
+  std::vector<float> x, y;        ///< pixels, centre of the top-left pixel is (0, 0)
+  std::vector<float> direction;   ///< radians in (-pi, pi]; the bright side lies at (sin, -cos)
+  std::vector<float> strength;    ///< peak gradient magnitude, grey levels per pixel
+  /// Where each row of the doubled grid starts: row r holds edges row_first[r] .. row_first[r + 1]. Size 2 * height + 1.
+  std::vector<std::int32_t> row_first;
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// Stereo edges in the scan order of their left edges, one-to-one in both directions. SPEC section 3.
+struct StereoEdges {
+  std::vector<std::int32_t> left_index;   ///< the left edge
+  std::vector<std::int32_t> right_index;  ///< the right edge nearest to the refined place, each at most once
+  std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge, pixels and radians
+  std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
+  std::vector<float> ncc;                 ///< similarity of the pair, highest of the four side pairings
+
+  std::size_t size() const { return left_index.size(); }
+};
+
+/// Matches in time between the stereo edges of two rigs: quads that close the circle. SPEC section 4.
+struct TemporalMatches {
+  std::vector<std::int32_t> previous;  ///< index into the previous rig's stereo edges
+  std::vector<std::int32_t> current;   ///< index into the current rig's stereo edges
+  std::vector<float> left_x, left_y;   ///< refined place in the current left image, pixels
+  std::vector<float> right_x, right_y; ///< refined place in the current right image, on the epipolar line of the left one
+  std::vector<float> ncc;              ///< mean of the left and the right similarity
+  std::vector<std::int32_t> rivals;    ///< how many other clusters the previous edge has (0: unambiguous)
+
+  std::size_t size() const { return previous.size(); }
+};
+
+}  // namespace quadedge

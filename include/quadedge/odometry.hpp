@@ -1,0 +1,110 @@
+#pragma once
+/// \file odometry.hpp  Stereo images in, poses out.
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
+#include "quadedge/edges.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge {
+
+/// Two recorded grey images of one time. The views must stay valid during track().
+struct StereoFrame {
+  std::int64_t stamp_ns = 0;
+  ImageView left, right;
+};
+
+/// What happened to a frame.
+enum class FrameStatus {
+  first,                  ///< the origin of the trajectory
+  tracked,                ///< pose found against the key stereo rig or the frame before
+  lost_too_few_edges,     ///< not enough stereo edges in this frame
+  lost_too_few_quads,     ///< edges, but not enough quads with a frame before
+  lost_no_consensus,      ///< quads, but no motion that enough of them share
+};
+const char* to_string(FrameStatus status);
+inline bool is_tracked(FrameStatus status) { return status == FrameStatus::first || status == FrameStatus::tracked; }
+
+/// Counts of one frame; SPEC sections 1 to 7.
+struct FrameCounts {
+  int edges_left = 0, edges_right = 0;
+  int stereo_edges = 0;
+  int temporal_left = 0, temporal_right = 0;  ///< previous stereo edges that keep a candidate in the left / right images
+  int quads = 0;           ///< with the frame before
+  int chained_quads = 0;   ///< with the key stereo rig
+  int inliers = 0;
+};
+
+/// Time of one stage of one frame.
+struct StageTime {
+  std::string stage;
+  double ms = 0;
+};
+
+/// The outcome of one frame.
+struct FrameResult {
+  std::int64_t stamp_ns = 0;
+  FrameStatus status = FrameStatus::first;
+  /// Pose of the left camera in the frame of the first left camera. For a lost frame: the last motion repeated.
+  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+  /// Gamma_current = current_from_reference * Gamma_reference, reference = key stereo rig.
+  Eigen::Isometry3d current_from_reference = Eigen::Isometry3d::Identity();
+  /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current left frame.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  int reference_frame = 0;      ///< number of the frame that was the key stereo rig
+  bool new_key_rig = false;     ///< this frame becomes the key stereo rig of the following ones
+  bool overflow = false;        ///< a capacity ran out (edges or candidates); the message says which
+  std::string message;          ///< empty, or one sentence for a person
+  FrameCounts counts;
+  std::vector<StageTime> stages;  ///< host-side stages always; device stages when the device profiles
+  double latency_ms = 0;          ///< images in host memory to pose on the host, steady clock
+};
+
+/// What one frame was made of; for drawing and for evaluation. Copied only on request.
+struct FrameDetails {
+  EdgeSet left_edges, right_edges;
+  StereoEdges stereo;
+  TemporalMatches quads;                 ///< indices into the frame before and this frame
+  std::vector<std::uint8_t> quad_inlier; ///< one per quad
+};
+
+class Tap;
+
+/// The odometry. One object per sequence; deterministic: the same frames, device and configuration give the same bytes.
+class StereoOdometry {
+ public:
+  /// \throws DataError for an unusable rig, UsageError for a bad configuration, DeviceError when kernels do not build.
+  StereoOdometry(const StereoRig& rig, Device& device, const Config& config);
+  ~StereoOdometry();
+
+  /// Processes the next frame. What can happen in any frame is a status; \throws DataError for images of a size that
+  /// does not belong to the rig, DeviceError for a failing device.
+  FrameResult track(const StereoFrame& frame);
+
+  /// Details of the frame tracked last (reads back from the device).
+  FrameDetails details() const;
+
+  /// Observes all filters of the following frames; null stops. The tap cannot change anything.
+  void set_tap(Tap* tap);
+
+  /// Bytes allocated on the device.
+  std::size_t device_bytes() const;
+  /// Chosen kernel variant of every stage.
+  std::map<std::string, std::string> variants() const;
+  /// Time spent building kernels [ms].
+  double kernel_build_ms() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace quadedge
