@@ -1,0 +1,100 @@
+#pragma once
+/// \file buffer.hpp  Typed device memory that is reused across frames.
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "opencl/context.hpp"
+#include "opencl/error.hpp"
+
+namespace quadedge::opencl {
+
+/// Owns an array of `T` on the device. Move-only. Grows on request and never shrinks, so that steady frames allocate nothing.
+template <class T>
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(Context& context, std::size_t count) { ensure(context, count); }
+  ~Buffer() { release(); }
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+
+  /// Makes room for at least `count` elements. The contents are lost when it grows. \throws DeviceError when memory runs out.
+  void ensure(Context& context, std::size_t count) {
+    if (context_ != nullptr && count <= capacity_) return;
+    release();
+    const std::size_t wanted = count == 0 ? 1 : count;
+    try {
+      memory_ = cl::Buffer(context.context(), CL_MEM_READ_WRITE, wanted * sizeof(T));
+    } catch (const cl::Error& error) {
+      throw_device_error("allocating " + std::to_string(wanted * sizeof(T)) + " bytes", error.err(), context.name());
+    }
+    context_ = &context;
+    capacity_ = wanted;
+    context.account(static_cast<std::ptrdiff_t>(wanted * sizeof(T)));
+  }
+
+  std::size_t capacity() const { return capacity_; }
+  const cl::Buffer& memory() const { return memory_; }
+
+  /// Copies from the host. Returns after the host memory may be reused.
+  void write(const T* values, std::size_t count) {
+    if (count == 0) return;
+    call("writing a buffer", [&] { context_->queue().enqueueWriteBuffer(memory_, CL_TRUE, 0, count * sizeof(T), values); });
+  }
+  void write(Context& context, const std::vector<T>& values) {
+    ensure(context, values.size());
+    write(values.data(), values.size());
+  }
+  /// Copies to the host, after everything enqueued before.
+  void read(T* values, std::size_t count, std::size_t offset = 0) const {
+    if (count == 0) return;
+    call("reading a buffer", [&] {
+      context_->queue().enqueueReadBuffer(memory_, CL_TRUE, offset * sizeof(T), count * sizeof(T), values);
+    });
+  }
+  std::vector<T> read(std::size_t count) const {
+    std::vector<T> values(count);
+    read(values.data(), count);
+    return values;
+  }
+  /// Sets the first `count` elements, on the device.
+  void fill(T value, std::size_t count) {
+    if (count == 0) return;
+    call("filling a buffer", [&] { context_->queue().enqueueFillBuffer(memory_, value, 0, count * sizeof(T)); });
+  }
+
+  void swap(Buffer& other) noexcept {
+    std::swap(context_, other.context_);
+    std::swap(memory_, other.memory_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+ private:
+  void release() noexcept {
+    if (context_ != nullptr) context_->account(-static_cast<std::ptrdiff_t>(capacity_ * sizeof(T)));
+    memory_ = cl::Buffer();
+    context_ = nullptr;
+    capacity_ = 0;
+  }
+  template <class Function>
+  void call(const char* what, Function&& function) const {
+    try {
+      function();
+    } catch (const cl::Error& error) {
+      throw_device_error(what, error.err(), context_->name());
+    }
+  }
+
+  Context* context_ = nullptr;
+  cl::Buffer memory_;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace quadedge::opencl

@@ -1,0 +1,134 @@
+/// \file device.cpp  Listing and choosing devices (include/quadedge/device.hpp).
+#include "quadedge/device.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+#include "opencl/context.hpp"
+#include "opencl/error.hpp"
+
+namespace quadedge {
+namespace {
+
+struct FoundDevice {
+  DeviceInfo info;
+  cl::Device device;
+};
+
+std::string type_name(cl_device_type type) {
+  if (type & CL_DEVICE_TYPE_GPU) return "gpu";
+  if (type & CL_DEVICE_TYPE_CPU) return "cpu";
+  return "accelerator";
+}
+
+std::vector<FoundDevice> find_devices() {
+  std::vector<FoundDevice> found;
+  std::vector<cl::Platform> platforms;
+  try {
+    cl::Platform::get(&platforms);
+  } catch (const cl::Error&) {
+    return found;  // the loader reports a missing driver as an error
+  }
+  for (const auto& platform : platforms) {
+    std::vector<cl::Device> devices;
+    try {
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    } catch (const cl::Error&) {
+      continue;  // a platform without devices
+    }
+    for (const auto& device : devices) {
+      try {
+        DeviceInfo info;
+        info.index = static_cast<int>(found.size());
+        info.platform = platform.getInfo<CL_PLATFORM_NAME>();
+        info.name = device.getInfo<CL_DEVICE_NAME>();
+        info.driver = device.getInfo<CL_DRIVER_VERSION>();
+        info.opencl = device.getInfo<CL_DEVICE_VERSION>();
+        info.type = type_name(device.getInfo<CL_DEVICE_TYPE>());
+        info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+        info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+        found.push_back({info, device});
+      } catch (const cl::Error&) {
+        continue;  // a device that cannot even describe itself cannot be used
+      }
+    }
+  }
+  return found;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::optional<std::size_t> first_of_type(const std::vector<FoundDevice>& devices, const std::string& type) {
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (devices[i].info.type == type) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const std::string& choice) {
+  if (devices.empty()) return std::nullopt;
+  if (choice == "auto") {
+    if (const auto gpu = first_of_type(devices, "gpu")) return gpu;
+    if (const auto cpu = first_of_type(devices, "cpu")) return cpu;
+    return 0;
+  }
+  if (choice == "cpu" || choice == "gpu") return first_of_type(devices, choice);
+  if (!choice.empty() && std::all_of(choice.begin(), choice.end(), [](unsigned char c) { return std::isdigit(c); })) {
+    const unsigned long index = choice.size() > 6 ? devices.size() : std::stoul(choice);
+    return index < devices.size() ? std::optional<std::size_t>(index) : std::nullopt;
+  }
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const std::string text = lower(devices[i].info.platform + " " + devices[i].info.name);
+    if (text.find(lower(choice)) != std::string::npos) return i;
+  }
+  return std::nullopt;
+}
+
+std::string no_match_message(const std::vector<FoundDevice>& devices, const std::string& choice) {
+  if (devices.empty()) {
+    return "no OpenCL device was found. For a CPU install PoCL (Debian: apt-get install pocl-opencl-icd), for a GPU its "
+           "vendor's OpenCL driver; `clinfo -l` then lists it. `--device reference` runs without OpenCL, slowly.";
+  }
+  std::string message = "no OpenCL device matches '" + choice + "'; there are:";
+  for (const auto& device : devices) {
+    message += "\n  " + std::to_string(device.info.index) + ": " + device.info.type + ", " + device.info.name + " (" +
+               device.info.platform + ")";
+  }
+  return message;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices() {
+  std::vector<DeviceInfo> infos;
+  for (const auto& device : find_devices()) infos.push_back(device.info);
+  return infos;
+}
+
+Device::Device(const std::string& choice, const std::string& kernel_folder, bool profiling) {
+  if (choice == "reference") {
+    info_.index = -1;
+    info_.platform = "none";
+    info_.name = "plain C++ reference";
+    info_.driver = "-";
+    info_.opencl = "-";
+    info_.type = "reference";
+    info_.compute_units = 1;
+    return;
+  }
+  const auto devices = find_devices();
+  const auto chosen = choose(devices, choice);
+  if (!chosen) throw DeviceError(no_match_message(devices, choice));
+  info_ = devices[*chosen].info;
+  context_ = std::make_unique<opencl::Context>(devices[*chosen].device, kernel_folder, profiling);
+}
+
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+
+}  // namespace quadedge

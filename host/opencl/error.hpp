@@ -1,0 +1,16 @@
+#pragma once
+/// \file error.hpp  OpenCL status codes as messages that a person understands.
+
+#include <string>
+
+#include "quadedge/error.hpp"
+
+namespace quadedge::opencl {
+
+/// Symbolic name of an OpenCL status, for example -54 -> "CL_INVALID_WORK_GROUP_SIZE".
+std::string status_name(int status);
+
+/// \throws DeviceError "WHAT failed: CL_... (-N) on DEVICE".
+[[noreturn]] void throw_device_error(const std::string& what, int status, const std::string& device);
+
+}  // namespace quadedge::opencl

@@ -1,0 +1,45 @@
+#include "opencl/variants.hpp"
+
+#include "quadedge/error.hpp"
+
+namespace quadedge::opencl {
+
+const std::vector<Variant>& all_variants() {
+  // One row per variant; rows of one stage stand together.
+  static const std::vector<Variant> table = {
+      {"undistortion", "item64", {}, 64, true, true, "one work-item per pixel, groups of 64"},
+      {"undistortion", "item16", {}, 16, false, false, "one work-item per pixel, groups of 16"},
+  };
+  return table;
+}
+
+namespace {
+
+const Variant& find_variant(const std::string& stage, const std::string& name) {
+  std::string names, stages;
+  for (const auto& variant : all_variants()) {
+    if (variant.stage == stage && variant.name == name) return variant;
+    if (variant.stage == stage) names += " " + variant.name;
+    if (stages.find(" " + variant.stage) == std::string::npos) stages += " " + variant.stage;
+  }
+  if (names.empty()) throw UsageError("there is no stage '" + stage + "' with kernel variants; stages:" + stages);
+  throw UsageError("stage '" + stage + "' has no variant '" + name + "'; variants:" + names);
+}
+
+}  // namespace
+
+const Variant& choose_variant(const std::string& stage, const Context& context,
+                              const std::map<std::string, std::string>& chosen) {
+  const auto wish = chosen.find(stage);
+  if (wish != chosen.end()) return find_variant(stage, wish->second);
+  for (const auto& variant : all_variants()) {
+    if (variant.stage == stage && (context.is_cpu() ? variant.default_on_cpu : variant.default_on_gpu)) return variant;
+  }
+  throw UsageError("stage '" + stage + "' has no default variant");
+}
+
+void check_variants(const std::map<std::string, std::string>& chosen) {
+  for (const auto& [stage, name] : chosen) find_variant(stage, name);
+}
+
+}  // namespace quadedge::opencl

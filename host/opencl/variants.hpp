@@ -1,0 +1,34 @@
+#pragma once
+/// \file variants.hpp  Kernel variants as data: every stage's choices in one table.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "opencl/context.hpp"
+
+namespace quadedge::opencl {
+
+/// One way to run a stage. All variants of a stage give the same result.
+struct Variant {
+  std::string stage;     ///< "edges", "patches", "sift", "stereo", ...
+  std::string name;      ///< "cpu", "gpu", ...
+  Defines defines;       ///< compile-time parameters
+  int local_size;        ///< work-items per group in x
+  bool default_on_cpu;
+  bool default_on_gpu;
+  std::string about;     ///< one sentence for `quadedge variants`
+};
+
+/// Every variant of every stage, in the order of the stages.
+const std::vector<Variant>& all_variants();
+
+/// The variant of `stage` that `chosen` names, or else the default of the device's class.
+/// \throws UsageError for an unknown name, listing the known ones.
+const Variant& choose_variant(const std::string& stage, const Context& context,
+                              const std::map<std::string, std::string>& chosen);
+
+/// \throws UsageError when `chosen` names a stage or a variant that does not exist.
+void check_variants(const std::map<std::string, std::string>& chosen);
+
+}  // namespace quadedge::opencl

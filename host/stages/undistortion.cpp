@@ -1,0 +1,41 @@
+#include "stages/undistortion.hpp"
+
+#include "opencl/variants.hpp"
+
+namespace quadedge::stages {
+
+Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
+                           const std::map<std::string, std::string>& variants)
+    : context_(context), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), active_(!table.empty()) {
+  if (!active_) return;
+  const auto& variant = opencl::choose_variant("undistortion", context, variants);
+  local_size_ = static_cast<std::size_t>(variant.local_size);
+  kernel_ = {context, context.program({"undistortion.cl"}, variant.defines), "undistort"};
+  source_x_.write(context, table.source_x);
+  source_y_.write(context, table.source_y);
+}
+
+void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target) {
+  const auto width = static_cast<std::size_t>(recorded.width), height = static_cast<std::size_t>(recorded.height);
+  target.ensure(context_, width * height);
+  try {
+    context_.queue().enqueueWriteBufferRect(target.memory(), CL_TRUE, {0, 0, 0}, {0, 0, 0}, {width, height, 1}, width, 0,
+                                            static_cast<std::size_t>(recorded.stride), 0, recorded.pixels);
+  } catch (const cl::Error& error) {
+    opencl::throw_device_error("uploading an image", error.err(), context_.name());
+  }
+}
+
+void Undistortion::run(const ImageView& recorded, opencl::Buffer<cl_uchar>& image) {
+  context_.begin_stage("undistortion");
+  if (!active_) {
+    upload(recorded, image);
+    return;
+  }
+  upload(recorded, recorded_);
+  image.ensure(context_, pixels_);
+  kernel_({pixels_, local_size_}, recorded_, recorded.width, recorded.height, source_x_, source_y_, image,
+          static_cast<cl_int>(pixels_));
+}
+
+}  // namespace quadedge::stages

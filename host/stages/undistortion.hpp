@@ -1,0 +1,37 @@
+#pragma once
+/// \file undistortion.hpp  Stage 1: the recorded image becomes a pinhole image on the device.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge::stages {
+
+/// Uploads one camera's images and undoes the lens distortion; without a table it only uploads.
+class Undistortion {
+ public:
+  /// `table` may be empty: the recorded images are pinhole images of width x height already.
+  Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
+               const std::map<std::string, std::string>& variants);
+
+  /// Enqueues upload and undistortion. `image` receives the packed pinhole image, height x width.
+  /// The recorded image may have any size when there is a table.
+  void run(const ImageView& recorded, opencl::Buffer<cl_uchar>& image);
+
+ private:
+  void upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target);
+
+  opencl::Context& context_;
+  std::size_t pixels_ = 0;
+  std::size_t local_size_ = 1;
+  bool active_ = false;
+  opencl::Buffer<cl_float> source_x_, source_y_;
+  opencl::Buffer<cl_uchar> recorded_;
+  opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>, opencl::Out<cl_uchar>, cl_int>
+      kernel_;
+};
+
+}  // namespace quadedge::stages

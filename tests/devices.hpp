@@ -1,0 +1,17 @@
+#pragma once
+/// \file devices.hpp  Every OpenCL device of this machine, for tests. A machine without one fails, it does not skip.
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "opencl/context.hpp"
+#include "quadedge/device.hpp"
+
+/// Names ("0", "1", ...) of all devices. Fails the test when there is none.
+inline std::vector<std::string> all_devices() {
+  std::vector<std::string> names;
+  for (const auto& info : quadedge::list_devices()) names.push_back(std::to_string(info.index));
+  if (names.empty()) FAIL("no OpenCL device: install pocl-opencl-icd");
+  return names;
+}

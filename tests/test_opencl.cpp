@@ -1,0 +1,83 @@
+#include <catch2/catch.hpp>
+
+#include <fstream>
+
+#include "devices.hpp"
+#include "opencl/kernel.hpp"
+#include "opencl/variants.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+TEST_CASE("devices: a choice by number, type and text finds the same device", "[device]") {
+  for (const auto& index : all_devices()) {
+    const Device by_number(index);
+    CHECK(Device(by_number.info().name).info().type == by_number.info().type);
+    CHECK_FALSE(by_number.is_reference());
+  }
+  CHECK(Device("reference").is_reference());
+  CHECK_NOTHROW(Device("auto"));
+}
+
+TEST_CASE("devices: a choice that matches nothing lists what there is", "[device]") {
+  CHECK_THROWS_WITH(Device("no such machine"), Contains("no such machine") && Contains(list_devices().at(0).name));
+  CHECK_THROWS_AS(Device("99"), DeviceError);
+}
+
+TEST_CASE("kernels: a wrong host signature is refused with the argument's name", "[device]") {
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    auto& context = *device.context();
+    const auto program = context.program({"undistortion.cl"}, {});
+    using Right = opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
+                                 opencl::Out<cl_uchar>, cl_int>;
+    using FloatForInt = opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
+                                       opencl::Out<cl_uchar>, cl_float>;
+    using Writable = opencl::Kernel<opencl::Out<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
+                                    opencl::Out<cl_uchar>, cl_int>;
+    using TooFew = opencl::Kernel<opencl::In<cl_uchar>>;
+    CHECK_NOTHROW(Right(context, program, "undistort"));
+    CHECK_THROWS_WITH(FloatForInt(context, program, "undistort"), Contains("count") && Contains("float") && Contains("int"));
+    CHECK_THROWS_WITH(Writable(context, program, "undistort"), Contains("source") && Contains("const"));
+    CHECK_THROWS_WITH(TooFew(context, program, "undistort"), Contains("7 arguments"));
+    CHECK_THROWS_AS(Right(context, program, "no_such_kernel"), DeviceError);
+  }
+}
+
+TEST_CASE("kernels: a build error names file, line, device and options", "[device]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "common.cl") << "// nothing\n";
+  std::ofstream(folder / "broken.cl") << "// first line\nkernel void f(global int* a) {\n  a[0] = undeclared_name;\n}\n";
+  Device device(all_devices().front(), folder.path());
+  CHECK_THROWS_WITH(device.context()->program({"broken.cl"}, {{"LANES", "4"}}),
+                    Contains("broken.cl:3") && Contains("undeclared_name") && Contains("-DLANES=4") &&
+                        Contains(device.info().name));
+  CHECK_THROWS_WITH(device.context()->program({"absent.cl"}, {}), Contains("absent.cl"));
+}
+
+TEST_CASE("variants: unknown stages and names are refused with the known ones", "[device]") {
+  CHECK_THROWS_WITH(opencl::check_variants({{"nothing", "x"}}), Contains("undistortion"));
+  CHECK_THROWS_WITH(opencl::check_variants({{"undistortion", "x"}}), Contains("item64"));
+  CHECK_NOTHROW(opencl::check_variants({{"undistortion", "item16"}}));
+}
+
+TEST_CASE("buffers: memory is accounted for and reused", "[device]") {
+  Device device(all_devices().front());
+  auto& context = *device.context();
+  const auto before = context.bytes();
+  {
+    opencl::Buffer<cl_int> buffer(context, 100);
+    CHECK(context.bytes() == before + 400);
+    buffer.ensure(context, 50);
+    CHECK(context.bytes() == before + 400);
+    buffer.write(context, std::vector<cl_int>(200, 7));
+    CHECK(context.bytes() == before + 800);
+    CHECK(buffer.read(200) == std::vector<cl_int>(200, 7));
+    buffer.fill(3, 100);
+    CHECK(buffer.read(200)[99] == 3);
+    CHECK(buffer.read(200)[100] == 7);
+  }
+  CHECK(context.bytes() == before);
+  CHECK(context.peak_bytes() >= before + 800);
+}

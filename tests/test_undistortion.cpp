@@ -1,0 +1,63 @@
+#include <catch2/catch.hpp>
+
+#include "devices.hpp"
+#include "opencl/variants.hpp"
+#include "reference/undistortion.hpp"
+#include "stages/undistortion.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+Image pattern(int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image.pixels[static_cast<std::size_t>(y * width + x)] = static_cast<std::uint8_t>((x * 37 + y * 101 + x * y * 5) % 256);
+    }
+  }
+  return image;
+}
+
+/// A table that shifts by (dx, dy) and reaches beyond the border.
+UndistortionTable shift_table(int width, int height, float dx, float dy) {
+  UndistortionTable table{width, height, {}, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      table.source_x.push_back(static_cast<float>(x) + dx);
+      table.source_y.push_back(static_cast<float>(y) + dy);
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+TEST_CASE("undistortion: whole-pixel shifts copy pixels and replicate the border", "[undistortion]") {
+  const Image image = pattern(9, 7);
+  const Image moved = reference::undistort(image.view(), shift_table(9, 7, 2.0f, -1.0f));
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      CHECK(moved.view().at(x, y) == image.view().at(std::min(x + 2, 8), std::max(y - 1, 0)));
+    }
+  }
+  const Image half = reference::undistort(image.view(), shift_table(9, 7, 0.5f, 0.0f));
+  CHECK(half.view().at(0, 0) == (image.view().at(0, 0) + image.view().at(1, 0) + 1) / 2);
+}
+
+TEST_CASE("undistortion: every device and variant equals the reference exactly", "[undistortion][device][oclgrind]") {
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    for (const auto& variant : opencl::all_variants()) {
+      if (variant.stage != "undistortion") continue;
+      for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
+        const Image image = pattern(width + 2, height + 3);
+        const auto table = shift_table(width, height, 0.37f, 1.61f);
+        stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}});
+        opencl::Buffer<cl_uchar> result;
+        stage.run(image.view(), result);
+        CHECK(result.read(static_cast<std::size_t>(width * height)) == reference::undistort(image.view(), table).pixels);
+      }
+    }
+  }
+}
