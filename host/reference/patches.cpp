@@ -1,0 +1,80 @@
+#include "reference/patches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace quadedge::reference {
+namespace {
+
+double bilinear(const ImageView& image, double x, double y) {
+  x = std::clamp(x, 0.0, image.width - 1.0);
+  y = std::clamp(y, 0.0, image.height - 1.0);
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
+  const double fx = x - x0, fy = y - y0;
+  const double top = image.at(x0, y0) + fx * (image.at(x1, y0) - image.at(x0, y0));
+  const double bottom = image.at(x0, y1) + fx * (image.at(x1, y1) - image.at(x0, y1));
+  return top + fy * (bottom - top);
+}
+
+/// One patch around (x, y) with its unit tangent (c, s).
+void sample_patch(const ImageView& image, double x, double y, double c, double s, float* patch) {
+  constexpr int kHalf = kPatchSide / 2;
+  std::array<double, kPatchSamples> values;
+  for (int i = 0; i < kPatchSide; ++i) {
+    for (int j = 0; j < kPatchSide; ++j) {
+      const double along = i - kHalf, across = j - kHalf;
+      values[i * kPatchSide + j] = bilinear(image, x + along * c - across * s, y + along * s + across * c);
+    }
+  }
+  // Taking the middle sample away first makes a constant patch exactly zero.
+  const double middle = values[kPatchSamples / 2];
+  double mean = 0;
+  for (double& value : values) mean += value -= middle;
+  mean /= kPatchSamples;
+  double squares = 0;
+  for (double& value : values) {
+    value -= mean;
+    squares += value * value;
+  }
+  const double scale = squares < kFlatPatchSquares ? 0.0 : 1.0 / std::sqrt(squares);
+  for (int k = 0; k < kPatchSamples; ++k) patch[k] = static_cast<float>(values[k] * scale);
+}
+
+float dot(const float* a, const float* b) {
+  std::array<float, 8> lane{};
+  for (int k = 0; k + 8 < kPatchSamples; k += 8) {
+    for (int l = 0; l < 8; ++l) lane[l] = std::fma(a[k + l], b[k + l], lane[l]);
+  }
+  const float even = (lane[0] + lane[4]) + (lane[2] + lane[6]);
+  const float odd = (lane[1] + lane[5]) + (lane[3] + lane[7]);
+  return std::fma(a[kPatchSamples - 1], b[kPatchSamples - 1], even + odd);
+}
+
+}  // namespace
+
+std::vector<float> side_patches(const ImageView& image, const std::vector<float>& xs, const std::vector<float>& ys,
+                                const std::vector<float>& directions, const PatchesConfig& config) {
+  std::vector<float> patches(xs.size() * kEdgePatchFloats);
+  for (std::size_t e = 0; e < xs.size(); ++e) {
+    const double c = std::cos(static_cast<double>(directions[e])), s = std::sin(static_cast<double>(directions[e]));
+    const double to_bright_x = config.offset * s, to_bright_y = -config.offset * c;
+    float* edge = patches.data() + e * kEdgePatchFloats;
+    sample_patch(image, xs[e] + to_bright_x, ys[e] + to_bright_y, c, s, edge);
+    sample_patch(image, xs[e] - to_bright_x, ys[e] - to_bright_y, c, s, edge + kPatchSamples);
+  }
+  return patches;
+}
+
+PatchSimilarity patch_similarity(const float* a, const float* b) {
+  const float* a_dark = a + kPatchSamples;
+  const float* b_dark = b + kPatchSamples;
+  const std::array<float, 4> scores = {dot(a, b), dot(a_dark, b_dark), dot(a, b_dark), dot(a_dark, b)};
+  const auto best = std::max_element(scores.begin(), scores.end());
+  return {*best, static_cast<SidePairing>(best - scores.begin())};
+}
+
+float patch_ncc(const float* a, const float* b) { return patch_similarity(a, b).ncc; }
+
+}  // namespace quadedge::reference

@@ -1,0 +1,43 @@
+#pragma once
+/// \file patches.hpp  Plain C++ reference of the side patches and their similarity (SPEC section 2).
+
+#include <vector>
+
+#include "quadedge/config.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge::reference {
+
+inline constexpr int kPatchSide = 7;                           ///< samples along each axis of a patch
+inline constexpr int kPatchSamples = kPatchSide * kPatchSide;  ///< floats of one patch
+inline constexpr int kEdgePatchFloats = 2 * kPatchSamples;     ///< floats of one edge: bright side, then dark side
+inline constexpr double kFlatPatchSquares = 1e-10;             ///< below this sum of squares a patch is flat
+
+/// The two side patches of every edge: `kEdgePatchFloats` floats per edge, the bright side's 49 first.
+///
+/// Sample (i, j) of a patch is element 7 i + j. i steps along the tangent (cos t, sin t), j along the normal that points
+/// to the dark side (-sin t, cos t), both 1 px per step; the middle sample (3, 3) lies `config.offset` px from the edge, on the
+/// bright side at (x + offset sin t, y - offset cos t) and on the dark side opposite to it. Bilinear; coordinates outside the
+/// image are clamped to its border. Each patch is mean-free with unit norm; a flat one (sum of squares below
+/// `kFlatPatchSquares`) is all zeros, so that its NCC with anything is 0.
+/// `xs`, `ys` in pixels and `directions` in radians have one entry per edge and must be finite.
+std::vector<float> side_patches(const ImageView& image, const std::vector<float>& xs, const std::vector<float>& ys,
+                                const std::vector<float>& directions, const PatchesConfig& config);
+
+/// Which sides of two edges are compared; the numbers are those of kernels/similarity.cl.
+enum class SidePairing : int { bright_bright = 0, dark_dark = 1, bright_dark = 2, dark_bright = 3 };
+
+/// Highest NCC over the four pairings of sides, and the first pairing that reaches it.
+struct PatchSimilarity {
+  float ncc;
+  SidePairing pairing;
+};
+
+/// Similarity of two edges from their patches (`kEdgePatchFloats` each). Single precision with the summation order of the
+/// kernel (eight fused multiply-add lanes, then a tree, then the 49th product), so that both give the same bits.
+PatchSimilarity patch_similarity(const float* a, const float* b);
+
+/// Only the NCC of patch_similarity().
+float patch_ncc(const float* a, const float* b);
+
+}  // namespace quadedge::reference
