@@ -1,0 +1,125 @@
+/// \file config.cpp  The one list of configuration fields with their help and ranges (include/quadedge/config.hpp).
+#include "quadedge/config.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr double kLargestInt = std::numeric_limits<int>::max();
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return text.str();
+}
+
+/// Throws unless `value` is finite and within low..high.
+void check_range(const std::string& name, double value, double low, double high) {
+  if (std::isfinite(value) && value >= low && value <= high) return;
+  const std::string range = std::isfinite(high) ? number(low) + " to " + number(high) : "at least " + number(low);
+  throw UsageError(name + " is " + number(value) + "; allowed: " + range);
+}
+
+}  // namespace
+
+void visit_config(Config& config, const std::function<void(const std::string& name, ConfigField field,
+                                                           const std::string& help, double low, double high)>& visit) {
+  auto& edges = config.edges;
+  visit("edges.sigma", &edges.sigma, "Gaussian scale of the derivatives [px]", 0.5, 8);
+  visit("edges.threshold", &edges.threshold, "smallest gradient magnitude, exclusive [grey levels/px]", 0, 255);
+  visit("edges.margin", &edges.margin, "no edge nearer to the image border [px]", 1, 1000);
+  visit("edges.direction_at", &edges.direction_at, "where the direction is evaluated: subpixel or cell", 0, 0);
+  visit("edges.thinning", &edges.thinning, "keep one edge per pixel along a curve", 0, 1);
+  visit("edges.max_edges", &edges.max_edges, "capacity per image", 1, 4000000);
+
+  visit("patches.offset", &config.patches.offset, "distance of the side patches from the edge [px]", 1, 50);
+  visit("sift.offset", &config.sift.offset, "distance of the SIFT key points from the edge [px]", 1, 50);
+
+  auto& stereo = config.stereo;
+  visit("stereo.epipolar_distance", &stereo.epipolar_distance, "largest distance to the epipolar line [px]", 0, 20);
+  visit("stereo.min_depth", &stereo.min_depth, "nearest depth; 0: from max_disparity [m]", 0, kUnlimited);
+  visit("stereo.max_disparity", &stereo.max_disparity, "largest disparity; 0: from min_depth or the data's reader [px]", 0, 10000);
+  visit("stereo.orientation", &stereo.orientation, "largest difference of directions, modulo 180 [deg]", 0, 90);
+  visit("stereo.sift_max", &stereo.sift_max, "largest SIFT distance", 0, kUnlimited);
+  visit("stereo.ncc_min", &stereo.ncc_min, "smallest NCC", -1, 1);
+  visit("stereo.ncc_nearly_best", &stereo.ncc_nearly_best, "share of the best NCC that is kept", 0, 1);
+  visit("stereo.sift_nearly_best", &stereo.sift_nearly_best, "ratio of best SIFT distance to distance that is kept", 0, 1);
+  visit("stereo.min_epipolar_angle", &stereo.min_epipolar_angle,
+        "edges nearer to their epipolar line take no part [deg]", 0, 90);
+  visit("stereo.shift_min_angle", &stereo.shift_min_angle,
+        "below it a projection replaces the shift along the tangent [deg]", 0, 90);
+  visit("stereo.shift_max", &stereo.shift_max, "longest shift along the tangent [px]", 0, 100);
+  visit("stereo.refine_steps", &stereo.refine_steps, "Gauss-Newton steps of the refinement", 0, 100);
+  visit("stereo.refine_tolerance", &stereo.refine_tolerance, "step that ends the refinement [px]", 0, 1);
+  visit("stereo.refine_huber", &stereo.refine_huber, "Huber threshold of the refinement [grey levels]", 0.01, 255);
+  visit("stereo.refine_clamp", &stereo.refine_clamp, "longest move of the refinement along the line [px]", 0, 100);
+  visit("stereo.refine_rms_max", &stereo.refine_rms_max, "largest residual after the refinement [grey levels]", 0, 255);
+  visit("stereo.cluster_gap", &stereo.cluster_gap, "gap that separates two clusters [px]", 0, 100);
+  visit("stereo.cluster_orientation", &stereo.cluster_orientation, "change of direction that separates two clusters [deg]", 0, 90);
+  visit("stereo.cluster_size_max", &stereo.cluster_size_max, "most members of a cluster", 1, 1000);
+
+  auto& temporal = config.temporal;
+  visit("temporal.radius", &temporal.radius, "search radius without a prediction [px]", 0, 1000);
+  visit("temporal.radius_predicted", &temporal.radius_predicted, "search radius around the predicted place [px]", 0, 1000);
+  visit("temporal.radius_wide", &temporal.radius_wide,
+        "search radius at the first pair and after a loss [share of the image width]", 0, 1);
+  visit("temporal.orientation", &temporal.orientation, "largest difference of directions, modulo 360 [deg]", 0, 180);
+  visit("temporal.ncc_min", &temporal.ncc_min, "smallest NCC", -1, 1);
+  visit("temporal.sift_max", &temporal.sift_max, "largest SIFT distance", 0, kUnlimited);
+  visit("temporal.ncc_nearly_best", &temporal.ncc_nearly_best, "share of the best NCC that is kept", 0, 1);
+  visit("temporal.sift_nearly_best", &temporal.sift_nearly_best, "ratio of best SIFT distance to distance that is kept", 0, 1);
+  visit("temporal.refine_steps", &temporal.refine_steps, "Gauss-Newton steps of the refinement", 0, 100);
+  visit("temporal.refine_tolerance", &temporal.refine_tolerance, "step that ends the refinement [px]", 0, 1);
+  visit("temporal.refine_huber", &temporal.refine_huber, "Huber threshold of the refinement [grey levels]", 0.01, 255);
+  visit("temporal.refine_clamp", &temporal.refine_clamp, "longest move of the refinement [px]", 0, 100);
+  visit("temporal.refine_rms_max", &temporal.refine_rms_max, "largest residual after the refinement [grey levels]", 0, 255);
+  visit("temporal.cluster_gap", &temporal.cluster_gap, "gap that separates two clusters [px]", 0, 100);
+  visit("temporal.cluster_orientation", &temporal.cluster_orientation,
+        "change of direction that separates two clusters [deg]", 0, 180);
+
+  auto& pose = config.pose;
+  visit("pose.length_difference", &pose.length_difference, "constraint 1: relative difference of lengths", 0, 1);
+  visit("pose.angle_difference", &pose.angle_difference, "constraints 2 and 3: difference of cosines", 0, 2);
+  visit("pose.tangent_difference", &pose.tangent_difference, "constraint 4: difference of the tangents' cosine", 0, 2);
+  visit("pose.min_angle", &pose.min_angle, "constraint 5: chord at least this far from the tangent [deg]", 0, 90);
+  visit("pose.min_determinant", &pose.min_determinant, "constraint 6 counts above this magnitude", 0, 1);
+  visit("pose.inlier_distance", &pose.inlier_distance, "reprojection distance of an inlier, both images [px]", 0, 100);
+  visit("pose.inlier_orientation", &pose.inlier_orientation, "difference of directions of an inlier [deg]", 0, 180);
+  visit("pose.confidence", &pose.confidence, "of having drawn a sample without outliers", 0, 0.999999999);
+  visit("pose.max_hypotheses", &pose.max_hypotheses, "most RANSAC hypotheses", 1, 10000000);
+  visit("pose.refine", &pose.refine, "least squares over the inliers at the end", 0, 1);
+  visit("pose.min_inliers", &pose.min_inliers, "fewer give no pose", 2, kLargestInt);
+  visit("pose.min_inlier_share", &pose.min_inlier_share, "a smaller share gives no pose", 0, 1);
+  visit("pose.min_spread", &pose.min_spread, "smallest spread of the inliers [share of the image diagonal]", 0, 1);
+
+  auto& odometry = config.odometry;
+  visit("odometry.key_rig", &odometry.key_rig, "track against a key stereo rig; false: frame to frame only", 0, 1);
+  visit("odometry.key_min_share", &odometry.key_min_share, "new key rig below this share of chained quads", 0, 1);
+  visit("odometry.key_min_quads", &odometry.key_min_quads, "new key rig below this number of chained quads", 0, kLargestInt);
+  visit("odometry.key_min_inlier_share", &odometry.key_min_inlier_share, "new key rig below this share of inliers", 0, 1);
+  visit("odometry.key_max_parallax", &odometry.key_max_parallax, "new key rig above this median parallax [px]", 0, 10000);
+  visit("odometry.key_max_rotation", &odometry.key_max_rotation, "new key rig above this rotation [deg]", 0, 180);
+  visit("odometry.key_max_frames", &odometry.key_max_frames, "new key rig after this many frames", 1, kLargestInt);
+
+  visit("seed", &config.seed, "seed of all random choices", 0, kUnlimited);
+}
+
+void check_config(const Config& config) {
+  Config copy = config;  // visit_config hands out pointers that may write
+  visit_config(copy, [](const std::string& name, ConfigField field, const std::string&, double low, double high) {
+    if (const auto* real = std::get_if<double*>(&field)) check_range(name, **real, low, high);
+    if (const auto* whole = std::get_if<int*>(&field)) check_range(name, **whole, low, high);
+  });
+  if (config.edges.direction_at != "subpixel" && config.edges.direction_at != "cell") {
+    throw UsageError("edges.direction_at is '" + config.edges.direction_at + "'; allowed: subpixel, cell");
+  }
+}
+
+}  // namespace quadedge
