@@ -17,6 +17,7 @@ struct EdgesConfig {
   double threshold = 2.0;   ///< smallest gradient magnitude [grey levels per px], exclusive
   int margin = 10;          ///< no edge nearer to the image border [px]
   std::string direction_at = "subpixel";  ///< where the third-order direction is evaluated: subpixel | cell
+  double newton_max = 0.1;  ///< longest step from the parabola's peak onto F = 0, not taken with "cell"; 0: none [px]
   bool thinning = false;    ///< keep one edge per pixel along a curve
   int max_edges = 200000;   ///< capacity per image; more is an overflow that the frame reports
 };

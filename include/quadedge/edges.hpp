@@ -7,12 +7,18 @@
 
 namespace quadedge {
 
+/// How far an edge may lie from the grid row that holds it [px]: 0.354 by the parabola and the longest Newton step allowed.
+constexpr float kEdgeRowReach = 0.5F;
+
 /// Third-order edges of one image in scan order of the doubled grid (row by row, left to right). SPEC section 1.
 struct EdgeSet {
   std::vector<float> x, y;        ///< pixels, centre of the top-left pixel is (0, 0)
-  std::vector<float> direction;   ///< radians in (-pi, pi]; the bright side lies at (sin, -cos)
+  /// Tangent, radians in (-pi, pi]: the brightness gradient turned by -90 degrees on screen (vertical edge, bright on the
+  /// right: -90 degrees). The bright side lies at (-sin, cos), the dark side at (sin, -cos).
+  std::vector<float> direction;
   std::vector<float> strength;    ///< peak gradient magnitude, grey levels per pixel
   /// Where each row of the doubled grid starts: row r holds edges row_first[r] .. row_first[r + 1]. Size 2 * height + 1.
+  /// The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
   std::vector<std::int32_t> row_first;
 
   std::size_t size() const { return x.size(); }
