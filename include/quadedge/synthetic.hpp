@@ -21,7 +21,8 @@ struct SyntheticOptions {
   double baseline = 0.0598913;  ///< m
   double noise = 1.5;           ///< standard deviation of the camera noise [grey levels]
   int supersampling = 4;        ///< rays per pixel and axis
-  std::uint64_t seed = 7;
+  std::uint64_t seed = 7;       ///< of textures, cable shapes and camera noise; the path and the room's objects stay
+  int threads = 0;              ///< that render a view, 0: one per processor; the result does not depend on it
 };
 
 /// One rendered view.
@@ -30,10 +31,12 @@ struct RenderedView {
   std::vector<float> depth;  ///< height x width, z of the ray through the pixel centre [m]
 };
 
-/// A deterministic renderer: the same options give the same bytes on every run.
+/// A deterministic renderer: the same options give the same bytes on every run. The world is the first left camera's
+/// frame; the rig is rectified. Intensities are linear in reflectance, a pixel is the mean of rays spread over its square (four
+/// times as many where a silhouette crosses it).
 class SyntheticSequence {
  public:
-  /// \throws UsageError for an unknown scene or a size that cannot be rendered.
+  /// \throws UsageError that names the option, its value and the allowed range.
   explicit SyntheticSequence(const SyntheticOptions& options);
   ~SyntheticSequence();
 
@@ -41,8 +44,8 @@ class SyntheticSequence {
   int frames() const;
   std::int64_t stamp_ns(int frame) const;                  ///< 20 frames per second
   Eigen::Isometry3d world_from_left(int frame) const;      ///< exact; the first one is the identity
-  RenderedView render(int frame, bool right) const;
-  double max_disparity() const;                            ///< px, for the nearest object of the scene
+  RenderedView render(int frame, bool right) const;        ///< safe to call from several threads
+  double max_disparity() const;                            ///< px, no surface in view is nearer at any time
 
  private:
   class Implementation;
