@@ -1,0 +1,158 @@
+#include "data/text.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+
+#include "quadedge/error.hpp"
+
+namespace quadedge::data {
+
+void fail(const std::string& file, const std::string& found, const std::string& expected) {
+  throw DataError(file + ": found " + found + ", expected " + expected);
+}
+
+void fail(const std::string& file, int line, const std::string& found, const std::string& expected) {
+  fail(file + ":" + std::to_string(line), found, expected);
+}
+
+std::string read_bytes(const std::string& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) fail(file, "a folder", "a file");
+  std::FILE* stream = std::fopen(file.c_str(), "rb");
+  if (stream == nullptr) fail(file, std::string("nothing that can be opened (") + std::strerror(errno) + ")", "a readable file");
+  std::string bytes;
+  char buffer[1 << 16];
+  for (std::size_t count; (count = std::fread(buffer, 1, sizeof buffer, stream)) > 0;) bytes.append(buffer, count);
+  const bool broken = std::ferror(stream) != 0;
+  std::fclose(stream);
+  if (broken) fail(file, "a read error", "a readable file");
+  return bytes;
+}
+
+std::vector<Line> data_lines(const std::string& file) {
+  const std::string bytes = read_bytes(file);
+  std::vector<Line> lines;
+  int number = 0;
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+    std::string text = bytes.substr(begin, end - begin);
+    ++number;
+    begin = end + 1;
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    const std::size_t first = text.find_first_not_of(" \t");
+    if (first != std::string::npos && text[first] != '#') lines.push_back({number, std::move(text)});
+  }
+  return lines;
+}
+
+std::vector<std::string> split(std::string_view text, std::string_view separators) {
+  std::vector<std::string> pieces;
+  for (std::size_t begin = text.find_first_not_of(separators); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    pieces.emplace_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(separators, end);
+  }
+  return pieces;
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string result = "\"";
+  for (const char character : text.substr(0, kLongest)) {
+    result += character >= ' ' && character < 127 ? character : '?';
+  }
+  return result + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+double parse_number(const std::string& token, const std::string& file, int line, const std::string& what) {
+  const char* begin = token.data() + (token.size() > 1 && token[0] == '+' ? 1 : 0);
+  const char* end = token.data() + token.size();
+  double value = 0;
+  const auto result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+    fail(file, line, in_quotes(token), "a finite number (" + what + ")");
+  }
+  return value;
+}
+
+std::vector<double> parse_row(const Line& line, const std::string& file, std::size_t count, const std::string& what) {
+  const auto tokens = split(line.text);
+  if (tokens.size() != count) {
+    fail(file, line.number, std::to_string(tokens.size()) + " columns in " + in_quotes(line.text),
+         std::to_string(count) + " (" + what + ")");
+  }
+  std::vector<double> values;
+  for (const auto& token : tokens) values.push_back(parse_number(token, file, line.number, what));
+  return values;
+}
+
+std::int64_t parse_seconds(const std::string& token, const std::string& file, int line) {
+  const std::string expected = "a time in seconds";
+  parse_number(token, file, line, expected);  // refuses everything that is not one decimal number
+  const bool negative = token[0] == '-';
+  std::string digits;
+  long exponent = 9;  // of the last digit kept in `digits`, in powers of ten nanoseconds
+  bool after_point = false;
+  for (std::size_t i = negative || token[0] == '+' ? 1 : 0; i < token.size(); ++i) {
+    if (token[i] == '.') {
+      after_point = true;
+    } else if (token[i] == 'e' || token[i] == 'E') {
+      const std::size_t start = token[i + 1] == '+' ? i + 2 : i + 1;
+      long written = 0;
+      std::from_chars(token.data() + start, token.data() + token.size(), written);
+      exponent += written;
+      break;
+    } else {
+      digits += token[i];
+      if (after_point) --exponent;
+    }
+  }
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+  if (digits.empty()) return 0;
+  constexpr long kMostDigits = 19;  // of a 64-bit count of nanoseconds
+  if (static_cast<long>(digits.size()) + exponent > kMostDigits) fail(file, line, in_quotes(token), expected + " below 9.2e9");
+  bool round_up = false;
+  if (exponent < 0) {
+    const long kept = static_cast<long>(digits.size()) + exponent;
+    round_up = kept >= 0 && digits[static_cast<std::size_t>(kept)] >= '5';
+    digits.resize(kept > 0 ? static_cast<std::size_t>(kept) : 0);
+  } else {
+    digits.append(static_cast<std::size_t>(exponent), '0');
+  }
+  std::int64_t value = 0;
+  if (!digits.empty() && std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc()) {
+    fail(file, line, in_quotes(token), expected + " below 9.2e9");
+  }
+  if (round_up) ++value;
+  return negative ? -value : value;
+}
+
+std::int64_t parse_nanoseconds(const std::string& token, const std::string& file, int line) {
+  std::int64_t value = 0;
+  const char* end = token.data() + token.size();
+  const auto result = std::from_chars(token.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) fail(file, line, in_quotes(token), "a time in whole nanoseconds");
+  return value;
+}
+
+std::string format_seconds(std::int64_t nanoseconds) {
+  constexpr std::uint64_t kPerSecond = 1'000'000'000;
+  const bool negative = nanoseconds < 0;
+  const std::uint64_t magnitude = negative ? 0 - static_cast<std::uint64_t>(nanoseconds) : static_cast<std::uint64_t>(nanoseconds);
+  std::string decimals = std::to_string(magnitude % kPerSecond);
+  decimals.insert(0, 9 - decimals.size(), '0');
+  return (negative ? "-" : "") + std::to_string(magnitude / kPerSecond) + "." + decimals;
+}
+
+std::string format_exact(double value) {
+  char buffer[40];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17);
+  return std::string(buffer, result.ptr);
+}
+
+}  // namespace quadedge::data

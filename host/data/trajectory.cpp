@@ -1,0 +1,99 @@
+#include "quadedge/trajectory.hpp"
+
+#include <cmath>
+
+#include "data/atomic_file.hpp"
+#include "data/text.hpp"
+
+namespace quadedge {
+namespace {
+
+constexpr const char* kTumColumns = "timestamp tx ty tz qx qy qz qw";
+constexpr const char* kKittiColumns = "the 3 x 4 matrix world_from_left, row by row";
+/// Written rotations have at least four significant digits in every file known; what is further off is no rotation.
+constexpr double kRotationTolerance = 1e-3;
+
+StampedPose tum_pose(const data::Line& line, const std::string& path) {
+  const auto values = data::parse_row(line, path, 8, kTumColumns);
+  const Eigen::Quaterniond rotation(values[7], values[4], values[5], values[6]);
+  if (std::abs(rotation.norm() - 1) > kRotationTolerance) {
+    data::fail(path, line.number, "a quaternion of length " + std::to_string(rotation.norm()), "a unit quaternion qx qy qz qw");
+  }
+  StampedPose pose;
+  pose.stamp_ns = data::parse_seconds(data::split(line.text)[0], path, line.number);
+  pose.world_from_left.linear() = rotation.normalized().toRotationMatrix();
+  pose.world_from_left.translation() << values[1], values[2], values[3];
+  return pose;
+}
+
+}  // namespace
+
+Trajectory read_tum(const std::string& path) {
+  Trajectory trajectory;
+  for (const auto& line : data::data_lines(path)) {
+    trajectory.push_back(tum_pose(line, path));
+    const std::size_t count = trajectory.size();
+    if (count > 1 && trajectory[count - 1].stamp_ns <= trajectory[count - 2].stamp_ns) {
+      data::fail(path, line.number, "the stamp " + data::format_seconds(trajectory[count - 1].stamp_ns) + " after " +
+                                        data::format_seconds(trajectory[count - 2].stamp_ns), "increasing stamps");
+    }
+  }
+  return trajectory;
+}
+
+void write_tum(const std::string& path, const Trajectory& trajectory) {
+  std::string text = "# timestamp[s] tx ty tz[m] qx qy qz qw: world_from_left_camera\n";
+  for (const auto& pose : trajectory) {
+    Eigen::Quaterniond rotation(pose.world_from_left.linear());
+    rotation.normalize();
+    if (rotation.w() < 0) rotation.coeffs() *= -1;
+    text += data::format_seconds(pose.stamp_ns);
+    for (int i = 0; i < 3; ++i) text += ' ' + data::format_exact(pose.world_from_left.translation()[i]);
+    for (int i = 0; i < 4; ++i) text += ' ' + data::format_exact(rotation.coeffs()[i]);
+    text += '\n';
+  }
+  data::write_atomically(path, text);
+}
+
+Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
+  const auto lines = data::data_lines(path);
+  if (!stamps_ns.empty() && stamps_ns.size() != lines.size()) {
+    data::fail(path, std::to_string(lines.size()) + " poses", std::to_string(stamps_ns.size()) + ", one per stamp");
+  }
+  Trajectory trajectory;
+  for (const auto& line : lines) {
+    const auto values = data::parse_row(line, path, 12, kKittiColumns);
+    StampedPose pose;
+    pose.stamp_ns = stamps_ns.empty() ? static_cast<std::int64_t>(trajectory.size()) : stamps_ns[trajectory.size()];
+    for (int i = 0; i < 12; ++i) pose.world_from_left.matrix()(i / 4, i % 4) = values[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d rotation = pose.world_from_left.linear();
+    const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    if (deviation > kRotationTolerance || rotation.determinant() < 0) {
+      data::fail(path, line.number, "a 3 x 3 part that is no rotation (deviation " + std::to_string(deviation) + ")", kKittiColumns);
+    }
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+void write_kitti(const std::string& path, const Trajectory& trajectory) {
+  std::string text;
+  for (const auto& pose : trajectory) {
+    for (int i = 0; i < 12; ++i) {
+      text += data::format_exact(pose.world_from_left.matrix()(i / 4, i % 4));
+      text += i == 11 ? '\n' : ' ';
+    }
+  }
+  data::write_atomically(path, text);
+}
+
+Trajectory read_trajectory(const std::string& path) {
+  const auto lines = data::data_lines(path);
+  if (lines.empty()) data::fail(path, "no pose", std::string("rows of ") + kTumColumns + " or of " + kKittiColumns);
+  const std::size_t columns = data::split(lines[0].text).size();
+  if (columns == 8) return read_tum(path);
+  if (columns == 12) return read_kitti(path);
+  data::fail(path, lines[0].number, std::to_string(columns) + " columns", "8 (TUM) or 12 (KITTI)");
+}
+
+}  // namespace quadedge

@@ -1,0 +1,122 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+#include "dataset_files.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/trajectory.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using dataset_files::read_text;
+using dataset_files::write_text;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+Trajectory winding(int count) {
+  Trajectory trajectory;
+  for (int i = 0; i < count; ++i) {
+    StampedPose pose;
+    pose.stamp_ns = 1403715273312143104 + 49'999'872LL * i;
+    pose.world_from_left = Eigen::Translation3d(0.1 * i, 1.0 / 3 * i, -0.07 * i * i) *
+                           Eigen::AngleAxisd(0.4 * i, Eigen::Vector3d(1, 2, -0.5).normalized());
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+TEST_CASE("trajectory: a TUM file gives back every stamp to the nanosecond and every pose to rounding", "[trajectory]") {
+  const TemporaryFolder folder;
+  const Trajectory written = winding(12);
+  write_tum(folder / "t.txt", written);
+  CHECK_THAT(read_text(folder / "t.txt"), Contains("\n1403715273.312143104 0 0 -0 0 0 0 1\n") ||
+                                              Contains("\n1403715273.312143104 0 0 0 0 0 0 1\n"));
+  const Trajectory read = read_tum(folder / "t.txt");
+  REQUIRE(read.size() == written.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    CHECK(read[i].stamp_ns == written[i].stamp_ns);
+    CHECK((read[i].world_from_left.matrix() - written[i].world_from_left.matrix()).cwiseAbs().maxCoeff() < 1e-14);
+  }
+}
+
+TEST_CASE("trajectory: a KITTI file gives back the same matrices", "[trajectory]") {
+  const TemporaryFolder folder;
+  const Trajectory written = winding(5);
+  write_kitti(folder / "k.txt", written);
+  const Trajectory rows = read_kitti(folder / "k.txt");
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[3].stamp_ns == 3);
+  CHECK(rows[3].world_from_left.matrix() == written[3].world_from_left.matrix());
+  const Trajectory stamped = read_kitti(folder / "k.txt", {5, 6, 7, 8, 100});
+  CHECK(stamped[4].stamp_ns == 100);
+  CHECK_THROWS_WITH(read_kitti(folder / "k.txt", {5, 6}), Contains("5 poses") && Contains("2"));
+}
+
+TEST_CASE("trajectory: stamps are decimal numbers, not doubles", "[trajectory]") {
+  const TemporaryFolder folder;
+  write_text(folder / "t.txt", "# comment\r\n-1.5 0 0 0 0 0 0 1\r\n0.0000000014 0 0 0 0 0 0 1\n0.0000000015 0 0 0 0 0 0 1\n"
+                               "1.037e-01 0 0 0 0 0 0 1\n9 0 0 0 0 0 0 -1\n1403715273.312143104 1 2 3 0 0 0 1\n");
+  const Trajectory read = read_tum(folder / "t.txt");
+  REQUIRE(read.size() == 6);
+  CHECK(read[0].stamp_ns == -1'500'000'000);
+  CHECK(read[1].stamp_ns == 1);
+  CHECK(read[2].stamp_ns == 2);
+  CHECK(read[3].stamp_ns == 103'700'000);
+  CHECK(read[4].world_from_left.isApprox(Eigen::Isometry3d::Identity()));
+  CHECK(read[5].stamp_ns == 1403715273312143104);
+  write_tum(folder / "n.txt", {{-1, Eigen::Isometry3d::Identity()}});
+  CHECK_THAT(read_text(folder / "n.txt"), Contains("\n-0.000000001 0"));
+}
+
+TEST_CASE("trajectory: the kind of file is known by its columns", "[trajectory]") {
+  const TemporaryFolder folder;
+  write_tum(folder / "t.txt", winding(3));
+  write_kitti(folder / "k.txt", winding(3));
+  CHECK(read_trajectory(folder / "t.txt")[2].stamp_ns > 1'000'000'000);
+  CHECK(read_trajectory(folder / "k.txt")[2].stamp_ns == 2);
+  write_text(folder / "b.txt", "1 2 3\n");
+  CHECK_THROWS_WITH(read_trajectory(folder / "b.txt"), Contains("b.txt:1") && Contains("3 columns") && Contains("8 (TUM)"));
+  write_text(folder / "b.txt", "# nothing\n");
+  CHECK_THROWS_WITH(read_trajectory(folder / "b.txt"), Contains("no pose"));
+}
+
+TEST_CASE("trajectory: bad rows are named with file and line", "[trajectory]") {
+  const TemporaryFolder folder;
+  const std::string good = "1 0 0 0 0 0 0 1\n", file = folder / "t.txt";
+  const auto fault = [&](const std::string& row, const std::string& found) {
+    write_text(file, good + row + "\n");
+    CHECK_THROWS_AS(read_tum(file), DataError);
+    CHECK_THROWS_WITH(read_tum(file), StartsWith(file + ":2") && Contains(found) && Contains("expected"));
+  };
+  fault("2 0 0 0 0 0 0", "7 columns");
+  fault("2 0 nan 0 0 0 0 1", "\"nan\"");
+  fault("2 0 0,5 0 0 0 0 1", "\"0,5\"");
+  fault("2 0 0 0 0 0 0 0", "length 0.0");
+  fault("1 0 0 0 0 0 0 1", "1.000000000 after 1.000000000");
+  fault("1e30 0 0 0 0 0 0 1", "\"1e30\"");
+  write_text(file, "1 0 0 0 0 1 0 0 0 0 1 0\n2 0 0 0 0 1 0 0 0 0 1 0\n");
+  CHECK_THROWS_WITH(read_kitti(file), StartsWith(file + ":2") && Contains("no rotation"));
+}
+
+TEST_CASE("trajectory: a file that cannot be written is an error and leaves the old one alone", "[trajectory]") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(write_tum(folder / "absent/t.txt", winding(2)), Contains("absent/t.txt") && Contains("No such file"));
+  if (std::filesystem::exists("/dev/full")) {
+    CHECK_THROWS_AS(write_tum("/dev/full", winding(2)), DataError);
+    CHECK_THROWS_WITH(write_kitti("/dev/full", winding(2)), Contains("/dev/full") && Contains("No space left"));
+    CHECK(std::filesystem::is_character_file("/dev/full"));
+  } else {
+    WARN("SKIPPED: no /dev/full here");
+  }
+  write_tum(folder / "t.txt", winding(2));
+  write_tum(folder / "t.txt", winding(3));
+  CHECK(read_tum(folder / "t.txt").size() == 3);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()) == 1);
+  std::filesystem::create_directory(folder / "taken");
+  CHECK_THROWS_AS(write_tum(folder / "taken", winding(2)), DataError);
+}
