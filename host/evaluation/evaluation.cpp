@@ -1,0 +1,145 @@
+/// \file evaluation.cpp  Absolute and relative pose errors with the definitions of evo (github.com/MichaelGrupp/evo):
+/// E = reference^-1 estimate; translation part |t(E)|, rotation part the angle of R(E); RPE compares consecutive steps.
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/evaluation.hpp"
+
+namespace quadedge {
+namespace {
+
+using Pose = Eigen::Isometry3d;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDegreesPerRadian = 57.295779513082320876798;
+
+/// One matched pair of poses.
+struct Match {
+  std::int64_t stamp_ns;
+  Pose estimate, truth;
+};
+
+/// Nearest truth pose of each estimated pose, both in increasing order and each used once.
+std::vector<Match> match_by_stamp(const Trajectory& estimate, const Trajectory& truth, std::int64_t tolerance_ns) {
+  std::vector<Match> matches;
+  std::size_t next = 0;
+  for (const auto& pose : estimate) {
+    const auto distance = [&](std::size_t i) { return std::abs(truth[i].stamp_ns - pose.stamp_ns); };
+    while (next + 1 < truth.size() && distance(next + 1) <= distance(next)) ++next;
+    if (next >= truth.size() || distance(next) > tolerance_ns) continue;
+    matches.push_back({pose.stamp_ns, pose.world_from_left, truth[next].world_from_left});
+    ++next;
+  }
+  return matches;
+}
+
+/// Angle of a rotation [deg], accurate near zero and near 180 degrees, where the arc cosine of the trace is not.
+double angle_deg(const Eigen::Matrix3d& rotation) {
+  const Eigen::Quaterniond q(rotation);
+  return 2 * std::atan2(q.vec().norm(), std::abs(q.w())) * kDegreesPerRadian;
+}
+
+ErrorStatistics statistics(const std::vector<double>& errors) {
+  ErrorStatistics result;
+  const double count = static_cast<double>(errors.size());
+  double sum = 0, squares = 0, deviations = 0;
+  for (const double error : errors) {
+    sum += error;
+    squares += error * error;
+    result.max = std::max(result.max, error);
+  }
+  result.mean = sum / count;
+  for (const double error : errors) deviations += (error - result.mean) * (error - result.mean);
+  result.std = std::sqrt(deviations / count);
+  result.rmse = std::sqrt(squares / count);
+  return result;
+}
+
+/// The four errors of every matched pose once the estimate is moved by `world_from_estimate`.
+struct Errors {
+  std::vector<double> ape_rotation, ape_translation, rpe_rotation, rpe_translation;
+
+  Errors(const std::vector<Match>& matches, const Pose& world_from_estimate) {
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const Pose estimate = world_from_estimate * matches[i].estimate;
+      const Pose ape = matches[i].truth.inverse() * estimate;
+      ape_rotation.push_back(angle_deg(ape.linear()));
+      ape_translation.push_back((estimate.translation() - matches[i].truth.translation()).norm());
+      if (i == 0) continue;
+      const Pose truth_step = matches[i - 1].truth.inverse() * matches[i].truth;
+      const Pose rpe = truth_step.inverse() * (matches[i - 1].estimate.inverse() * matches[i].estimate);
+      rpe_rotation.push_back(angle_deg(rpe.linear()));
+      rpe_translation.push_back(rpe.translation().norm());
+    }
+  }
+
+  PoseErrors summary() const {
+    return {statistics(ape_rotation), statistics(ape_translation), statistics(rpe_rotation), statistics(rpe_translation)};
+  }
+};
+
+/// Umeyama's alignment of the positions without scale; nothing where they lie on one line, which leaves a turn open.
+std::optional<Pose> se3_alignment(const std::vector<Match>& matches) {
+  const auto count = static_cast<Eigen::Index>(matches.size());
+  Eigen::Matrix3Xd from(3, count), to(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    from.col(i) = matches[static_cast<std::size_t>(i)].estimate.translation();
+    to.col(i) = matches[static_cast<std::size_t>(i)].truth.translation();
+  }
+  const Eigen::Matrix3d covariance = (to.colwise() - to.rowwise().mean()) * (from.colwise() - from.rowwise().mean()).transpose() /
+                                     static_cast<double>(count);
+  const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::Matrix3d>(covariance).singularValues();
+  // The rule that evo applies: two of the three spreads must exceed the rounding of a double.
+  if (spread[1] <= std::numeric_limits<double>::epsilon()) return std::nullopt;
+  Pose alignment;
+  alignment.matrix() = Eigen::umeyama(from, to, false);
+  return alignment;
+}
+
+PoseErrors undefined() {
+  const ErrorStatistics nothing{kNan, kNan, kNan, kNan};
+  return {nothing, nothing, nothing, nothing};
+}
+
+std::string stamp_range(const Trajectory& trajectory) {
+  if (trajectory.empty()) return "none";
+  return std::to_string(trajectory.size()) + " poses from " + data::format_seconds(trajectory.front().stamp_ns) + " to " +
+         data::format_seconds(trajectory.back().stamp_ns) + " s";
+}
+
+}  // namespace
+
+TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth, int from_frame,
+                                         std::int64_t max_stamp_difference_ns) {
+  const std::size_t first = std::min(static_cast<std::size_t>(std::max(0, from_frame)), estimate.size());
+  const Trajectory kept(estimate.begin() + static_cast<std::ptrdiff_t>(first), estimate.end());
+  const auto matches = match_by_stamp(kept, truth, max_stamp_difference_ns);
+  if (matches.size() < 2) {
+    throw DataError("trajectories: found " + std::to_string(matches.size()) + " poses whose stamps agree to " +
+                    data::format_seconds(max_stamp_difference_ns) + " s, expected at least 2; estimate: " + stamp_range(kept) +
+                    " (from frame " + std::to_string(first) + "), truth: " + stamp_range(truth));
+  }
+  TrajectoryEvaluation evaluation;
+  evaluation.matched = static_cast<int>(matches.size());
+  evaluation.estimate_poses = static_cast<int>(estimate.size());
+  evaluation.truth_poses = static_cast<int>(truth.size());
+  const Errors origin(matches, matches[0].truth * matches[0].estimate.inverse());
+  evaluation.origin_aligned = origin.summary();
+  const auto alignment = se3_alignment(matches);
+  evaluation.se3_aligned = alignment ? Errors(matches, *alignment).summary() : undefined();
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (i > 0) evaluation.path_length_m += (matches[i].truth.translation() - matches[i - 1].truth.translation()).norm();
+    evaluation.per_pose.push_back({matches[i].stamp_ns, origin.ape_rotation[i], origin.ape_translation[i],
+                                   i == 0 ? kNan : origin.rpe_rotation[i - 1], i == 0 ? kNan : origin.rpe_translation[i - 1]});
+  }
+  if (evaluation.path_length_m > 0) {
+    evaluation.end_drift_percent = 100 * origin.ape_translation.back() / evaluation.path_length_m;
+  }
+  return evaluation;
+}
+
+}  // namespace quadedge

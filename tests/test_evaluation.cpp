@@ -1,0 +1,134 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "quadedge/error.hpp"
+#include "quadedge/evaluation.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double kRadians = 3.14159265358979323846 / 180;
+
+Eigen::Isometry3d turn(double degrees, const Eigen::Vector3d& axis) {
+  return Eigen::Isometry3d(Eigen::AngleAxisd(degrees * kRadians, axis.normalized()));
+}
+
+/// A curve that leaves every plane, 50 ms per pose.
+Trajectory curve(int count) {
+  Trajectory trajectory;
+  for (int i = 0; i < count; ++i) {
+    const double t = 0.3 * i;
+    trajectory.push_back({50'000'000LL * i, Eigen::Translation3d(std::cos(t), std::sin(t), 0.1 * t * t) *
+                                                 turn(10 * t, {1, t, 2})});
+  }
+  return trajectory;
+}
+
+Trajectory moved(Trajectory trajectory, const Eigen::Isometry3d& left, const Eigen::Isometry3d& right = Eigen::Isometry3d::Identity()) {
+  for (auto& pose : trajectory) pose.world_from_left = left * pose.world_from_left * right;
+  return trajectory;
+}
+
+}  // namespace
+
+TEST_CASE("evaluation: another world frame costs nothing", "[evaluation]") {
+  const Trajectory truth = curve(20);
+  const Eigen::Isometry3d world = Eigen::Translation3d(5, -3, 2) * turn(70, {1, 1, 0});
+  const TrajectoryEvaluation result = evaluate_trajectory(moved(truth, world), truth);
+  for (const auto& errors : {result.origin_aligned, result.se3_aligned}) {
+    for (const auto& error : {errors.ape_rotation_deg, errors.ape_translation_m, errors.rpe_rotation_deg, errors.rpe_translation_m}) {
+      CHECK(error.max < 1e-10);
+    }
+  }
+  CHECK(result.matched == 20);
+  CHECK(result.end_drift_percent < 1e-8);
+}
+
+TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
+  // Truth stands still but for steps of 1 m along x; the estimate makes steps of 1.02 m and turns 0.5 degrees per step about x.
+  Trajectory truth, estimate;
+  for (int i = 0; i < 5; ++i) {
+    truth.push_back({i, Eigen::Isometry3d(Eigen::Translation3d(i, 0, 0))});
+    estimate.push_back({i, Eigen::Translation3d(1.02 * i, 0, 0) * turn(0.5 * i, {1, 0, 0})});
+  }
+  const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth, 0, 0);
+  const PoseErrors& errors = result.origin_aligned;
+  CHECK(errors.ape_translation_m.mean == Approx(0.04));                       // 0, 2, 4, 6, 8 cm
+  CHECK(errors.ape_translation_m.std == Approx(0.02 * std::sqrt(2.0)));       // over N: mean square deviation 2 units
+  CHECK(errors.ape_translation_m.rmse == Approx(0.02 * std::sqrt(6.0)));      // (0 + 1 + 4 + 9 + 16) / 5
+  CHECK(errors.ape_translation_m.max == Approx(0.08));
+  CHECK(errors.ape_rotation_deg.max == Approx(2.0));
+  CHECK(errors.rpe_translation_m.mean == Approx(0.02));
+  CHECK(errors.rpe_rotation_deg.mean == Approx(0.5));
+  CHECK(errors.rpe_rotation_deg.std == Approx(0).margin(1e-10));
+  CHECK(result.path_length_m == Approx(4));
+  CHECK(result.end_drift_percent == Approx(2));
+  REQUIRE(result.per_pose.size() == 5);
+  CHECK(std::isnan(result.per_pose[0].rpe_translation_m));
+  CHECK(result.per_pose[3].rpe_translation_m == Approx(0.02));
+  CHECK(result.per_pose[3].ape_rotation_deg == Approx(1.5));
+  CHECK(std::isnan(result.se3_aligned.ape_translation_m.mean));  // a straight line leaves a turn open
+}
+
+TEST_CASE("evaluation: the SE(3) alignment spreads what the origin alignment accumulates", "[evaluation]") {
+  // Every pose but the first displaced: the origin alignment charges all the others, the least-squares one nearly nothing.
+  const Trajectory truth = curve(30);
+  Trajectory estimate = truth;
+  estimate[0].world_from_left = Eigen::Translation3d(0.3, 0, 0) * estimate[0].world_from_left;
+  const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth);
+  CHECK(result.origin_aligned.ape_translation_m.mean == Approx(0.3 * 29 / 30));
+  CHECK(result.se3_aligned.ape_translation_m.rmse < 0.3 / std::sqrt(30.0));
+  CHECK(result.se3_aligned.rpe_translation_m.max == Approx(result.origin_aligned.rpe_translation_m.max));
+}
+
+TEST_CASE("evaluation: small and large angles are exact", "[evaluation]") {
+  for (const double degrees : {1e-7, 1e-3, 90.0, 179.9999, 180.0}) {
+    const Trajectory truth = curve(3);
+    Trajectory estimate = truth;
+    estimate[1].world_from_left = estimate[1].world_from_left * turn(degrees, {3, -1, 2});
+    CHECK(evaluate_trajectory(estimate, truth).per_pose[1].ape_rotation_deg == Approx(degrees).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("evaluation: poses are matched by the nearest stamp, each once", "[evaluation]") {
+  const Trajectory truth = curve(20);
+  Trajectory estimate;
+  for (int i = 0; i < 20; i += 3) estimate.push_back(truth[static_cast<std::size_t>(i)]);
+  for (auto& pose : estimate) pose.stamp_ns += 4'000'000;
+  const TrajectoryEvaluation sparse = evaluate_trajectory(estimate, truth);
+  CHECK(sparse.matched == 7);
+  CHECK(sparse.estimate_poses == 7);
+  CHECK(sparse.truth_poses == 20);
+  CHECK(sparse.origin_aligned.ape_translation_m.max < 1e-12);
+  CHECK_THROWS_AS(evaluate_trajectory(estimate, truth, 0, 3'999'999), DataError);
+  // Half of the truth: the rest of the estimate is not compared.
+  CHECK(evaluate_trajectory(estimate, Trajectory(truth.begin(), truth.begin() + 10)).matched == 4);
+  // Three poses within the tolerance of one truth pose.
+  const Trajectory close = {{0, truth[0].world_from_left}, {1'000'000, truth[1].world_from_left}, {2'000'000, truth[1].world_from_left},
+                            {50'000'000, truth[1].world_from_left}};
+  CHECK(evaluate_trajectory(close, truth).matched == 2);
+}
+
+TEST_CASE("evaluation: from_frame leaves out the first poses of the estimate and aligns at the next", "[evaluation]") {
+  const Trajectory truth = curve(20);
+  Trajectory estimate = truth;
+  for (std::size_t i = 0; i < 10; ++i) estimate[i].world_from_left = Eigen::Translation3d(1, 0, 0) * estimate[i].world_from_left;
+  CHECK(evaluate_trajectory(estimate, truth).origin_aligned.ape_translation_m.max == Approx(1));
+  const TrajectoryEvaluation late = evaluate_trajectory(estimate, truth, 10);
+  CHECK(late.matched == 10);
+  CHECK(late.origin_aligned.ape_translation_m.max < 1e-12);
+}
+
+TEST_CASE("evaluation: too few matches say what there was", "[evaluation]") {
+  const Trajectory truth = curve(20);
+  Trajectory other = curve(5);
+  for (auto& pose : other) pose.stamp_ns += 3'600'000'000'000;
+  CHECK_THROWS_WITH(evaluate_trajectory(other, truth), Contains("5 poses from 3600.000000000 to 3600.200000000") &&
+                                                           Contains("20 poses from 0.000000000 to 0.950000000"));
+  CHECK_THROWS_WITH(evaluate_trajectory({}, truth), Contains("estimate: none"));
+  CHECK_THROWS_AS(evaluate_trajectory(truth, truth, 19), DataError);
+  CHECK_THROWS_AS(evaluate_trajectory(truth, truth, 500), DataError);
+}
