@@ -26,11 +26,15 @@ struct Dataset {
   std::string name;     ///< short name for tables
   StereoRig rig;
   std::vector<FrameFiles> frames;
-  double max_disparity = 0;  ///< px; the reader's default for this kind of data
+  /// Largest disparity that this kind of data holds [px], measured from a point at infinity: f x baseline / nearest depth.
+  /// Where the principal points differ (doffs of Middlebury) the plain difference of columns is smaller by that.
+  double max_disparity = 0;
   /// Ground-truth poses of the LEFT CAMERA, empty when there are none. Only evaluation may look at it.
   Trajectory truth;
   std::string truth_file;    ///< where it came from
   std::string disparity_truth;  ///< file with the left view's disparity, empty when there is none
+  double disparity_truth_scale = 1;  ///< px of this image per unit stored in `disparity_truth` (8-bit files: 0 is unknown)
+  std::vector<std::string> notes;    ///< what a user should know: nominal calibration, assumed times, skipped images
 };
 
 /// Choices of the user.

@@ -1,0 +1,121 @@
+/// \file check.cpp  What `quadedge check` prints.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "data/layout.hpp"
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace data {
+namespace {
+
+std::string decimals(double value, int count) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*f", count, value);
+  return buffer;
+}
+
+std::int64_t median_period(const Dataset& dataset) {
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < dataset.frames.size(); ++i) {
+    periods.push_back(dataset.frames[i].stamp_ns - dataset.frames[i - 1].stamp_ns);
+  }
+  if (periods.empty()) return 0;
+  std::nth_element(periods.begin(), periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2), periods.end());
+  return periods[periods.size() / 2];
+}
+
+void describe_camera(const PinholeCamera& camera, const char* which, DatasetCheck& check) {
+  check.facts.push_back(std::string(which) + " camera: " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +
+                        ", fx " + decimals(camera.fx, 3) + " fy " + decimals(camera.fy, 3) + " cx " + decimals(camera.cx, 3) +
+                        " cy " + decimals(camera.cy, 3));
+}
+
+void describe(const Dataset& dataset, DatasetCheck& check) {
+  check.facts.push_back("format: " + dataset.format);
+  check.facts.push_back("folder: " + dataset.path);
+  check.facts.push_back("frames: " + std::to_string(dataset.frames.size()));
+  describe_camera(dataset.rig.left, "left", check);
+  describe_camera(dataset.rig.right, "right", check);
+  check.facts.push_back(std::string("images: ") + (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, undone by a table"));
+  check.facts.push_back("baseline: " + decimals(dataset.rig.baseline(), 6) + " m");
+  check.facts.push_back("largest disparity: " + decimals(dataset.max_disparity, 1) + " px");
+  if (const std::int64_t period = median_period(dataset); period > 0) {
+    check.facts.push_back("rate: " + decimals(1e9 / static_cast<double>(period), 2) + " Hz, " +
+                          decimals(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
+  }
+  for (const auto& note : dataset.notes) check.facts.push_back("note: " + note);
+}
+
+/// A step longer than twice the usual one.
+void find_gaps(const Dataset& dataset, DatasetCheck& check) {
+  const std::int64_t period = median_period(dataset);
+  for (std::size_t i = 1; period > 0 && i < dataset.frames.size(); ++i) {
+    const std::int64_t step = dataset.frames[i].stamp_ns - dataset.frames[i - 1].stamp_ns;
+    if (step > 2 * period) {
+      check.warnings.push_back("gap of " + decimals(static_cast<double>(step) / 1e9, 3) + " s before frame " +
+                               std::to_string(i) + " (" + dataset.frames[i].left + ")");
+    }
+  }
+}
+
+void check_truth(const Dataset& dataset, DatasetCheck& check) {
+  if (dataset.truth_file.empty()) {
+    check.facts.push_back("ground truth: no poses");
+  } else {
+    constexpr std::int64_t kToleranceNs = 10'000'000;  // as evaluate_trajectory matches
+    const auto covered = std::count_if(dataset.frames.begin(), dataset.frames.end(), [&](const FrameFiles& frame) {
+      return std::any_of(dataset.truth.begin(), dataset.truth.end(), [&](const StampedPose& pose) {
+        return std::abs(pose.stamp_ns - frame.stamp_ns) <= kToleranceNs;
+      });
+    });
+    const std::string coverage = std::to_string(covered) + " of " + std::to_string(dataset.frames.size()) + " frames";
+    check.facts.push_back("ground truth: " + dataset.truth_file + ", " + coverage);
+    if (static_cast<std::size_t>(covered) < dataset.frames.size()) {
+      check.warnings.push_back(dataset.truth_file + ": covers " + coverage);
+    }
+  }
+  if (!dataset.disparity_truth.empty()) check.facts.push_back("disparity of the left view: " + dataset.disparity_truth);
+}
+
+void check_image(const std::string& file, const PinholeCamera& camera, DatasetCheck& check) {
+  try {
+    const Image image = read_grey_image(file);
+    const ImageSize found{image.width, image.height}, expected{camera.width, camera.height};
+    if (expected.width > 0 && found != expected) {
+      check.errors.push_back(file + ": found " + to_string(found) + " pixels, expected " + to_string(expected));
+    }
+  } catch (const DataError& problem) {
+    check.errors.push_back(problem.what());
+  }
+}
+
+}  // namespace
+}  // namespace data
+
+DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options) {
+  data::Findings findings(true);
+  DatasetCheck check;
+  try {
+    const Dataset dataset = data::read_dataset(path, options, findings);
+    data::describe(dataset, check);
+    data::find_gaps(dataset, check);
+    data::check_truth(dataset, check);
+    check.warnings.insert(check.warnings.end(), findings.warnings().begin(), findings.warnings().end());
+    check.errors = findings.errors();
+    for (const auto& frame : dataset.frames) {
+      data::check_image(frame.left, dataset.rig.left, check);
+      data::check_image(frame.right, dataset.rig.right, check);
+    }
+  } catch (const DataError& problem) {
+    check.errors = findings.errors();
+    check.errors.push_back(problem.what());
+  } catch (const std::filesystem::filesystem_error& problem) {
+    check.errors.push_back(path + ": " + problem.what() + "; expected a readable folder");
+  }
+  return check;
+}
+
+}  // namespace quadedge

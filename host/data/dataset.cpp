@@ -1,0 +1,83 @@
+#include "quadedge/dataset.hpp"
+
+#include <algorithm>
+
+#include "data/layout.hpp"
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace data {
+namespace {
+
+std::string format_names() {
+  std::string names;
+  for (const auto& layout : layouts()) names += (names.empty() ? "" : ", ") + layout.name;
+  return names;
+}
+
+const Layout& choose(const fs::path& folder, const std::string& format) {
+  if (!fs::exists(folder)) fail(folder.string(), "no such folder", "a recorded sequence or pair");
+  if (!fs::is_directory(folder)) fail(folder.string(), "a file", "the folder of a recorded sequence or pair");
+  for (const auto& layout : layouts()) {
+    if (format == "auto" ? layout.recognise(folder) : layout.name == format) return layout;
+  }
+  if (format != "auto") throw UsageError("--format " + format + ": expected auto, " + format_names());
+  std::vector<std::string> entries;
+  for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path().filename().string());
+  std::sort(entries.begin(), entries.end());
+  constexpr std::size_t kShown = 6;
+  std::string found;
+  for (std::size_t i = 0; i < std::min(entries.size(), kShown); ++i) found += (i ? ", " : "") + entries[i];
+  if (entries.size() > kShown) found += ", ...";
+  fail(folder.string(), entries.empty() ? "an empty folder" : found, "one of the layouts " + format_names());
+}
+
+/// Half-open range of frames that the user asked for.
+void cut_frames(Dataset& dataset, const DatasetOptions& options) {
+  const int count = static_cast<int>(dataset.frames.size());
+  const int last = options.last_frame < 0 ? count : options.last_frame;
+  if (options.first_frame < 0 || last > count || options.first_frame >= last) {
+    throw UsageError("frames " + std::to_string(options.first_frame) + ":" + std::to_string(last) + ": " + dataset.path +
+                     " has the frames 0:" + std::to_string(count));
+  }
+  dataset.frames.erase(dataset.frames.begin() + last, dataset.frames.end());
+  dataset.frames.erase(dataset.frames.begin(), dataset.frames.begin() + options.first_frame);
+}
+
+void check_stamps(const Dataset& dataset, Findings& findings) {
+  for (std::size_t i = 1; i < dataset.frames.size(); ++i) {
+    if (dataset.frames[i].stamp_ns > dataset.frames[i - 1].stamp_ns) continue;
+    findings.error(dataset.frames[i].left, "the stamp " + format_seconds(dataset.frames[i].stamp_ns) + " after " +
+                                               format_seconds(dataset.frames[i - 1].stamp_ns), "increasing stamps");
+  }
+}
+
+}  // namespace
+
+Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings) {
+  const Layout& layout = choose(path, options.format);
+  Dataset dataset = layout.read(path, options, findings);
+  dataset.format = layout.name;
+  check_stamps(dataset, findings);
+  if (dataset.frames.empty()) {
+    if (findings.errors().empty()) findings.error(dataset.path, "no stereo frame", "at least one");
+  } else {
+    cut_frames(dataset, options);
+  }
+  findings.attempt([&] { check_rig(dataset.rig, dataset.path.c_str()); });
+  return dataset;
+}
+
+}  // namespace data
+
+Dataset open_dataset(const std::string& path, const DatasetOptions& options) {
+  data::Findings findings(false);
+  try {
+    return data::read_dataset(path, options, findings);
+  } catch (const std::filesystem::filesystem_error& problem) {
+    throw DataError(path + ": " + problem.what() + "; expected a readable folder");
+  }
+}
+
+}  // namespace quadedge

@@ -1,0 +1,58 @@
+/// \file eth3d_two_view.cpp  ETH3D low-resolution two-view pairs: two_view_training/SCENE/{im0.png,im1.png,calib.txt} and
+/// two_view_training_gt/SCENE/disp0GT.pfm. The same files as Middlebury 2014, told apart by the folder names and the truth.
+
+#include "data/layout.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// Indoor and outdoor scenes seen from about 0.7 m on: at most 64 px of disparity, the range that methods on this
+/// benchmark search. (ndisp of its calib.txt is the image width and says nothing.)
+constexpr double kMaxDisparity = 64;
+/// Published calibrations have two kinds of image: the wide "l" ones (above 900 columns) and the "s" ones, about 6 cm apart.
+constexpr double kFocalWide = 541.764, kFocalNarrow = 711.499, kBaseline = 0.06;
+constexpr int kWideColumns = 900;
+
+std::string truth_of(const fs::path& folder) {
+  const fs::path clean = fs::absolute(folder / ".").lexically_normal().parent_path();
+  const fs::path beside = clean.parent_path().parent_path() / (clean.parent_path().filename().string() + "_gt") / clean.filename();
+  for (const auto& place : {clean, beside}) {
+    if (fs::exists(place / "disp0GT.pfm")) return (place / "disp0GT.pfm").string();
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_eth3d_two_view(const fs::path& folder) {
+  if (!fs::exists(folder / "im0.png") && !fs::exists(folder / "im1.png")) return false;
+  const fs::path clean = fs::absolute(folder / ".").lexically_normal().parent_path();
+  return !fs::exists(folder / "calib.txt") || !truth_of(folder).empty() ||
+         clean.parent_path().filename().string().rfind("two_view", 0) == 0;
+}
+
+Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findings& findings) {
+  Dataset dataset = still_pair(folder, (folder / "im0.png").string(), (folder / "im1.png").string(), findings);
+  dataset.max_disparity = kMaxDisparity;
+  dataset.disparity_truth = truth_of(folder);
+  findings.attempt([&] {
+    if (fs::exists(folder / "calib.txt")) {
+      dataset.rig = read_pair_calibration((folder / "calib.txt").string()).rig;
+      return;
+    }
+    set_sizes_from_first_frame(dataset);
+    const ImageSize left{dataset.rig.left.width, dataset.rig.left.height};
+    const ImageSize right{dataset.rig.right.width, dataset.rig.right.height};
+    dataset.rig = rectified_rig(left.width > kWideColumns ? kFocalWide : kFocalNarrow, (left.width - 1) / 2.0,
+                                (left.height - 1) / 2.0, (left.width - 1) / 2.0, kBaseline);
+    dataset.rig.left.width = left.width;
+    dataset.rig.left.height = left.height;
+    dataset.rig.right.width = right.width;
+    dataset.rig.right.height = right.height;
+    dataset.notes.push_back("no calib.txt: nominal calibration (f " + std::to_string(dataset.rig.left.fx) +
+                            " px, baseline 0.06 m); matches are sound, depths and poses are nominal");
+  });
+  return dataset;
+}
+
+}  // namespace quadedge::data

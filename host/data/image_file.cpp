@@ -1,0 +1,149 @@
+#include "data/image_file.hpp"
+
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "data/text.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace data {
+namespace {
+
+using namespace std::string_view_literals;
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n"sv;
+
+std::uint32_t big_endian(std::string_view bytes, std::size_t at, int count) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < count; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[at + static_cast<std::size_t>(i)]);
+  return value;
+}
+
+[[noreturn]] void truncated(const std::string& file, std::string_view bytes, const char* kind, const char* end) {
+  fail(file, std::string("a ") + kind + " that ends after " + std::to_string(bytes.size()) + " bytes", end);
+}
+
+ImageSize check_png(std::string_view bytes, const std::string& file) {
+  ImageSize size;
+  for (std::size_t at = kPngSignature.size();;) {
+    if (at + 12 > bytes.size()) truncated(file, bytes, "PNG", "a complete one, closed by its IEND chunk");
+    const std::size_t length = big_endian(bytes, at, 4);
+    const std::string_view type = bytes.substr(at + 4, 4);
+    if (length > bytes.size() - at - 12) truncated(file, bytes, "PNG", "a complete one, closed by its IEND chunk");
+    if (type == "IHDR"sv && length >= 8) {
+      size = {static_cast<int>(big_endian(bytes, at + 8, 4)), static_cast<int>(big_endian(bytes, at + 12, 4))};
+    }
+    if (type == "IEND"sv) return size;
+    at += 12 + length;
+  }
+}
+
+/// Start-of-frame markers carry the size: C0 to CF without the three that mean tables.
+bool is_start_of_frame(std::uint32_t marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+ImageSize check_jpeg(std::string_view bytes, const std::string& file) {
+  constexpr const char* kComplete = "a complete one, closed by its end-of-image marker";
+  ImageSize size;
+  for (std::size_t at = 2;;) {
+    if (at + 4 > bytes.size()) truncated(file, bytes, "JPEG", kComplete);
+    if (big_endian(bytes, at, 1) != 0xFF) fail(file, "a JPEG with a damaged segment", kComplete);
+    const std::uint32_t marker = big_endian(bytes, at + 1, 1);
+    if (marker == 0xFF) {  // fill byte
+      ++at;
+      continue;
+    }
+    const std::size_t length = big_endian(bytes, at + 2, 2);
+    if (length < 2 || length > bytes.size() - at - 2) truncated(file, bytes, "JPEG", kComplete);
+    if (is_start_of_frame(marker) && length >= 7) {
+      size = {static_cast<int>(big_endian(bytes, at + 7, 2)), static_cast<int>(big_endian(bytes, at + 5, 2))};
+    }
+    at += 2 + length;
+    if (marker == 0xDA) {  // entropy-coded data follow; only the end of the image can be FF D9 there
+      if (bytes.find("\xFF\xD9"sv, at) == std::string_view::npos) truncated(file, bytes, "JPEG", kComplete);
+      return size;
+    }
+  }
+}
+
+ImageSize check_pnm(std::string_view bytes, const std::string& file) {
+  std::size_t at = 2;
+  const auto next_number = [&] {
+    while (at < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
+      at = bytes[at] == '#' ? std::min(bytes.find('\n', at), bytes.size()) : at + 1;
+    }
+    int value = 0;
+    for (; at < bytes.size() && std::isdigit(static_cast<unsigned char>(bytes[at])) && value < 100'000; ++at) {
+      value = value * 10 + (bytes[at] - '0');
+    }
+    return value;
+  };
+  const ImageSize size{next_number(), next_number()};
+  const int largest = next_number();
+  const std::size_t per_pixel = (bytes[1] == '6' ? 3U : 1U) * (largest > 255 ? 2U : 1U);
+  const std::size_t needed = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * per_pixel;
+  if (bytes.size() < at + 1 + needed) truncated(file, bytes, "PNM", "all pixels that its header promises");
+  return size;
+}
+
+}  // namespace
+
+std::string to_string(ImageSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+
+ImageSize check_complete(std::string_view bytes, const std::string& file) {
+  ImageSize size;
+  if (bytes.substr(0, kPngSignature.size()) == kPngSignature) {
+    size = check_png(bytes, file);
+  } else if (bytes.substr(0, 2) == "\xFF\xD8"sv) {
+    size = check_jpeg(bytes, file);
+  } else if (bytes.substr(0, 2) == "P5"sv || bytes.substr(0, 2) == "P6"sv) {
+    size = check_pnm(bytes, file);
+  } else {
+    fail(file, bytes.empty() ? "an empty file" : "bytes that start with " + in_quotes(bytes.substr(0, 8)),
+         "a PNG, JPEG or binary PGM/PPM image");
+  }
+  constexpr int kLargest = 1 << 16;
+  if (size.width <= 0 || size.height <= 0 || size.width > kLargest || size.height > kLargest) {
+    fail(file, "an image of " + to_string(size) + " pixels", "sides between 1 and 65536");
+  }
+  return size;
+}
+
+ImageSize image_size(const std::string& file) { return check_complete(read_bytes(file), file); }
+
+bool is_image_name(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" || extension == ".ppm";
+}
+
+}  // namespace data
+
+Image read_grey_image(const std::string& path) {
+  const std::string bytes = data::read_bytes(path);
+  const data::ImageSize size = data::check_complete(bytes, path);
+  cv::Mat decoded;
+  try {
+    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+    // The recorded pixel grid: an EXIF turn would no longer fit the calibration.
+    decoded = cv::imdecode(encoded, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception& problem) {
+    data::fail(path, "an image that cannot be decoded (" + problem.err + ")", "an intact " + data::to_string(size) + " image");
+  }
+  if (decoded.empty()) data::fail(path, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
+  if (decoded.channels() == 3) cv::cvtColor(decoded, decoded, cv::COLOR_BGR2GRAY);
+  if (decoded.depth() == CV_16U) decoded.convertTo(decoded, CV_8U, 255.0 / 65535.0);
+  if (decoded.type() != CV_8UC1) data::fail(path, "an unusual pixel type", "8 or 16 bit grey or colour");
+  Image image(decoded.cols, decoded.rows);
+  const cv::Mat target(image.height, image.width, CV_8U, image.pixels.data());
+  decoded.copyTo(target);
+  return image;
+}
+
+}  // namespace quadedge

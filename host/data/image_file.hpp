@@ -1,0 +1,31 @@
+#pragma once
+/// \file image_file.hpp  Image files as bytes: what they claim to be, and whether all of it is there.
+/// Decoders fill a truncated picture with grey and go on, so completeness is judged from the container itself.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quadedge::data {
+
+/// Columns and rows.
+struct ImageSize {
+  int width = 0, height = 0;
+  bool operator==(const ImageSize& other) const { return width == other.width && height == other.height; }
+  bool operator!=(const ImageSize& other) const { return !(*this == other); }
+};
+
+/// "W x H", as messages print it.
+std::string to_string(ImageSize size);
+
+/// Walks a PNG (chunks up to IEND), JPEG (segments, end-of-image marker) or binary PGM/PPM (header against length).
+/// \throws DataError naming `file` when it is none of these or ends early.
+ImageSize check_complete(std::string_view bytes, const std::string& file);
+
+/// check_complete of a file. \throws DataError.
+ImageSize image_size(const std::string& file);
+
+/// True for the extensions of the formats above.
+bool is_image_name(const std::string& name);
+
+}  // namespace quadedge::data

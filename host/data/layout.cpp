@@ -1,0 +1,166 @@
+#include "data/layout.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <map>
+
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::data {
+
+void Findings::error(const std::string& message) {
+  if (!collect_) throw DataError(message);
+  errors_.push_back(message);
+}
+
+void Findings::error(const std::string& file, const std::string& found, const std::string& expected) {
+  error(file + ": found " + found + ", expected " + expected);
+}
+
+void Findings::attempt(const std::function<void()>& part) {
+  try {
+    part();
+  } catch (const DataError& problem) {
+    if (!collect_) throw;
+    errors_.push_back(problem.what());
+  }
+}
+
+const std::vector<Layout>& layouts() {
+  static const std::vector<Layout> all = {
+      {"kitti", is_kitti, read_kitti_odometry},
+      {"euroc", is_euroc, read_euroc},
+      {"eth3d-slam", is_eth3d_slam, read_eth3d_slam},
+      {"viso2-quad", is_viso2_quad, read_viso2_quad},
+      {"eth3d-two-view", is_eth3d_two_view, read_eth3d_two_view},
+      {"middlebury-2014", is_middlebury_2014, read_middlebury_2014},
+      {"middlebury-2006", is_middlebury_2006, read_middlebury_2006},
+      {"middlebury-2005", is_middlebury_2005, read_middlebury_2005},
+      {"middlebury-2003", is_middlebury_2003, read_middlebury_2003},
+  };
+  return all;
+}
+
+std::vector<std::string> image_names(const fs::path& folder) {
+  if (!fs::is_directory(folder)) fail(folder.string(), "no such folder", "a folder of images");
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (is_image_name(name) && name[0] != '.') names.push_back(name);
+  }
+  if (names.empty()) fail(folder.string(), "no image", "PNG, JPEG, PGM or PPM files");
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string image_with_stem(const fs::path& folder, const std::string& stem) {
+  for (const char* extension : {".png", ".ppm", ".pgm", ".jpg", ".jpeg"}) {
+    const fs::path candidate = folder / (stem + extension);
+    if (fs::exists(candidate)) return candidate.string();
+  }
+  return (folder / (stem + ".png")).string();
+}
+
+void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right, Findings& findings) {
+  bool complete = true;
+  for (const auto& file : {left, right}) {
+    if (fs::is_regular_file(file)) continue;
+    complete = false;
+    findings.error(file.string(), "no such file",
+                   file == left ? "the left image" : "the right image of " + left.filename().string());
+  }
+  if (complete) dataset.frames.push_back({stamp_ns, left.string(), right.string()});
+}
+
+void set_sizes_from_first_frame(Dataset& dataset) {
+  if (dataset.frames.empty()) return;
+  const ImageSize left = image_size(dataset.frames[0].left), right = image_size(dataset.frames[0].right);
+  dataset.rig.left.width = left.width;
+  dataset.rig.left.height = left.height;
+  dataset.rig.right.width = right.width;
+  dataset.rig.right.height = right.height;
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file) {
+  constexpr double kTolerance = 1e-3;
+  const double deviation = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(deviation <= kTolerance) || matrix.determinant() < 0) {
+    fail(file, "a 3 x 3 part that deviates from an orthonormal matrix by " + std::to_string(deviation) + " (determinant " +
+                   std::to_string(matrix.determinant()) + ")", "a rotation");
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+StereoRig rectified_rig(double focal, double cx, double cy, double right_cx, double baseline) {
+  StereoRig rig;
+  rig.left.fx = rig.left.fy = rig.right.fx = rig.right.fy = focal;
+  rig.left.cx = cx;
+  rig.right.cx = right_cx;
+  rig.left.cy = rig.right.cy = cy;
+  rig.right_from_left.translation() << -baseline, 0, 0;
+  return rig;
+}
+
+std::string folder_name(const fs::path& folder) {
+  const fs::path clean = fs::absolute(folder).lexically_normal();
+  return clean.has_filename() ? clean.filename().string() : clean.parent_path().filename().string();
+}
+
+Dataset still_pair(const fs::path& folder, const std::string& left, const std::string& right, Findings& findings) {
+  Dataset dataset;
+  dataset.path = folder.string();
+  dataset.name = folder_name(folder);
+  add_frame(dataset, 0, left, right, findings);
+  return dataset;
+}
+
+namespace {
+
+/// "[f 0 cx; 0 f cy; 0 0 1]" into a camera.
+void set_camera(PinholeCamera& camera, const std::string& text, const std::string& file, int line) {
+  const auto tokens = split(text, " \t[];,");
+  const std::string expected = "nine numbers [fx 0 cx; 0 fy cy; 0 0 1]";
+  if (tokens.size() != 9) fail(file, line, in_quotes(text), expected);
+  std::vector<double> values;
+  for (const auto& token : tokens) values.push_back(parse_number(token, file, line, expected));
+  if (values[1] != 0 || values[3] != 0 || values[6] != 0 || values[7] != 0 || values[8] != 1) fail(file, line, in_quotes(text), expected);
+  camera.fx = values[0];
+  camera.cx = values[2];
+  camera.fy = values[4];
+  camera.cy = values[5];
+}
+
+}  // namespace
+
+PairCalibration read_pair_calibration(const std::string& file) {
+  std::map<std::string, std::pair<std::string, int>> entries;
+  for (const auto& line : data_lines(file)) {
+    const std::size_t equals = line.text.find('=');
+    if (equals == std::string::npos) fail(file, line.number, in_quotes(line.text), "key=value");
+    entries[line.text.substr(0, equals)] = {line.text.substr(equals + 1), line.number};
+  }
+  const auto entry = [&](const std::string& key) {
+    const auto found = entries.find(key);
+    if (found == entries.end()) fail(file, "no entry " + key, "cam0, cam1, baseline, width and height");
+    return found->second;
+  };
+  const auto number = [&](const std::string& key) {
+    const auto [text, line] = entry(key);
+    const auto tokens = split(text);
+    return parse_number(tokens.empty() ? "" : tokens[0], file, line, key);
+  };
+  PairCalibration calibration;
+  StereoRig& rig = calibration.rig;
+  set_camera(rig.left, entry("cam0").first, file, entry("cam0").second);
+  set_camera(rig.right, entry("cam1").first, file, entry("cam1").second);
+  rig.left.width = rig.right.width = static_cast<int>(number("width"));
+  rig.left.height = rig.right.height = static_cast<int>(number("height"));
+  rig.right_from_left.translation() << -number("baseline") / 1000.0, 0, 0;
+  calibration.disparity_offset = rig.right.cx - rig.left.cx;
+  if (entries.count("ndisp")) calibration.disparities = number("ndisp");
+  return calibration;
+}
+
+}  // namespace quadedge::data

@@ -1,0 +1,103 @@
+#pragma once
+/// \file layout.hpp  What the readers of the published layouts share. One reader per file: kitti, euroc, eth3d_slam,
+/// eth3d_two_view, middlebury, viso2_quad.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "data/image_file.hpp"
+#include "quadedge/dataset.hpp"
+
+namespace quadedge::data {
+
+namespace fs = std::filesystem;
+
+/// Where a reader puts what it finds wrong. Opening for a run stops at the first error; checking collects all of them.
+class Findings {
+ public:
+  explicit Findings(bool collect) : collect_(collect) {}
+
+  /// \throws DataError unless collecting.
+  void error(const std::string& message);
+  void error(const std::string& file, const std::string& found, const std::string& expected);
+  void warn(const std::string& message) { warnings_.push_back(message); }
+  /// Runs a part of a reader whose failure does not make the other parts useless; records its DataError when collecting.
+  void attempt(const std::function<void()>& part);
+
+  const std::vector<std::string>& errors() const { return errors_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  bool collect_;
+  std::vector<std::string> errors_, warnings_;
+};
+
+/// One published layout.
+struct Layout {
+  std::string name;
+  /// Does the folder look like it? Judged by names alone, so that a damaged set is still recognised and then complained about.
+  bool (*recognise)(const fs::path& folder);
+  /// Fills everything but `format`. \throws DataError, UsageError.
+  Dataset (*read)(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+};
+
+/// All of them, in the order in which they are tried.
+const std::vector<Layout>& layouts();
+
+/// open_dataset and check_dataset: chooses the layout, reads it, checks stamps and rig, cuts the range of frames.
+Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings);
+
+bool is_kitti(const fs::path& folder);
+Dataset read_kitti_odometry(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_euroc(const fs::path& folder);
+Dataset read_euroc(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_eth3d_slam(const fs::path& folder);
+Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_eth3d_two_view(const fs::path& folder);
+Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_middlebury_2003(const fs::path& folder);
+Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_middlebury_2005(const fs::path& folder);
+Dataset read_middlebury_2005(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_middlebury_2006(const fs::path& folder);
+Dataset read_middlebury_2006(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_middlebury_2014(const fs::path& folder);
+Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+bool is_viso2_quad(const fs::path& folder);
+Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+
+/// Names of the images in a folder, sorted. \throws DataError when the folder is missing or holds none.
+std::vector<std::string> image_names(const fs::path& folder);
+
+/// folder/stem.EXT for the first known image extension that exists; folder/stem.png, for the message, when none does.
+std::string image_with_stem(const fs::path& folder, const std::string& stem);
+
+/// Adds the frame (or reports which file is missing).
+void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right, Findings& findings);
+
+/// Sets width and height of both cameras from the first frame's images.
+void set_sizes_from_first_frame(Dataset& dataset);
+
+/// The rotation nearest to a matrix read from a file. \throws DataError when it is off by more than rounding (1e-3).
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file);
+
+/// The rig of a rectified pair: equal focal lengths, right camera `baseline` metres to the right.
+StereoRig rectified_rig(double focal, double cx, double cy, double right_cx, double baseline);
+
+/// Last part of a path, also when it ends in a slash or is ".".
+std::string folder_name(const fs::path& folder);
+
+/// A dataset of one still pair.
+Dataset still_pair(const fs::path& folder, const std::string& left, const std::string& right, Findings& findings);
+
+/// calib.txt of Middlebury 2014 and ETH3D two-view: cam0=[f 0 cx; 0 f cy; 0 0 1], cam1, baseline in mm, width, height, ndisp.
+struct PairCalibration {
+  StereoRig rig;
+  double disparity_offset = 0;  ///< px; cx of the right camera minus cx of the left one
+  double disparities = 0;       ///< px; the documented bound ndisp, 0 when absent
+};
+PairCalibration read_pair_calibration(const std::string& file);
+
+}  // namespace quadedge::data

@@ -1,0 +1,116 @@
+/// \file middlebury.cpp  Middlebury stereo pairs of 2003, 2005, 2006 and 2014.
+///
+/// Depth of the 2005 and 2006 pairs, as their page gives it: Z = 3740 px x 160 mm / (disparity + dmin), all in full-size
+/// pixels. The offset dmin (and doffs of 2014) enters as the right camera's principal point lying that much further right.
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/layout.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+constexpr double kFullFocal = 3740;    // px, 2005 and 2006 at full size
+constexpr double kBaseline = 0.16;     // m
+constexpr int kFullRows2006 = 1110;    // image rows of the full size of 2005 and 2006
+constexpr int kFullRows2003 = 1500;
+/// Disparities are stored as 8-bit grey values in full-size pixels (2003: in quarters of a quarter-size pixel), so none is
+/// larger than 255 of these; this bounds the search.
+constexpr double kLargestGrey = 255;
+
+constexpr const char* kScenes2006[] = {"Aloe",       "Baby1",      "Baby2", "Baby3", "Bowling1", "Bowling2", "Cloth1",
+                                       "Cloth2",     "Cloth3",     "Cloth4", "Flowerpots", "Lampshade1", "Lampshade2", "Midd1",
+                                       "Midd2",      "Monopoly",   "Plastic", "Rocks1", "Rocks2", "Wood1", "Wood2"};
+
+bool has(const fs::path& folder, const std::string& stem) { return fs::exists(image_with_stem(folder, stem)); }
+
+std::string if_there(const std::string& file) { return fs::exists(file) ? file : std::string(); }
+
+/// Rig, range and truth scale of a pair that was reduced by a whole number from its full size.
+/// `offset`: dmin in full-size pixels.
+void set_reduced_rig(Dataset& dataset, int full_rows, double offset) {
+  set_sizes_from_first_frame(dataset);
+  const PinholeCamera left = dataset.rig.left, right = dataset.rig.right;
+  const double reduction = std::max(1.0, std::round(static_cast<double>(full_rows) / std::max(left.height, 1)));
+  const double cx = (left.width - 1) / 2.0, cy = (left.height - 1) / 2.0;
+  dataset.rig = rectified_rig(kFullFocal / reduction, cx, cy, cx + offset / reduction, kBaseline);
+  dataset.rig.left.width = left.width;
+  dataset.rig.left.height = left.height;
+  dataset.rig.right.width = right.width;
+  dataset.rig.right.height = right.height;
+  dataset.max_disparity = (kLargestGrey + offset) / reduction;
+  dataset.disparity_truth_scale = 1 / reduction;
+}
+
+Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
+  Dataset dataset = still_pair(folder, image_with_stem(folder, "view1"), image_with_stem(folder, "view5"), findings);
+  findings.attempt([&] {
+    double offset = 0;
+    const std::string file = (folder / "dmin.txt").string();
+    if (fs::exists(file)) {
+      const auto lines = data_lines(file);
+      if (lines.size() != 1) fail(file, std::to_string(lines.size()) + " rows", "one number, the smallest disparity in full-size pixels");
+      offset = parse_row(lines[0], file, 1, "the smallest disparity in full-size pixels")[0];
+    } else {
+      dataset.notes.push_back("no dmin.txt: disparity offset taken as zero, depths are nominal");
+    }
+    set_reduced_rig(dataset, kFullRows2006, offset);
+  });
+  dataset.disparity_truth = if_there(image_with_stem(folder, "disp1"));
+  return dataset;
+}
+
+}  // namespace
+
+bool is_middlebury_2003(const fs::path& folder) { return has(folder, "im2") || has(folder, "im6"); }
+
+Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions&, Findings& findings) {
+  Dataset dataset = still_pair(folder, image_with_stem(folder, "im2"), image_with_stem(folder, "im6"), findings);
+  findings.attempt([&] { set_reduced_rig(dataset, kFullRows2003, 0); });
+  dataset.disparity_truth = if_there(image_with_stem(folder, "disp2"));
+  dataset.notes.push_back("2003 pairs come without calibration: that of 2005 is taken; matches are sound, depths are nominal");
+  return dataset;
+}
+
+bool is_middlebury_2005(const fs::path& folder) { return has(folder, "view1") || has(folder, "view5"); }
+
+Dataset read_middlebury_2005(const fs::path& folder, const DatasetOptions&, Findings& findings) {
+  return read_2005_or_2006(folder, findings);
+}
+
+bool is_middlebury_2006(const fs::path& folder) {
+  if (has(folder, "aloeL")) return true;
+  const std::string name = folder_name(folder);
+  return is_middlebury_2005(folder) && std::find(std::begin(kScenes2006), std::end(kScenes2006), name) != std::end(kScenes2006);
+}
+
+Dataset read_middlebury_2006(const fs::path& folder, const DatasetOptions&, Findings& findings) {
+  if (!has(folder, "aloeL")) return read_2005_or_2006(folder, findings);
+  // The scene Aloe under the names that the OpenCV samples give it.
+  Dataset dataset = still_pair(folder, image_with_stem(folder, "aloeL"), image_with_stem(folder, "aloeR"), findings);
+  findings.attempt([&] { set_reduced_rig(dataset, kFullRows2006, 0); });
+  dataset.disparity_truth = if_there(image_with_stem(folder, "aloeGT"));
+  dataset.notes.push_back("no dmin.txt: disparity offset taken as zero, depths are nominal");
+  return dataset;
+}
+
+bool is_middlebury_2014(const fs::path& folder) {
+  return (fs::exists(folder / "im0.png") || fs::exists(folder / "im1.png")) && fs::exists(folder / "calib.txt");
+}
+
+Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions&, Findings& findings) {
+  Dataset dataset = still_pair(folder, (folder / "im0.png").string(), (folder / "im1.png").string(), findings);
+  dataset.disparity_truth = if_there((folder / "disp0.pfm").string());
+  findings.attempt([&] {
+    const std::string file = (folder / "calib.txt").string();
+    const PairCalibration calibration = read_pair_calibration(file);
+    dataset.rig = calibration.rig;
+    if (!(calibration.disparities > 0)) fail(file, "no positive ndisp", "the documented bound of the disparities");
+    dataset.max_disparity = calibration.disparities + calibration.disparity_offset;
+  });
+  return dataset;
+}
+
+}  // namespace quadedge::data

@@ -1,0 +1,37 @@
+/// \file viso2_quad.cpp  The stereo quad in libviso2's img/ folder: I1p, I2p (previous left, right), I1c, I2c (current).
+
+#include "data/layout.hpp"
+
+namespace quadedge::data {
+namespace {
+
+// Calibration that the libviso2 demo sets in its source; no file holds it.
+constexpr double kFocal = 645.24, kCentreX = 635.96, kCentreY = 194.13;  // px
+constexpr double kBaseline = 0.5707;                                     // m
+/// A car's camera sees the road from about 6 m on; what stands beside the lane comes as near as 3 m (123 px here).
+constexpr double kNearestDepth = 3.0;  // m
+/// The Karlsruhe sequences have 10 frames per second; the quad itself carries no time.
+constexpr std::int64_t kPeriodNs = 100'000'000;
+
+}  // namespace
+
+bool is_viso2_quad(const fs::path& folder) { return fs::exists(image_with_stem(folder, "I1p")); }
+
+Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions&, Findings& findings) {
+  Dataset dataset;
+  dataset.path = folder.string();
+  dataset.name = folder_name(folder);
+  std::int64_t stamp = 0;
+  for (const char* which : {"p", "c"}) {
+    add_frame(dataset, stamp, image_with_stem(folder, std::string("I1") + which),
+              image_with_stem(folder, std::string("I2") + which), findings);
+    stamp += kPeriodNs;
+  }
+  dataset.rig = rectified_rig(kFocal, kCentreX, kCentreY, kCentreX, kBaseline);
+  findings.attempt([&] { set_sizes_from_first_frame(dataset); });
+  dataset.max_disparity = kFocal * kBaseline / kNearestDepth;
+  dataset.notes.push_back("calibration of the libviso2 demo; nominal times 0.1 s apart");
+  return dataset;
+}
+
+}  // namespace quadedge::data

@@ -1,0 +1,188 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "dataset_files.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using namespace dataset_files;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Opening and checking must both complain about `file`, and both say what was expected.
+void check_fault(const std::string& folder, const std::string& file, const std::string& found) {
+  CHECK_THROWS_AS(open_dataset(folder), DataError);
+  CHECK_THROWS_WITH(open_dataset(folder), Contains(file) && Contains(found) && Contains("expected"));
+  const DatasetCheck check = check_dataset(folder);
+  CHECK(std::any_of(check.errors.begin(), check.errors.end(), [&](const std::string& error) {
+    return error.find(file) != std::string::npos && error.find(found) != std::string::npos;
+  }));
+}
+
+}  // namespace
+
+TEST_CASE("dataset: an empty or missing folder is named, with the layouts that would do", "[dataset]") {
+  const TemporaryFolder folder;
+  check_fault(folder.path(), folder.path(), "an empty folder");
+  check_fault(folder / "absent", "absent", "no such folder");
+  write_text(folder / "holiday.mov", "");
+  check_fault(folder.path(), folder.path(), "holiday.mov");
+  check_fault(folder / "holiday.mov", "holiday.mov", "a file");
+  CHECK_THROWS_WITH(open_dataset(folder.path()), Contains("euroc") && Contains("middlebury-2014"));
+}
+
+TEST_CASE("dataset: a missing right image is named", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k");
+  std::filesystem::remove(kitti + "/image_1/000002.png");
+  check_fault(kitti, "image_1/000002.png", "no such file");
+  const std::string euroc = write_euroc(folder / "e");
+  std::filesystem::remove(euroc + "/mav0/cam1/data/1403715273362143104.png");
+  check_fault(euroc, "cam1/data/1403715273362143104.png", "no such file");
+  const std::string eth3d = write_eth3d_slam(folder / "s");
+  std::filesystem::remove(eth3d + "/rgb/12.325000001.png");
+  check_fault(eth3d, "rgb/12.325000001.png", "no such file");
+  write_image(folder / "m/im2.png");
+  check_fault(folder / "m", "im6.png", "no such file");
+  write_image(folder / "q/I1p.png");
+  check_fault(folder / "q", "I2p.png", "no such file");
+}
+
+TEST_CASE("dataset: different counts left and right are an error", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k");
+  write_image(kitti + "/image_1/000009.png");
+  check_fault(kitti, "image_1", "5 images");
+  const std::string eth3d = write_eth3d_slam(folder / "s");
+  write_image(eth3d + "/rgb2/13.0.png");
+  check_fault(eth3d, "rgb2", "5 images");
+  const std::string euroc = write_euroc(folder / "e");
+  write_text(euroc + "/mav0/cam1/data.csv", "1403715273312143104,1403715273312143104.png\n");
+  check_fault(euroc, "cam1/data.csv", "1 stamps");
+}
+
+TEST_CASE("dataset: unreadable calibrations name file and value", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k"), calib = kitti + "/calib.txt", good = read_text(calib);
+  write_text(calib, "P0: 100 0 15 0 0 100 11 0 0 0 1\n");
+  check_fault(kitti, "calib.txt:1", "11 columns");
+  write_text(calib, "P0: 100 0 15 0 0 1oo 11 0 0 0 1 0\n");
+  check_fault(kitti, "calib.txt:1", "\"1oo\"");
+  write_text(calib, good.substr(0, good.find("P1")));
+  check_fault(kitti, "calib.txt", "no row P1");
+  std::filesystem::remove(calib);
+  check_fault(kitti, "calib.txt", "nothing that can be opened");
+  const std::string euroc = write_euroc(folder / "e");
+  write_text(euroc + "/mav0/cam1/sensor.yaml", "camera_model: pinhole\n");
+  check_fault(euroc, "cam1/sensor.yaml", "no entry distortion_model");
+  write_text(euroc + "/mav0/cam1/sensor.yaml", "camera_model: omni\n");
+  check_fault(euroc, "cam1/sensor.yaml", "\"omni\"");
+  const std::string eth3d = write_eth3d_slam(folder / "s");
+  write_text(eth3d + "/calibration2.txt", "40 40 15\n");
+  check_fault(eth3d, "calibration2.txt:1", "3 columns");
+  write_text(eth3d + "/calibration2.txt", "-40 40 15 11\n");
+  check_fault(eth3d, "left camera", "focal length fx -40");
+  for (const char* name : {"m/im0.png", "m/im1.png"}) write_image(folder / name);
+  write_text(folder / "m/calib.txt", "cam0=[50 0 20; 0 51]\n");
+  check_fault(folder / "m", "calib.txt:1", "[50 0 20; 0 51]");
+  write_text(folder / "m/calib.txt", "cam0=[50 0 20; 0 51 15; 0 0 1]\n");
+  check_fault(folder / "m", "calib.txt", "no entry cam1");
+}
+
+TEST_CASE("dataset: a baseline that is zero or NaN is an error", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k");
+  write_text(kitti + "/calib.txt", "P0: 100 0 15 0 0 100 11 0 0 0 1 0\nP1: 100 0 15 0 0 100 11 0 0 0 1 0\n");
+  check_fault(kitti, kitti, "baseline of 0.0");
+  write_text(kitti + "/calib.txt", "P0: 100 0 15 0 0 100 11 0 0 0 1 0\nP1: 100 0 15 nan 0 100 11 0 0 0 1 0\n");
+  check_fault(kitti, "calib.txt:2", "\"nan\"");
+  StereoRig rig;
+  rig.left = rig.right = {100, 100, 15, 11, 32, 24};
+  rig.right_from_left.translation() << std::nan(""), 0, 0;
+  CHECK_THROWS_WITH(check_rig(rig, "some.txt"), Contains("some.txt") && Contains("baseline of nan"));
+  rig.right_from_left.translation() << -0.5, 0, 0;
+  CHECK_NOTHROW(check_rig(rig, "some.txt"));
+  rig.right_from_left.linear()(0, 1) = 0.01;
+  CHECK_THROWS_WITH(check_rig(rig, "some.txt"), Contains("orthonormal"));
+  rig.right_from_left.linear() = Eigen::Vector3d(1, 1, -1).asDiagonal();
+  CHECK_THROWS_WITH(check_rig(rig, "some.txt"), Contains("right-handed"));
+}
+
+TEST_CASE("dataset: extrinsics that are no rotation are an error", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string eth3d = write_eth3d_slam(folder / "s");
+  write_text(eth3d + "/extrinsics_1_2.txt", "1 0.1 0 -0.09\n0 1 0 0\n0 0 1 0\n");
+  check_fault(eth3d, "extrinsics_1_2.txt", "orthonormal");
+  write_text(eth3d + "/extrinsics_1_2.txt", "1 0 0 -0.09\n0 1 0 0\n");
+  check_fault(eth3d, "extrinsics_1_2.txt", "2 rows");
+  const std::string euroc = write_euroc(folder / "e"), yaml = euroc + "/mav0/cam0/sensor.yaml";
+  std::string text = read_text(yaml);
+  write_text(yaml, text.replace(text.find("-1.0"), 4, "-1.2"));
+  check_fault(euroc, "cam0/sensor.yaml (T_BS)", "orthonormal");
+}
+
+TEST_CASE("dataset: time stamps out of order are an error", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k");
+  write_text(kitti + "/times.txt", "0\n0.2\n0.1\n0.3\n");
+  check_fault(kitti, "image_0/000002.png", "0.100000000 after 0.200000000");
+  write_text(kitti + "/times.txt", "0\n0.1\n0.1\n0.3\n");
+  check_fault(kitti, "image_0/000002.png", "0.100000000 after 0.100000000");
+  write_text(kitti + "/times.txt", "0\n0.1\n");
+  check_fault(kitti, "times.txt", "2 rows");
+  const std::string eth3d = write_eth3d_slam(folder / "s");
+  write_text(eth3d + "/groundtruth.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
+  check_fault(eth3d, "groundtruth.txt:2", "1.000000000 after 2.000000000");
+}
+
+TEST_CASE("dataset: garbage rows are named with their line", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k");
+  write_text(kitti + "/times.txt", "0\n0.1\n\n0.2 s\n0.3\n");
+  check_fault(kitti, "times.txt:4", "2 columns");
+  const std::string euroc = write_euroc(folder / "e"), list = euroc + "/mav0/cam0/data.csv", good = read_text(list);
+  write_text(list, good + "14037x,a.png\n");
+  check_fault(euroc, "cam0/data.csv:6", "\"14037x\"");
+  write_text(list, good + std::string("\x01\xff\x00garbage", 10) + "\n");
+  check_fault(euroc, "cam0/data.csv:6", "garbage");
+  write_text(list, good);
+  write_text(euroc + "/mav0/state_groundtruth_estimate0/data.csv", "1,2,3\n");
+  check_fault(euroc, "state_groundtruth_estimate0/data.csv:1", "1,2,3");
+  const std::string eth3d = write_eth3d_slam(folder / "s");
+  write_text(eth3d + "/rgb.txt", "12.0 rgb/12.0.png extra\n");
+  check_fault(eth3d, "rgb.txt:1", "extra");
+}
+
+TEST_CASE("dataset: a check lists everything that is wrong, not only the first thing", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder.path());
+  std::filesystem::remove(kitti + "/image_1/000001.png");
+  truncate(kitti + "/image_0/000000.png", 0.5);
+  write_image(kitti + "/image_1/000003.png", 40, 24);
+  write_text(kitti + "/calib.txt", "P0: nonsense\n");
+  write_text(folder / "poses/07.txt", "1 0 0\n");
+  const DatasetCheck check = check_dataset(kitti);
+  for (const char* part : {"image_1/000001.png", "image_0/000000.png", "image_1: found 3 images", "calib.txt:1", "07.txt:1"}) {
+    INFO(part);
+    CHECK(std::count_if(check.errors.begin(), check.errors.end(), [&](const std::string& error) {
+            return error.find(part) != std::string::npos;
+          }) >= 1);
+  }
+}
+
+TEST_CASE("dataset: truth for half of the frames and gaps are warnings", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder.path(), 6);
+  write_text(kitti + "/times.txt", "0\n0.1\n0.2\n0.3\n0.7\n0.8\n");
+  write_text(folder / "poses/07.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n1 0 0 0 0 1 0 0 0 0 1 2\n");
+  CHECK(open_dataset(kitti).truth.size() == 3);
+  const DatasetCheck check = check_dataset(kitti);
+  CHECK(check.errors.empty());
+  REQUIRE(check.warnings.size() == 2);
+  CHECK_THAT(check.warnings[0], Contains("gap of 0.400 s") && Contains("frame 4"));
+  CHECK_THAT(check.warnings[1], Contains("poses/07.txt") && Contains("3 of 6"));
+}

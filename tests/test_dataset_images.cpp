@@ -1,0 +1,113 @@
+#include <catch2/catch.hpp>
+
+#include <opencv2/imgproc.hpp>
+
+#include "dataset_files.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using namespace dataset_files;
+using Catch::Matchers::Contains;
+
+TEST_CASE("images: grey pixels come through unchanged in every lossless format", "[dataset]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "a.pgm"}) {
+    write_image(folder / name, 33, 21);
+    const Image image = read_grey_image(folder / name);
+    REQUIRE(image.width == 33);
+    REQUIRE(image.height == 21);
+    const cv::Mat expected = pattern(33, 21);
+    CHECK(std::equal(image.pixels.begin(), image.pixels.end(), expected.begin<std::uint8_t>()));
+  }
+}
+
+TEST_CASE("images: colour becomes luminance and 16 bits are scaled down", "[dataset]") {
+  const TemporaryFolder folder;
+  cv::Mat colours(1, 3, CV_8UC3);
+  colours.at<cv::Vec3b>(0) = {0, 0, 255};  // red, green, blue as BGR
+  colours.at<cv::Vec3b>(1) = {0, 255, 0};
+  colours.at<cv::Vec3b>(2) = {255, 0, 0};
+  cv::imwrite(folder / "c.png", colours);
+  const Image grey = read_grey_image(folder / "c.png");
+  CHECK(static_cast<int>(grey.pixels[0]) == 76);   // 0.299 x 255
+  CHECK(static_cast<int>(grey.pixels[1]) == 150);  // 0.587 x 255
+  CHECK(static_cast<int>(grey.pixels[2]) == 29);   // 0.114 x 255
+  write_image(folder / "deep.png", 33, 21, CV_16UC1);
+  const Image deep = read_grey_image(folder / "deep.png");
+  const cv::Mat expected = pattern(33, 21);  // the 16-bit pattern is 257 times this one
+  CHECK(std::equal(deep.pixels.begin(), deep.pixels.end(), expected.begin<std::uint8_t>()));
+}
+
+TEST_CASE("images: truncated, empty, damaged and foreign files are refused by name", "[dataset]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"cut.png", "cut.jpg", "cut.pgm"}) {
+    for (const double part : {0.99, 0.6, 0.2, 0.0}) {
+      INFO(name << " " << part);
+      write_image(folder / name, 320, 240);
+      CHECK_NOTHROW(read_grey_image(folder / name));
+      truncate(folder / name, part);
+      CHECK_THROWS_AS(read_grey_image(folder / name), DataError);
+      CHECK_THROWS_WITH(read_grey_image(folder / name), Contains(name) && Contains("expected"));
+    }
+  }
+  write_text(folder / "text.png", "not an image at all");
+  CHECK_THROWS_WITH(read_grey_image(folder / "text.png"), Contains("text.png") && Contains("\"not an i\""));
+  CHECK_THROWS_WITH(read_grey_image(folder / "absent.png"), Contains("absent.png"));
+  CHECK_THROWS_WITH(read_grey_image(folder.path()), Contains("a folder"));
+  write_image(folder / "bent.png", 320, 240);
+  std::string bytes = read_text(folder / "bent.png");
+  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x55);
+  write_text(folder / "bent.png", bytes);
+  CHECK_THROWS_AS(read_grey_image(folder / "bent.png"), DataError);
+}
+
+TEST_CASE("prefetcher: frames come in order, whole, however far it reads ahead", "[dataset]") {
+  const TemporaryFolder folder;
+  const Dataset set = open_dataset(write_kitti(folder.path(), 9));
+  for (const int ahead : {0, 1, 3, 50}) {
+    FramePrefetcher prefetcher(set, ahead);
+    for (int i = 0; i < 9; ++i) {
+      const auto frame = prefetcher.next();
+      REQUIRE(frame);
+      CHECK(frame->number == i);
+      CHECK(frame->stamp_ns == set.frames[static_cast<std::size_t>(i)].stamp_ns);
+      CHECK(frame->left.pixels == read_grey_image(set.frames[static_cast<std::size_t>(i)].left).pixels);
+      CHECK(frame->right.width == 32);
+    }
+    CHECK_FALSE(prefetcher.next());
+    CHECK_FALSE(prefetcher.next());
+  }
+}
+
+TEST_CASE("prefetcher: a bad frame is reported in its place and ends the sequence", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder.path());
+  const Dataset set = open_dataset(kitti);
+  SECTION("truncated") {
+    truncate(kitti + "/image_1/000002.png", 0.7);
+    FramePrefetcher prefetcher(set);
+    CHECK(prefetcher.next()->number == 0);
+    CHECK(prefetcher.next()->number == 1);
+    CHECK_THROWS_WITH(prefetcher.next(), Contains("image_1/000002.png") && Contains("IEND"));
+    CHECK_FALSE(prefetcher.next());
+  }
+  SECTION("of another size than its neighbours") {
+    write_image(kitti + "/image_0/000001.png", 31, 24);
+    FramePrefetcher prefetcher(set);
+    CHECK(prefetcher.next()->number == 0);
+    CHECK_THROWS_WITH(prefetcher.next(), Contains("image_0/000001.png") && Contains("31 x 24") && Contains("32 x 24"));
+  }
+}
+
+TEST_CASE("prefetcher: it can be left at any moment", "[dataset]") {
+  const TemporaryFolder folder;
+  const Dataset set = open_dataset(write_kitti(folder.path(), 9));
+  for (int taken = 0; taken <= 9; ++taken) {
+    FramePrefetcher prefetcher(set, 2);
+    for (int i = 0; i < taken; ++i) REQUIRE(prefetcher.next());
+  }
+  for (int i = 0; i < 50; ++i) const FramePrefetcher unused(set, 1);
+  SUCCEED("every destructor returned");
+}
