@@ -1,0 +1,80 @@
+#include "pose/motion.hpp"
+
+#include <cmath>
+
+#include "pose/angles.hpp"
+#include "pose/ransac.hpp"
+#include "pose/refinement.hpp"
+
+namespace quadedge::pose {
+
+namespace {
+
+/// Standard deviation of the inliers' current left places, over both axes together, as a share of the image diagonal.
+double spread(const QuadObservations& quads, const std::vector<std::uint8_t>& inlier, const PinholeCamera& camera) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double squares = 0, count = 0;
+  for (std::size_t i = 0; i < inlier.size(); ++i) {
+    if (!inlier[i]) continue;
+    const Eigen::Vector2d place(static_cast<double>(quads.scoring.left_x[i]), static_cast<double>(quads.scoring.left_y[i]));
+    sum += place;
+    squares += place.squaredNorm();
+    count += 1;
+  }
+  if (!(count > 0)) return 0;
+  const double variance = squares / count - (sum / count).squaredNorm();
+  return std::sqrt(std::max(variance, 0.0)) / std::hypot(camera.width, camera.height);
+}
+
+}  // namespace
+
+const char* to_string(MotionStatus status) {
+  switch (status) {
+    case MotionStatus::ok: return "ok";
+    case MotionStatus::too_few_quads: return "too few quads";
+    case MotionStatus::no_consensus: return "no consensus";
+    case MotionStatus::badly_spread: return "badly spread";
+  }
+  return "unknown";
+}
+
+MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
+                               const std::optional<Eigen::Isometry3d>& initial) {
+  MotionEstimate estimate;
+  estimate.inlier.assign(quads.size(), 0);
+  if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return estimate;
+
+  estimate.status = MotionStatus::no_consensus;
+  const std::vector<FitTerm> terms = build_terms(quads, NoiseModel(config));
+  const Consensus consensus = find_consensus(terms, quads, rig, config, seed, initial);
+  estimate.hypotheses = consensus.hypotheses;
+  estimate.draws = consensus.draws;
+  if (!consensus.found) return estimate;
+
+  Eigen::Isometry3d pose = consensus.current_from_previous;
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  bool solved = true;
+  if (config.refine) {
+    Refined refined = refine(terms, quads, rig, config, pose);
+    pose = refined.current_from_previous;
+    covariance = refined.covariance;
+    solved = refined.solved;
+    estimate.inlier = std::move(refined.inlier);
+    estimate.inliers = refined.inliers;
+  } else {
+    estimate.inliers = select_inliers(quads.scoring, LaterCameras(rig, pose), config.inlier_distance,
+                                      radians(config.inlier_orientation), estimate.inlier);
+  }
+  estimate.share = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
+  if (estimate.inliers < config.min_inliers || estimate.share < config.min_inlier_share) return estimate;
+  if (!solved || spread(quads, estimate.inlier, rig.left) < config.min_spread) {
+    estimate.status = MotionStatus::badly_spread;
+    return estimate;
+  }
+  estimate.status = MotionStatus::ok;
+  estimate.current_from_previous = pose;
+  estimate.covariance = covariance;
+  return estimate;
+}
+
+}  // namespace quadedge::pose

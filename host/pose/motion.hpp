@@ -1,0 +1,45 @@
+#pragma once
+/// \file motion.hpp  The motion between two rigs from their quads (SPEC section 6): the front door of host/pose.
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pose/quads.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::pose {
+
+/// Why there is a pose or not.
+enum class MotionStatus {
+  ok,
+  too_few_quads,  ///< fewer quads than config.min_inliers
+  no_consensus,   ///< no motion that config.min_inliers and config.min_inlier_share of the quads share
+  badly_spread,   ///< the inliers cover too small a part of the image to say more than where that part went
+};
+const char* to_string(MotionStatus status);
+
+/// What two rigs' quads say about the motion between them.
+struct MotionEstimate {
+  MotionStatus status = MotionStatus::too_few_quads;
+  /// Gamma_current = current_from_previous * Gamma_previous, left cameras, metres. Identity unless status is ok.
+  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
+  /// (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame; zero unless status is ok and
+  /// config.refine is on.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  std::vector<std::uint8_t> inlier;  ///< one byte per quad, at the pose found (whatever the status)
+  int inliers = 0;
+  double share = 0;                  ///< inliers / quads
+  int hypotheses = 0, draws = 0;     ///< of the search (see Consensus)
+};
+
+/// Finds the motion: consensus of two-quad samples, then least squares over all its inliers.
+/// With config.refine off the pose is the best of the paper's two-quad samples and their local optimisations over at most
+/// config.preview quads, whichever explains more of all quads; there is no fit over all inliers and no covariance.
+/// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to frame.
+MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
+                               const std::optional<Eigen::Isometry3d>& initial = std::nullopt);
+
+}  // namespace quadedge::pose

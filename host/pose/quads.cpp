@@ -1,0 +1,79 @@
+#include "pose/quads.hpp"
+
+#include <cmath>
+
+namespace quadedge::pose {
+
+namespace {
+
+/// All columns of the arrays, in one order.
+constexpr std::vector<float> ScoringArrays::*kColumns[] = {
+    &ScoringArrays::ray_x,     &ScoringArrays::ray_y,     &ScoringArrays::inverse_depth, &ScoringArrays::tangent_x,
+    &ScoringArrays::tangent_y, &ScoringArrays::tangent_z, &ScoringArrays::left_x,        &ScoringArrays::left_y,
+    &ScoringArrays::left_cos,  &ScoringArrays::left_sin,  &ScoringArrays::right_x,       &ScoringArrays::right_y,
+    &ScoringArrays::right_cos, &ScoringArrays::right_sin};
+
+StereoObservation observation(const StereoEdges& edges, std::size_t i) {
+  return {{edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]}, edges.left_direction[i], edges.right_direction[i]};
+}
+
+}  // namespace
+
+void ScoringArrays::reserve(std::size_t rows) {
+  for (auto column : kColumns) (this->*column).reserve(rows);
+}
+
+void ScoringArrays::append_row(const ScoringArrays& other, std::size_t row) {
+  for (auto column : kColumns) (this->*column).push_back((other.*column)[row]);
+}
+
+void QuadObservations::reserve(std::size_t quads) {
+  previous.reserve(quads);
+  current.reserve(quads);
+  previous_points.reserve(quads);
+  current_points.reserve(quads);
+  scoring.reserve(quads);
+  ncc.reserve(quads);
+  rivals.reserve(quads);
+  match.reserve(quads);
+}
+
+bool QuadObservations::append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge,
+                              float ncc_value, std::int32_t rival_count, std::int32_t match_number, double min_epipolar_angle) {
+  const auto before = measure(rig, previous_edge, min_epipolar_angle);
+  if (!before) return false;
+  const auto after = measure(rig, current_edge, min_epipolar_angle);
+  if (!after) return false;
+  previous.push_back(*before);
+  current.push_back(*after);
+  previous_points.push_back(before->oriented_point());
+  current_points.push_back(after->oriented_point());
+  const Eigen::Vector3d& tangent = previous_points.back().tangent;
+  const double values[] = {before->ray.x(), before->ray.y(), before->inverse_depth, tangent.x(), tangent.y(), tangent.z(),
+                           current_edge.left.x(), current_edge.left.y(),
+                           std::cos(current_edge.left_direction), std::sin(current_edge.left_direction),
+                           current_edge.right.x(), current_edge.right.y(),
+                           std::cos(current_edge.right_direction), std::sin(current_edge.right_direction)};
+  const double* value = values;
+  for (auto column : kColumns) (scoring.*column).push_back(static_cast<float>(*value++));
+  ncc.push_back(ncc_value);
+  rivals.push_back(rival_count);
+  match.push_back(match_number);
+  return true;
+}
+
+QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
+                             const TemporalMatches& matches, double min_epipolar_angle) {
+  QuadObservations quads;
+  quads.reserve(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    StereoObservation after = observation(current, static_cast<std::size_t>(matches.current[i]));
+    after.left = {matches.left_x[i], matches.left_y[i]};
+    after.right = {matches.right_x[i], matches.right_y[i]};
+    quads.append(rig, observation(previous, static_cast<std::size_t>(matches.previous[i])), after, matches.ncc[i],
+                 matches.rivals[i], static_cast<std::int32_t>(i), min_epipolar_angle);
+  }
+  return quads;
+}
+
+}  // namespace quadedge::pose

@@ -1,0 +1,51 @@
+#pragma once
+/// \file quads.hpp  Quads as the pose estimator sees them: structures of arrays for scoring, full measurements for fitting.
+
+#include <cstdint>
+#include <vector>
+
+#include "pose/oriented_point.hpp"
+#include "quadedge/edges.hpp"
+
+namespace quadedge::pose {
+
+/// What scoring a hypothesis reads, one row per quad, single precision (1e-4 px).
+struct ScoringArrays {
+  std::vector<float> ray_x, ray_y;       ///< K^-1 (x, y, 1) of the previous left pixel, third component 1
+  std::vector<float> inverse_depth;      ///< previous, 1/m
+  std::vector<float> tangent_x, tangent_y, tangent_z;  ///< previous tangent, previous left camera's frame, unit norm
+  std::vector<float> left_x, left_y, left_cos, left_sin;      ///< current left pixel and unit direction in the image
+  std::vector<float> right_x, right_y, right_cos, right_sin;  ///< current right pixel and unit direction in the image
+
+  std::size_t size() const { return ray_x.size(); }
+  void reserve(std::size_t rows);
+  /// Appends row `row` of `other`.
+  void append_row(const ScoringArrays& other, std::size_t row);
+};
+
+/// Quads: the stereo edge of the previous (or key) rig and the one of the current rig that shows the same place of the scene.
+/// All arrays have one row per quad; every point lies in front of both cameras of its rig.
+struct QuadObservations {
+  std::vector<StereoMeasurement> previous, current;        ///< in the left camera's frame of their time
+  std::vector<OrientedPoint> previous_points, current_points;  ///< the same as point and unit tangent, metres
+  ScoringArrays scoring;
+  std::vector<float> ncc;                ///< similarity, higher is better
+  std::vector<std::int32_t> rivals;      ///< how many other matches the previous edge has (0: unambiguous)
+  std::vector<std::int32_t> match;       ///< the caller's number for the quad (row of TemporalMatches)
+
+  std::size_t size() const { return previous.size(); }
+  void reserve(std::size_t quads);
+
+  /// Appends a quad from its four edges. Pixels and radians. \returns false, and appends nothing, when one of the two stereo
+  /// edges has no depth or no tangent (see measure(); `min_epipolar_angle` in radians).
+  bool append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge, float ncc_value,
+              std::int32_t rival_count, std::int32_t match_number, double min_epipolar_angle);
+};
+
+/// All quads of two rigs. The current places are the refined ones of `matches`, the current directions those of the stereo edges;
+/// matches without depth are left out, QuadObservations::match says which row a quad came from.
+/// \param min_epipolar_angle radians
+QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
+                             const TemporalMatches& matches, double min_epipolar_angle);
+
+}  // namespace quadedge::pose

@@ -1,0 +1,161 @@
+#include "pose/ransac.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "pose/angles.hpp"
+#include "pose/constraints.hpp"
+#include "pose/refinement.hpp"
+#include "pose/scoring.hpp"
+#include "pose/two_quads.hpp"
+
+namespace quadedge::pose {
+
+namespace {
+
+/// 0 .. count - 1, the same on every platform (std::uniform_int_distribution is not).
+std::size_t below(std::mt19937_64& random, std::size_t count) {
+  return static_cast<std::size_t>(((random() >> 32) * static_cast<std::uint64_t>(count)) >> 32);
+}
+
+/// Quads in the order in which they are trusted.
+std::vector<std::int32_t> trust_order(const QuadObservations& quads) {
+  std::vector<std::int32_t> order(quads.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    if (quads.rivals[i] != quads.rivals[j]) return quads.rivals[i] < quads.rivals[j];
+    if (quads.ncc[i] != quads.ncc[j]) return quads.ncc[i] > quads.ncc[j];
+    return a < b;
+  });
+  return order;
+}
+
+/// `size` different rows of 0 .. count - 1, ascending.
+std::vector<std::int32_t> random_subset(std::mt19937_64& random, std::size_t count, std::size_t size) {
+  std::vector<std::int32_t> rows(count);
+  std::iota(rows.begin(), rows.end(), 0);
+  if (size >= count) return rows;
+  for (std::size_t i = 0; i < size; ++i) std::swap(rows[i], rows[i + below(random, count - i)]);
+  rows.resize(size);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+class Search {
+ public:
+  Search(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
+         std::uint64_t seed)
+      : terms_(terms), quads_(quads), rig_(rig), config_(config), random_(seed), limits_(config) {
+    preview_rows_ = random_subset(random_, quads.size(), static_cast<std::size_t>(config.preview));
+    preview_.reserve(preview_rows_.size());
+    for (std::int32_t row : preview_rows_) preview_.append_row(quads.scoring, static_cast<std::size_t>(row));
+    inlier_rows_.reserve(preview_rows_.size());
+    const double diagonal = std::hypot(rig.left.width, rig.left.height);
+    min_distance_squared_ = std::pow(config.min_pair_distance * diagonal, 2);
+  }
+
+  Consensus run(const std::optional<Eigen::Isometry3d>& initial) {
+    if (initial) consider(*initial);
+    if (quads_.size() >= 2) sample();
+    return best_;
+  }
+
+ private:
+  void sample() {
+    const std::vector<std::int32_t> order = trust_order(quads_);
+    // The pool grows linearly from the smallest subset worth sampling to all quads over the first max_hypotheses draws.
+    const double first_pool = std::min<double>(static_cast<double>(order.size()), config_.min_inliers);
+    const double growth = (static_cast<double>(order.size()) - first_pool) / config_.max_hypotheses;
+    while (best_.draws < config_.max_draws && best_.hypotheses < std::min(needed_, config_.max_hypotheses)) {
+      const double pool_size = std::min(first_pool + growth * best_.draws, static_cast<double>(order.size()));
+      const std::size_t pool = std::max<std::size_t>(2, static_cast<std::size_t>(pool_size));
+      ++best_.draws;
+      const std::size_t a = below(random_, pool);
+      std::size_t b = below(random_, pool - 1);
+      if (b >= a) ++b;
+      if (const auto motion = solve(static_cast<std::size_t>(order[a]), static_cast<std::size_t>(order[b]))) consider(*motion);
+    }
+  }
+
+  std::optional<Eigen::Isometry3d> solve(std::size_t a, std::size_t b) const {
+    const double dx = static_cast<double>(quads_.scoring.left_x[a]) - static_cast<double>(quads_.scoring.left_x[b]);
+    const double dy = static_cast<double>(quads_.scoring.left_y[a]) - static_cast<double>(quads_.scoring.left_y[b]);
+    if (dx * dx + dy * dy < min_distance_squared_) return std::nullopt;
+    OrientedPair before{quads_.previous_points[a], quads_.previous_points[b]};
+    OrientedPair after{quads_.current_points[a], quads_.current_points[b]};
+    const ConstraintCheck check = check_constraints(before, after, limits_);
+    if (!check.all()) return std::nullopt;
+    if (check.swapped) {
+      std::swap(before.first, before.second);
+      std::swap(after.first, after.second);
+    }
+    return solve_two_quads(before, after, limits_.max_cosine);
+  }
+
+  void consider(const Eigen::Isometry3d& motion) {
+    ++best_.hypotheses;
+    const double raw = truncated_cost(preview_, LaterCameras(rig_, motion), config_.local_widening * config_.inlier_distance);
+    if (best_.found && raw >= best_raw_) return;
+    best_raw_ = raw;
+    accept(motion);
+    if (const auto better = optimise(motion)) accept(*better);
+  }
+
+  /// Fits over the preview's inliers, the distance narrowing geometrically to the inlier distance.
+  std::optional<Eigen::Isometry3d> optimise(Eigen::Isometry3d motion) {
+    const int rounds = config_.local_rounds;
+    for (int round = 0; round < rounds; ++round) {
+      const double share = rounds > 1 ? static_cast<double>(round) / (rounds - 1) : 1.0;
+      const double distance = config_.inlier_distance * std::pow(config_.local_widening, 1.0 - share);
+      select_inliers(preview_, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation), mask_);
+      mask_to_rows(mask_, inlier_rows_);
+      for (std::int32_t& row : inlier_rows_) row = preview_rows_[static_cast<std::size_t>(row)];
+      if (!fit(terms_, inlier_rows_, rig_, config_, motion, workspace_)) return std::nullopt;
+    }
+    return motion;
+  }
+
+  void accept(const Eigen::Isometry3d& motion) {
+    const LaterCameras cameras(rig_, motion);
+    const double cost = truncated_cost(quads_.scoring, cameras, config_.inlier_distance);
+    if (best_.found && cost >= best_.cost) return;
+    best_.found = true;
+    best_.cost = cost;
+    best_.current_from_previous = motion;
+    const int inliers =
+        select_inliers(quads_.scoring, cameras, config_.inlier_distance, radians(config_.inlier_orientation), mask_);
+    const double share = static_cast<double>(inliers) / static_cast<double>(quads_.size());
+    const double miss = std::log1p(-std::min(share * share, 1.0 - std::numeric_limits<double>::epsilon()));
+    const double draws = std::log1p(-config_.confidence) / miss;
+    needed_ = std::max(config_.min_hypotheses, draws < config_.max_hypotheses ? static_cast<int>(std::ceil(draws)) : config_.max_hypotheses);
+  }
+
+  const std::vector<FitTerm>& terms_;
+  const QuadObservations& quads_;
+  const StereoRig& rig_;
+  const PoseConfig& config_;
+  std::mt19937_64 random_;
+  ConstraintLimits limits_;
+  ScoringArrays preview_;
+  std::vector<std::int32_t> preview_rows_, inlier_rows_;
+  std::vector<std::uint8_t> mask_;
+  FitWorkspace workspace_;
+  double min_distance_squared_ = 0;
+  double best_raw_ = 1;
+  int needed_ = std::numeric_limits<int>::max();
+  Consensus best_;
+};
+
+}  // namespace
+
+Consensus find_consensus(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig,
+                         const PoseConfig& config, std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial) {
+  return Search(terms, quads, rig, config, seed).run(initial);
+}
+
+}  // namespace quadedge::pose

@@ -1,0 +1,216 @@
+#include "pose/refinement.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "pose/angles.hpp"
+
+namespace quadedge::pose {
+
+namespace {
+
+constexpr double kPlaceSize = 3, kDirectionSize = 2;  ///< residuals per block
+/// Medians of the chi-squared distribution with 3 and 2 degrees of freedom.
+constexpr double kPlaceMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
+/// Variances are not believed to be smaller than this share of the assumed ones (noise-free data).
+constexpr double kSmallestScale = 1e-6;
+/// Smallest ratio of the normal equations' pivots, after scaling their diagonal to one, that counts as solvable.
+constexpr double kSmallestPivot = 1e-12;
+
+/// A block of residuals whose own unknown, with a standard normal prior, has been eliminated: error^T error is the block's cost.
+template <int Rows, int Columns>
+struct Eliminated {
+  Eigen::Matrix<double, Rows, 1> error;
+  Eigen::Matrix<double, Rows, Columns> by_pose;
+  double unknown = 0;  ///< its best value
+};
+
+/// Minimises |r + h (z - at)|^2 + z^2 over z. With S = I + h h^T the cost is e^T S^-1 e, e = r - h at; multiplying by S^-1/2 leaves
+/// a plain sum of squares.
+template <int Rows, int Columns>
+void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matrix<double, Rows, Columns>& by_pose,
+               const Eigen::Matrix<double, Rows, 1>& by_unknown, double at, Eliminated<Rows, Columns>& result) {
+  const double square = by_unknown.squaredNorm();
+  const double shrink = 1.0 / (1.0 + square);
+  const double root = square > 0 ? (1.0 - std::sqrt(shrink)) / square : 0.0;
+  const Eigen::Matrix<double, Rows, 1> error = residual - by_unknown * at;
+  const double along = by_unknown.dot(error);
+  result.unknown = -shrink * along;
+  result.error = error - by_unknown * (root * along);
+  const Eigen::Matrix<double, 1, Columns> projected = root * (by_unknown.transpose() * by_pose);
+  result.by_pose = by_pose - by_unknown * projected;
+}
+
+struct QuadTerms {
+  Eliminated<3, 6> place;
+  Eliminated<2, 3> direction;
+};
+
+bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth, QuadTerms& result) {
+  Linearisation linear;
+  if (!linearise(term, left, pose, depth, linear)) return false;
+  eliminate<3, 6>(linear.place, linear.place_by_pose, linear.place_by_depth, depth, result.place);
+  eliminate<2, 3>(linear.direction, linear.direction_by_rotation, linear.direction_by_slope, 0.0, result.direction);
+  return true;
+}
+
+/// Weight of the Student-t distribution for a block of `size` residuals with squared error `error` at variance `scale`.
+double student_weight(double error, double scale, double size, double dof) { return (dof + size) / (dof + error / scale); }
+
+double measured_scale(const std::vector<double>& errors, double median_of_one, std::vector<double>& sorted) {
+  sorted.assign(errors.begin(), errors.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return std::max(*middle / median_of_one, kSmallestScale);
+}
+
+/// Evaluates all rows, storing errors and the quads' own unknowns; `each(k, terms)` sees those in front of the camera.
+template <typename Each>
+void sweep(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const PinholeCamera& left,
+           const Eigen::Isometry3d& pose, const std::vector<double>& depth, Each&& each) {
+  QuadTerms quad;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (evaluate(terms[static_cast<std::size_t>(rows[k])], left, pose, depth[k], quad)) each(k, quad);
+}
+
+/// Solves A x = -g; false where A is singular.
+bool solve(const Matrix6d& a, const Vector6d& gradient, Vector6d& step) {
+  const Vector6d diagonal = a.diagonal();
+  if (!(diagonal.minCoeff() > 0)) return false;
+  const Vector6d scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Matrix6d scaled = scale.asDiagonal() * a * scale.asDiagonal();
+  const Eigen::LDLT<Matrix6d> factors(scaled);
+  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kSmallestPivot)) return false;
+  step = scale.asDiagonal() * factors.solve(-(scale.asDiagonal() * gradient));
+  return step.allFinite();
+}
+
+}  // namespace
+
+Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous) {
+  const Eigen::Vector3d w = step.head<3>();
+  const double angle = w.norm();
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  if (angle > 0) turn = Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle));
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  // Through a unit quaternion, so that many steps cannot wear the rotation's orthonormality away.
+  result.linear() = (turn * Eigen::Quaterniond(current_from_previous.linear())).normalized().toRotationMatrix();
+  result.translation() = turn * current_from_previous.translation() + step.tail<3>();
+  return result;
+}
+
+void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_t>& rows) {
+  rows.clear();
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask[i]) rows.push_back(static_cast<std::int32_t>(i));
+}
+
+bool fit(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,
+         Eigen::Isometry3d& current_from_previous, FitWorkspace& workspace) {
+  if (rows.empty()) return false;
+  workspace.depth.assign(rows.size(), 0.0);
+  workspace.place_error.assign(rows.size(), 0.0);
+  workspace.direction_error.assign(rows.size(), 0.0);
+  const auto store = [&](std::size_t k, const QuadTerms& quad) {
+    workspace.place_error[k] = quad.place.error.squaredNorm();
+    workspace.direction_error[k] = quad.direction.error.squaredNorm();
+    workspace.depth[k] = quad.place.unknown;
+  };
+  const auto measure_scales = [&] {
+    workspace.place_scale = measured_scale(workspace.place_error, kPlaceMedian, workspace.sorted);
+    workspace.direction_scale = measured_scale(workspace.direction_error, kDirectionMedian, workspace.sorted);
+  };
+  sweep(terms, rows, rig.left, current_from_previous, workspace.depth, store);
+  measure_scales();
+
+  for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
+    Matrix6d normal = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
+    sweep(terms, rows, rig.left, current_from_previous, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
+      store(k, quad);
+      const double place_weight =
+          student_weight(workspace.place_error[k], workspace.place_scale, kPlaceSize, config.student_dof) / workspace.place_scale;
+      const double direction_weight =
+          student_weight(workspace.direction_error[k], workspace.direction_scale, kDirectionSize, config.student_dof) /
+          workspace.direction_scale;
+      const Eigen::Matrix<double, 3, 6> weighted = place_weight * quad.place.by_pose;
+      normal.noalias() += weighted.transpose().lazyProduct(quad.place.by_pose);
+      gradient.noalias() += weighted.transpose().lazyProduct(quad.place.error);
+      const Eigen::Matrix<double, 2, 3> turned = direction_weight * quad.direction.by_pose;
+      normal.topLeftCorner<3, 3>().noalias() += turned.transpose().lazyProduct(quad.direction.by_pose);
+      gradient.head<3>().noalias() += turned.transpose().lazyProduct(quad.direction.error);
+    });
+    Vector6d step;
+    if (!solve(normal, gradient, step)) return false;
+    current_from_previous = perturb(step, current_from_previous);
+    measure_scales();
+  }
+  return true;
+}
+
+Matrix6d fit_covariance(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
+                        const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& current_from_previous,
+                        const FitWorkspace& workspace) {
+  const int columns = static_cast<int>(std::ceil(rig.left.width / config.vote_cell)) + 1;
+  const int lines = static_cast<int>(std::ceil(rig.left.height / config.vote_cell)) + 1;
+  std::vector<Vector6d> cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines), Vector6d::Zero());
+
+  Matrix6d normal = Matrix6d::Zero(), scatter = Matrix6d::Zero();
+  double weights = 0, curvature = 0, used = 0;
+  sweep(terms, rows, rig.left, current_from_previous, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
+    const double error = quad.place.error.squaredNorm();
+    const double weight = student_weight(error, workspace.place_scale, kPlaceSize, config.student_dof);
+    const double direction_weight =
+        student_weight(quad.direction.error.squaredNorm(), workspace.direction_scale, kDirectionSize, config.student_dof) /
+        workspace.direction_scale;
+    Matrix6d part = (weight / workspace.place_scale) * (quad.place.by_pose.transpose() * quad.place.by_pose);
+    Vector6d gradient = (weight / workspace.place_scale) * (quad.place.by_pose.transpose() * quad.place.error);
+    part.topLeftCorner<3, 3>() += direction_weight * (quad.direction.by_pose.transpose() * quad.direction.by_pose);
+    gradient.head<3>() += direction_weight * (quad.direction.by_pose.transpose() * quad.direction.error);
+    normal += part;
+    scatter += gradient * gradient.transpose();
+    weights += weight;
+    curvature += weight * (1.0 - 2.0 * weight * error / (workspace.place_scale * kPlaceSize * (config.student_dof + kPlaceSize)));
+    used += 1;
+    const std::size_t i = static_cast<std::size_t>(rows[k]);
+    const auto cell_of = [&](float place, int count) {
+      return std::clamp(static_cast<int>(static_cast<double>(place) / config.vote_cell), 0, count - 1);
+    };
+    cells[static_cast<std::size_t>(cell_of(quads.scoring.left_y[i], lines) * columns + cell_of(quads.scoring.left_x[i], columns))] += gradient;
+  });
+
+  // The normal equations hold the weights; the curvature of the Student-t cost is smaller by the mean of d(w e)/de over w.
+  const Matrix6d inverse = normal.ldlt().solve(Matrix6d::Identity());
+  Matrix6d cell_scatter = Matrix6d::Zero();
+  for (const Vector6d& cell : cells) cell_scatter += cell * cell.transpose();
+  const double independent = (inverse * scatter).trace() / 6.0, shared = (inverse * cell_scatter).trace() / 6.0;
+  const double flattening = std::max(curvature / weights, 1.0 / kPlaceSize);
+  const double freedom = used / std::max(used - 2.0, 1.0);  // six parameters take the residuals of two quads
+  const Matrix6d covariance = inverse * (std::max(independent, shared) * freedom / (flattening * flattening));
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
+               const Eigen::Isometry3d& initial) {
+  Refined result;
+  result.current_from_previous = initial;
+  FitWorkspace workspace;
+  std::vector<std::int32_t> rows;
+  const double angle = radians(config.inlier_orientation);
+  for (int round = 0; round < config.refine_rounds; ++round) {
+    select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
+    mask_to_rows(result.inlier, rows);
+    Eigen::Isometry3d candidate = result.current_from_previous;
+    if (!fit(terms, rows, rig, config, candidate, workspace)) break;
+    result.current_from_previous = candidate;
+    result.solved = round + 1 == config.refine_rounds;
+  }
+  if (result.solved)
+    result.covariance = fit_covariance(terms, rows, quads, rig, config, result.current_from_previous, workspace);
+  result.inliers =
+      select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
+  return result;
+}
+
+}  // namespace quadedge::pose

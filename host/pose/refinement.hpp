@@ -1,0 +1,65 @@
+#pragma once
+/// \file refinement.hpp  Robust least squares on SE(3) over quads, and the covariance of what it finds.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "pose/residuals.hpp"
+#include "pose/scoring.hpp"
+
+namespace quadedge::pose {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Buffers of the fit, kept between calls so that no step allocates.
+struct FitWorkspace {
+  std::vector<double> depth;                          ///< each quad's own unknown (see linearise())
+  std::vector<double> place_error, direction_error;   ///< squared Mahalanobis errors
+  std::vector<double> sorted;
+  double place_scale = 1, direction_scale = 1;        ///< measured variance over the assumed one, per block of residuals
+};
+
+/// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces.
+/// The two blocks of residuals (place and depth; direction) have their variances measured anew in each step, by the median.
+/// Each quad's true depth and slope are eliminated in closed form, which is the Schur complement of a bundle adjustment of the
+/// two rigs.
+/// \returns false when the normal equations have no solution (fewer than three useful quads, or all on one spot); the pose is then
+///   left at the last good step.
+bool fit(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,
+         Eigen::Isometry3d& current_from_previous, FitWorkspace& workspace);
+
+/// Covariance of a pose that fit() has found on the same rows with the same workspace: (rotation [rad^2], translation [m^2]) of a left
+/// perturbation in the current left frame.
+///
+/// It is the inverse of the normal equations times one measured factor. The factor compares the scatter of the gradient's
+/// contributions with what the normal equations expect of it, contributions of quads within one square cell of
+/// config.vote_cell px being added up before they are squared: dense edges come in rows of about two per pixel whose errors are
+/// alike, and errors that agree within a cell so count once, however many edges tell of them; independent errors count fully. The
+/// larger of the factors with and without cells is taken.
+Matrix6d fit_covariance(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
+                        const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& current_from_previous,
+                        const FitWorkspace& workspace);
+
+/// What refine() leaves.
+struct Refined {
+  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
+  std::vector<std::uint8_t> inlier;   ///< one byte per quad, selected at the final pose
+  int inliers = 0;
+  Matrix6d covariance = Matrix6d::Zero();  ///< see fit_covariance()
+  bool solved = false;                ///< false: no fit was possible, the pose is the initial one, covariance zero
+};
+
+/// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and fit(), config.refine_rounds times.
+Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
+               const Eigen::Isometry3d& initial);
+
+/// Indices of the non-zero bytes, ascending.
+void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_t>& rows);
+
+/// exp(rotation) and translation applied from the left.
+Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous);
+
+}  // namespace quadedge::pose

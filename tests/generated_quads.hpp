@@ -1,0 +1,162 @@
+#pragma once
+/// \file generated_quads.hpp  Quads of known motion, made from geometry alone, exact or with the noise that edges have.
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "pose/quads.hpp"
+
+namespace generated {
+
+using quadedge::pose::OrientedPoint;
+
+/// Normal and uniform numbers that are the same on every platform.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53); }
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(uniform(1e-300, 1.0)));
+    return radius * std::cos(uniform(0.0, 6.283185307179586));
+  }
+  Eigen::Vector3d unit() {
+    const Eigen::Vector3d v(normal(), normal(), normal());
+    return v.normalized();
+  }
+  Eigen::Isometry3d motion(double max_angle, double max_shift) {
+    Eigen::Isometry3d m = Eigen::Isometry3d::Identity();
+    m.linear() = Eigen::AngleAxisd(uniform(0, max_angle), unit()).toRotationMatrix();
+    m.translation() = uniform(0, max_shift) * unit();
+    return m;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Rectified rig of a car: f 700 px, base line 0.54 m, 1241 x 376.
+inline quadedge::StereoRig car_rig() {
+  quadedge::StereoRig rig;
+  rig.left = {700, 700, 620, 188, 1241, 376};
+  rig.right = rig.left;
+  rig.right_from_left.translation() = Eigen::Vector3d(-0.54, 0, 0);
+  return rig;
+}
+
+/// A rig that nothing is simple about: different cameras and sizes, a base line mostly vertical, converging by some degrees.
+inline quadedge::StereoRig crooked_rig() {
+  quadedge::StereoRig rig;
+  rig.left = {540, 545, 371, 230, 740, 460};
+  rig.right = {600, 590, 330, 260, 640, 480};
+  rig.right_from_left.linear() = Eigen::AngleAxisd(0.08, Eigen::Vector3d(1, 0.3, -0.5).normalized()).toRotationMatrix();
+  rig.right_from_left.translation() = Eigen::Vector3d(0.05, -0.22, 0.03);
+  return rig;
+}
+
+/// An oriented point as a stereo observation, exact.
+inline quadedge::pose::StereoObservation observe(const quadedge::StereoRig& rig, const OrientedPoint& p) {
+  const Eigen::Vector3d in_right = rig.right_from_left * p.point;
+  const double step = 1e-6;  // central difference of the projection along the tangent
+  const auto direction = [&](const quadedge::PinholeCamera& camera, const Eigen::Vector3d& point, const Eigen::Vector3d& tangent) {
+    const Eigen::Vector3d d = step * point.z() * tangent;
+    const Eigen::Vector2d motion = camera.project(point + d) - camera.project(point - d);
+    return std::atan2(motion.y(), motion.x());
+  };
+  return {rig.left.project(p.point), rig.right.project(in_right), direction(rig.left, p.point, p.tangent),
+          direction(rig.right, in_right, rig.right_from_left.linear() * p.tangent)};
+}
+
+/// Standard deviations: across and along an edge [px], of directions [rad].
+struct Noise {
+  double across = 0, along = 0, direction = 0;
+};
+
+/// Adds noise as matching leaves it: the left place moves across and along the edge (unless `exact_left`), the right place follows on
+/// its epipolar line and has an error of its own along it, as large as an edge under that angle allows.
+inline quadedge::pose::StereoObservation disturb(const quadedge::StereoRig& rig, const OrientedPoint& p,
+                                                 const Noise& noise, bool exact_left, Random& random) {
+  quadedge::pose::StereoObservation o = observe(rig, p);
+  if (!exact_left) {
+    const Eigen::Vector2d along(std::cos(o.left_direction), std::sin(o.left_direction));
+    o.left += noise.along * random.normal() * along + noise.across * random.normal() * Eigen::Vector2d(-along.y(), along.x());
+  }
+  const Eigen::Vector3d moved = rig.right_from_left * (p.point.z() * rig.left.ray(o.left));
+  const Eigen::Vector3d farther = moved + 0.01 * (moved - rig.right_from_left.translation());
+  o.right = rig.right.project(moved);
+  const Eigen::Vector2d line = (rig.right.project(farther) - o.right).normalized();
+  const double sine = line.x() * std::sin(o.right_direction) - line.y() * std::cos(o.right_direction);
+  const double information = noise.across > 0 ? std::pow(sine / noise.across, 2) + (1 - sine * sine) / std::pow(noise.along, 2) : 0;
+  if (information > 0) o.right += line * random.normal() / std::sqrt(information);
+  o.left_direction += noise.direction * random.normal();
+  o.right_direction += noise.direction * random.normal();
+  return o;
+}
+
+/// What to make.
+struct Problem {
+  quadedge::StereoRig rig = car_rig();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  int quads = 500;
+  double near = 5, far = 100;      ///< depths, uniform in the inverse [m]
+  double outliers = 0;             ///< share with a wrong current edge
+  Noise noise;
+  int copies = 1;                  ///< quads come in rows of this many, half a pixel apart along the tangent, that share one error
+};
+
+struct Generated {
+  quadedge::pose::QuadObservations quads;
+  std::vector<bool> correct;
+};
+
+inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, double far, Random& random) {
+  const Eigen::Vector2d pixel(random.uniform(0, rig.left.width), random.uniform(0, rig.left.height));
+  const double depth = 1.0 / random.uniform(1.0 / far, 1.0 / near);
+  return {depth * rig.left.ray(pixel), random.unit()};
+}
+
+inline Generated generate(const Problem& problem, std::uint64_t seed) {
+  Random random(seed);
+  Generated result;
+  const double min_angle = 0.07;
+  while (static_cast<int>(result.quads.size()) < problem.quads) {
+    const auto p = random_point(problem.rig, problem.near, problem.far, random);
+    const Eigen::Vector3d moved = problem.motion * p.point;
+    if (moved.z() < 0.5 * problem.near) continue;
+    const Eigen::Vector2d seen = problem.rig.left.project(moved);
+    if (seen.x() < 0 || seen.y() < 0 || seen.x() > problem.rig.left.width || seen.y() > problem.rig.left.height) continue;
+    const bool correct = random.uniform(0, 1) >= problem.outliers;
+    const Random errors = random;  // copied, so that all copies of a quad share one error
+    const double step = 0.5 * p.point.z() / problem.rig.left.fx;
+    for (int copy = 0; copy < problem.copies; ++copy) {
+      random = errors;
+      const OrientedPoint here{p.point + copy * step * p.tangent, p.tangent};
+      const OrientedPoint there{problem.motion * here.point, problem.motion.linear() * here.tangent};
+      const auto before = disturb(problem.rig, here, problem.noise, true, random);
+      auto after = disturb(problem.rig, there, problem.noise, false, random);
+      if (!correct) {
+        const auto wrong = observe(problem.rig, random_point(problem.rig, problem.near, problem.far, random));
+        after.left = before.left + Eigen::Vector2d(random.uniform(-60, 60), random.uniform(-60, 60));
+        after.right = after.left + (wrong.right - wrong.left);
+        after.left_direction = wrong.left_direction;
+        after.right_direction = wrong.right_direction;
+      }
+      const float ncc = static_cast<float>(random.uniform(0.8, 1.0));
+      if (result.quads.append(problem.rig, before, after, ncc, 0, static_cast<int>(result.quads.size()), min_angle))
+        result.correct.push_back(correct);
+    }
+  }
+  return result;
+}
+
+/// Rotation angle [rad] of the difference of two motions.
+inline double rotation_error(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return Eigen::AngleAxisd(a.linear() * b.linear().transpose()).angle();
+}
+inline double translation_error(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return (a.translation() - b.translation()).norm();
+}
+
+}  // namespace generated

@@ -1,0 +1,111 @@
+#include <catch2/catch.hpp>
+
+#include "generated_quads.hpp"
+#include "pose/constraints.hpp"
+
+using namespace quadedge::pose;
+
+namespace {
+
+OrientedPair moved(const OrientedPair& pair, const Eigen::Isometry3d& m) {
+  return {{m * pair.first.point, m.linear() * pair.first.tangent}, {m * pair.second.point, m.linear() * pair.second.tangent}};
+}
+
+Eigen::Vector3d unit(double x, double y, double z) { return Eigen::Vector3d(x, y, z).normalized(); }
+
+/// D along x, 2 m long; T1 and T2 not coplanar with it.
+OrientedPair example() { return {{{0, 0, 5}, unit(0.3, 1, 0)}, {{2, 0, 5}, unit(0.2, 0.5, 1)}}; }
+
+const ConstraintLimits kLimits{quadedge::PoseConfig{}};
+
+}  // namespace
+
+TEST_CASE("A rigidly moved pair passes all six constraints", "[pose][constraints]") {
+  generated::Random random(6);
+  for (int trial = 0; trial < 200; ++trial) {
+    const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()}, {random.uniform(1, 9) * random.unit(), random.unit()}};
+    const ConstraintCheck check = check_constraints(pair, moved(pair, random.motion(3.0, 5.0)), kLimits);
+    for (std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{5}}) CHECK(check.passed[i]);
+  }
+  CHECK(check_constraints(example(), moved(example(), random.motion(3.0, 5.0)), kLimits).all());
+}
+
+TEST_CASE("Each constraint fails alone, on its own side of its threshold", "[pose][constraints]") {
+  const OrientedPair before = example();
+  const auto only_fails = [&](const OrientedPair& after, std::size_t number) {
+    const ConstraintCheck check = check_constraints(before, after, kLimits);
+    for (std::size_t i = 0; i < 6; ++i) CHECK(check.passed[i] == (i != number));
+  };
+  OrientedPair after = before;
+  after.second.point.x() = 2 * 1.12;
+  CHECK(check_constraints(before, after, kLimits).all());
+  after.second.point.x() = 2 * 1.14;
+  only_fails(after, 0);
+
+  // T1 turned about z: its cosine with D changes, T1 . T2 hardly.
+  after = before;
+  const double cosine = before.first.tangent.x() - 0.125;
+  after.first.tangent = Eigen::Vector3d(cosine, std::sqrt(1 - cosine * cosine), 0);
+  only_fails(after, 1);
+  const double nearer = before.first.tangent.x() - 0.115;
+  after.first.tangent = Eigen::Vector3d(nearer, std::sqrt(1 - nearer * nearer), 0);
+  CHECK(check_constraints(before, after, kLimits).all());
+
+  after = before;
+  const double second = before.second.tangent.x() + 0.125;
+  after.second.tangent = std::sqrt(1 - second * second) * unit(0, 0.5, 1) + second * Eigen::Vector3d::UnitX();
+  only_fails(after, 2);
+
+  // T2 turned about D: only its angle with T1 changes.
+  after = before;
+  after.second.tangent = Eigen::AngleAxisd(-0.45, Eigen::Vector3d::UnitX()) * before.second.tangent;
+  CHECK(std::abs(after.first.tangent.dot(after.second.tangent) - before.first.tangent.dot(before.second.tangent)) > 0.32);
+  only_fails(after, 3);
+}
+
+TEST_CASE("A mirrored pair fails the determinant's sign alone", "[pose][constraints]") {
+  OrientedPair after = example();
+  for (OrientedPoint* p : {&after.first, &after.second}) {
+    p->point.z() = -p->point.z();
+    p->tangent.z() = -p->tangent.z();
+  }
+  const ConstraintCheck check = check_constraints(example(), after, kLimits);
+  CHECK_FALSE(check.passed[5]);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(check.passed[i]);
+
+  // Coplanar tangents: the determinant says nothing, whatever its sign.
+  OrientedPair flat = example();
+  flat.second.tangent = unit(0.2, 1, 0.05);
+  OrientedPair mirrored = flat;
+  mirrored.second.tangent.z() = -mirrored.second.tangent.z();
+  CHECK(check_constraints(flat, mirrored, kLimits).passed[5]);
+}
+
+TEST_CASE("A flipped tangent fails the signed constraints", "[pose][constraints]") {
+  OrientedPair after = example();
+  after.first.tangent = -after.first.tangent;
+  const ConstraintCheck check = check_constraints(example(), after, kLimits);
+  CHECK(check.passed[0]);
+  CHECK_FALSE(check.passed[1]);
+  CHECK_FALSE(check.passed[3]);
+}
+
+TEST_CASE("The quads swap roles where D runs along the first tangent, and fail where it runs along both", "[pose][constraints]") {
+  OrientedPair pair = example();
+  CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
+  pair.first.tangent = unit(1, std::tan(13.0 * 3.14159265358979323846 / 180), 0);
+  CHECK(check_constraints(pair, pair, kLimits).swapped);
+  CHECK(check_constraints(pair, pair, kLimits).all());
+  pair.first.tangent = unit(1, std::tan(15.0 * 3.14159265358979323846 / 180), 0);
+  CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
+  pair.first.tangent = Eigen::Vector3d::UnitX();
+  pair.second.tangent = -Eigen::Vector3d::UnitX();
+  CHECK_FALSE(check_constraints(pair, pair, kLimits).passed[4]);
+}
+
+TEST_CASE("Two points on one spot fail", "[pose][constraints]") {
+  OrientedPair pair = example();
+  pair.second.point = pair.first.point;
+  CHECK_FALSE(check_constraints(pair, example(), kLimits).all());
+  CHECK_FALSE(check_constraints(example(), pair, kLimits).all());
+}

@@ -1,0 +1,67 @@
+#include <catch2/catch.hpp>
+
+#include "generated_quads.hpp"
+#include "pose/quads.hpp"
+
+using namespace quadedge::pose;
+
+namespace {
+
+void add_edge(quadedge::StereoEdges& edges, const StereoObservation& o) {
+  edges.left_index.push_back(static_cast<int>(edges.size()));
+  edges.right_index.push_back(static_cast<int>(edges.right_index.size()));
+  edges.left_x.push_back(static_cast<float>(o.left.x()));
+  edges.left_y.push_back(static_cast<float>(o.left.y()));
+  edges.left_direction.push_back(static_cast<float>(o.left_direction));
+  edges.right_x.push_back(static_cast<float>(o.right.x()));
+  edges.right_y.push_back(static_cast<float>(o.right.y()));
+  edges.right_direction.push_back(static_cast<float>(o.right_direction));
+  edges.ncc.push_back(0.9f);
+}
+
+}  // namespace
+
+TEST_CASE("Quads take the refined places, keep their match's row and leave out what has no depth", "[pose][quads]") {
+  const quadedge::StereoRig rig = generated::car_rig();
+  generated::Random random(10);
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.translation() << 0.1, 0, -0.8;
+  quadedge::StereoEdges previous, current;
+  quadedge::TemporalMatches matches;
+  std::vector<OrientedPoint> truth;
+  for (int i = 0; i < 20; ++i) {
+    OrientedPoint p = generated::random_point(rig, 6, 20, random);
+    p.tangent = Eigen::Vector3d(0.4, 0.8, 0.3).normalized();
+    truth.push_back(p);
+    StereoObservation before = generated::observe(rig, p);
+    if (i == 7) before.right.x() = before.left.x() + 3;  // behind the cameras
+    add_edge(previous, before);
+    const StereoObservation after = generated::observe(rig, {motion * p.point, motion.linear() * p.tangent});
+    StereoObservation shifted = after;  // the stereo edge itself lies elsewhere: its place must not be used
+    shifted.left.x() += 0.7;
+    shifted.right.x() += 0.9;
+    add_edge(current, shifted);
+    matches.previous.push_back(i);
+    matches.current.push_back(i);
+    matches.left_x.push_back(static_cast<float>(after.left.x()));
+    matches.left_y.push_back(static_cast<float>(after.left.y()));
+    matches.right_x.push_back(static_cast<float>(after.right.x()));
+    matches.right_y.push_back(static_cast<float>(after.right.y()));
+    matches.ncc.push_back(static_cast<float>(i) / 20.0f);
+    matches.rivals.push_back(i % 3);
+  }
+  const QuadObservations quads = build_quads(rig, previous, current, matches, 0.07);
+  REQUIRE(quads.size() == 19);
+  REQUIRE(quads.scoring.size() == 19);
+  for (std::size_t k = 0; k < quads.size(); ++k) {
+    const std::size_t i = k < 7 ? k : k + 1;
+    CHECK(quads.match[k] == static_cast<int>(i));
+    CHECK(quads.rivals[k] == static_cast<int>(i) % 3);
+    CHECK(quads.ncc[k] == Approx(static_cast<double>(i) / 20.0).margin(1e-6));
+    const Eigen::Vector3d after = motion * truth[i].point;
+    CHECK((quads.previous_points[k].point - truth[i].point).norm() < 1e-4 * truth[i].point.norm());
+    CHECK((quads.current_points[k].point - after).norm() < 1e-4 * after.norm());
+    CHECK((quads.previous_points[k].tangent - truth[i].tangent).norm() < 1e-3);
+    CHECK(static_cast<double>(quads.scoring.left_x[k]) == Approx(rig.left.project(after).x()).margin(1e-3));
+  }
+}
