@@ -25,6 +25,11 @@ struct Hit {
 
 using Candidates = std::vector<const VisibleSurface*>;
 
+struct BoxedSurface {
+  const VisibleSurface* surface;
+  PixelBox box;
+};
+
 /// The nearest surface; the first of several at the same depth.
 Hit cast(const Candidates& candidates, const Vector3d& ray) {
   Hit hit;
@@ -64,35 +69,50 @@ struct TiledView {
       if (box.x0 >= box.x1 || box.y0 >= box.y1) continue;
       for (int y = box.y0 / kTile; y <= (box.y1 - 1) / kTile; ++y)
         for (int x = box.x0 / kTile; x <= (box.x1 - 1) / kTile; ++x)
-          tiles[static_cast<std::size_t>(y * columns + x)].push_back(part.get());
+          tiles[static_cast<std::size_t>(y * columns + x)].push_back({part.get(), box});
     }
   }
   int columns, rows;
-  std::vector<Candidates> tiles;
+  std::vector<std::vector<BoxedSurface>> tiles;
 };
 
 class TileRenderer {
  public:
   TileRenderer(const PinholeCamera& camera, int supersampling, Radiance& view)
-      : camera_(camera), grid_(regular_grid(supersampling)), fine_(hammersley(4 * supersampling * supersampling)), view_(view) {}
+      : camera_(camera), grid_(regular_grid(supersampling)), fine_(hammersley(4 * supersampling * supersampling)),
+        view_(view) {}
 
-  void render(const Candidates& candidates, int left, int top) const {
-    const int right = std::min(left + kTile, camera_.width), bottom = std::min(top + kTile, camera_.height);
-    std::array<std::array<const void*, kTile + 1>, kTile + 1> corner{};  // object at (left - 0.5 + x, top - 0.5 + y)
-    for (int y = top; y <= bottom; ++y)
-      for (int x = left; x <= right; ++x)
-        corner[static_cast<std::size_t>(y - top)][static_cast<std::size_t>(x - left)] =
-            cast(candidates, camera_.ray({x - 0.5, y - 0.5})).object();
-    for (int y = top; y < bottom; ++y) {
-      for (int x = left; x < right; ++x) {
-        const auto i = static_cast<std::size_t>(x - left), j = static_cast<std::size_t>(y - top);
-        const Hit centre = cast(candidates, camera_.ray(Vector2d(x, y)));
+  void render(const std::vector<BoxedSurface>& surfaces, int left, int top) const {
+    const int columns = std::min(kTile, camera_.width - left), rows = std::min(kTile, camera_.height - top);
+    std::array<std::array<Candidates, kTile>, kTile> candidates;  // of each pixel
+    for (std::size_t j = 0; j < kTile; ++j) {
+      for (std::size_t i = 0; i < kTile; ++i) {
+        const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
+        for (const auto& [surface, box] : surfaces)
+          if (x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1) candidates[j][i].push_back(surface);
+      }
+    }
+    std::array<std::array<const void*, kTile + 1>, kTile + 1> corner{};  // object at (left - 0.5 + i, top - 0.5 + j)
+    for (int j = 0; j <= rows; ++j) {
+      for (int i = 0; i <= columns; ++i) {
+        const auto near_i = static_cast<std::size_t>(std::min(i, columns - 1));
+        const auto near_j = static_cast<std::size_t>(std::min(j, rows - 1));
+        corner[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] =
+            cast(candidates[near_j][near_i], camera_.ray({left + i - 0.5, top + j - 0.5})).object();
+      }
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(rows); ++j) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(columns); ++i) {
+        const Candidates& nearby = candidates[j][i];
+        const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
+        const Hit centre = cast(nearby, camera_.ray(Vector2d(x, y)));
         const void* object = centre.object();
-        bool mixed = corner[j][i] != object || corner[j][i + 1] != object || corner[j + 1][i] != object || corner[j + 1][i + 1] != object;
+        bool mixed = corner[j][i] != object || corner[j][i + 1] != object || corner[j + 1][i] != object ||
+                     corner[j + 1][i + 1] != object;
         double grey = 0.0;
-        if (!mixed) grey = coarse(candidates, x, y, object, mixed);
-        if (mixed) grey = fine(candidates, x, y);
-        const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x);
+        if (!mixed) grey = coarse(nearby, x, y, object, mixed);
+        if (mixed) grey = fine(nearby, x, y);
+        const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x);
         view_.grey[pixel] = grey;
         view_.depth[pixel] = centre.surface ? static_cast<float>(1.0 / centre.inverse_depth) : 0.0f;
       }

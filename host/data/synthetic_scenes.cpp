@@ -23,7 +23,7 @@ Isometry3d pose(const Vector3d& centre, double yaw, double pitch, double roll) {
   return result;
 }
 
-/// Frames of the six sides of a box, each facing outwards (-z), with half width and half height.
+/// One side of a box: its frame, whose -z faces outwards (or into the box), and its half sizes.
 struct Side {
   Isometry3d box_from_side;
   double half_width, half_height;
@@ -31,7 +31,8 @@ struct Side {
 std::vector<Side> box_sides(const Vector3d& half, bool inwards) {
   std::vector<Side> sides;
   const double sign = inwards ? -1.0 : 1.0;
-  const auto add = [&](const Vector3d& outwards, double distance, double yaw, double pitch, double half_width, double half_height) {
+  const auto add = [&](const Vector3d& outwards, double distance, double yaw, double pitch, double half_width,
+                       double half_height) {
     sides.push_back({pose(sign * distance * outwards, yaw, pitch, 0.0), half_width, half_height});
   };
   add(-Vector3d::UnitZ(), half.z(), 0.0, 0.0, half.x(), half.y());
@@ -50,7 +51,8 @@ class Builder {
       : seed_(seed), focal_(focal), world_from_room_(world_from_room) {}
 
   /// `nearest`: distance [m] at which a texel covers half a pixel.
-  void box(const Isometry3d& room_from_box, const Vector3d& half, const TextureStyle& style, double nearest, bool inwards = false) {
+  void box(const Isometry3d& room_from_box, const Vector3d& half, const TextureStyle& style, double nearest,
+           bool inwards = false) {
     for (const Side& side : box_sides(half, inwards))
       add<PlaneSurface>(room_from_box * side.box_from_side, side.half_width, side.half_height,
                         texture(style, side.half_width, side.half_height, nearest));
@@ -60,11 +62,12 @@ class Builder {
     add<SphereSurface>(room_from_sphere, radius, texture(style, kPi * radius, kPi * radius, nearest));
   }
 
-  void cylinder(const Isometry3d& room_from_cylinder, double radius, double half_height, const TextureStyle& style, double nearest) {
+  void cylinder(const Isometry3d& room_from_cylinder, double radius, double half_height, const TextureStyle& style,
+                double nearest) {
     add<CylinderSurface>(room_from_cylinder, radius, half_height, texture(style, kPi * radius, half_height, nearest));
     for (const double side : {-1.0, 1.0})
-      add<PlaneSurface>(room_from_cylinder * pose(side * half_height * Vector3d::UnitY(), 0.0, side * 0.5 * kPi, 0.0), radius, radius,
-                        texture(style, radius, radius, nearest), true);
+      add<PlaneSurface>(room_from_cylinder * pose(side * half_height * Vector3d::UnitY(), 0.0, side * 0.5 * kPi, 0.0), radius,
+                        radius, texture(style, radius, radius, nearest), true);
   }
 
   Scene take(double nearest) {
@@ -136,7 +139,7 @@ Scene make_cables(std::uint64_t seed, double focal) {
   plain.noise = 5.0;
   plain.noise_size = 0.8;
   plain.mean = 150.0;
-  build.box(pose({0.0, 0.0, 0.0}, 0.0, 0.0, 0.0), {9.0, 9.0, 3.1}, plain, 2.5, true);
+  build.box(pose({0.0, 0.0, 0.0}, 0.0, 0.0, 0.0), {9.0, 9.0, 3.1}, plain, 8.0, true);
   Scene scene = build.take(0.9);
 
   // Every cable keeps to its own layer of depth, so that cables cross but never run through one another.
@@ -158,7 +161,7 @@ Scene make_cables(std::uint64_t seed, double focal) {
       const double room = std::max(0.0, 0.5 * layer - radius);
       control.push_back(place * along + sway * beside + Vector3d(0.0, 0.0, depth + room * random(-1.0, 1.0)));
     }
-    scene.surfaces.push_back(std::make_unique<TubeSurface>(control, radius, reflectance, 0.005 * front / focal));
+    scene.surfaces.push_back(std::make_unique<TubeSurface>(control, radius, reflectance, 0.01 * front / focal));
   }
   return scene;
 }

@@ -17,13 +17,14 @@ constexpr double kAmbient = 0.72;  // of textured surfaces
 std::vector<Vector3d> corners(const Isometry3d& camera_from_box, const Vector3d& half) {
   std::vector<Vector3d> result;
   for (int i = 0; i < 8; ++i)
-    result.push_back(camera_from_box * Vector3d(i & 1 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(), i & 4 ? half.z() : -half.z()));
+    result.push_back(camera_from_box * Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(half));
   return result;
 }
 
 class VisiblePlane : public VisibleSurface {
  public:
-  VisiblePlane(const Isometry3d& camera_from_surface, double half_width, double half_height, const Texture& texture, bool elliptic)
+  VisiblePlane(const Isometry3d& camera_from_surface, double half_width, double half_height, const Texture& texture,
+               bool elliptic)
       : half_width_(half_width), half_height_(half_height), texture_(texture), elliptic_(elliptic) {
     const Eigen::Matrix3d axes = camera_from_surface.linear();
     const Vector3d centre = camera_from_surface.translation();
@@ -109,7 +110,8 @@ class VisibleSphere : public VisibleSurface {
 
 class VisibleCylinder : public VisibleSurface {
  public:
-  VisibleCylinder(const Isometry3d& camera_from_surface, double radius, double half_height, const Texture& texture, const Vector3d& light)
+  VisibleCylinder(const Isometry3d& camera_from_surface, double radius, double half_height, const Texture& texture,
+                  const Vector3d& light)
       : surface_from_camera_(camera_from_surface.inverse()), camera_from_surface_(camera_from_surface),
         light_(surface_from_camera_.linear() * light), radius_(radius), half_height_(half_height), texture_(texture) {}
 
@@ -153,9 +155,12 @@ PixelBox box_around(const std::vector<Vector3d>& points, const PinholeCamera& ca
     low = low.cwiseMin(pixel);
     high = high.cwiseMax(pixel);
   }
-  const auto clip = [](double value, int size) { return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size))); };
-  return {clip(std::floor(low.x()) - 1.0, camera.width), clip(std::floor(low.y()) - 1.0, camera.height),
-          clip(std::ceil(high.x()) + 2.0, camera.width), clip(std::ceil(high.y()) + 2.0, camera.height)};
+  const auto clip = [](double value, int size) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+  };
+  constexpr double first = 0.5 - 0.01, last = 1.5 + 0.01;  // a pixel's square reaches half a pixel; 0.01 px for rounding
+  return {clip(std::floor(low.x() + first), camera.width), clip(std::floor(low.y() + first), camera.height),
+          clip(std::floor(high.x() + last), camera.width), clip(std::floor(high.y() + last), camera.height)};
 }
 
 PlaneSurface::PlaneSurface(const Isometry3d& world_from_surface, double half_width, double half_height,
@@ -184,8 +189,8 @@ CylinderSurface::CylinderSurface(const Isometry3d& world_from_surface, double ra
     : world_from_surface_(world_from_surface), radius_(radius), half_height_(half_height), texture_(std::move(texture)) {}
 
 void CylinderSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
-  parts.push_back(std::make_unique<VisibleCylinder>(camera_from_world * world_from_surface_, radius_, half_height_, *texture_,
-                                                    camera_from_world.linear() * light_direction()));
+  parts.push_back(std::make_unique<VisibleCylinder>(camera_from_world * world_from_surface_, radius_, half_height_,
+                                                    *texture_, camera_from_world.linear() * light_direction()));
 }
 
 }  // namespace quadedge::synthetic

@@ -51,7 +51,7 @@ Eigen::Vector3d light_direction();
 inline double shade(const Eigen::Vector3d& normal, const Eigen::Vector3d& light, double ambient) {
   return ambient + (1.0 - ambient) * (0.5 + 0.5 * normal.dot(light));
 }
-/// Smallest box around points of the camera's frame, a pixel wider on all sides; the whole image if one is not in front of it.
+/// The pixels whose squares meet the box around points of the camera's frame; the whole image if one is not in front of it.
 PixelBox box_around(const std::vector<Eigen::Vector3d>& points, const PinholeCamera& camera);
 
 /// Rectangle or ellipse |u| <= half_width, |v| <= half_height in the plane z = 0 of `world_from_surface`, seen from -z only

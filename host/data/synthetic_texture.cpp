@@ -12,24 +12,39 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kRamp = 1.5;  // width of a reflectance step [texels]
 
-/// Gradient noise of unit wavelength, about -1..1.
-double gradient_noise(std::uint64_t key, double x, double y) {
-  const double fx = std::floor(x), fy = std::floor(y);
-  const auto ix = static_cast<std::int64_t>(fx), iy = static_cast<std::int64_t>(fy);
-  const double tx = x - fx, ty = y - fy;
-  auto corner = [&](int dx, int dy) {
-    const std::uint64_t bits = mix(key + static_cast<std::uint64_t>(ix + dx) * 0x8da6b343ULL +
-                                   static_cast<std::uint64_t>(iy + dy) * 0xd8163841cb1ab3ULL);
-    const double gx = static_cast<double>(static_cast<std::int32_t>(bits)) * 0x1p-31;
-    const double gy = static_cast<double>(static_cast<std::int32_t>(bits >> 32)) * 0x1p-31;
-    return gx * (tx - dx) + gy * (ty - dy);
-  };
-  auto fade = [](double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); };
-  const double u = fade(tx), v = fade(ty);
-  const double top = corner(0, 0) * (1.0 - u) + corner(1, 0) * u;
-  const double bottom = corner(0, 1) * (1.0 - u) + corner(1, 1) * u;
-  return 1.6 * (top * (1.0 - v) + bottom * v);
-}
+/// Gradient noise of unit wavelength, about -1..1. Neighbouring calls share the lattice cell, which is kept.
+class GradientNoise {
+ public:
+  explicit GradientNoise(std::uint64_t key) : key_(key) {}
+
+  double operator()(double x, double y) {
+    const double fx = std::floor(x), fy = std::floor(y);
+    if (fx != cell_x_ || fy != cell_y_) enter(fx, fy);
+    const double tx = x - fx, ty = y - fy, u = fade(tx), v = fade(ty);
+    const auto corner = [&](std::size_t i, double dx, double dy) { return gx_[i] * dx + gy_[i] * dy; };
+    const double top = corner(0, tx, ty) * (1.0 - u) + corner(1, tx - 1.0, ty) * u;
+    const double bottom = corner(2, tx, ty - 1.0) * (1.0 - u) + corner(3, tx - 1.0, ty - 1.0) * u;
+    return 1.6 * (top * (1.0 - v) + bottom * v);
+  }
+
+ private:
+  static double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
+
+  void enter(double fx, double fy) {
+    cell_x_ = fx;
+    cell_y_ = fy;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint64_t bits = combine(combine(key_, static_cast<std::int64_t>(fx) + static_cast<std::int64_t>(i % 2)),
+                                         static_cast<std::int64_t>(fy) + static_cast<std::int64_t>(i / 2));
+      gx_[i] = static_cast<double>(static_cast<std::int32_t>(bits)) * 0x1p-31;
+      gy_[i] = static_cast<double>(static_cast<std::int32_t>(bits >> 32)) * 0x1p-31;
+    }
+  }
+
+  std::uint64_t key_;
+  double cell_x_ = 0.5, cell_y_ = 0.5;  // no cell yet
+  std::array<double, 4> gx_{}, gy_{};
+};
 
 /// One opaque shape: a convex polygon or an ellipse. Lengths in metres, relative to its centre.
 struct Leaf {
@@ -55,7 +70,7 @@ struct Leaf {
   }
 };
 
-/// The leaf of a cell. Its circumscribed circle has at most 0.95 of the cell size as radius.
+/// The leaf of a cell. Its circumscribed circle is smaller than the cell's side.
 Leaf make_leaf(Random& random, const TextureStyle& style, double cell, double cell_x, double cell_y) {
   Leaf leaf{};
   leaf.x = (cell_x + random(0.0, 1.0)) * cell;
@@ -88,10 +103,9 @@ Leaf make_leaf(Random& random, const TextureStyle& style, double cell, double ce
     leaf.radius = std::hypot(half_length, half_width);
     return leaf;
   }
-  // Sides touch circles of 0.45 of the size at most; neighbouring normals are less than 146 degrees apart for a triangle.
   leaf.sides = 3 + static_cast<int>(random(0.0, 3.0));
   const double inner = cell * random(0.18, 0.3);
-  double widest = 0.0;
+  double widest = 0.0;  // angle between neighbouring normals, 129 degrees at most
   std::array<double, 7> directions{};
   for (int i = 0; i < leaf.sides; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -103,7 +117,7 @@ Leaf make_leaf(Random& random, const TextureStyle& style, double cell, double ce
   directions[static_cast<std::size_t>(leaf.sides)] = directions[0] + 2.0 * kPi;
   for (std::size_t k = 0; k < static_cast<std::size_t>(leaf.sides); ++k)
     widest = std::max(widest, directions[k + 1] - directions[k]);
-  leaf.radius = inner / std::cos(std::min(0.5 * widest, 1.25));
+  leaf.radius = inner / std::cos(0.5 * widest);
   return leaf;
 }
 
@@ -191,20 +205,17 @@ void Texture::add_leaves(Tile& tile, double left, double top, int level) const {
 
 void Texture::add_noise(Tile& tile, double left, double top) const {
   constexpr int octaves = 4;
-  for (int y = 0; y < kStride; ++y) {
-    for (int x = 0; x < kStride; ++x) {
-      const double u = left + x * texel_, v = top + y * texel_;
-      double sum = 0.0, amplitude = style_.noise;
-      for (int octave = 0; octave < octaves; ++octave, amplitude *= 0.6) {
-        const double wavelength = style_.noise_size / (1 << (2 * octave));
-        const double visible = std::clamp(wavelength / texel_ / 3.0 - 1.0, 0.0, 1.0);
-        if (visible == 0.0) break;
-        sum += amplitude * visible * gradient_noise(combine(seed_, -1 - octave), u / wavelength, v / wavelength);
-      }
-      float& texel = tile.texels[y * kStride + x];
-      texel = static_cast<float>(std::clamp(texel + sum, 25.0, 235.0));
-    }
+  double amplitude = style_.noise, wavelength = style_.noise_size;
+  for (int octave = 0; octave < octaves; ++octave, amplitude *= 0.6, wavelength *= 0.25) {
+    const double height = amplitude * std::clamp(wavelength / texel_ / 3.0 - 1.0, 0.0, 1.0);  // fades at the sampling limit
+    if (height == 0.0) continue;
+    GradientNoise noise(combine(seed_, -1 - octave));
+    for (int y = 0; y < kStride; ++y)
+      for (int x = 0; x < kStride; ++x)
+        tile.texels[y * kStride + x] +=
+            static_cast<float>(height * noise((left + x * texel_) / wavelength, (top + y * texel_) / wavelength));
   }
+  for (float& texel : tile.texels) texel = std::clamp(texel, 25.0f, 235.0f);
 }
 
 }  // namespace quadedge::synthetic

@@ -23,20 +23,21 @@ std::pair<Vector3d, Vector3d> spline(const std::vector<Vector3d>& c, std::size_t
 /// A round link between two points, with a ball at its start that closes the joint to the link before.
 class VisibleLink : public VisibleSurface {
  public:
-  VisibleLink(const Vector3d& start, const Vector3d& end, const Vector3d& start_tangent, const Vector3d& end_tangent, double radius,
-              double reflectance, const Vector3d& light, const void* tube)
-      : start_(start), axis_((end - start).normalized()), start_tangent_(start_tangent), end_tangent_(end_tangent), light_(light),
-        length_((end - start).norm()), radius_(radius), reflectance_(reflectance),
-        ball_(start.squaredNorm() - radius * radius), side_(ball_ - std::pow(start.dot(axis_), 2)), along_(start.dot(axis_)), tube_(tube) {}
+  VisibleLink(const Vector3d& start, const Vector3d& end, const Vector3d& start_tangent, const Vector3d& end_tangent,
+              double radius, double reflectance, const Vector3d& light, const void* tube)
+      : start_(start), axis_((end - start).normalized()), start_tangent_(start_tangent), end_tangent_(end_tangent),
+        light_(light), length_((end - start).norm()), radius_(radius), reflectance_(reflectance),
+        ball_(start.squaredNorm() - radius * radius), side_(ball_ - std::pow(start.dot(axis_), 2)),
+        along_(start.dot(axis_)), tube_(tube) {}
 
   double inverse_depth(const Vector3d& ray) const override {
-    const double squared = ray.squaredNorm(), toward = ray.dot(start_);
+    const double squared = ray.squaredNorm(), toward = ray.dot(start_), slant = ray.dot(axis_);
+    const double a = squared - slant * slant, half_b = toward - slant * along_, root = half_b * half_b - a * side_;
+    if (root < 0.0) return 0.0;  // misses the endless cylinder, and so the ball in it
     double nearest = 0.0;
     const double ball_root = toward * toward - squared * ball_;
     if (ball_root >= 0.0 && toward > 0.0 && ball_ > 0.0) nearest = (toward + std::sqrt(ball_root)) / ball_;
-    const double slant = ray.dot(axis_), a = squared - slant * slant, half_b = toward - slant * along_;
-    const double root = half_b * half_b - a * side_;
-    if (root < 0.0 || half_b <= 0.0 || side_ <= 0.0) return nearest;
+    if (half_b <= 0.0 || side_ <= 0.0) return nearest;
     const double inverse = (half_b + std::sqrt(root)) / side_;
     const double place = slant - along_ * inverse;  // along the axis, / depth
     return place >= 0.0 && place <= length_ * inverse ? std::max(inverse, nearest) : nearest;
@@ -91,7 +92,8 @@ void TubeSurface::view(const Eigen::Isometry3d& camera_from_world, VisibleSurfac
   for (std::size_t i = 0; i + 1 < points_.size(); ++i)
     parts.push_back(std::make_unique<VisibleLink>(camera_from_world * points_[i], camera_from_world * points_[i + 1],
                                                   camera_from_world.linear() * tangents_[i],
-                                                  camera_from_world.linear() * tangents_[i + 1], radius_, reflectance_, light, this));
+                                                  camera_from_world.linear() * tangents_[i + 1], radius_, reflectance_, light,
+                                                  this));
 }
 
 }  // namespace quadedge::synthetic

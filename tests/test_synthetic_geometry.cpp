@@ -1,0 +1,213 @@
+// The renderer's geometry: silhouettes and textures lie where analytic projection puts them.
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "data/synthetic_render.hpp"
+
+using namespace quadedge;
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Row of the only edge in a column between a surface of grey `above` and one of grey `below`: the column's integral, which
+/// is exact for pixels that are means over their squares.
+double edge_row(const synthetic::Radiance& view, const PinholeCamera& camera, int x, double above, double below) {
+  double sum = 0.0;
+  for (int y = 0; y < camera.height; ++y) sum += view.grey[static_cast<std::size_t>(y * camera.width + x)];
+  return camera.height - 0.5 - (sum - above * camera.height) / (below - above);
+}
+
+/// Largest and mean error [px] of the rendered edge over the columns. `true_row`: from geometry.
+std::pair<double, double> edge_error(const synthetic::Radiance& view, const PinholeCamera& camera, int first, int last, double above,
+                                     double below, const std::function<double(double)>& true_row) {
+  double largest = 0.0, sum = 0.0;
+  for (int x = first; x < last; ++x) {
+    const double error = edge_row(view, camera, x, above, below) - true_row(x);
+    largest = std::max(largest, std::abs(error));
+    sum += error;
+  }
+  return {largest, sum / (last - first)};
+}
+
+/// Root of a function that changes its sign between low and high.
+double bisect(double low, double high, const std::function<double(double)>& function) {
+  const bool low_sign = function(low) > 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (function(middle) > 0.0 ? low_sign : !low_sign) ? low = middle : high = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::shared_ptr<const synthetic::Texture> plain(double grey) {
+  synthetic::TextureStyle style;
+  style.noise = 0.0;
+  style.mean = grey;
+  return std::make_shared<synthetic::Texture>(style, 1, 5.0, 5.0, 0.1);
+}
+
+Isometry3d at(const Vector3d& place, double yaw = 0.0, double pitch = 0.0, double roll = 0.0) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() = place;
+  pose.linear() = (Eigen::AngleAxisd(yaw, Vector3d::UnitY()) * Eigen::AngleAxisd(pitch, Vector3d::UnitX()) *
+                   Eigen::AngleAxisd(roll, Vector3d::UnitZ())).toRotationMatrix();
+  return pose;
+}
+
+/// Grey of a plain surface with this outward normal under the scenes' light.
+double shaded(double grey, const Vector3d& normal) { return grey * synthetic::shade(normal, synthetic::light_direction(), 0.72); }
+
+}  // namespace
+
+TEST_CASE("rendered silhouettes lie where geometry says", "[synthetic]") {
+  const PinholeCamera camera{400.0, 400.0, 101.3, 58.7, 200, 120};
+  const Isometry3d camera_from_world = at({0.02, -0.03, 0.05}, 0.02, -0.03, 0.015);
+  const auto scene_with = [&](std::unique_ptr<synthetic::Surface> front) {
+    synthetic::Scene scene;
+    scene.surfaces.push_back(std::make_unique<synthetic::PlaneSurface>(at({0, 0, 4}), 5.0, 5.0, plain(200.0)));
+    scene.surfaces.push_back(std::move(front));
+    return scene;
+  };
+  const double wall = shaded(200.0, -Vector3d::UnitZ());
+
+  SECTION("a tilted plane") {
+    const Isometry3d pose = at({0.0, 0.3, 2.0}, 0.5, 0.2, 0.06);
+    const auto view = render(scene_with(std::make_unique<synthetic::PlaneSurface>(pose, 1.0, 0.3, plain(60.0))), camera,
+                             camera_from_world, 8, 2);
+    const Vector2d a = camera.project(camera_from_world * pose * Vector3d(-1.0, -0.3, 0.0));
+    const Vector2d b = camera.project(camera_from_world * pose * Vector3d(1.0, -0.3, 0.0));
+    const auto [largest, mean] = edge_error(view, camera, 0, 200, wall, shaded(60.0, -pose.linear().col(2)), [&](double x) {
+      return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
+    });
+    CHECK(largest < 0.02);
+    CHECK(std::abs(mean) < 0.002);
+  }
+  SECTION("a curved tube") {
+    const std::vector<Vector3d> control = {{-1.2, 0.1, 2.1}, {-0.8, 0.0, 2.0}, {-0.4, 0.15, 1.9}, {0.0, -0.1, 2.0},
+                                           {0.4, 0.1, 2.2},  {0.8, 0.0, 2.0},  {1.2, 0.1, 2.0}};
+    const double radius = 0.02;
+    const auto view = render(scene_with(std::make_unique<synthetic::TubeSurface>(control, radius, 0.0, 1e-5)), camera,
+                             camera_from_world, 8, 2);
+    // The curve by repeated averaging of the control polygon (Lane-Riesenfeld), so finely that its points are 0.1 mm apart.
+    std::vector<Vector3d> curve = control;
+    for (int level = 0; level < 12; ++level) {
+      std::vector<Vector3d> finer;
+      for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+        finer.push_back(0.5 * (curve[i] + curve[i + 1]));
+        if (i + 2 < curve.size()) finer.push_back((curve[i] + 6.0 * curve[i + 1] + curve[i + 2]) / 8.0);
+      }
+      curve = finer;
+    }
+    for (Vector3d& point : curve) point = camera_from_world * point;
+    const auto clearance = [&](double x, double y) {
+      const Vector3d ray = camera.ray({x, y}).normalized();
+      double nearest = 1e9;
+      for (const Vector3d& point : curve) nearest = std::min(nearest, (point - ray.dot(point) * ray).squaredNorm());
+      return std::sqrt(nearest) - radius;
+    };
+    for (int x = 12; x < 190; x += 25) {
+      double inside = 0.0, least = 1e9;
+      for (int y = 0; y < camera.height; ++y)
+        if (const double c = clearance(x, y); c < least) least = c, inside = y;
+      REQUIRE(least < 0.0);
+      double height = 0.0;
+      for (int sample = 0; sample < 3; ++sample) {  // mean over the pixel's width (Simpson)
+        const double column = x + 0.5 * (sample - 1);
+        const auto across = [&](double y) { return clearance(column, y); };
+        height += (sample == 1 ? 4.0 : 1.0) / 6.0 * (bisect(inside, inside + 30.0, across) - bisect(inside - 30.0, inside, across));
+      }
+      double dark = 0.0;
+      for (int y = 0; y < camera.height; ++y) dark += 1.0 - view.grey[static_cast<std::size_t>(y * camera.width + x)] / wall;
+      CAPTURE(x, dark, height);
+      CHECK(std::abs(dark - height) < 0.02);
+    }
+  }
+  SECTION("a ball") {
+    const Vector3d centre(0.1, 0.05, 2.0);
+    const double radius = 0.15;
+    const auto view = render(scene_with(std::make_unique<synthetic::SphereSurface>(at(centre, 0.3), radius, plain(60.0))), camera,
+                             camera_from_world, 8, 2);
+    const Vector3d seen = camera_from_world * centre;
+    int pixels = 0, wrong = 0;
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x, ++pixels) {
+        const double angle = std::acos(camera.ray(Vector2d(x, y)).normalized().dot(seen.normalized()));
+        const double margin = (std::asin(radius / seen.norm()) - angle) * camera.fx;  // px inside the outline
+        const double depth = view.depth[static_cast<std::size_t>(y * camera.width + x)];
+        if (std::abs(margin) > 0.001) wrong += (margin > 0.0) != (depth < 3.0);
+      }
+    CHECK(wrong == 0);
+    // The front of the ball is exactly one radius nearer than its centre.
+    const Vector2d middle = camera.project(seen);
+    const PinholeCamera centred{400.0, 400.0, camera.cx - middle.x() + 100.0, camera.cy - middle.y() + 60.0, 200, 120};
+    const auto moved = render(scene_with(std::make_unique<synthetic::SphereSurface>(at(centre), radius, plain(60.0))), centred,
+                              camera_from_world, 1, 1);
+    CHECK(moved.depth[60 * 200 + 100] == Approx(seen.z() * (1.0 - radius / seen.norm())).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a texture lies on its plane where geometry says", "[synthetic]") {
+  synthetic::TextureStyle style;
+  style.feature = 0.2;
+  const auto texture = std::make_shared<synthetic::Texture>(style, 5, 1.0, 1.0, 0.002);
+  const Isometry3d pose = at({0.05, 0.02, 1.5}, 0.4, -0.3, 0.2);
+  synthetic::Scene scene;
+  scene.surfaces.push_back(std::make_unique<synthetic::PlaneSurface>(pose, 1.0, 1.0, texture));
+  const PinholeCamera camera{200.0, 200.0, 31.0, 21.5, 64, 44};
+  const auto view = render(scene, camera, Isometry3d::Identity(), 4, 2);
+  const Vector3d normal = pose.linear().col(2);
+  double worst = 0.0, low = 255.0, high = 0.0;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      double sum = 0.0;  // by a much finer plain grid
+      for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i) {
+          const Vector3d ray = camera.ray(Vector2d(x + (i + 0.5) / 24 - 0.5, y + (j + 0.5) / 24 - 0.5));
+          const Vector3d place = pose.inverse() * Vector3d(ray * (normal.dot(pose.translation()) / normal.dot(ray)));
+          sum += texture->sample(place.x(), place.y());
+        }
+      const double grey = view.grey[static_cast<std::size_t>(y * camera.width + x)];
+      worst = std::max(worst, std::abs(grey - shaded(sum / 576.0, -normal)));
+      low = std::min(low, grey);
+      high = std::max(high, grey);
+    }
+  CAPTURE(worst);
+  CHECK(worst < 4.0);  // 16 rays against 576 on reflectance steps of up to 200 levels
+  CHECK(high - low > 80.0);
+}
+
+TEST_CASE("a texture has no seams between its tiles and never repeats", "[synthetic]") {
+  synthetic::TextureStyle style;
+  style.feature = 0.3;
+  style.alignment = 0.5;
+  const double texel = 0.004, half = 0.8;
+  const synthetic::Texture texture(style, 11, half, half, texel);
+  double jump = 0.0;
+  for (int tile = 1; tile < 6; ++tile) {
+    const double seam = 64 * tile * texel - half;
+    for (int i = 0; i < 2000; ++i) {
+      const double along = (2.0 * i / 2000 - 1.0) * half;
+      jump = std::max({jump, std::abs(texture.sample(seam - 1e-9, along) - texture.sample(seam + 1e-9, along)),
+                       std::abs(texture.sample(along, seam - 1e-9) - texture.sample(along, seam + 1e-9))});
+    }
+  }
+  CHECK(jump < 0.01);
+  // Correlation of a patch of 0.4 x 0.4 m with all others beside it stays low.
+  const auto patch = [&](double u, double v) {
+    Eigen::ArrayXd greys(400);
+    for (int i = 0; i < 400; ++i) greys[i] = texture.sample(u + i % 20 * 0.02, v + i / 20 * 0.02);
+    greys -= greys.mean();
+    return Eigen::ArrayXd(greys / std::sqrt(greys.square().sum()));
+  };
+  const Eigen::ArrayXd here = patch(-0.75, -0.75);
+  double highest = 0.0;
+  for (double v = -0.75; v < 0.35; v += 0.02)
+    for (double u = -0.35; u < 0.35; u += 0.02) highest = std::max(highest, (here * patch(u, v)).sum());
+  CHECK(highest < 0.6);
+  CHECK((here * patch(-0.745, -0.755)).sum() > 0.75);  // and it would notice a copy half a step off
+}
