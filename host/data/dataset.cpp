@@ -11,9 +11,9 @@ namespace data {
 namespace {
 
 std::string format_names() {
-  std::string names;
-  for (const auto& layout : layouts()) names += (names.empty() ? "" : ", ") + layout.name;
-  return names;
+  std::string list;
+  for (const auto& name : dataset_formats()) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 const Layout& choose(const fs::path& folder, const std::string& format) {
@@ -70,6 +70,12 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
 }
 
 }  // namespace data
+
+std::vector<std::string> dataset_formats() {
+  std::vector<std::string> names;
+  for (const auto& layout : data::layouts()) names.push_back(layout.name);
+  return names;
+}
 
 Dataset open_dataset(const std::string& path, const DatasetOptions& options) {
   data::Findings findings(false);

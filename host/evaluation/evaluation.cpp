@@ -64,16 +64,19 @@ struct Errors {
   std::vector<double> ape_rotation, ape_translation, rpe_rotation, rpe_translation;
 
   Errors(const std::vector<Match>& matches, const Pose& world_from_estimate) {
+    Pose previous;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Pose estimate = world_from_estimate * matches[i].estimate;
       const Pose ape = matches[i].truth.inverse() * estimate;
       ape_rotation.push_back(angle_deg(ape.linear()));
       ape_translation.push_back((estimate.translation() - matches[i].truth.translation()).norm());
-      if (i == 0) continue;
-      const Pose truth_step = matches[i - 1].truth.inverse() * matches[i].truth;
-      const Pose rpe = truth_step.inverse() * (matches[i - 1].estimate.inverse() * matches[i].estimate);
-      rpe_rotation.push_back(angle_deg(rpe.linear()));
-      rpe_translation.push_back(rpe.translation().norm());
+      if (i > 0) {
+        const Pose truth_step = matches[i - 1].truth.inverse() * matches[i].truth;
+        const Pose rpe = truth_step.inverse() * (previous.inverse() * estimate);
+        rpe_rotation.push_back(angle_deg(rpe.linear()));
+        rpe_translation.push_back(rpe.translation().norm());
+      }
+      previous = estimate;
     }
   }
 

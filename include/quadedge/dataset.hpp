@@ -39,11 +39,14 @@ struct Dataset {
 
 /// Choices of the user.
 struct DatasetOptions {
-  std::string format = "auto";
+  std::string format = "auto";  ///< or one of dataset_formats()
   std::string sequence;   ///< KITTI: the sequence's name when `path` holds several
   int first_frame = 0;    ///< half-open range of frames
   int last_frame = -1;    ///< -1: to the end
 };
+
+/// The names that DatasetOptions::format takes besides "auto".
+std::vector<std::string> dataset_formats();
 
 /// Recognises the layout and reads calibration, frame list and ground truth; checks that every image file exists and that
 /// stamps increase. \throws DataError naming the file, what was found and what was expected.

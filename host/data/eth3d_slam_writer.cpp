@@ -1,0 +1,70 @@
+#include "data/eth3d_slam_writer.hpp"
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "data/atomic_file.hpp"
+#include "data/pfm.hpp"
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem) throw DataError(folder.string() + ": cannot make the folder: " + problem.message() + "; expected a place that can be written");
+}
+
+void write_png(const fs::path& file, const Image& image) {
+  const cv::Mat pixels(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", pixels, bytes)) throw DataError(file.string() + ": the image could not be encoded as PNG");
+  data::write_atomically(file.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string camera_row(const PinholeCamera& camera) {
+  return data::format_exact(camera.fx) + ' ' + data::format_exact(camera.fy) + ' ' + data::format_exact(camera.cx) + ' ' +
+         data::format_exact(camera.cy) + '\n';
+}
+
+std::string matrix_rows(const Eigen::Isometry3d& transform) {
+  std::string rows;
+  for (int i = 0; i < 12; ++i) rows += data::format_exact(transform.matrix()(i / 4, i % 4)) + (i % 4 == 3 ? '\n' : ' ');
+  return rows;
+}
+
+}  // namespace
+
+void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequence,
+                      const std::function<void(int, int)>& progress) {
+  const fs::path root(folder);
+  if (fs::exists(root / "rgb") || fs::exists(root / "rgb2")) {
+    data::fail(folder, "a sequence that is already there", "an empty or new folder");
+  }
+  for (const char* name : {"rgb", "rgb2", "depth", "depth2"}) make_folder(root / name);
+  data::write_atomically((root / "calibration.txt").string(), camera_row(sequence.rig().left));
+  data::write_atomically((root / "calibration2.txt").string(), camera_row(sequence.rig().right));
+  data::write_atomically((root / "extrinsics_1_2.txt").string(), matrix_rows(sequence.rig().right_from_left.inverse()));
+  std::string list = "# timestamp filename\n";
+  Trajectory truth;
+  for (int frame = 0; frame < sequence.frames(); ++frame) {
+    const std::string stamp = data::format_seconds(sequence.stamp_ns(frame));
+    for (const bool right : {false, true}) {
+      const RenderedView view = sequence.render(frame, right);
+      write_png(root / (right ? "rgb2" : "rgb") / (stamp + ".png"), view.image);
+      data::write_pfm((root / (right ? "depth2" : "depth") / (stamp + ".pfm")).string(),
+                      {view.image.width, view.image.height, view.depth});
+    }
+    list += stamp + " rgb/" + stamp + ".png\n";
+    truth.push_back({sequence.stamp_ns(frame), sequence.world_from_left(frame)});
+    if (progress) progress(frame + 1, sequence.frames());
+  }
+  write_tum((root / "groundtruth.txt").string(), truth);
+  data::write_atomically((root / "rgb.txt").string(), list);
+}
+
+}  // namespace quadedge

@@ -1,0 +1,73 @@
+#include <catch2/catch.hpp>
+
+#include "data/eth3d_slam_writer.hpp"
+#include "data/pfm.hpp"
+#include "dataset_files.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+TEST_CASE("dataset: a rendered sequence comes back from disk as it was written", "[dataset]") {
+  const TemporaryFolder folder;
+  SyntheticOptions options;
+  options.frames = 3;
+  options.width = 80;
+  options.height = 60;
+  options.focal = 60;
+  options.supersampling = 1;
+  const SyntheticSequence sequence(options);
+  int calls = 0;
+  write_eth3d_slam(folder / "s", sequence, [&](int done, int all) {
+    CHECK(done == ++calls);
+    CHECK(all == 3);
+  });
+  CHECK(calls == 3);
+  const Dataset set = open_dataset(folder / "s");
+  CHECK(set.format == "eth3d-slam");
+  CHECK(check_dataset(folder / "s").errors.empty());
+  REQUIRE(set.frames.size() == 3);
+  CHECK(set.rig.left.matrix() == sequence.rig().left.matrix());
+  CHECK(set.rig.right.matrix() == sequence.rig().right.matrix());
+  CHECK((set.rig.right_from_left.matrix() - sequence.rig().right_from_left.matrix()).cwiseAbs().maxCoeff() < 1e-15);
+  REQUIRE(set.truth.size() == 3);
+  for (int i = 0; i < 3; ++i) {
+    const auto& files = set.frames[static_cast<std::size_t>(i)];
+    CHECK(files.stamp_ns == sequence.stamp_ns(i));
+    CHECK((set.truth[static_cast<std::size_t>(i)].world_from_left.matrix() - sequence.world_from_left(i).matrix())
+              .cwiseAbs().maxCoeff() < 1e-14);
+    const RenderedView left = sequence.render(i, false), right = sequence.render(i, true);
+    CHECK(read_grey_image(files.left).pixels == left.image.pixels);
+    CHECK(read_grey_image(files.right).pixels == right.image.pixels);
+    std::string depth = files.right;
+    depth.replace(depth.find("/rgb2/"), 6, "/depth2/").replace(depth.size() - 3, 3, "pfm");
+    const data::FloatImage map = data::read_pfm(depth);
+    CHECK(map.width == 80);
+    CHECK(map.values == right.depth);
+  }
+  CHECK_THROWS_WITH(write_eth3d_slam(folder / "s", sequence), Contains("already there"));
+  dataset_files::write_text(folder / "file", "");
+  CHECK_THROWS_AS(write_eth3d_slam(folder / "file/s", sequence), DataError);
+}
+
+TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, and must be whole", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "m.pfm";
+  using namespace std::string_literals;
+  dataset_files::write_text(file, "Pf\n2 2\n-1\n\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40\0\0\x80\x7f"s);
+  const data::FloatImage little = data::read_pfm(file);
+  CHECK(little.values[0] == 3);
+  CHECK(std::isinf(little.values[1]));
+  CHECK(little.values[2] == 1);
+  CHECK(little.values[3] == 2);
+  dataset_files::write_text(file, "Pf 1 1 1.0\n\x40\x40\0\0"s);
+  CHECK(data::read_pfm(file).values[0] == 3);
+  dataset_files::write_text(file, "Pf\n2 2\n-1\n\0\0\x80\x3f"s);
+  CHECK_THROWS_WITH(data::read_pfm(file), Contains("4 bytes") && Contains("16"));
+  dataset_files::write_text(file, "PF\n2 2\n-1\n");
+  CHECK_THROWS_AS(data::read_pfm(file), DataError);
+  dataset_files::write_text(file, "Pf\n2");
+  CHECK_THROWS_AS(data::read_pfm(file), DataError);
+}
