@@ -36,6 +36,7 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("edges.threshold", &edges.threshold, "smallest gradient magnitude, exclusive [grey levels/px]", 0, 255);
   visit("edges.margin", &edges.margin, "no edge nearer to the image border [px]", 1, 1000);
   visit("edges.direction_at", &edges.direction_at, "where the direction is evaluated: subpixel or cell", 0, 0);
+  visit("edges.newton_max", &edges.newton_max, "longest step from the parabola's peak onto F = 0, not with cell; 0: none [px]", 0, 0.14);
   visit("edges.thinning", &edges.thinning, "keep one edge per pixel along a curve", 0, 1);
   visit("edges.max_edges", &edges.max_edges, "capacity per image", 1, 4000000);
 

@@ -69,6 +69,13 @@ class Buffer {
     if (count == 0) return;
     call("filling a buffer", [&] { context_->queue().enqueueFillBuffer(memory_, value, 0, count * sizeof(T)); });
   }
+  /// Copies `count` elements from the same place of another buffer, on the device.
+  void copy(const Buffer& source, std::size_t offset, std::size_t count) {
+    if (count == 0) return;
+    call("copying a buffer", [&] {
+      context_->queue().enqueueCopyBuffer(source.memory_, memory_, offset * sizeof(T), offset * sizeof(T), count * sizeof(T));
+    });
+  }
 
   void swap(Buffer& other) noexcept {
     std::swap(context_, other.context_);

@@ -9,6 +9,13 @@ const std::vector<Variant>& all_variants() {
   static const std::vector<Variant> table = {
       {"undistortion", "item64", {}, 64, true, true, "one work-item per pixel, groups of 64"},
       {"undistortion", "item16", {}, 16, false, false, "one work-item per pixel, groups of 16"},
+      {"scan", "serial", {}, 1, true, false, "one work-item per part of the counts"},
+      {"scan", "group256", {}, 256, false, true, "work-groups of 256 with their sums in local memory"},
+      {"edges", "strip", {}, 1, true, false, "work-items walk along rows with float16, 8 lanes per edge for third order"},
+      {"edges", "tile256", {{"TILE_X", "32"}, {"TILE_Y", "8"}}, 256, false, true,
+       "one work-group of 256 per tile of 32 x 8 pixels, 8 work-items per edge for third order"},
+      {"edges", "tile64", {{"TILE_X", "16"}, {"TILE_Y", "8"}}, 64, false, false,
+       "one work-group of 64 per tile of 16 x 8 pixels, 8 work-items per edge for third order"},
   };
   return table;
 }

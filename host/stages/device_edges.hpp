@@ -1,0 +1,35 @@
+#pragma once
+/// \file device_edges.hpp  The edges of one image on the device.
+
+#include "opencl/buffer.hpp"
+#include "quadedge/edges.hpp"
+
+namespace quadedge::stages {
+
+/// Third-order edges in scan order (EdgeSet on the device). Only the first host_count elements mean anything.
+struct DeviceEdges {
+  opencl::Buffer<cl_float> x, y;       ///< pixels
+  opencl::Buffer<cl_float> direction;  ///< radians in (-pi, pi]
+  opencl::Buffer<cl_float> strength;   ///< grey levels per pixel
+  opencl::Buffer<cl_int> row_first;    ///< 2 * height + 1 starts of the rows of the doubled grid
+  opencl::Buffer<cl_int> count;        ///< {number of edges, edges cut off because the capacity ran out}
+  int host_count = 0;    ///< count[0] after read_count()
+  int host_dropped = 0;  ///< count[1] after read_count(); not zero is an overflow that the frame reports
+
+  /// Waits for the detection and copies the two numbers of `count` to the host.
+  void read_count() {
+    cl_int values[2];
+    count.read(values, 2);
+    host_count = values[0];
+    host_dropped = values[1];
+  }
+
+  /// Copies the edges to the host; after read_count(). `height` of the image in pixels.
+  EdgeSet read(int height) const {
+    const auto size = static_cast<std::size_t>(host_count);
+    return {x.read(size), y.read(size), direction.read(size), strength.read(size),
+            row_first.read(2 * static_cast<std::size_t>(height) + 1)};
+  }
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,78 @@
+#pragma once
+/// \file edge_detection.hpp  Stage 2: third-order edges of one image on the device. SPEC section 1.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "quadedge/config.hpp"
+#include "stages/device_edges.hpp"
+#include "stages/scan.hpp"
+
+namespace quadedge::stages {
+
+/// Detects edges in images of one size. Owns its kernels and scratch memory; enqueues only, and may be used for one image after
+/// the other. All variants give the same bytes.
+class EdgeDetection {
+ public:
+  /// `variants`: stage "edges" (strip, tile...) and stage "scan". \throws UsageError for an unknown variant or an empty image,
+  /// DeviceError when the kernels do not build.
+  EdgeDetection(opencl::Context& context, int width, int height, const EdgesConfig& config,
+                const std::map<std::string, std::string>& variants);
+
+  /// Enqueues the detection in `image` (height x width, packed). At most config.max_edges edges; what does not fit is cut off at
+  /// the end of the scan order and counted in `edges.count`. Call edges.read_count() before the number is needed on the host.
+  void run(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges);
+
+ private:
+  /// Floats of the image with its replicated border, see kernels/edges.cl.
+  struct PaddedPlane {
+    int stride = 0, rows = 0;
+    opencl::Buffer<cl_float> pixels;
+  };
+
+  void build(const std::map<std::string, std::string>& variants);
+  void detect(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges);
+  void find_maxima_in_strips();
+  void find_maxima_in_tiles();
+  void thin(DeviceEdges& edges);
+  void reserve(DeviceEdges& edges) const;
+
+  using In = opencl::In<cl_float>;
+  using Out = opencl::Out<cl_float>;
+  using InInt = opencl::In<cl_int>;
+  using OutInt = opencl::Out<cl_int>;
+  using InByte = opencl::In<cl_uchar>;
+  using OutByte = opencl::Out<cl_uchar>;
+
+  opencl::Context& context_;
+  int width_, height_;
+  EdgesConfig config_;
+  bool strips_ = true;
+  std::size_t local_size_ = 1;
+  int tiles_x_ = 0, tiles_y_ = 0;
+  int line_ = 0;  ///< floats of one scratch line of a strip
+
+  opencl::Kernel<InByte, cl_int, cl_int, Out, cl_int> pad_;
+  opencl::Kernel<In, cl_int, cl_int, cl_int, In, cl_float, cl_int, cl_int, Out, cl_int, Out, OutInt> strip_maxima_;
+  opencl::Kernel<In, cl_int, cl_int, cl_int, In, InInt, InInt, cl_int, cl_float, Out, Out, Out, Out> strip_directions_;
+  opencl::Kernel<In, cl_int, cl_int, cl_int, In, cl_float, cl_int, cl_int, Out, OutByte> tile_maxima_;
+  opencl::Kernel<InByte, cl_int, OutInt> tile_count_;
+  opencl::Kernel<InByte, cl_int, In, InInt, cl_int, Out, OutInt> tile_compact_;
+  opencl::Kernel<In, cl_int, In, InInt, InInt, cl_float, Out, Out, Out, Out> tile_directions_;
+  opencl::Kernel<In, In, In, In, InInt, cl_int, OutByte, OutInt> thinning_flags_;
+  opencl::Kernel<In, In, In, In, InInt, cl_int, InByte, InInt, Out, Out, Out, Out> thinning_move_;
+  Scan scan_;
+
+  PaddedPlane plane_;
+  opencl::Buffer<cl_float> taps_;
+  opencl::Buffer<cl_float> scratch_;   ///< strips: lines of column sums and gradients
+  opencl::Buffer<cl_float> winners_;   ///< 4 floats per cell of the doubled grid
+  opencl::Buffer<cl_int> counts_;      ///< winners, then kept edges, per row of the doubled grid
+  opencl::Buffer<cl_uchar> flags_;     ///< tiles: cells that won; thinning: edges that stay
+  opencl::Buffer<cl_float> compact_;   ///< tiles: winners in scan order
+  opencl::Buffer<cl_int> rows_;        ///< tiles: their rows
+  DeviceEdges all_;                    ///< thinning: the edges before it
+};
+
+}  // namespace quadedge::stages

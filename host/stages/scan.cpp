@@ -1,0 +1,34 @@
+#include "stages/scan.hpp"
+
+#include "opencl/variants.hpp"
+
+namespace quadedge::stages {
+namespace {
+
+constexpr std::size_t kGroups = 32;
+constexpr int kSmall = 4096;  // one group is enough up to here
+
+}  // namespace
+
+Scan::Scan(opencl::Context& context, const std::map<std::string, std::string>& variants) : context_(&context) {
+  const auto& variant = opencl::choose_variant("scan", context, variants);
+  local_size_ = static_cast<std::size_t>(variant.local_size);
+  opencl::Defines defines = variant.defines;
+  defines["SCAN_LOCAL"] = std::to_string(variant.local_size);
+  const cl::Program program = context.program({"scan.cl"}, defines);
+  sums_ = {context, program, "scan_sums"};
+  write_ = {context, program, "scan_write"};
+  group_sums_.ensure(context, kGroups);
+}
+
+void Scan::run(const opencl::Buffer<cl_int>& counts, int count, int capacity, opencl::Buffer<cl_int>& first,
+               opencl::Buffer<cl_int>& total) {
+  first.ensure(*context_, static_cast<std::size_t>(count) + 1);
+  total.ensure(*context_, 2);
+  const std::size_t groups = count <= kSmall ? 1 : kGroups;
+  const opencl::Range range(groups * local_size_, local_size_);
+  if (groups > 1) sums_(range, counts, count, group_sums_);
+  write_(range, counts, count, group_sums_, capacity, first, total);
+}
+
+}  // namespace quadedge::stages

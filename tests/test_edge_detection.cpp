@@ -1,0 +1,238 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "devices.hpp"
+#include "edge_images.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/error.hpp"
+#include "reference/edges.hpp"
+#include "stages/edge_detection.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+struct Detection {
+  EdgeSet edges;
+  int dropped = 0;
+};
+
+Detection detect(Device& device, const std::string& variant, const Image& image, const EdgesConfig& config) {
+  stages::EdgeDetection stage(*device.context(), image.width, image.height, config, {{"edges", variant}});
+  opencl::Buffer<cl_uchar> pixels;
+  pixels.write(*device.context(), image.pixels);
+  stages::DeviceEdges edges;
+  stage.run(pixels, edges);
+  edges.read_count();
+  return {edges.read(image.height), edges.host_dropped};
+}
+
+void for_each_variant(const std::function<void(Device&, const std::string&)>& visit) {
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    for (const auto& variant : opencl::all_variants()) {
+      if (variant.stage == "edges") visit(device, variant.name);
+    }
+  }
+}
+
+EdgesConfig small_capacity(int margin = 10) {
+  EdgesConfig config;
+  config.margin = margin;
+  config.max_edges = 50000;
+  return config;
+}
+
+bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
+  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength && a.row_first == b.row_first;
+}
+
+/// Whether one of the decisions about a cell hangs on the last digits: the threshold or either side of the maximum test.
+bool undecided(const reference::GradientField& field, int cell_x, int cell_y, const EdgesConfig& config) {
+  const double m = field.magnitude(cell_x, cell_y), rounding = 2e-5 * m + 1e-5;
+  if (m < config.threshold - rounding) return false;
+  const reference::Probe probe = reference::probe_maximum(field, cell_x, cell_y);
+  return std::abs(m - config.threshold) < rounding || std::abs(m - probe.ahead) < rounding || std::abs(m - probe.behind) < rounding;
+}
+
+/// SPEC section 1: 99.9 % within 0.01 px and 0.1 degrees; nothing missing or extra that rounding does not explain.
+void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config) {
+  const reference::ReferenceEdges truth = reference::detect_edges(image.view(), config);
+  const reference::GradientField field = reference::gradient_field(image.view(), config);
+  REQUIRE(found.row_first.size() == truth.row_first.size());
+  REQUIRE(found.row_first.front() == 0);
+  REQUIRE(found.row_first.back() == static_cast<int>(found.size()));
+  std::size_t matched = 0, outside = 0;
+  for (int row = 0; row < 2 * image.height; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    REQUIRE(found.row_first[r] <= found.row_first[r + 1]);
+    auto i = static_cast<std::size_t>(truth.row_first[r]), j = static_cast<std::size_t>(found.row_first[r]);
+    const auto end_i = static_cast<std::size_t>(truth.row_first[r + 1]), end_j = static_cast<std::size_t>(found.row_first[r + 1]);
+    while (i < end_i || j < end_j) {
+      const double gap = i == end_i ? 1e9 : j == end_j ? -1e9 : truth.x[i] - static_cast<double>(found.x[j]);
+      if (std::abs(gap) < 0.21) {
+        const double distance = std::hypot(gap, truth.y[i] - static_cast<double>(found.y[j]));
+        const double turn = std::remainder(truth.direction[i] - static_cast<double>(found.direction[j]), 6.283185307179586);
+        if (distance > 0.01 || std::abs(turn) > 0.1 * 3.14159265358979 / 180.0) ++outside;
+        REQUIRE(static_cast<double>(found.strength[j]) == Approx(truth.strength[i]).epsilon(1e-4));
+        ++matched, ++i, ++j;
+      } else if (gap < 0) {
+        INFO("missing edge at " << truth.x[i] << ", " << truth.y[i]);
+        REQUIRE(undecided(field, truth.cell_x[i], row, config));
+        ++i;
+      } else {
+        const int cell = static_cast<int>(std::lround(2.0 * static_cast<double>(found.x[j])));
+        INFO("extra edge at " << found.x[j] << ", " << found.y[j]);
+        REQUIRE((undecided(field, cell - 1, row, config) || undecided(field, cell, row, config) ||
+                 undecided(field, cell + 1, row, config)));
+        ++j;
+      }
+    }
+  }
+  CHECK(static_cast<double>(outside) <= 0.001 * static_cast<double>(matched));
+  CHECK(std::abs(static_cast<double>(found.size()) - static_cast<double>(truth.size())) <=
+        0.0005 * static_cast<double>(truth.size()) + 1.0);
+}
+
+}  // namespace
+
+TEST_CASE("edge detection: every device and variant agrees with the reference at small sizes",
+          "[edges][device][oclgrind]") {
+  for_each_variant([](Device& device, const std::string& variant) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}}) {
+      const Image image = textured_image(width, height);
+      EdgesConfig config = small_capacity(1);
+      config.max_edges = 300;
+      INFO(variant << " " << width << "x" << height);
+      const Detection detection = detect(device, variant, image, config);
+      compare(detection.edges, image, config);
+      CHECK(detection.dropped == 0);
+      if (width >= 17) CHECK(detection.edges.size() > 20);
+    }
+  });
+}
+
+TEST_CASE("edge detection: every device and variant agrees with the reference and gives the same bytes twice",
+          "[edges][device]") {
+  for (const auto& [width, height] : {std::pair{64, 48}, {321, 243}, {640, 480}}) {
+    const Image image = textured_image(width, height);
+    EdgeSet first;
+    for_each_variant([&, width = width, height = height](Device& device, const std::string& variant) {
+      INFO(variant << " " << width);
+      const Detection detection = detect(device, variant, image, small_capacity());
+      REQUIRE(detection.dropped == 0);
+      compare(detection.edges, image, small_capacity());
+      CHECK(static_cast<int>(detection.edges.size()) > width * height / 20);
+      CHECK(same_bytes(detection.edges, detect(device, variant, image, small_capacity()).edges));
+      // All variants of one device and all local sizes give the same bytes.
+      if (variant == "strip") first = detection.edges;
+      CHECK(same_bytes(detection.edges, first));
+    });
+  }
+}
+
+TEST_CASE("edge detection: directions at the cell, another scale and no Newton step follow the reference too",
+          "[edges][device]") {
+  const Image image = textured_image(160, 120);
+  for_each_variant([&](Device& device, const std::string& variant) {
+    INFO(variant);
+    EdgesConfig cell = small_capacity();
+    cell.direction_at = "cell";
+    compare(detect(device, variant, image, cell).edges, image, cell);
+    EdgesConfig parabola = small_capacity(4);
+    parabola.newton_max = 0;
+    compare(detect(device, variant, image, parabola).edges, image, parabola);
+    for (const double sigma : {0.8, 1.3, 3.1}) {
+      EdgesConfig scaled = small_capacity(7);
+      scaled.sigma = sigma;
+      scaled.threshold = 3.5;
+      INFO("sigma " << sigma);
+      compare(detect(device, variant, image, scaled).edges, image, scaled);
+    }
+  });
+}
+
+TEST_CASE("edge detection: a full edge list is cut in scan order and says how many were cut", "[edges][device][oclgrind]") {
+  const Image image = textured_image(30, 26);
+  for_each_variant([&](Device& device, const std::string& variant) {
+    INFO(variant);
+    EdgesConfig config = small_capacity(2);
+    config.max_edges = 500;
+    const EdgeSet all = detect(device, variant, image, config).edges;
+    config.max_edges = 40;
+    REQUIRE((all.size() > 60 && all.size() < 500));
+    const Detection cut = detect(device, variant, image, config);
+    REQUIRE(cut.edges.size() == 40);
+    CHECK(cut.dropped == static_cast<int>(all.size()) - 40);
+    for (std::size_t i = 0; i < 40; ++i) {
+      REQUIRE(cut.edges.x[i] == all.x[i]);
+      REQUIRE(cut.edges.direction[i] == all.direction[i]);
+    }
+    for (std::size_t row = 0; row < all.row_first.size(); ++row) {
+      REQUIRE(cut.edges.row_first[row] == std::min(all.row_first[row], 40));
+    }
+  });
+}
+
+TEST_CASE("edge detection: thinning keeps exactly the edges that the reference rule keeps", "[edges][device][oclgrind]") {
+  const Image image = textured_image(30, 26);
+  for_each_variant([&](Device& device, const std::string& variant) {
+    INFO(variant);
+    EdgesConfig config = small_capacity(2);
+    config.max_edges = 500;
+    const EdgeSet all = detect(device, variant, image, config).edges;
+    const std::vector<std::uint8_t> kept = reference::kept_by_thinning(all);
+    EdgeSet expected;
+    for (std::size_t row = 0; row + 1 < all.row_first.size(); ++row) {
+      expected.row_first.push_back(static_cast<std::int32_t>(expected.size()));
+      for (auto i = static_cast<std::size_t>(all.row_first[row]); i < static_cast<std::size_t>(all.row_first[row + 1]); ++i) {
+        if (!kept[i]) continue;
+        expected.x.push_back(all.x[i]);
+        expected.y.push_back(all.y[i]);
+        expected.direction.push_back(all.direction[i]);
+        expected.strength.push_back(all.strength[i]);
+      }
+    }
+    expected.row_first.push_back(static_cast<std::int32_t>(expected.size()));
+    REQUIRE(expected.size() < all.size());
+    config.thinning = true;
+    CHECK(same_bytes(detect(device, variant, image, config).edges, expected));
+    // What the capacity cuts off before the thinning is still counted.
+    config.max_edges = 40;
+    const Detection cut = detect(device, variant, image, config);
+    CHECK(cut.dropped == static_cast<int>(all.size()) - 40);
+    CHECK(cut.edges.size() <= 40);
+  });
+}
+
+TEST_CASE("edge detection: one detector serves one image after the other", "[edges][device]") {
+  for_each_variant([](Device& device, const std::string& variant) {
+    INFO(variant);
+    const Image first = textured_image(96, 80, 1), second = textured_image(96, 80, 2);
+    const EdgesConfig config = small_capacity();
+    stages::EdgeDetection stage(*device.context(), 96, 80, config, {{"edges", variant}});
+    opencl::Buffer<cl_uchar> first_pixels, second_pixels;
+    first_pixels.write(*device.context(), first.pixels);
+    second_pixels.write(*device.context(), second.pixels);
+    stages::DeviceEdges first_edges, second_edges;
+    stage.run(first_pixels, first_edges);
+    stage.run(second_pixels, second_edges);
+    first_edges.read_count();
+    second_edges.read_count();
+    CHECK(same_bytes(first_edges.read(80), detect(device, variant, first, config).edges));
+    CHECK(same_bytes(second_edges.read(80), detect(device, variant, second, config).edges));
+  });
+}
+
+TEST_CASE("edge detection: a flat image has no edges and an unknown variant is refused", "[edges][device]") {
+  Image flat(40, 30);
+  for_each_variant([&](Device& device, const std::string& variant) {
+    CHECK(detect(device, variant, flat, small_capacity()).edges.size() == 0);
+    CHECK_THROWS_AS(detect(device, "no-such-variant", flat, small_capacity()), UsageError);
+    CHECK_THROWS_AS(stages::EdgeDetection(*device.context(), 0, 5, small_capacity(), {}), UsageError);
+  });
+}

@@ -1,0 +1,53 @@
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "devices.hpp"
+#include "opencl/variants.hpp"
+#include "stages/scan.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+void check_scan(const std::vector<int>& sizes, int capacity) {
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    for (const auto& variant : opencl::all_variants()) {
+      if (variant.stage != "scan") continue;
+      stages::Scan scan(*device.context(), {{"scan", variant.name}});
+      for (const int size : sizes) {
+        std::vector<cl_int> counts(static_cast<std::size_t>(size));
+        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<cl_int>((i * 7919 + 13) % 5);
+        opencl::Buffer<cl_int> device_counts(*device.context(), counts.size()), first, total;
+        device_counts.write(*device.context(), counts);
+        scan.run(device_counts, size, capacity, first, total);
+
+        std::vector<cl_int> expected(counts.size() + 1, 0);
+        std::partial_sum(counts.begin(), counts.end(), expected.begin() + 1);
+        const int found = expected.back(), kept = std::min(found, capacity);
+        for (auto& value : expected) value = std::min(value, capacity);
+        INFO(variant.name << ", " << size << " counts, capacity " << capacity);
+        CHECK(first.read(expected.size()) == expected);
+        CHECK(total.read(2) == std::vector<cl_int>{kept, found - kept});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("scan: every device and variant gives the exclusive sums of small lists", "[scan][device][oclgrind]") {
+  check_scan({0, 1, 2, 255, 256, 257, 1000}, 1 << 30);
+}
+
+TEST_CASE("scan: sums past the capacity are cut at it and counted", "[scan][device][oclgrind]") {
+  check_scan({1, 300, 1000}, 333);
+  check_scan({300}, 0);
+}
+
+TEST_CASE("scan: long lists are shared by several groups", "[scan][device]") {
+  check_scan({4096, 4097, 70001}, 1 << 30);
+  check_scan({70001}, 50000);
+}
