@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "describing.hpp"
 #include "reference/patches.hpp"
 
 using namespace quadedge;
@@ -155,4 +156,86 @@ TEST_CASE("patches: the similarity is the best pairing of sides, the first one o
   CHECK(pairing(edge(0, 17), edge(17, 3)) == SidePairing::dark_bright);
   CHECK(pairing(edge(5, 6), edge(5, 6)) == SidePairing::bright_bright);
   CHECK(pairing(edge(5, 6), edge(6, 5)) == SidePairing::bright_dark);
+}
+
+TEST_CASE("patches: every device and variant equals the reference", "[patches][device][oclgrind]") {
+  // Sizes that no group or vector divides; edges on the border and beyond it; a count that fills no group.
+  for (const auto& [width, height, count] : {std::tuple{1, 1, 3}, {5, 3, 7}, {17, 31, 37}, {64, 48, 101}}) {
+    const Image image = noise_image(width, height, 5);
+    const TestEdges edges = random_edges(width, height, count, 6, 4);
+    const auto expected = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
+    for (const auto& found : describe_everywhere("patches", image, edges)) {
+      double worst = 0;
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        worst = std::max(worst, std::abs(static_cast<double>(found.patches[k]) - expected[k]));
+      }
+      CAPTURE(found.name, width, height);
+      // Single precision: places good to 1e-6 px, contrasts of up to 255 per px against norms above 100.
+      CHECK(worst < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("patches: all variants give the same bits, and none writes beyond its edges", "[patches][device]") {
+  const Image image = noise_image(131, 77, 7);
+  const TestEdges edges = random_edges(131, 77, 1003, 8);
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    auto& context = *device.context();
+    opencl::Buffer<cl_uchar> pixels;
+    opencl::Buffer<cl_float> x, y, direction;
+    pixels.write(context, image.pixels);
+    x.write(context, edges.x);
+    y.write(context, edges.y);
+    direction.write(context, edges.direction);
+    std::vector<float> first;
+    for (const auto& variant : opencl::all_variants()) {
+      if (variant.stage != "patches") continue;
+      stages::EdgeDescription describer(context, 131, 77, {}, {}, {{"patches", variant.name}});
+      describer.prepare(pixels);
+      opencl::Buffer<cl_float> patches(context, 1003 * kEdgePatchFloats + 64);
+      patches.fill(7.0f, 1003 * kEdgePatchFloats + 64);
+      describer.cut_patches(x, y, direction, 1003, patches);
+      const auto found = patches.read(1003 * kEdgePatchFloats + 64);
+      if (first.empty()) first = found;
+      CAPTURE(device.info().name, variant.name);
+      CHECK(found == first);
+      for (std::size_t k = 1003 * kEdgePatchFloats; k < found.size(); ++k) CHECK(found[k] == 7.0f);
+    }
+  }
+}
+
+TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", "[patches][device][oclgrind]") {
+  const Image image = noise_image(90, 70, 9);
+  const TestEdges edges = random_edges(90, 70, 60, 10);
+  auto patches = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
+  std::fill_n(patches.begin(), kEdgePatchFloats, 0.0f);                          // a flat edge
+  std::copy_n(patches.begin() + kEdgePatchFloats, kPatchSamples,                 // a tie: both sides of edge 2 are the
+              patches.begin() + 2 * kEdgePatchFloats);                           // bright side of edge 1
+  std::copy_n(patches.begin() + kEdgePatchFloats, kPatchSamples, patches.begin() + 2 * kEdgePatchFloats + kPatchSamples);
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    auto& context = *device.context();
+    const auto program = build_with_similarity(
+        context,
+        "kernel void score(global const float* patches, global float* scores, global int* pairings) {\n"
+        "  const int a = (int)get_global_id(0), b = (int)get_global_id(1), k = b * (int)get_global_size(0) + a;\n"
+        "  int pairing;\n"
+        "  scores[k] = patch_ncc_pairing(patches + a * 98, patches + b * 98, &pairing);\n"
+        "  pairings[k] = pairing;\n"
+        "}\n");
+    const opencl::Kernel<opencl::In<cl_float>, opencl::Out<cl_float>, opencl::Out<cl_int>> score(context, program, "score");
+    opencl::Buffer<cl_float> input, scores(context, 3600);
+    opencl::Buffer<cl_int> pairings(context, 3600);
+    input.write(context, patches);
+    score({60, 60, 1, 1}, input, scores, pairings);
+    const auto found = scores.read(3600);
+    const auto which = pairings.read(3600);
+    for (std::size_t k = 0; k < 3600; ++k) {
+      const auto expected = reference::patch_similarity(patches.data() + k % 60 * kEdgePatchFloats,
+                                                        patches.data() + k / 60 * kEdgePatchFloats);
+      CHECK(found[k] == expected.ncc);
+      CHECK(which[k] == static_cast<int>(expected.pairing));
+    }
+  }
 }

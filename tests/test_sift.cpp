@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "describing.hpp"
 #include "reference/sift.hpp"
 
 using namespace quadedge;
@@ -29,21 +30,11 @@ Image textured_image(int width, int height, unsigned seed) {
   return image;
 }
 
-struct Points {
-  std::vector<float> x, y, direction;
-};
-
-/// Random places in the image, also at its very border, with all directions.
-Points random_points(int width, int height, int count, unsigned seed) {
-  Points points;
-  std::mt19937_64 random(seed);
-  const auto uniform = [&random] { return static_cast<double>(random() >> 11) / 9007199254740992.0; };
-  for (int k = 0; k < count; ++k) {
-    points.x.push_back(static_cast<float>(uniform() * (width - 1)));
-    points.y.push_back(static_cast<float>(uniform() * (height - 1)));
-    points.direction.push_back(static_cast<float>((2 * uniform() - 1) * kPi));
-  }
-  return points;
+/// Whether a key point of the edge lies so near to the middle between two pixels that rounding may choose either.
+bool on_the_fence(float x, float y, float direction) {
+  const auto near_half = [](double v) { return std::abs(v - std::floor(v) - 0.5) < 1e-4; };
+  const double dx = 8 * std::sin(direction), dy = -8 * std::cos(direction);
+  return near_half(x + dx) || near_half(y + dy) || near_half(x - dx) || near_half(y - dy);
 }
 
 }  // namespace
@@ -51,7 +42,7 @@ Points random_points(int width, int height, int count, unsigned seed) {
 TEST_CASE("sift: descriptors equal OpenCV's at the same key points", "[sift]") {
   const int width = 200, height = 140, count = 2000;
   const Image image = textured_image(width, height, 1);
-  const Points points = random_points(width, height, count, 2);
+  const TestEdges points = random_edges(width, height, count, 2);
   const auto map = reference::sift_gradients(image.view());
   std::vector<cv::KeyPoint> key_points;
   for (int k = 0; k < count; ++k) {
@@ -146,4 +137,65 @@ TEST_CASE("sift: the distance of two edges is the smallest of the four pairings"
   CHECK(distance2(edge(3, 5), edge(6, 3)) == 55 * 55);
   CHECK(distance2(edge(6, 3), edge(3, 5)) == 55 * 55);
   CHECK(distance2(edge(3, 5), edge(6, 7)) == 2 * 200 * 200);
+}
+
+TEST_CASE("sift: every device and variant equals the reference to the last unit", "[sift][device][oclgrind]") {
+  // Sizes that no group or vector divides; key points on the border and beyond it; a count that fills no group.
+  for (const auto& [width, height, count] : {std::tuple{1, 1, 3}, {5, 3, 7}, {17, 31, 37}, {64, 48, 61}}) {
+    const Image image = textured_image(width, height, 5);
+    const TestEdges edges = random_edges(width, height, count, 6, 12);
+    const auto expected = reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction, SiftConfig{});
+    for (const auto& found : describe_everywhere("sift", image, edges)) {
+      int worst = 0;
+      std::size_t equal = 0;
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        const std::size_t edge = k / kEdgeSiftBytes;
+        if (on_the_fence(edges.x[edge], edges.y[edge], edges.direction[edge])) continue;
+        worst = std::max(worst, std::abs(found.sift[k] - expected[k]));
+        equal += found.sift[k] == expected[k] ? 1 : 0;
+      }
+      CAPTURE(found.name, width, height);
+      CHECK(worst <= 1);
+      CHECK(equal > expected.size() * 99 / 100);
+    }
+  }
+}
+
+TEST_CASE("sift: all variants of a device give the same bytes", "[sift][device]") {
+  const auto all = describe_everywhere("sift", textured_image(131, 77, 7), random_edges(131, 77, 1003, 8));
+  const auto device_of = [](const TestDescriptions& found) { return found.name.substr(0, found.name.rfind(' ')); };
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    CAPTURE(all[k - 1].name, all[k].name);
+    if (device_of(all[k]) == device_of(all[k - 1])) CHECK(all[k].sift == all[k - 1].sift);
+  }
+}
+
+TEST_CASE("sift: the kernels' distance equals the reference's", "[sift][device][oclgrind]") {
+  std::vector<std::uint8_t> bytes(40 * kEdgeSiftBytes);
+  std::mt19937_64 random(9);
+  for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() >> 56);
+  std::fill_n(bytes.begin(), kEdgeSiftBytes, std::uint8_t{0});                     // the largest possible distance
+  std::fill_n(bytes.begin() + kEdgeSiftBytes, kEdgeSiftBytes, std::uint8_t{255});
+  std::copy_n(bytes.begin() + 2 * kEdgeSiftBytes, kSiftBytes, bytes.begin() + 3 * kEdgeSiftBytes + kSiftBytes);
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    auto& context = *device.context();
+    const auto program = build_with_similarity(
+        context,
+        "kernel void distance2(global const uchar* sift, global int* distances) {\n"
+        "  const int a = (int)get_global_id(0), b = (int)get_global_id(1);\n"
+        "  distances[b * (int)get_global_size(0) + a] = sift_distance2(sift + a * 256, sift + b * 256);\n"
+        "}\n");
+    const opencl::Kernel<opencl::In<cl_uchar>, opencl::Out<cl_int>> distance2(context, program, "distance2");
+    opencl::Buffer<cl_uchar> input;
+    opencl::Buffer<cl_int> distances(context, 1600);
+    input.write(context, bytes);
+    distance2({40, 40, 1, 1}, input, distances);
+    const auto found = distances.read(1600);
+    CHECK(found[1] == 128 * 255 * 255);
+    CHECK(found[2 * 40 + 3] == 0);
+    for (std::size_t k = 0; k < 1600; ++k) {
+      CHECK(found[k] == reference::sift_distance2(bytes.data() + k % 40 * kEdgeSiftBytes, bytes.data() + k / 40 * kEdgeSiftBytes));
+    }
+  }
 }

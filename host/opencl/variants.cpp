@@ -16,6 +16,12 @@ const std::vector<Variant>& all_variants() {
        "one work-group of 256 per tile of 32 x 8 pixels, 8 work-items per edge for third order"},
       {"edges", "tile64", {{"TILE_X", "16"}, {"TILE_Y", "8"}}, 64, false, false,
        "one work-group of 64 per tile of 16 x 8 pixels, 8 work-items per edge for third order"},
+      {"patches", "edge", {{"ITEMS_PER_EDGE", "1"}}, 1, true, false, "one work-item per edge, float8 across the edge"},
+      {"patches", "lanes", {{"ITEMS_PER_EDGE", "16"}, {"GROUP", "64"}}, 64, false, true,
+       "sixteen work-items per edge, local memory"},
+      {"sift", "edge", {{"ITEMS_PER_EDGE", "1"}}, 1, true, false, "one work-item per edge, float8 of angle bins"},
+      {"sift", "cells", {{"ITEMS_PER_EDGE", "32"}, {"GROUP", "64"}}, 64, false, true,
+       "one work-item per cell of either side, local memory"},
   };
   return table;
 }

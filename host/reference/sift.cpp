@@ -71,7 +71,7 @@ void store(const Histogram& histogram, std::uint8_t* descriptor) {
   for (double value : histogram) clipped_squares += std::pow(std::min(value, clip), 2);
   const double scale = clipped_squares > 0 ? kSiftNorm / std::sqrt(clipped_squares) : 0.0;
   for (int k = 0; k < kSiftBytes; ++k) {
-    descriptor[k] = static_cast<std::uint8_t>(std::min(std::nearbyint(std::min(histogram[k], clip) * scale), 255.0));
+    descriptor[k] = static_cast<std::uint8_t>(std::min(std::round(std::min(histogram[k], clip) * scale), 255.0));
   }
 }
 

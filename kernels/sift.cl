@@ -1,0 +1,312 @@
+// sift.cl: SIFT descriptors of both sides of an edge at one fixed scale (SPEC section 2; Lowe 2004, section 6).
+//
+// The gradient of the blurred image is made once per image, in three passes over planes of `stride` floats per row. Pixel
+// (x, y) of the planes of the blur stands at y * stride + PAD + x; the maps also have PAD rows above and below, so that a
+// descriptor's samples need no test: outside the image and on its outermost pixels the magnitude is zero.
+// stride = PAD + width rounded up to 8 + PAD. One work-item = 8 pixels of a row.
+// sift_blur_down   In: image (width x height, packed). Out: blurred along y; columns -8 .. width rounded up + 8.
+// sift_blur_along  In: that plane. Out: blurred along x too; columns 0 .. width rounded up.
+// sift_gradient    In: that plane. Out: magnitude [grey levels per 2 px] and angle [bins of 45 degrees, -4 .. 4] of the
+//                  central difference, (height + 2 PAD) rows.
+// sift_describe    In: both maps, edges (x, y [px], direction [rad]). Out: 256 bytes per edge, laid out as in
+//                  host/reference/sift.hpp. Two forms with the same arithmetic in the same order:
+//                  ITEMS_PER_EDGE 1: one work-item = one edge; the 8 angle bins of a cell are the lanes of a float8;
+//                  ITEMS_PER_EDGE 32: one work-item = one cell of one side; groups of GROUP work-items, local memory
+//                  28 * 121 bytes + 1 KiB per edge.
+// Needs direction.cl before it. Reference: host/reference/sift.cpp.
+
+#ifndef ITEMS_PER_EDGE
+#define ITEMS_PER_EDGE 1
+#endif
+#ifndef GROUP
+#define GROUP 64
+#endif
+#define PAD 16
+#define RADIUS 5
+#define WINDOW (2 * RADIUS + 1)
+#define CELLS 4
+#define ANGLES 8
+#define BYTES (CELLS * CELLS * ANGLES)
+#define CELL_WIDTH 1.5f
+#define CLIP 0.2f
+#define NORM 512.0f
+
+// Normalised Gaussian weights of the middle tap and its six neighbours; variance 1.6^2 - 0.5^2.
+constant float kBlur[7] = {0.262488298f,  0.211400891f,   0.110432628f,  0.0374181004f,
+                           0.00822355864f, 0.00117228061f, 0.000108391968f};
+// exp(-k^2 / 18) for k = -5 .. 5: the window's Gaussian has a standard deviation of 2 cells = 3 px. Padded for two vectors.
+constant float kWindow[16] = {0.249352209f, 0.411112291f, 0.60653066f, 0.800737403f, 0.945959469f, 1.0f,
+                              0.945959469f, 0.800737403f, 0.60653066f, 0.411112291f, 0.249352209f};
+
+// Index inside [0, size) after reflection about the outermost pixels.
+inline int reflect(int i, const int size) {
+  if (size == 1) return 0;
+  while (i < 0 || i >= size) i = i < 0 ? -i : 2 * (size - 1) - i;
+  return i;
+}
+
+inline float8 pixels8(global const uchar* row, const int x, const int width) {
+  if (x >= 0 && x + 8 <= width) return convert_float8(vload8(0, row + x));
+  float values[8];
+  for (int k = 0; k < 8; ++k) values[k] = (float)row[reflect(x + k, width)];
+  return vload8(0, values);
+}
+
+kernel void sift_blur_down(global const uchar* image, const int width, const int height, const int stride,
+                           global float* plane) {
+  const int x = (int)get_global_id(0) * 8 - 8, y = (int)get_global_id(1);
+  if (x >= stride - 2 * PAD + 8 || y >= height) return;
+  float8 sum = kBlur[0] * pixels8(image + y * width, x, width);
+  for (int k = 1; k < 7; ++k) {
+    sum += kBlur[k] * (pixels8(image + reflect(y - k, height) * width, x, width) +
+                       pixels8(image + reflect(y + k, height) * width, x, width));
+  }
+  vstore8(sum, 0, plane + (size_t)y * stride + PAD + x);
+}
+
+kernel void sift_blur_along(global const float* plane, const int height, const int stride, global float* blurred) {
+  const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
+  if (x >= stride - 2 * PAD || y >= height) return;
+  global const float* p = plane + (size_t)y * stride + PAD + x;
+  float8 sum = kBlur[0] * vload8(0, p);
+  for (int k = 1; k < 7; ++k) sum += kBlur[k] * (vload8(0, p - k) + vload8(0, p + k));
+  vstore8(sum, 0, blurred + (size_t)y * stride + PAD + x);
+}
+
+kernel void sift_gradient(global const float* blurred, const int width, const int height, const int stride,
+                          global float* magnitude, global float* angle) {
+  const int column = (int)get_global_id(0) * 8, row = (int)get_global_id(1);
+  if (column >= stride || row >= height + 2 * PAD) return;
+  const int x = column - PAD, y = row - PAD;
+  float8 length = 0.0f, bins = 0.0f;
+  if (y >= 1 && y < height - 1 && x >= 0 && x < width) {
+    global const float* p = blurred + (size_t)y * stride + column;
+    const float8 dx = vload8(0, p + 1) - vload8(0, p - 1), dy = vload8(0, p + stride) - vload8(0, p - stride);
+    const int8 columns = x + (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+    const int8 inside = (columns >= 1) & (columns < width - 1);
+    length = as_float8(as_int8(sqrt(dx * dx + dy * dy)) & inside);
+    bins = as_float8(as_int8(atan2(dy, dx) * (ANGLES / (2.0f * PI_F))) & inside);
+  }
+  vstore8(length, 0, magnitude + (size_t)row * stride + column);
+  vstore8(bins, 0, angle + (size_t)row * stride + column);
+}
+
+// Nearest pixel of a key point, kept so near the image that its samples stay inside the maps (they are all zero beyond it).
+inline int nearest(const float coordinate, const int size) {
+  return (int)clamp(rint(coordinate), -(float)(RADIUS + 1), (float)(size + RADIUS));
+}
+
+inline float sum_lanes(const float8 v) {
+  const float4 four = v.lo + v.hi;
+  const float2 two = four.lo + four.hi;
+  return two.x + two.y;
+}
+
+#if ITEMS_PER_EDGE == 1
+
+#define ROW (CELLS + 2)  // cells with a ring around them that takes what falls outside
+
+constant int8 kAngleMask[ANGLES] = {
+    (int8)(-1, 0, 0, 0, 0, 0, 0, 0), (int8)(0, -1, 0, 0, 0, 0, 0, 0), (int8)(0, 0, -1, 0, 0, 0, 0, 0),
+    (int8)(0, 0, 0, -1, 0, 0, 0, 0), (int8)(0, 0, 0, 0, -1, 0, 0, 0), (int8)(0, 0, 0, 0, 0, -1, 0, 0),
+    (int8)(0, 0, 0, 0, 0, 0, -1, 0), (int8)(0, 0, 0, 0, 0, 0, 0, -1)};
+
+// Clip, normalise and round the histogram of one side.
+inline void store_descriptor(const float8* histogram, global uchar* descriptor) {
+  float8 squares = 0.0f;
+  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
+    const float8 bins = histogram[(cell / CELLS + 1) * ROW + cell % CELLS + 1];
+    squares += bins * bins;
+  }
+  const float clip = CLIP * sqrt(sum_lanes(squares));
+  squares = 0.0f;
+  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
+    const float8 bins = min(histogram[(cell / CELLS + 1) * ROW + cell % CELLS + 1], clip);
+    squares += bins * bins;
+  }
+  const float norm = sqrt(sum_lanes(squares));
+  const float scale = norm > 0.0f ? NORM / norm : 0.0f;
+  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
+    const float8 bins = min(histogram[(cell / CELLS + 1) * ROW + cell % CELLS + 1], clip);
+    vstore8(convert_uchar8(convert_int8(min(bins * scale, 255.0f) + 0.5f)), cell, descriptor);
+  }
+}
+
+// One side's samples of a row: shares of the two angle bins next to each, and the lower one.
+inline void sample_row(global const float* magnitude, global const float* angle, const size_t first, const float turn,
+                       float* low, float* high, int* bin) {
+  for (int block = 0; block < 2; ++block) {
+    const float8 length = vload8(block, magnitude + first);
+    const float8 bins = turn - vload8(block, angle + first);
+    const int8 whole = whole_below8(bins);
+    const float8 part = bins - convert_float8(whole);
+    vstore8(length * (1.0f - part), block, low);
+    vstore8(length * part, block, high);
+    vstore8(whole & (ANGLES - 1), block, bin);
+  }
+}
+
+kernel void sift_describe(global const float* magnitude, global const float* angle, const int width, const int height,
+                          const int stride, global const float* xs, global const float* ys, global const float* directions,
+                          const int count, const float offset, global uchar* descriptors) {
+  const int edge = (int)get_global_id(0);
+  if (edge >= count) return;
+  const float direction = directions[edge], x = xs[edge], y = ys[edge];
+  float cosine;
+  const float sine = sine_cosine(direction, &cosine);
+  const float to_bright_x = offset * sine, to_bright_y = -offset * cosine;
+  const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
+  const float turn = direction * (ANGLES / (2.0f * PI_F));
+  const size_t bright_first = (size_t)(nearest(y + to_bright_y, height) + PAD - RADIUS) * stride +
+                              nearest(x + to_bright_x, width) + PAD - RADIUS;
+  const size_t dark_first = (size_t)(nearest(y - to_bright_y, height) + PAD - RADIUS) * stride +
+                            nearest(x - to_bright_x, width) + PAD - RADIUS;
+
+  float8 bright[ROW * ROW], dark[ROW * ROW];
+  for (int k = 0; k < ROW * ROW; ++k) bright[k] = dark[k] = 0.0f;
+
+  // Samples of a row inside the window: |j c + i s| < 2.5 and |i c - j s| < 2.5. A c or s that is nearly 0 bounds nothing.
+  const float by_c = 1.0f / copysign(max(fabs(c), 1e-3f), c), by_s = 1.0f / copysign(max(fabs(s), 1e-3f), s);
+  const float reach_c = fabs(2.5f * by_c), reach_s = fabs(2.5f * by_s);
+
+  for (int row = 0; row < WINDOW; ++row) {
+    const float i = (float)(row - RADIUS);
+    const float middle_c = -i * s * by_c, middle_s = i * c * by_s;
+    const float from = max(max(middle_c - reach_c, middle_s - reach_s) - 1e-3f + RADIUS, 0.0f);
+    const float to = min(min(middle_c + reach_c, middle_s + reach_s) + 1e-3f + RADIUS, 2.0f * RADIUS);
+    const int first = -whole_below(-from), last = whole_below(to);
+    if (last < first) continue;
+
+    float w00[16], w01[16], w10[16], w11[16];
+    int cells[16];
+    for (int block = 0; block < 2; ++block) {
+      const float8 j = (float)(8 * block - RADIUS) + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
+      const float8 along = j * c + i * s, across = i * c - j * s;
+      const int8 inside = (fabs(along) < 2.5f) & (fabs(across) < 2.5f);
+      const float8 place_along = along + 1.5f, place_across = across + 1.5f;
+      const int8 cell_along = whole_below8(place_along), cell_across = whole_below8(place_across);
+      const float8 part_along = place_along - convert_float8(cell_along);
+      const float8 part_across = place_across - convert_float8(cell_across);
+      const float8 window = as_float8(as_int8(kWindow[row] * vload8(block, kWindow)) & inside);
+      const float8 beyond = window * part_across, before = window * (1.0f - part_across);
+      vstore8(before * (1.0f - part_along), block, w00);
+      vstore8(before * part_along, block, w01);
+      vstore8(beyond * (1.0f - part_along), block, w10);
+      vstore8(beyond * part_along, block, w11);
+      vstore8((cell_across * ROW + cell_along + (ROW + 1)) & inside, block, cells);
+    }
+    float bright_low[16], bright_high[16], dark_low[16], dark_high[16];
+    int bright_bin[16], dark_bin[16];
+    sample_row(magnitude, angle, bright_first + (size_t)row * stride, turn, bright_low, bright_high, bright_bin);
+    sample_row(magnitude, angle, dark_first + (size_t)row * stride, turn, dark_low, dark_high, dark_bin);
+    for (int k = first; k <= last; ++k) {
+      float8* b = bright + cells[k];
+      float8* d = dark + cells[k];
+      const float8 in_bright = as_float8((as_int8((float8)(bright_low[k])) & kAngleMask[bright_bin[k]]) |
+                                         (as_int8((float8)(bright_high[k])) & kAngleMask[(bright_bin[k] + 1) & 7]));
+      const float8 in_dark = as_float8((as_int8((float8)(dark_low[k])) & kAngleMask[dark_bin[k]]) |
+                                       (as_int8((float8)(dark_high[k])) & kAngleMask[(dark_bin[k] + 1) & 7]));
+      b[0] += in_bright * w00[k];
+      b[1] += in_bright * w01[k];
+      b[ROW] += in_bright * w10[k];
+      b[ROW + 1] += in_bright * w11[k];
+      d[0] += in_dark * w00[k];
+      d[1] += in_dark * w01[k];
+      d[ROW] += in_dark * w10[k];
+      d[ROW + 1] += in_dark * w11[k];
+    }
+  }
+  global uchar* descriptor = descriptors + (size_t)edge * (2 * BYTES);
+  store_descriptor(bright, descriptor);
+  store_descriptor(dark, descriptor + BYTES);
+}
+
+#else
+
+#define SIDES 2
+#define EDGES_PER_GROUP (GROUP / ITEMS_PER_EDGE)
+
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
+void sift_describe(global const float* magnitude, global const float* angle, const int width, const int height,
+                   const int stride, global const float* xs, global const float* ys, global const float* directions,
+                   const int count, const float offset, global uchar* descriptors) {
+  // What each sample of the window is, the same for both sides except the gradient.
+  local int2 corner[EDGES_PER_GROUP][WINDOW * WINDOW];  // cells across and along, the lower ones; outside the window: -9
+  local float4 shares[EDGES_PER_GROUP][WINDOW * WINDOW];
+  local float2 gradient[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];  // shares of the two angle bins
+  local int lower_bin[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];
+  local float histogram[EDGES_PER_GROUP][SIDES][BYTES];
+
+  const int local_edge = (int)get_local_id(0) / ITEMS_PER_EDGE, item = (int)get_local_id(0) % ITEMS_PER_EDGE;
+  const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
+  const int edge = min(wanted, count - 1);  // surplus work-items work along with the last edge for the barriers
+  const float direction = directions[edge], x = xs[edge], y = ys[edge];
+  float cosine;
+  const float sine = sine_cosine(direction, &cosine);
+  const float to_bright_x = offset * sine, to_bright_y = -offset * cosine;
+  const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
+  const float turn = direction * (ANGLES / (2.0f * PI_F));
+  const int first[SIDES] = {
+      (nearest(y + to_bright_y, height) + PAD - RADIUS) * stride + nearest(x + to_bright_x, width) + PAD - RADIUS,
+      (nearest(y - to_bright_y, height) + PAD - RADIUS) * stride + nearest(x - to_bright_x, width) + PAD - RADIUS};
+
+  for (int k = item; k < WINDOW * WINDOW; k += ITEMS_PER_EDGE) {
+    const int row = k / WINDOW, column = k % WINDOW;
+    const float i = (float)(row - RADIUS), j = (float)(column - RADIUS);
+    const float along = j * c + i * s, across = i * c - j * s;
+    const bool inside = fabs(along) < 2.5f && fabs(across) < 2.5f;
+    const float place_along = along + 1.5f, place_across = across + 1.5f;
+    const int below_along = whole_below(place_along), below_across = whole_below(place_across);
+    const float part_along = place_along - (float)below_along, part_across = place_across - (float)below_across;
+    const float window = kWindow[row] * kWindow[column];
+    const float beyond = window * part_across, before = window * (1.0f - part_across);
+    corner[local_edge][k] = inside ? (int2)(below_across, below_along) : (int2)(-9);
+    shares[local_edge][k] =
+        (float4)(before * (1.0f - part_along), before * part_along, beyond * (1.0f - part_along), beyond * part_along);
+    for (int side = 0; side < SIDES; ++side) {
+      const int place = first[side] + row * stride + column;
+      const float length = magnitude[place], bins = turn - angle[place];
+      const int whole = whole_below(bins);
+      const float part = bins - (float)whole;
+      gradient[local_edge][side][k] = (float2)(length * (1.0f - part), length * part);
+      lower_bin[local_edge][side][k] = whole & (ANGLES - 1);
+    }
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  const int side = item / (CELLS * CELLS), cell = item % (CELLS * CELLS);
+  const int cell_across = cell / CELLS, cell_along = cell % CELLS;
+  const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  float8 bins = 0.0f;
+  for (int k = 0; k < WINDOW * WINDOW; ++k) {
+    const int below = cell_across - corner[local_edge][k].x, right = cell_along - corner[local_edge][k].y;
+    if ((below | right) & ~1) continue;
+    const float4 share = shares[local_edge][k];
+    const float weight = below ? (right ? share.w : share.z) : (right ? share.y : share.x);
+    const float2 low_high = gradient[local_edge][side][k];
+    const int lower = lower_bin[local_edge][side][k];
+    bins += select(select((float8)(0.0f), (float8)(low_high.x), lanes == lower), (float8)(low_high.y),
+                   lanes == ((lower + 1) & (ANGLES - 1))) * weight;
+  }
+  local float* all = histogram[local_edge][side];
+  vstore8(bins, cell, all);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  float8 squares = 0.0f;
+  for (int k = 0; k < CELLS * CELLS; ++k) {
+    const float8 other = vload8(k, all);
+    squares += other * other;
+  }
+  const float clip = CLIP * sqrt(sum_lanes(squares));
+  squares = 0.0f;
+  for (int k = 0; k < CELLS * CELLS; ++k) {
+    const float8 other = min(vload8(k, all), clip);
+    squares += other * other;
+  }
+  const float norm = sqrt(sum_lanes(squares));
+  const float scale = norm > 0.0f ? NORM / norm : 0.0f;
+  if (wanted >= count) return;
+  vstore8(convert_uchar8(convert_int8(min(min(bins, clip) * scale, 255.0f) + 0.5f)), cell,
+          descriptors + (size_t)edge * (2 * BYTES) + side * BYTES);
+}
+
+#endif

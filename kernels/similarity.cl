@@ -1,0 +1,67 @@
+// similarity.cl: how alike two edges are (SPEC section 2). Plain functions for the filters; name this file before theirs.
+//
+// The layouts are those of patches.cl (98 floats per edge) and sift.cl (256 bytes per edge).
+// Reference: patch_similarity() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
+
+// Sum over eight lanes, halves first.
+inline float similarity_sum(const float8 v) {
+  const float4 four = v.lo + v.hi;
+  const float2 two = four.lo + four.hi;
+  return two.x + two.y;
+}
+
+// NCC of two edges: the highest of the four products of side patches. Its pairing: 0 bright-bright, 1 dark-dark,
+// 2 bright-dark, 3 dark-bright, the first one on a tie.
+inline float patch_ncc_pairing(global const float* a, global const float* b, int* pairing) {
+  float8 bright_bright = 0.0f, dark_dark = 0.0f, bright_dark = 0.0f, dark_bright = 0.0f;
+  for (int k = 0; k < 6; ++k) {
+    const float8 a_bright = vload8(k, a), a_dark = vload8(k, a + 49);
+    const float8 b_bright = vload8(k, b), b_dark = vload8(k, b + 49);
+    bright_bright = fma(a_bright, b_bright, bright_bright);
+    dark_dark = fma(a_dark, b_dark, dark_dark);
+    bright_dark = fma(a_bright, b_dark, bright_dark);
+    dark_bright = fma(a_dark, b_bright, dark_bright);
+  }
+  const float scores[4] = {fma(a[48], b[48], similarity_sum(bright_bright)), fma(a[97], b[97], similarity_sum(dark_dark)),
+                           fma(a[48], b[97], similarity_sum(bright_dark)), fma(a[97], b[48], similarity_sum(dark_bright))};
+  float best = scores[0];
+  int which = 0;
+  for (int k = 1; k < 4; ++k) {
+    which = scores[k] > best ? k : which;
+    best = max(best, scores[k]);
+  }
+  *pairing = which;
+  return best;
+}
+
+// Only the NCC.
+inline float patch_ncc(global const float* a, global const float* b) {
+  int pairing;
+  return patch_ncc_pairing(a, b, &pairing);
+}
+
+// Square of the smallest SIFT distance over the four pairings of sides; exact, at most 128 * 255^2.
+inline int sift_distance2(global const uchar* a, global const uchar* b) {
+  uint8 bright_bright = 0, dark_dark = 0, bright_dark = 0, dark_bright = 0;
+#define ADD_SQUARES(sum, p, q)                                        \
+  {                                                                   \
+    const ushort16 difference = convert_ushort16(abs_diff(p, q));     \
+    const ushort16 square = difference * difference;                  \
+    sum += convert_uint8(square.lo) + convert_uint8(square.hi);       \
+  }
+  for (int k = 0; k < 8; ++k) {
+    const uchar16 a_bright = vload16(k, a), a_dark = vload16(k, a + 128);
+    const uchar16 b_bright = vload16(k, b), b_dark = vload16(k, b + 128);
+    ADD_SQUARES(bright_bright, a_bright, b_bright)
+    ADD_SQUARES(dark_dark, a_dark, b_dark)
+    ADD_SQUARES(bright_dark, a_bright, b_dark)
+    ADD_SQUARES(dark_bright, a_dark, b_bright)
+  }
+#undef ADD_SQUARES
+  // The four sums, one per lane of the result.
+  const uint4 one = bright_bright.lo + bright_bright.hi, two = dark_dark.lo + dark_dark.hi;
+  const uint4 three = bright_dark.lo + bright_dark.hi, four = dark_bright.lo + dark_bright.hi;
+  const uint4 sums = ((uint4)(one.x, two.x, three.x, four.x) + (uint4)(one.y, two.y, three.y, four.y)) +
+                     ((uint4)(one.z, two.z, three.z, four.z) + (uint4)(one.w, two.w, three.w, four.w));
+  return (int)min(min(sums.x, sums.y), min(sums.z, sums.w));
+}

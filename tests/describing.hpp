@@ -1,0 +1,77 @@
+#pragma once
+/// \file describing.hpp  Random edges and device runs shared by the tests of side patches and SIFT descriptors.
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "devices.hpp"
+#include "opencl/kernel_sources.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/image.hpp"
+#include "stages/edge_description.hpp"
+
+struct TestEdges {
+  std::vector<float> x, y, direction;
+};
+
+/// `count` places all over the image and up to `beyond` px outside it, with all directions.
+inline TestEdges random_edges(int width, int height, int count, unsigned seed, double beyond = 0) {
+  TestEdges edges;
+  std::mt19937_64 random(seed);
+  const auto uniform = [&random] { return static_cast<double>(random() >> 11) / 9007199254740992.0; };
+  for (int k = 0; k < count; ++k) {
+    edges.x.push_back(static_cast<float>(uniform() * (width - 1 + 2 * beyond) - beyond));
+    edges.y.push_back(static_cast<float>(uniform() * (height - 1 + 2 * beyond) - beyond));
+    edges.direction.push_back(static_cast<float>((2 * uniform() - 1) * 3.14159265358979));
+  }
+  return edges;
+}
+
+struct TestDescriptions {
+  std::string name;  ///< device and variant
+  std::vector<float> patches;
+  std::vector<std::uint8_t> sift;
+};
+
+/// Descriptions by every variant of `stage` ("patches" or "sift"; the other one by its default) on every device, each run
+/// twice on the same object: the second run must give the same bytes.
+inline std::vector<TestDescriptions> describe_everywhere(const std::string& stage, const quadedge::Image& image,
+                                                         const TestEdges& edges) {
+  using namespace quadedge;
+  std::vector<TestDescriptions> all;
+  const std::size_t count = edges.x.size();
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    auto& context = *device.context();
+    opencl::Buffer<cl_uchar> pixels;
+    opencl::Buffer<cl_float> x, y, direction;
+    pixels.write(context, image.pixels);
+    x.write(context, edges.x);
+    y.write(context, edges.y);
+    direction.write(context, edges.direction);
+    for (const auto& variant : opencl::all_variants()) {
+      if (variant.stage != stage) continue;
+      stages::EdgeDescription describer(context, image.width, image.height, {}, {}, {{stage, variant.name}});
+      TestDescriptions found[2];
+      for (auto& run : found) {
+        stages::DeviceDescriptions result;
+        describer.prepare(pixels);
+        describer.describe(x, y, direction, static_cast<int>(count), result);
+        run = {device.info().name + " " + variant.name, result.patches.read(count * 98), result.sift.read(count * 256)};
+      }
+      CHECK(found[0].patches == found[1].patches);
+      CHECK(found[0].sift == found[1].sift);
+      all.push_back(found[0]);
+    }
+  }
+  return all;
+}
+
+/// Builds `source` behind common.cl and similarity.cl.
+inline cl::Program build_with_similarity(quadedge::opencl::Context& context, const std::string& source) {
+  const auto& kernels = quadedge::opencl::embedded_kernels();
+  cl::Program program(context.context(), kernels.at("common.cl") + "\n" + kernels.at("similarity.cl") + "\n" + source);
+  program.build({context.device()}, "-cl-std=CL1.2 -cl-kernel-arg-info");
+  return program;
+}
