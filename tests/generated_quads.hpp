@@ -95,6 +95,9 @@ inline quadedge::pose::StereoObservation disturb(const quadedge::StereoRig& rig,
   return o;
 }
 
+/// Limits of the default configuration.
+inline quadedge::pose::QuadLimits limits() { return quadedge::pose::QuadLimits(quadedge::Config{}); }
+
 /// What to make.
 struct Problem {
   quadedge::StereoRig rig = car_rig();
@@ -120,7 +123,8 @@ inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, d
 inline Generated generate(const Problem& problem, std::uint64_t seed) {
   Random random(seed);
   Generated result;
-  const double min_angle = 0.07;
+  quadedge::pose::QuadLimits quad_limits = limits();
+  quad_limits.direction_sigma = problem.noise.direction;
   while (static_cast<int>(result.quads.size()) < problem.quads) {
     const auto p = random_point(problem.rig, problem.near, problem.far, random);
     const Eigen::Vector3d moved = problem.motion * p.point;
@@ -144,7 +148,7 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
         after.right_direction = wrong.right_direction;
       }
       const float ncc = static_cast<float>(random.uniform(0.8, 1.0));
-      if (result.quads.append(problem.rig, before, after, ncc, 0, static_cast<int>(result.quads.size()), min_angle))
+      if (result.quads.append(problem.rig, before, after, ncc, 0, static_cast<int>(result.quads.size()), quad_limits))
         result.correct.push_back(correct);
     }
   }

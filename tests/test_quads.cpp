@@ -50,7 +50,7 @@ TEST_CASE("Quads take the refined places, keep their match's row and leave out w
     matches.ncc.push_back(static_cast<float>(i) / 20.0f);
     matches.rivals.push_back(i % 3);
   }
-  const QuadObservations quads = build_quads(rig, previous, current, matches, 0.07);
+  const QuadObservations quads = build_quads(rig, previous, current, matches, generated::limits());
   REQUIRE(quads.size() == 19);
   REQUIRE(quads.scoring.size() == 19);
   for (std::size_t k = 0; k < quads.size(); ++k) {

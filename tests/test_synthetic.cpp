@@ -151,7 +151,7 @@ TEST_CASE("the synthetic camera starts at the identity and moves smoothly", "[sy
     const Vector3d moved = now.translation() - before.translation();
     if (frame > 1) REQUIRE((moved - last_step).norm() < 0.003);
     last_step = moved;
-    REQUIRE(now.translation().norm() < 0.8);
+    REQUIRE(now.translation().norm() < 0.7);
     sway = sway.cwiseMax((turn.angle() * turn.axis()).cwiseAbs());
     travel = travel.cwiseMax(now.translation().cwiseAbs());
   }

@@ -11,7 +11,7 @@ namespace quadedge::synthetic {
 /// `focal` [px] only sets how finely the textures are sampled.
 Scene make_room(std::uint64_t seed, double focal);
 
-/// Smoothly curved cables of 0.6 to 3 cm at 1.2 to 2.6 m, one before the other, before a nearly plain wall.
+/// Smoothly curved cables, 0.8 to 3 cm thick, at 1.4 to 2.7 m from the start, one before the other, before a nearly plain wall.
 Scene make_cables(std::uint64_t seed, double focal);
 
 }  // namespace quadedge::synthetic

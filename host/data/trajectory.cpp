@@ -4,6 +4,7 @@
 
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
+#include "data/trajectory_rows.hpp"
 
 namespace quadedge {
 namespace {
@@ -42,16 +43,8 @@ Trajectory read_tum(const std::string& path) {
 }
 
 void write_tum(const std::string& path, const Trajectory& trajectory) {
-  std::string text = "# timestamp[s] tx ty tz[m] qx qy qz qw: world_from_left_camera\n";
-  for (const auto& pose : trajectory) {
-    Eigen::Quaterniond rotation(pose.world_from_left.linear());
-    rotation.normalize();
-    if (rotation.w() < 0) rotation.coeffs() *= -1;
-    text += data::format_seconds(pose.stamp_ns);
-    for (int i = 0; i < 3; ++i) text += ' ' + data::format_exact(pose.world_from_left.translation()[i]);
-    for (int i = 0; i < 4; ++i) text += ' ' + data::format_exact(rotation.coeffs()[i]);
-    text += '\n';
-  }
+  std::string text = data::tum_header();
+  for (const auto& pose : trajectory) text += data::tum_row(pose);
   data::write_atomically(path, text);
 }
 
@@ -78,12 +71,7 @@ Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& 
 
 void write_kitti(const std::string& path, const Trajectory& trajectory) {
   std::string text;
-  for (const auto& pose : trajectory) {
-    for (int i = 0; i < 12; ++i) {
-      text += data::format_exact(pose.world_from_left.matrix()(i / 4, i % 4));
-      text += i == 11 ? '\n' : ' ';
-    }
-  }
+  for (const auto& pose : trajectory) text += data::kitti_row(pose);
   data::write_atomically(path, text);
 }
 

@@ -107,6 +107,8 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("pose.sigma_across", &pose.sigma_across, "noise of an edge's place across the edge [px]", 1e-6, 100);
   visit("pose.sigma_along", &pose.sigma_along, "noise of an edge's place along the edge [px]", 1e-6, 1000);
   visit("pose.sigma_direction", &pose.sigma_direction, "noise of an edge's direction in the image [deg]", 1e-6, 90);
+  visit("pose.slope_prior", &pose.slope_prior, "plausible depth slope of a tangent, for telling inliers", 1e-6, 1e6);
+  visit("pose.fit_tolerance", &pose.fit_tolerance, "step that ends a fit [share of the standard deviation]", 0, 1);
   visit("pose.student_dof", &pose.student_dof, "degrees of freedom of the residuals' Student-t distribution", 1, 1000000);
   visit("pose.vote_cell", &pose.vote_cell, "side of the cells whose edges may share their error [px]", 1, 1000);
   visit("pose.min_inliers", &pose.min_inliers, "fewer give no pose", 2, kLargestInt);

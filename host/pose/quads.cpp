@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "pose/angles.hpp"
+
 namespace quadedge::pose {
 
 namespace {
@@ -18,6 +20,11 @@ StereoObservation observation(const StereoEdges& edges, std::size_t i) {
 }
 
 }  // namespace
+
+QuadLimits::QuadLimits(const Config& config)
+    : min_epipolar_angle(radians(config.stereo.min_epipolar_angle)),
+      direction_sigma(radians(config.pose.sigma_direction)),
+      slope_prior(config.pose.slope_prior) {}
 
 void ScoringArrays::reserve(std::size_t rows) {
   for (auto column : kColumns) (this->*column).reserve(rows);
@@ -39,16 +46,17 @@ void QuadObservations::reserve(std::size_t quads) {
 }
 
 bool QuadObservations::append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge,
-                              float ncc_value, std::int32_t rival_count, std::int32_t match_number, double min_epipolar_angle) {
-  const auto before = measure(rig, previous_edge, min_epipolar_angle);
+                              float ncc_value, std::int32_t rival_count, std::int32_t match_number, const QuadLimits& limits) {
+  const auto before = measure(rig, previous_edge, limits.min_epipolar_angle);
   if (!before) return false;
-  const auto after = measure(rig, current_edge, min_epipolar_angle);
+  const auto after = measure(rig, current_edge, limits.min_epipolar_angle);
   if (!after) return false;
   previous.push_back(*before);
   current.push_back(*after);
   previous_points.push_back(before->oriented_point());
   current_points.push_back(after->oriented_point());
-  const Eigen::Vector3d& tangent = previous_points.back().tangent;
+  const double doubt = before->slope_per_radian * limits.direction_sigma / limits.slope_prior;
+  const Eigen::Vector3d tangent = (before->direction + before->slope / (1.0 + doubt * doubt) * before->ray).normalized();
   const double values[] = {before->ray.x(), before->ray.y(), before->inverse_depth, tangent.x(), tangent.y(), tangent.z(),
                            current_edge.left.x(), current_edge.left.y(),
                            std::cos(current_edge.left_direction), std::sin(current_edge.left_direction),
@@ -63,7 +71,7 @@ bool QuadObservations::append(const StereoRig& rig, const StereoObservation& pre
 }
 
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
-                             const TemporalMatches& matches, double min_epipolar_angle) {
+                             const TemporalMatches& matches, const QuadLimits& limits) {
   QuadObservations quads;
   quads.reserve(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -71,7 +79,7 @@ QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, 
     after.left = {matches.left_x[i], matches.left_y[i]};
     after.right = {matches.right_x[i], matches.right_y[i]};
     quads.append(rig, observation(previous, static_cast<std::size_t>(matches.previous[i])), after, matches.ncc[i],
-                 matches.rivals[i], static_cast<std::int32_t>(i), min_epipolar_angle);
+                 matches.rivals[i], static_cast<std::int32_t>(i), limits);
   }
   return quads;
 }

@@ -5,15 +5,27 @@
 #include <vector>
 
 #include "pose/oriented_point.hpp"
+#include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 
 namespace quadedge::pose {
+
+/// What decides whether a quad is used and how its tangent is seen.
+struct QuadLimits {
+  explicit QuadLimits(const Config& config);
+  double min_epipolar_angle;  ///< see measure() [rad]
+  double direction_sigma;     ///< noise of an edge's direction [rad]
+  double slope_prior;         ///< standard deviation of the depth slopes that scenes have
+};
 
 /// What scoring a hypothesis reads, one row per quad, single precision (1e-4 px).
 struct ScoringArrays {
   std::vector<float> ray_x, ray_y;       ///< K^-1 (x, y, 1) of the previous left pixel, third component 1
   std::vector<float> inverse_depth;      ///< previous, 1/m
-  std::vector<float> tangent_x, tangent_y, tangent_z;  ///< previous tangent, previous left camera's frame, unit norm
+  /// Previous tangent with its most plausible depth slope, previous left camera's frame, unit norm. The slope of a far edge is
+  /// noise divided by a small parallax; left as measured it turns the projected tangent at the next parallax and costs true quads
+  /// the orientation test. So here the measured slope is weighed against QuadLimits::slope_prior by its own uncertainty.
+  std::vector<float> tangent_x, tangent_y, tangent_z;
   std::vector<float> left_x, left_y, left_cos, left_sin;      ///< current left pixel and unit direction in the image
   std::vector<float> right_x, right_y, right_cos, right_sin;  ///< current right pixel and unit direction in the image
 
@@ -37,15 +49,14 @@ struct QuadObservations {
   void reserve(std::size_t quads);
 
   /// Appends a quad from its four edges. Pixels and radians. \returns false, and appends nothing, when one of the two stereo
-  /// edges has no depth or no tangent (see measure(); `min_epipolar_angle` in radians).
+  /// edges has no depth or no tangent (see measure()).
   bool append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge, float ncc_value,
-              std::int32_t rival_count, std::int32_t match_number, double min_epipolar_angle);
+              std::int32_t rival_count, std::int32_t match_number, const QuadLimits& limits);
 };
 
 /// All quads of two rigs. The current places are the refined ones of `matches`, the current directions those of the stereo edges;
 /// matches without depth are left out, QuadObservations::match says which row a quad came from.
-/// \param min_epipolar_angle radians
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
-                             const TemporalMatches& matches, double min_epipolar_angle);
+                             const TemporalMatches& matches, const QuadLimits& limits);
 
 }  // namespace quadedge::pose

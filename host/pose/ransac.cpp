@@ -82,7 +82,7 @@ class Search {
     }
   }
 
-  std::optional<Eigen::Isometry3d> solve(std::size_t a, std::size_t b) const {
+  std::optional<Eigen::Isometry3d> solve(std::size_t a, std::size_t b) {
     const double dx = static_cast<double>(quads_.scoring.left_x[a]) - static_cast<double>(quads_.scoring.left_x[b]);
     const double dy = static_cast<double>(quads_.scoring.left_y[a]) - static_cast<double>(quads_.scoring.left_y[b]);
     if (dx * dx + dy * dy < min_distance_squared_) return std::nullopt;
@@ -94,7 +94,12 @@ class Search {
       std::swap(before.first, before.second);
       std::swap(after.first, after.second);
     }
-    return solve_two_quads(before, after, limits_.max_cosine);
+    auto motion = solve_two_quads(before, after, limits_.max_cosine);
+    if (!motion) return std::nullopt;
+    pair_rows_[0] = static_cast<std::int32_t>(a);
+    pair_rows_[1] = static_cast<std::int32_t>(b);
+    Eigen::Isometry3d polished = *motion;
+    return fit(terms_, pair_rows_, rig_, config_, polished, workspace_) ? polished : *motion;
   }
 
   void consider(const Eigen::Isometry3d& motion) {
@@ -143,6 +148,7 @@ class Search {
   ConstraintLimits limits_;
   ScoringArrays preview_;
   std::vector<std::int32_t> preview_rows_, inlier_rows_;
+  std::vector<std::int32_t> pair_rows_ = std::vector<std::int32_t>(2);
   std::vector<std::uint8_t> mask_;
   FitWorkspace workspace_;
   double min_distance_squared_ = 0;

@@ -144,6 +144,7 @@ bool fit(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& row
     Vector6d step;
     if (!solve(normal, gradient, step)) return false;
     current_from_previous = perturb(step, current_from_previous);
+    if (-gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
     measure_scales();
   }
   return true;
@@ -196,18 +197,20 @@ Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads,
   Refined result;
   result.current_from_previous = initial;
   FitWorkspace workspace;
-  std::vector<std::int32_t> rows;
+  std::vector<std::int32_t> rows, last_rows;
   const double angle = radians(config.inlier_orientation);
   for (int round = 0; round < config.refine_rounds; ++round) {
     select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
     mask_to_rows(result.inlier, rows);
+    if (round > 0 && rows == last_rows) break;
     Eigen::Isometry3d candidate = result.current_from_previous;
-    if (!fit(terms, rows, rig, config, candidate, workspace)) break;
+    result.solved = fit(terms, rows, rig, config, candidate, workspace);
+    if (!result.solved) break;
     result.current_from_previous = candidate;
-    result.solved = round + 1 == config.refine_rounds;
+    std::swap(rows, last_rows);
   }
   if (result.solved)
-    result.covariance = fit_covariance(terms, rows, quads, rig, config, result.current_from_previous, workspace);
+    result.covariance = fit_covariance(terms, last_rows, quads, rig, config, result.current_from_previous, workspace);
   result.inliers =
       select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
   return result;

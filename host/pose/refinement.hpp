@@ -22,7 +22,8 @@ struct FitWorkspace {
   double place_scale = 1, direction_scale = 1;        ///< measured variance over the assumed one, per block of residuals
 };
 
-/// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces.
+/// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces; ends after
+/// config.fit_steps or with a step below config.fit_tolerance standard deviations of the pose.
 /// The two blocks of residuals (place and depth; direction) have their variances measured anew in each step, by the median.
 /// Each quad's true depth and slope are eliminated in closed form, which is the Schur complement of a bundle adjustment of the
 /// two rigs.
@@ -52,7 +53,8 @@ struct Refined {
   bool solved = false;                ///< false: no fit was possible, the pose is the initial one, covariance zero
 };
 
-/// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and fit(), config.refine_rounds times.
+/// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and fit(), config.refine_rounds times or until the selection
+/// stays the same.
 Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial);
 

@@ -97,6 +97,8 @@ struct PoseConfig {
   double sigma_across = 0.12;        ///< noise of an edge's place across the edge [px]
   double sigma_along = 0.5;          ///< and along it [px]
   double sigma_direction = 2.0;      ///< noise of an edge's direction in the image [deg]
+  double slope_prior = 1.0;          ///< plausible depth slope of a tangent; tempers slopes that are mostly noise when inliers are told
+  double fit_tolerance = 1e-5;       ///< a step shorter than this share of the pose's standard deviation ends a fit
   double student_dof = 5.0;          ///< degrees of freedom of the residuals' Student-t distribution; small: robust
   double vote_cell = 16.0;           ///< edges of one square cell of this side may share their error [px]
   int min_inliers = 12;

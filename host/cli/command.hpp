@@ -1,0 +1,59 @@
+#pragma once
+/// \file command.hpp  What a command of the program is, and how it declares its options. Free of CLI11.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quadedge::cli {
+
+/// Collects the options of one command. Names are written "-o,--output"; each variable's present value is the default.
+class Options {
+ public:
+  virtual ~Options() = default;
+  /// A positional argument.
+  virtual void positional(const std::string& name, std::string& value, const std::string& help, bool required = true) = 0;
+  virtual void text(const std::string& names, std::string& value, const std::string& help, const std::string& placeholder) = 0;
+  virtual void number(const std::string& names, double& value, const std::string& help) = 0;
+  virtual void number(const std::string& names, int& value, const std::string& help) = 0;
+  virtual void number(const std::string& names, std::uint64_t& value, const std::string& help) = 0;
+  /// Takes a value, true or false.
+  virtual void boolean(const std::string& names, bool& value, const std::string& help) = 0;
+  /// Takes no value.
+  virtual void flag(const std::string& names, bool& value, const std::string& help) = 0;
+  virtual void choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
+                      const std::string& help) = 0;
+  /// May be repeated, one value each time.
+  virtual void repeated(const std::string& names, std::vector<std::string>& values, const std::string& help,
+                        const std::string& placeholder) = 0;
+  /// The option declared last also reads an environment variable.
+  virtual void environment(const std::string& variable) = 0;
+  /// Heading of the following options in the help; `only_in_full_help`: shown by --help-all alone.
+  virtual void group(const std::string& heading, bool only_in_full_help = false) = 0;
+  /// `--config FILE`: values for the options that neither command line nor environment gives.
+  virtual void config_file() = 0;
+};
+
+/// One command of the program.
+class Command {
+ public:
+  virtual ~Command() = default;
+  virtual std::string name() const = 0;      ///< "run", or "evaluate trajectory" for a command of a group
+  virtual std::string about() const = 0;     ///< one sentence
+  virtual std::string examples() const = 0;  ///< two lines that can be typed
+  virtual void declare(Options& options) = 0;
+  /// Does the work after the options are set. Returns the exit code; \throws Error.
+  virtual int run() = 0;
+};
+
+std::unique_ptr<Command> make_run_command();
+std::unique_ptr<Command> make_demo_command();
+std::unique_ptr<Command> make_edges_command();
+std::unique_ptr<Command> make_check_command();
+std::unique_ptr<Command> make_devices_command();
+std::unique_ptr<Command> make_variants_command();
+std::unique_ptr<Command> make_synth_command();
+std::unique_ptr<Command> make_evaluate_trajectory_command();
+
+}  // namespace quadedge::cli

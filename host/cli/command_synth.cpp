@@ -1,0 +1,67 @@
+/// \file command_synth.cpp  quadedge synth: the rendered sequence on disk, in the ETH3D SLAM layout with depth.
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/frame_source.hpp"
+#include "data/eth3d_slam_writer.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+class SynthCommand : public Command {
+ public:
+  std::string name() const override { return "synth"; }
+  std::string about() const override { return "write the rendered sequence to disk (ETH3D SLAM layout, with depth and poses)"; }
+  std::string examples() const override {
+    return "  quadedge synth room60 --scene room --frames 60\n"
+           "  quadedge synth small --scene cables --frames 4 --size 320x200";
+  }
+  void declare(Options& options) override {
+    options.positional("OUT", output_, "folder for the sequence");
+    options.choice("--scene", scene_.scene, {"room", "cables"}, "room, or cables: thin curves before a plain wall");
+    options.number("--frames", scene_.frames, "length of the sequence");
+    options.text("--size", size_, "size of the images [px]; default 942x489", "WxH");
+    options.number("--seed", scene_.seed, "of textures and camera noise");
+    options.flag("--force", force_, "replace the sequence in OUT");
+    options.flag("--quiet", quiet_, "no progress");
+  }
+  int run() override {
+    set_size(scene_, size_);
+    const SyntheticSequence sequence(scene_);
+    clear_place();
+    Progress progress(quiet_);
+    write_eth3d_slam(output_, sequence, [&](int done, int all) { progress.update("frame", done, all); });
+    if (!quiet_) {
+      std::printf("%d frames of %d x %d px in %s; largest disparity %.1f px\n", sequence.frames(), sequence.rig().left.width,
+                  sequence.rig().left.height, output_.c_str(), sequence.max_disparity());
+    }
+    return 0;
+  }
+
+ private:
+  /// Refuses a folder that holds a sequence; with --force removes that sequence and nothing else.
+  void clear_place() const {
+    const std::filesystem::path folder(output_);
+    std::error_code error;
+    for (const char* name : {"rgb.txt", "calibration.txt", "calibration2.txt", "extrinsics_1_2.txt", "groundtruth.txt", "rgb", "rgb2",
+                             "depth", "depth2"}) {
+      if (!std::filesystem::exists(folder / name, error)) continue;
+      if (!force_) throw UsageError(output_ + ": the folder holds a sequence (" + name + "); choose another, or --force to replace it");
+      std::filesystem::remove_all(folder / name, error);
+      if (error) throw DataError((folder / name).string() + ": cannot be removed: " + error.message());
+    }
+  }
+
+  std::string output_, size_;
+  SyntheticOptions scene_;
+  bool force_ = false, quiet_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_synth_command() { return std::make_unique<SynthCommand>(); }
+
+}  // namespace quadedge::cli

@@ -1,0 +1,40 @@
+#pragma once
+/// \file frame_source.hpp  Frames in order, from disk or from the renderer.
+
+#include <memory>
+#include <optional>
+
+#include "quadedge/dataset.hpp"
+#include "quadedge/synthetic.hpp"
+#include "report/run_record.hpp"
+
+namespace quadedge::cli {
+
+/// A sequence that can be run. Ground truth is kept apart: only evaluation and pictures ask for it.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  virtual const StereoRig& rig() const = 0;
+  virtual report::InputFacts facts() const = 0;
+  /// Default for the largest disparity [px].
+  virtual double max_disparity() const = 0;
+  /// The next frame, or nothing at the end. \throws DataError for a frame that cannot be read.
+  virtual std::optional<FramePrefetcher::Frame> next() = 0;
+  /// Starts again with the first frame.
+  virtual void rewind() = 0;
+  /// Poses of the left camera; empty when there are none.
+  virtual const Trajectory& truth() const = 0;
+  /// Where they come from.
+  virtual std::string truth_name() const = 0;
+};
+
+/// A recorded sequence; images are read ahead on another thread.
+std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset);
+
+/// The built-in sequence, rendered while it runs. \throws UsageError for options that cannot be rendered.
+std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options);
+
+/// Reads "WIDTHxHEIGHT" into the options. \throws UsageError.
+void set_size(SyntheticOptions& options, const std::string& size);
+
+}  // namespace quadedge::cli

@@ -1,0 +1,33 @@
+/// \file main.cpp  The quadedge program: runs one command and turns errors into exit codes.
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "cli/parser.hpp"
+#include "quadedge/error.hpp"
+
+int main(int argc, char** argv) {
+  using namespace quadedge;
+  try {
+    std::vector<std::unique_ptr<cli::Command>> commands;
+    commands.push_back(cli::make_synth_command());
+    commands.push_back(cli::make_check_command());
+    commands.push_back(cli::make_devices_command());
+    commands.push_back(cli::make_variants_command());
+    const cli::Parsed parsed = cli::parse_command_line(argc, argv, commands);
+    if (parsed.command == nullptr) return parsed.exit_code;
+    const int code = parsed.command->run();
+    std::cout.flush();
+    if (!std::cout) throw DataError("standard output cannot be written");
+    return code;
+  } catch (const Error& error) {
+    std::cerr << "quadedge: " << error.what() << "\n";
+    return static_cast<int>(error.exit_code());
+  } catch (const std::bad_alloc&) {
+    std::cerr << "quadedge: out of memory\n";
+    return static_cast<int>(ExitCode::internal);
+  } catch (const std::exception& error) {
+    std::cerr << "quadedge: internal error: " << error.what() << "\n";
+    return static_cast<int>(ExitCode::internal);
+  }
+}

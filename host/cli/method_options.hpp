@@ -1,0 +1,32 @@
+#pragma once
+/// \file method_options.hpp  Options that all computing commands share: the device and every constant of the method.
+
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
+
+namespace quadedge::cli {
+
+/// Declares the shared options, then turns them into a checked configuration and a device.
+class MethodOptions {
+ public:
+  /// --device, --config, --variant, --kernels, --seed, --max-disparity, and --SECTION.FIELD for every field.
+  void declare(Options& options);
+  /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
+  Config config() const;
+  /// Opens the device. \throws DeviceError.
+  Device open_device(bool profiling = false) const { return Device(device_, kernels_, profiling); }
+  /// What --device says.
+  const std::string& device_choice() const { return device_; }
+
+ private:
+  Config config_;
+  std::string device_ = "auto";
+  std::string kernels_;
+  std::vector<std::string> variants_;
+};
+
+}  // namespace quadedge::cli

@@ -1,0 +1,55 @@
+#include "cli/output_folder.hpp"
+
+#include <cctype>
+#include <filesystem>
+
+#include "quadedge/error.hpp"
+
+namespace quadedge::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kResultFiles[] = {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "report.json", "config.toml"};
+
+bool is_picture(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return file.extension() == ".png" &&
+         (name == "trajectory.png" || name.rfind("edges_", 0) == 0 || name.rfind("quads_", 0) == 0);
+}
+
+}  // namespace
+
+void prepare_output_folder(const std::string& path, bool force) {
+  const fs::path folder(path);
+  std::error_code error;
+  fs::create_directories(folder / "pictures", error);
+  if (error) throw DataError(path + ": the output folder cannot be made: " + error.message());
+  for (const char* name : kResultFiles) {
+    if (!fs::exists(folder / name, error)) continue;
+    if (!force) throw UsageError(path + ": the folder holds results (" + name + "); choose another -o, or --force to replace them");
+    fs::remove(folder / name, error);
+    if (error) throw DataError((folder / name).string() + ": the old result cannot be removed: " + error.message());
+  }
+  for (const auto& entry : fs::directory_iterator(folder / "pictures", error)) {
+    if (is_picture(entry.path())) fs::remove(entry.path(), error);
+  }
+  if (error) throw DataError((folder / "pictures").string() + ": old pictures cannot be removed: " + error.message());
+}
+
+void refuse_existing_file(const std::string& path, bool force) {
+  std::error_code error;
+  if (!force && !path.empty() && fs::is_regular_file(path, error)) {
+    throw UsageError(path + ": the file exists; choose another name, or --force to replace it");
+  }
+}
+
+std::string default_output_folder(const std::string& sequence) {
+  std::string name = "quadedge_";
+  for (const char c : sequence) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    name += plain ? c : '_';
+  }
+  return name;
+}
+
+}  // namespace quadedge::cli

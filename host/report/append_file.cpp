@@ -1,0 +1,34 @@
+#include "report/append_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+#include "quadedge/error.hpp"
+
+namespace quadedge::report {
+
+AppendFile::AppendFile(std::string path) : path_(std::move(path)) { open(); }
+
+AppendFile::~AppendFile() {
+  if (stream_ != nullptr) std::fclose(stream_);
+}
+
+void AppendFile::open() {
+  stream_ = std::fopen(path_.c_str(), "wb");
+  if (stream_ == nullptr) fail("opened for writing");
+}
+
+void AppendFile::append(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0) fail("written");
+}
+
+void AppendFile::clear() {
+  std::fclose(stream_);
+  open();
+}
+
+void AppendFile::fail(const char* what) const {
+  throw DataError(path_ + ": cannot be " + what + ": " + std::strerror(errno));
+}
+
+}  // namespace quadedge::report

@@ -1,0 +1,30 @@
+#pragma once
+/// \file append_file.hpp  A text file that grows row by row; every finished row is on disk.
+
+#include <cstdio>
+#include <string>
+
+namespace quadedge::report {
+
+/// Truncates the file on opening and flushes after each append, so that a run that dies keeps what it has finished.
+class AppendFile {
+ public:
+  /// \throws DataError with path and reason when the file cannot be opened.
+  explicit AppendFile(std::string path);
+  ~AppendFile();
+  AppendFile(const AppendFile&) = delete;
+  AppendFile& operator=(const AppendFile&) = delete;
+
+  /// \throws DataError with path and reason (full disk) when the text cannot be written.
+  void append(const std::string& text);
+  /// Starts over with an empty file.
+  void clear();
+
+ private:
+  [[noreturn]] void fail(const char* what) const;
+  void open();
+  std::string path_;
+  std::FILE* stream_ = nullptr;
+};
+
+}  // namespace quadedge::report

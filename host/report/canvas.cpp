@@ -1,0 +1,71 @@
+#include "report/canvas.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <vector>
+
+#include "data/atomic_file.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::report {
+namespace {
+
+constexpr int kSmallestWidth = 1000;  // px; narrower images are enlarged so that strokes can be told apart
+constexpr int kLargestScale = 4;
+
+int scale_for(int width) {
+  int scale = 1;
+  while (scale < kLargestScale && width * scale < kSmallestWidth) ++scale;
+  return scale;
+}
+
+}  // namespace
+
+Canvas::Canvas(const ImageView& image, double brightness, int legend_lines)
+    : scale_(scale_for(image.width)), image_height_(image.height * scale_) {
+  const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels),
+                     static_cast<std::size_t>(image.stride));
+  cv::Mat large;
+  cv::resize(grey, large, {}, scale_, scale_, cv::INTER_LINEAR);
+  large.convertTo(large, CV_8UC1, brightness);
+  picture_ = cv::Mat::zeros(large.rows + legend_lines * kLegendLine + 8, std::max(large.cols, 760), CV_8UC3);
+  cv::Mat target = picture_(cv::Rect(0, 0, large.cols, large.rows));
+  cv::cvtColor(large, target, cv::COLOR_GRAY2BGR);
+}
+
+cv::Point Canvas::place(double x, double y) const {
+  // Pixel centres are whole numbers on both sides of the enlargement.
+  const auto fixed_point = [this](double value) {
+    return static_cast<int>(std::lround(((value + 0.5) * scale_ - 0.5) * (1 << kPlaceShift)));
+  };
+  return {fixed_point(x), fixed_point(y)};
+}
+
+int Canvas::legend_y(int line) const { return image_height_ + (line + 1) * kLegendLine - 6; }
+
+int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size) {
+  cv::putText(picture, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
+  return x + text_width(text, size);
+}
+
+int text_width(const std::string& text, double size) {
+  int baseline = 0;
+  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &baseline).width;
+}
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+void write_png(const std::string& path, const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", picture, bytes)) throw DataError(path + ": the picture cannot be encoded as PNG");
+  data::write_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace quadedge::report

@@ -1,0 +1,78 @@
+/// \file draw_quads.cpp  Picture of stereo edges and quads of one frame.
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "report/canvas.hpp"
+#include "report/drawing.hpp"
+#include "report/statistics.hpp"
+
+namespace quadedge::report {
+namespace {
+
+constexpr double kBrightness = 0.45;
+const cv::Scalar kWhite(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
+
+/// Colours from small (dark) to large (bright) values.
+std::vector<cv::Scalar> colour_scale() {
+  cv::Mat levels(1, 256, CV_8UC1), bgr;
+  for (int i = 0; i < 256; ++i) levels.at<unsigned char>(0, i) = static_cast<unsigned char>(i);
+  cv::applyColorMap(levels, bgr, cv::COLORMAP_VIRIDIS);
+  std::vector<cv::Scalar> colours;
+  for (int i = 0; i < 256; ++i) {
+    const auto colour = bgr.at<cv::Vec3b>(0, i);
+    colours.emplace_back(colour[0], colour[1], colour[2]);
+  }
+  return colours;
+}
+
+/// Length of the way between the two places of a stereo edge, which is the disparity for a rectified rig [px].
+double disparity(const StereoEdges& stereo, std::size_t i) {
+  return std::hypot(stereo.left_x[i] - stereo.right_x[i], stereo.left_y[i] - stereo.right_y[i]);
+}
+
+}  // namespace
+
+void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& now, const FrameDetails& before) {
+  Canvas canvas(left, kBrightness, 2);
+  const auto colours = colour_scale();
+  std::vector<double> disparities;
+  for (std::size_t i = 0; i < now.stereo.size(); ++i) disparities.push_back(disparity(now.stereo, i));
+  // A few wrong matches must not stretch the scale.
+  const double largest = disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3);
+
+  const int radius = std::max(1, canvas.scale() / 2) << kPlaceShift;
+  for (std::size_t i = 0; i < now.stereo.size(); ++i) {
+    const auto level = static_cast<std::size_t>(std::clamp(disparities[i] / largest, 0.0, 1.0) * 255);
+    cv::circle(canvas.picture(), canvas.place(now.stereo.left_x[i], now.stereo.left_y[i]), radius, colours[level], cv::FILLED,
+               cv::LINE_AA, kPlaceShift);
+  }
+  int inliers = 0;
+  for (const bool draw_inliers : {false, true}) {  // inliers lie on top
+    for (std::size_t i = 0; i < now.quads.size(); ++i) {
+      const bool inlier = i < now.quad_inlier.size() && now.quad_inlier[i] != 0;
+      if (inlier != draw_inliers) continue;
+      inliers += inlier ? 1 : 0;
+      const auto previous = static_cast<std::size_t>(now.quads.previous[i]);
+      const cv::Scalar& colour = inlier ? kInlier : kOutlier;
+      const cv::Point end = canvas.place(now.quads.left_x[i], now.quads.left_y[i]);
+      cv::line(canvas.picture(), canvas.place(before.stereo.left_x.at(previous), before.stereo.left_y.at(previous)), end, colour, 1,
+               cv::LINE_AA, kPlaceShift);
+    }
+  }
+
+  cv::Mat& picture = canvas.picture();
+  int y = canvas.legend_y(0);
+  int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kWhite) + 6;
+  for (int i = 0; i < 256; ++i, ++x) cv::line(picture, {x, y - 12}, {x, y + 2}, colours[static_cast<std::size_t>(i)]);
+  put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(now.stereo.size()) + " stereo edges)", x + 6, y, kWhite);
+  y = canvas.legend_y(1);
+  x = put_text(picture, "motion of quads since the frame before:", 10, y, kWhite) + 10;
+  cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
+  x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
+  cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
+  put_text(picture, std::to_string(static_cast<int>(now.quads.size()) - inliers) + " others", x + 38, y, kOutlier);
+  write_png(path, picture);
+}
+
+}  // namespace quadedge::report

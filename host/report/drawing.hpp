@@ -1,0 +1,25 @@
+#pragma once
+/// \file drawing.hpp  Pictures of results as PNG files, each with its legend. All functions \throw DataError when the file
+/// cannot be written.
+
+#include <string>
+
+#include "quadedge/edges.hpp"
+#include "quadedge/image.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/trajectory.hpp"
+
+namespace quadedge::report {
+
+/// Third-order edges as short strokes along their direction, coloured by direction, over the darkened image.
+void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& edges);
+
+/// The left image with its stereo edges coloured by disparity, and for every quad the way of its left edge from the frame
+/// before to this one: inliers white, outliers red. `before` belongs to the frame before; quads index into both.
+void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& now, const FrameDetails& before);
+
+/// A trajectory from above: x to the right, z forward, metres, one scale for both axes. `truth` may be empty and is moved so
+/// that it agrees with the estimate at the first pose of both (nearest stamp).
+void draw_trajectory(const std::string& path, const Trajectory& estimate, const Trajectory& truth, const std::string& title);
+
+}  // namespace quadedge::report

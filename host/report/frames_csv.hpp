@@ -1,0 +1,29 @@
+#pragma once
+/// \file frames_csv.hpp  frames.csv: one row per input frame, written while the run goes on.
+
+#include <string>
+#include <vector>
+
+#include "quadedge/odometry.hpp"
+#include "report/append_file.hpp"
+
+namespace quadedge::report {
+
+/// Columns: frame, stamp_s, status, key_rig, new_key_rig, the counts, latency_ms, one NAME_ms per stage, message.
+class FramesCsv {
+ public:
+  /// \throws DataError when the file cannot be written.
+  explicit FramesCsv(const std::string& path);
+  /// Adds the row of the next frame. A stage that was not seen before adds a column: the file is written anew.
+  void add(const FrameResult& result);
+
+ private:
+  std::string header() const;
+  std::string row(std::size_t frame) const;
+
+  AppendFile file_;
+  std::vector<std::string> stages_;
+  std::vector<FrameResult> frames_;
+};
+
+}  // namespace quadedge::report

@@ -1,0 +1,22 @@
+#pragma once
+/// \file json.hpp  The machine-readable results (DESIGN section 10). All functions return the text of a JSON document.
+
+#include <string>
+
+#include "report/run_record.hpp"
+
+namespace quadedge::report {
+
+/// Version of report.json; grows when a key changes its meaning.
+constexpr int kReportSchema = 1;
+
+/// report.json of a run.
+std::string report_json(const RunRecord& run);
+
+/// Result of `evaluate trajectory`: the accuracy of report.json with the errors of every pose.
+std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate, const std::string& truth);
+
+/// Chrome's trace format (chrome://tracing, ui.perfetto.dev): one event per frame, with its stages one after another inside it.
+std::string trace_json(const RunRecord& run);
+
+}  // namespace quadedge::report

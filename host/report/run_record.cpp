@@ -1,0 +1,82 @@
+#include "report/run_record.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "report/statistics.hpp"
+
+namespace quadedge::report {
+namespace {
+
+/// The first frame has no frame before it and pays for warming up; it is left out of summaries unless it is the only one.
+std::size_t first_counted(std::size_t frames) { return frames > 1 ? 1 : 0; }
+
+}  // namespace
+
+LatencySummary latency_summary(const std::vector<FrameRecord>& frames) {
+  std::vector<double> values;
+  for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i) values.push_back(frames[i].result.latency_ms);
+  LatencySummary summary;
+  summary.median = median(values);
+  summary.p90 = percentile(values, 0.9);
+  summary.p99 = percentile(values, 0.99);
+  summary.max = percentile(values, 1.0);
+  summary.first = frames.empty() ? std::numeric_limits<double>::quiet_NaN() : frames.front().result.latency_ms;
+  return summary;
+}
+
+std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>>& frames) {
+  std::vector<std::string> names;
+  for (const auto& stages : frames) {
+    for (const auto& stage : stages) {
+      if (std::find(names.begin(), names.end(), stage.stage) == names.end()) names.push_back(stage.stage);
+    }
+  }
+  std::vector<StageSummary> summary;
+  for (const auto& name : names) {
+    std::vector<double> values;
+    for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i) {
+      double sum = 0;
+      bool seen = false;
+      for (const auto& stage : frames[i]) {
+        if (stage.stage != name) continue;
+        sum += stage.ms;
+        seen = true;
+      }
+      if (seen) values.push_back(sum);
+    }
+    if (!values.empty()) summary.push_back({name, median(values), percentile(values, 0.9)});
+  }
+  return summary;
+}
+
+std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& frames) {
+  std::vector<std::vector<StageTime>> times;
+  for (const auto& frame : frames) times.push_back(frame.result.stages);
+  return times;
+}
+
+std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts) {
+  return {{"edges_left", counts.edges_left},       {"edges_right", counts.edges_right},
+          {"stereo_edges", counts.stereo_edges},   {"temporal_left", counts.temporal_left},
+          {"temporal_right", counts.temporal_right}, {"quads", counts.quads},
+          {"chained_quads", counts.chained_quads}, {"inliers", counts.inliers}};
+}
+
+std::vector<std::pair<std::string, double>> count_medians(const std::vector<FrameRecord>& frames) {
+  std::vector<std::pair<std::string, double>> medians;
+  for (const auto& [name, unused] : named_counts({})) {
+    (void)unused;
+    medians.emplace_back(name, 0.0);
+  }
+  for (std::size_t column = 0; column < medians.size(); ++column) {
+    std::vector<double> values;
+    for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i) {
+      values.push_back(named_counts(frames[i].result.counts)[column].second);
+    }
+    medians[column].second = median(values);
+  }
+  return medians;
+}
+
+}  // namespace quadedge::report

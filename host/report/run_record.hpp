@@ -1,0 +1,73 @@
+#pragma once
+/// \file run_record.hpp  Everything that one run leaves behind, before it becomes files.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
+#include "quadedge/evaluation.hpp"
+#include "quadedge/odometry.hpp"
+
+namespace quadedge::report {
+
+/// Where the frames came from.
+struct InputFacts {
+  std::string path, format, name;
+  int frames = 0;
+  int width = 0, height = 0;  ///< of the left pinhole image [px]
+};
+
+/// One processed frame.
+struct FrameRecord {
+  FrameResult result;
+  double start_ms = 0;  ///< when track() was called, since the start of the run (steady clock)
+};
+
+/// One run.
+struct RunRecord {
+  InputFacts input;
+  DeviceInfo device;
+  Config config;                                ///< effective
+  std::map<std::string, std::string> variants;  ///< stage -> chosen kernel variant
+  std::vector<FrameRecord> frames;
+  double start_ms = 0;         ///< opening the device and building the pipeline, before the first frame
+  double kernel_build_ms = 0;  ///< the part of it that builds kernels
+  double host_peak_mb = 0, device_peak_mb = 0;
+  /// Kernel times of a second pass with a profiling queue: one list per frame, empty when not asked for.
+  std::vector<std::vector<StageTime>> kernel_times;
+  std::string truth_file;                        ///< empty without ground truth
+  std::optional<TrajectoryEvaluation> accuracy;  ///< only with ground truth
+
+  int tracked() const {
+    int count = 0;
+    for (const auto& frame : frames) count += is_tracked(frame.result.status) ? 1 : 0;
+    return count;
+  }
+};
+
+/// Latencies of a run [ms]; the first frame stands apart. NaN where there are no frames.
+struct LatencySummary {
+  double median = 0, p90 = 0, p99 = 0, max = 0, first = 0;
+};
+LatencySummary latency_summary(const std::vector<FrameRecord>& frames);
+
+/// Median and 90th percentile of each stage over all frames but the first, in order of first appearance.
+struct StageSummary {
+  std::string stage;
+  double median = 0, p90 = 0;  ///< [ms]
+};
+std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>>& frames);
+
+/// The host-side stage times of every frame.
+std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& frames);
+
+/// Medians of the counts over all frames but the first, in the order of FrameCounts.
+std::vector<std::pair<std::string, double>> count_medians(const std::vector<FrameRecord>& frames);
+
+/// Name and value of every count of a frame, in the order of FrameCounts.
+std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts);
+
+}  // namespace quadedge::report

@@ -1,0 +1,19 @@
+#include "report/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadedge::report {
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(place));
+  const auto above = std::min(below + 1, values.size() - 1);
+  const double part = place - std::floor(place);
+  return values[below] + part * (values[above] - values[below]);
+}
+
+}  // namespace quadedge::report

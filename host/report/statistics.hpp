@@ -1,0 +1,14 @@
+#pragma once
+/// \file statistics.hpp  Medians and percentiles of measured values.
+
+#include <vector>
+
+namespace quadedge::report {
+
+/// Value below which `share` (0 to 1) of the values lie, linear between neighbours; NaN for no values.
+double percentile(std::vector<double> values, double share);
+
+/// Middle value; NaN for no values.
+inline double median(const std::vector<double>& values) { return percentile(values, 0.5); }
+
+}  // namespace quadedge::report

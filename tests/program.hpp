@@ -1,0 +1,52 @@
+#pragma once
+/// \file program.hpp  Runs the quadedge program the way a user does.
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "temporary_folder.hpp"
+
+/// What a run of the program gave.
+struct ProgramResult {
+  int code = -1;  ///< exit code; -1 when it was killed by a signal
+  std::string out, err;
+};
+
+inline std::string read_text(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Runs `quadedge ARGUMENTS` through the shell; `environment` is put in front, for example "QUADEDGE_DEVICE=gpu".
+/// Arguments are quoted here. The user's own QUADEDGE_DEVICE does not reach the program.
+inline ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
+  const TemporaryFolder folder;
+  std::string command = "cd '" + folder.path() + "' && env -u QUADEDGE_DEVICE " + environment + " '" QUADEDGE_PROGRAM "'";
+  for (const auto& argument : arguments) command += " '" + argument + "'";
+  command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
+  const int status = std::system(command.c_str());
+  ProgramResult result;
+  // The shell reports a signal as 128 + its number; the program itself never ends with such a code.
+  if (WIFEXITED(status) && WEXITSTATUS(status) < 128) result.code = WEXITSTATUS(status);
+  result.out = read_text(folder / "out");
+  result.err = read_text(folder / "err");
+  return result;
+}
+
+/// A rendered sequence of 320 x 200 px, made once per process.
+inline const std::string& small_sequence() {
+  static const TemporaryFolder folder;
+  static const std::string path = [] {
+    const auto result = run_program({"synth", folder / "room4", "--frames", "4", "--size", "320x200", "--quiet"});
+    if (result.code != 0) throw std::runtime_error("synth failed: " + result.err);
+    return folder / "room4";
+  }();
+  return path;
+}

@@ -1,0 +1,142 @@
+#include <catch2/catch.hpp>
+
+#include "generated_quads.hpp"
+#include "pose/motion.hpp"
+
+using namespace quadedge::pose;
+
+namespace {
+
+generated::Problem drive() {
+  generated::Problem problem;
+  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
+  problem.motion.translation() << 0.05, 0.02, -1.2;
+  return problem;
+}
+
+const quadedge::PoseConfig kConfig;
+
+}  // namespace
+
+TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a crooked rig", "[pose][motion]") {
+  generated::Random random(50);
+  for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
+    for (int trial = 0; trial < 5; ++trial) {
+      generated::Problem problem;
+      problem.rig = rig;
+      problem.near = 2;
+      problem.far = 30;
+      problem.quads = 200;
+      problem.motion = random.motion(0.1, 0.8);
+      const auto g = generated::generate(problem, 51);
+      const MotionEstimate found = estimate_motion(rig, g.quads, kConfig, 42);
+      REQUIRE(found.status == MotionStatus::ok);
+      CHECK(found.inliers == 200);
+      CHECK(found.share == 1.0);
+      CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1e-9);
+      CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("No motion is a motion", "[pose][motion]") {
+  generated::Problem problem;
+  problem.noise = {0.12, 0.4, 0.02};
+  const auto g = generated::generate(problem, 52);
+  const MotionEstimate found = estimate_motion(problem.rig, g.quads, kConfig, 42);
+  REQUIRE(found.status == MotionStatus::ok);
+  CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1e-4);
+  CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 3e-3);
+}
+
+TEST_CASE("70 % outliers are told from the rest", "[pose][motion]") {
+  generated::Problem problem = drive();
+  problem.quads = 1500;
+  problem.outliers = 0.7;
+  problem.noise = {0.12, 0.3, 0.02};
+  const auto g = generated::generate(problem, 53);
+  const MotionEstimate found = estimate_motion(problem.rig, g.quads, kConfig, 42);
+  REQUIRE(found.status == MotionStatus::ok);
+  CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1.5e-4);
+  CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 3e-3);
+  int correct = 0, agreed = 0, intruders = 0;
+  for (std::size_t i = 0; i < g.correct.size(); ++i) {
+    correct += g.correct[i];
+    agreed += g.correct[i] && found.inlier[i];
+    intruders += !g.correct[i] && found.inlier[i];
+  }
+  CHECK(agreed > 0.8 * correct);
+  CHECK(intruders < 0.02 * correct);
+  CHECK(found.share == Approx(static_cast<double>(found.inliers) / 1500));
+}
+
+TEST_CASE("Switching the refinement off leaves the consensus pose without covariance", "[pose][motion]") {
+  generated::Problem problem = drive();
+  problem.noise = {0.12, 0.4, 0.02};
+  problem.quads = 3000;
+  const auto g = generated::generate(problem, 54);
+  quadedge::PoseConfig plain;
+  plain.refine = false;
+  const MotionEstimate coarse = estimate_motion(problem.rig, g.quads, plain, 42);
+  const MotionEstimate fine = estimate_motion(problem.rig, g.quads, kConfig, 42);
+  REQUIRE(coarse.status == MotionStatus::ok);
+  REQUIRE(fine.status == MotionStatus::ok);
+  CHECK(coarse.covariance.isZero());
+  CHECK(fine.covariance.ldlt().isPositive());
+  CHECK((fine.covariance - fine.covariance.transpose()).isZero());
+  CHECK(generated::rotation_error(coarse.current_from_previous, problem.motion) < 5e-4);
+  CHECK(coarse.current_from_previous.matrix() != fine.current_from_previous.matrix());
+  CHECK(coarse.hypotheses == fine.hypotheses);
+}
+
+TEST_CASE("What cannot be trusted has a status and no pose", "[pose][motion]") {
+  generated::Problem problem = drive();
+  for (int count : {0, 1, 2, 11}) {
+    problem.quads = count;
+    const auto g = generated::generate(problem, 55);
+    const MotionEstimate found = estimate_motion(problem.rig, g.quads, kConfig, 42);
+    CHECK(found.status == MotionStatus::too_few_quads);
+    CHECK(found.current_from_previous.matrix() == Eigen::Matrix4d::Identity());
+    CHECK(found.inlier.size() == static_cast<std::size_t>(count));
+  }
+  problem.quads = 300;
+  problem.outliers = 1.0;
+  CHECK(estimate_motion(problem.rig, generated::generate(problem, 56).quads, kConfig, 42).status == MotionStatus::no_consensus);
+
+  // All quads in one corner: samples need some distance, so give the search the true motion as a guess.
+  problem.outliers = 0;
+  generated::Random random(57);
+  QuadObservations corner, spot;
+  for (int i = 0; i < 300; ++i) {
+    OrientedPoint p = generated::random_point(problem.rig, 5, 50, random);
+    p.point = p.point.z() * problem.rig.left.ray({random.uniform(300, 380), random.uniform(40, 120)});
+    const auto add = [&](QuadObservations& quads) {
+      const OrientedPoint q{problem.motion * p.point, problem.motion.linear() * p.tangent};
+      quads.append(problem.rig, generated::observe(problem.rig, p), generated::observe(problem.rig, q), 1.0f, 0, i, generated::limits());
+    };
+    add(corner);
+    p.point = Eigen::Vector3d(1, 0.5, 12);
+    add(spot);
+  }
+  REQUIRE(corner.size() > 200);
+  REQUIRE(spot.size() > 200);
+  for (const QuadObservations* quads : {&corner, &spot}) {
+    const MotionEstimate found = estimate_motion(problem.rig, *quads, kConfig, 42, problem.motion);
+    CHECK(found.status == MotionStatus::badly_spread);
+    CHECK(found.current_from_previous.matrix() == Eigen::Matrix4d::Identity());
+    CHECK(found.covariance.isZero());
+    CHECK(estimate_motion(problem.rig, *quads, kConfig, 42).status != MotionStatus::ok);
+  }
+  CHECK(std::string(to_string(MotionStatus::badly_spread)) == "badly spread");
+}
+
+TEST_CASE("The same seed gives the same bits", "[pose][motion]") {
+  generated::Problem problem = drive();
+  problem.noise = {0.12, 0.4, 0.02};
+  problem.outliers = 0.4;
+  const auto g = generated::generate(problem, 58);
+  const MotionEstimate a = estimate_motion(problem.rig, g.quads, kConfig, 9), b = estimate_motion(problem.rig, g.quads, kConfig, 9);
+  CHECK(a.current_from_previous.matrix() == b.current_from_previous.matrix());
+  CHECK(a.covariance == b.covariance);
+  CHECK(a.inlier == b.inlier);
+}

@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+
+#include "generated_quads.hpp"
+#include "pose/ransac.hpp"
+
+using namespace quadedge::pose;
+
+namespace {
+
+generated::Problem drive() {
+  generated::Problem problem;
+  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
+  problem.motion.translation() << 0.05, 0.02, -1.2;
+  return problem;
+}
+
+Consensus search(const generated::Problem& problem, const generated::Generated& g, const quadedge::PoseConfig& config,
+                 std::uint64_t seed = 42, const std::optional<Eigen::Isometry3d>& initial = std::nullopt) {
+  return find_consensus(build_terms(g.quads, NoiseModel(config)), g.quads, problem.rig, config, seed, initial);
+}
+
+}  // namespace
+
+TEST_CASE("Consensus is found among 70 % outliers, exact and noisy, for several seeds", "[pose][ransac]") {
+  quadedge::PoseConfig config;
+  generated::Problem problem = drive();
+  problem.outliers = 0.7;
+  problem.quads = 800;
+  for (const generated::Noise& noise : {generated::Noise{}, generated::Noise{0.12, 0.4, 0.02}}) {
+    problem.noise = noise;
+    const auto g = generated::generate(problem, 40);
+    for (std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
+      const Consensus found = search(problem, g, config, seed);
+      REQUIRE(found.found);
+      CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 5e-4);
+      CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 0.02);
+      CHECK(found.hypotheses <= config.max_hypotheses);
+      CHECK(found.draws <= config.max_draws);
+    }
+  }
+}
+
+TEST_CASE("The search ends with no, one and two quads, and with quads of which no pair passes", "[pose][ransac]") {
+  quadedge::PoseConfig config;
+  generated::Problem problem = drive();
+  for (int count : {0, 1, 2}) {
+    problem.quads = count;
+    const auto g = generated::generate(problem, 41);
+    const Consensus found = search(problem, g, config);
+    CHECK(found.draws <= config.max_draws);
+    if (count < 2) {
+      CHECK_FALSE(found.found);
+      CHECK(found.draws == 0);
+    }
+  }
+  // Every distance doubled: constraint 1 fails for each pair.
+  problem.quads = 50;
+  auto g = generated::generate(problem, 42);
+  for (OrientedPoint& p : g.quads.current_points) p.point *= 2.0;
+  const Consensus found = search(problem, g, config);
+  CHECK_FALSE(found.found);
+  CHECK(found.draws == config.max_draws);
+  CHECK(found.hypotheses == 0);
+}
+
+TEST_CASE("An initial guess is one more hypothesis: it helps when right and does no harm when wrong", "[pose][ransac]") {
+  quadedge::PoseConfig config;
+  generated::Problem problem = drive();
+  problem.outliers = 0.5;
+  const auto g = generated::generate(problem, 43);
+  config.max_draws = 1;
+  const Consensus guided = search(problem, g, config, 42, problem.motion);
+  REQUIRE(guided.found);
+  CHECK(generated::translation_error(guided.current_from_previous, problem.motion) < 1e-3);
+  config = quadedge::PoseConfig{};
+  Eigen::Isometry3d wrong = Eigen::Isometry3d::Identity();
+  wrong.translation() << 1, 1, 1;
+  const Consensus misled = search(problem, g, config, 42, wrong);
+  REQUIRE(misled.found);
+  CHECK(generated::translation_error(misled.current_from_previous, problem.motion) < 1e-3);
+}
+
+TEST_CASE("The search stops early when most quads agree, and the same seed gives the same bits", "[pose][ransac]") {
+  quadedge::PoseConfig config;
+  generated::Problem problem = drive();
+  problem.noise = {0.12, 0.4, 0.02};
+  problem.outliers = 0.2;
+  const auto good = generated::generate(problem, 44);
+  const Consensus a = search(problem, good, config, 7), b = search(problem, good, config, 7);
+  CHECK(a.hypotheses == config.min_hypotheses);
+  CHECK(a.current_from_previous.matrix() == b.current_from_previous.matrix());
+  CHECK(a.cost == b.cost);
+  CHECK(a.draws == b.draws);
+  const Consensus other = search(problem, good, config, 8);
+  CHECK(other.draws != a.draws);
+}
