@@ -7,7 +7,8 @@ namespace quadedge::data {
 namespace {
 
 /// Indoor and outdoor scenes seen from about 0.7 m on: at most 64 px of disparity, the range that methods on this
-/// benchmark search; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %). (ndisp of its calib.txt is the image width and says nothing.)
+/// benchmark search; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %).
+/// (ndisp of its calib.txt is the image width and says nothing.)
 constexpr double kMaxDisparity = 64;
 /// Published calibrations have two kinds of image: the wide "l" ones (above 900 columns) and the "s" ones, about 6 cm apart.
 constexpr double kFocalWide = 541.764, kFocalNarrow = 711.499, kBaseline = 0.06;
