@@ -72,6 +72,18 @@ TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covarian
   CHECK(trials.nees < 1.5);
 }
 
+TEST_CASE("Far points with large disparity noise do not shorten the motion", "[pose][refinement]") {
+  generated::Problem problem = drive();
+  problem.noise.across = 0.3;
+  problem.near = 15;
+  problem.far = 150;
+  problem.quads = 1000;
+  // With the earlier points taken as exact the mean is off by 0.7 mm, five standard errors.
+  const Trials trials = run_trials(problem, 120);
+  CHECK(trials.standard_error(5) < 1.6e-4);
+  CHECK(std::abs(trials.mean(5)) < 3.5 * trials.standard_error(5));
+}
+
 TEST_CASE("The covariance stays honest with few quads and with rows of edges that share their errors", "[pose][refinement]") {
   generated::Problem problem = drive();
   problem.quads = 60;

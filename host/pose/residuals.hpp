@@ -26,8 +26,7 @@ struct NoiseModel {
 /// the left pixel, well across the edge and badly along it, and again an inverse depth from its right image. The right image's
 /// own information is its place along the epipolar line and nothing else, therefore it enters as inverse depth: using both of its
 /// coordinates would count the left image's noise twice. The true inverse depth of the point is an unknown of its own, so both
-/// rigs' depths have the same standing. Treating the earlier points as exact (plain PnP) pulls the translation towards
-/// zero or away from it, see refinement.hpp for the size.
+/// rigs' depths have the same standing and forward and backward errors are weighed alike; see refinement.hpp for what that buys.
 struct FitTerm {
   Eigen::Vector3d ray;              ///< of the previous left pixel, previous left frame
   double inverse_depth = 0;         ///< measured before [1/m]
