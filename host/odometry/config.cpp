@@ -49,7 +49,7 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.max_disparity", &stereo.max_disparity, "largest disparity; 0: from min_depth or the data's reader [px]", 0, 10000);
   visit("stereo.orientation", &stereo.orientation, "largest difference of directions, modulo 180 [deg]", 0, 90);
   visit("stereo.sift_max", &stereo.sift_max, "largest SIFT distance", 0, kUnlimited);
-  visit("stereo.ncc_min", &stereo.ncc_min, "smallest NCC", -1, 1);
+  visit("stereo.ncc_min", &stereo.ncc_min, "smallest NCC", 0.01, 1);
   visit("stereo.ncc_nearly_best", &stereo.ncc_nearly_best, "share of the best NCC that is kept", 0, 1);
   visit("stereo.sift_nearly_best", &stereo.sift_nearly_best, "ratio of best SIFT distance to distance that is kept", 0, 1);
   visit("stereo.min_epipolar_angle", &stereo.min_epipolar_angle,
@@ -65,14 +65,16 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.cluster_gap", &stereo.cluster_gap, "gap that separates two clusters [px]", 0, 100);
   visit("stereo.cluster_orientation", &stereo.cluster_orientation, "change of direction that separates two clusters [deg]", 0, 90);
   visit("stereo.cluster_size_max", &stereo.cluster_size_max, "most members of a cluster", 1, 1000);
+  visit("stereo.cluster_sigma", &stereo.cluster_sigma, "width of the weights in a cluster's mean direction [px]", 0.01, 100);
+  visit("stereo.mutual_radius", &stereo.mutual_radius, "left edges nearer than this may share one right edge [px]", 0, 100);
 
   auto& temporal = config.temporal;
-  visit("temporal.radius", &temporal.radius, "search radius without a prediction [px]", 0, 1000);
-  visit("temporal.radius_predicted", &temporal.radius_predicted, "search radius around the predicted place [px]", 0, 1000);
+  visit("temporal.radius", &temporal.radius, "search radius around the predicted place [px]", 0, 1000);
   visit("temporal.radius_wide", &temporal.radius_wide,
         "search radius at the first pair and after a loss [share of the image width]", 0, 1);
+  visit("temporal.wide_step", &temporal.wide_step, "the wide search looks at every n-th stereo edge", 1, 1000);
   visit("temporal.orientation", &temporal.orientation, "largest difference of directions, modulo 360 [deg]", 0, 180);
-  visit("temporal.ncc_min", &temporal.ncc_min, "smallest NCC", -1, 1);
+  visit("temporal.ncc_min", &temporal.ncc_min, "smallest NCC", 0.01, 1);
   visit("temporal.sift_max", &temporal.sift_max, "largest SIFT distance", 0, kUnlimited);
   visit("temporal.ncc_nearly_best", &temporal.ncc_nearly_best, "share of the best NCC that is kept", 0, 1);
   visit("temporal.sift_nearly_best", &temporal.sift_nearly_best, "ratio of best SIFT distance to distance that is kept", 0, 1);
@@ -81,6 +83,8 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("temporal.refine_huber", &temporal.refine_huber, "Huber threshold of the refinement [grey levels]", 0.01, 255);
   visit("temporal.refine_clamp", &temporal.refine_clamp, "longest move of the refinement [px]", 0, 100);
   visit("temporal.refine_rms_max", &temporal.refine_rms_max, "largest residual after the refinement [grey levels]", 0, 255);
+  visit("temporal.refine_prior", &temporal.refine_prior, "spread of the matched place around the true one [px]", 0.01, 100);
+  visit("temporal.refine_noise", &temporal.refine_noise, "camera noise that the prior is weighed against [grey levels]", 0, 255);
   visit("temporal.cluster_gap", &temporal.cluster_gap, "gap that separates two clusters [px]", 0, 100);
   visit("temporal.cluster_orientation", &temporal.cluster_orientation,
         "change of direction that separates two clusters [deg]", 0, 180);

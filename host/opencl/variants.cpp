@@ -22,6 +22,18 @@ const std::vector<Variant>& all_variants() {
       {"sift", "edge", {{"ITEMS_PER_EDGE", "1"}}, 1, true, false, "one work-item per edge, float8 of angle bins"},
       {"sift", "cells", {{"ITEMS_PER_EDGE", "32"}, {"GROUP", "64"}}, 64, false, true,
        "one work-item per cell of either side, local memory"},
+      {"stereo_candidates", "group64", {}, 64, true, true, "one work-item per left edge, groups of 64"},
+      {"stereo_candidates", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
+      {"candidate_filters", "group64", {}, 64, true, true, "one work-item per row of candidates, groups of 64"},
+      {"candidate_filters", "group16", {}, 16, false, false, "one work-item per row of candidates, groups of 16"},
+      {"stereo_refinement", "group64", {}, 64, true, true, "one work-item per left edge, groups of 64"},
+      {"stereo_refinement", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
+      {"stereo_clusters", "group64", {}, 64, true, true, "one work-item per left edge, groups of 64"},
+      {"stereo_clusters", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
+      {"temporal_candidates", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
+      {"temporal_candidates", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
+      {"temporal_refinement", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
+      {"temporal_refinement", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
   };
   return table;
 }

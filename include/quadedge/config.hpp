@@ -53,13 +53,15 @@ struct StereoConfig {
   double cluster_gap = 1.0;         ///< [px]
   double cluster_orientation = 20.0;  ///< [deg]
   int cluster_size_max = 10;        ///< members
+  double cluster_sigma = 2.0;       ///< of the weights in the mean direction of a cluster [px]
+  double mutual_radius = 1.5;       ///< left edges nearer than this share one right edge [px]
 };
 
 /// Temporal cascade, SPEC section 4.
 struct TemporalConfig {
-  double radius = 30.0;             ///< around the same place, without a prediction [px]
-  double radius_predicted = 10.0;   ///< around the predicted place [px]
-  double radius_wide = 0.1;         ///< first pair and after a loss [share of the image width]
+  double radius = 10.0;             ///< around the predicted place [px]
+  double radius_wide = 0.1;         ///< around the same place, where no prediction is trusted [share of the image width]
+  int wide_step = 8;                ///< the wide search looks at every n-th stereo edge; its motion then predicts for all
   double orientation = 10.0;        ///< [deg], modulo 360
   double ncc_min = 0.8;
   double sift_max = 200.0;
@@ -70,6 +72,8 @@ struct TemporalConfig {
   double refine_huber = 3.0;        ///< [grey levels]
   double refine_clamp = 2.0;        ///< longest move [px]
   double refine_rms_max = 6.0;      ///< [grey levels]
+  double refine_prior = 0.5;        ///< spread of the matched place around the true one [px]: holds points on straight edges
+  double refine_noise = 2.0;        ///< camera noise that the prior is weighed against [grey levels]
   double cluster_gap = 1.0;         ///< [px]
   double cluster_orientation = 20.0;  ///< [deg]
 };

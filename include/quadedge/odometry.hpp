@@ -71,8 +71,8 @@ struct FrameResult {
 /// What one frame was made of; for drawing and for evaluation. Copied only on request.
 struct FrameDetails {
   EdgeSet left_edges, right_edges;
-  StereoEdges stereo;
-  TemporalMatches quads;                 ///< indices into the frame before and this frame
+  StereoEdges previous_stereo, stereo;   ///< of the frame that this one was matched with, and of this one
+  TemporalMatches quads;                 ///< indices into previous_stereo and stereo
   std::vector<std::uint8_t> quad_inlier; ///< one per quad
 };
 

@@ -1,0 +1,43 @@
+#include "odometry/prediction.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "pose/oriented_point.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+
+void place(stages::PlacedEdges& places, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
+  places.x[i] = edge ? static_cast<float>(edge->pixel.x()) : kNowhere;
+  places.y[i] = edge ? static_cast<float>(edge->pixel.y()) : kNowhere;
+  places.direction[i] = edge ? static_cast<float>(std::atan2(edge->direction.y(), edge->direction.x())) : kNowhere;
+}
+
+}  // namespace
+
+stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous,
+                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
+                                      double min_epipolar_angle) {
+  stages::TemporalSearch search;
+  search.radius = static_cast<float>(radius);
+  search.step = step;
+  search.left = {previous.left_x, previous.left_y, previous.left_direction};
+  search.right = {previous.right_x, previous.right_y, previous.right_direction};
+  if (!current_from_previous) return search;
+  const Eigen::Isometry3d right_from_previous = rig.right_from_left * *current_from_previous;
+  for (std::size_t i = 0; i < previous.size(); i += static_cast<std::size_t>(step)) {
+    const pose::StereoObservation observation{{previous.left_x[i], previous.left_y[i]},
+                                              {previous.right_x[i], previous.right_y[i]},
+                                              previous.left_direction[i],
+                                              previous.right_direction[i]};
+    const auto point = pose::reconstruct(rig, observation, min_epipolar_angle);
+    place(search.left, i, point ? pose::project(rig.left, *current_from_previous, *point) : std::nullopt);
+    place(search.right, i, point ? pose::project(rig.right, right_from_previous, *point) : std::nullopt);
+  }
+  return search;
+}
+
+}  // namespace quadedge::odometry

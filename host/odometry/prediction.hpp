@@ -1,0 +1,21 @@
+#pragma once
+/// \file prediction.hpp  Where the previous stereo edges are expected in the current images.
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "quadedge/camera.hpp"
+#include "quadedge/edges.hpp"
+#include "stages/temporal_search.hpp"
+
+namespace quadedge::odometry {
+
+/// Moves every stereo edge's oriented point by the predicted motion and projects it into both images; without a prediction the
+/// places and directions stay. Edges without depth, or that leave the field of view, get NaN where a motion is predicted.
+/// \param current_from_previous left cameras, metres
+/// \param radius px; \param step every step-th edge is looked for; \param min_epipolar_angle radians
+stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous,
+                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
+                                      double min_epipolar_angle);
+
+}  // namespace quadedge::odometry

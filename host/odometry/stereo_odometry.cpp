@@ -1,0 +1,322 @@
+/// \file stereo_odometry.cpp  The way of a frame (DESIGN section 1), from two images to a pose.
+#include <chrono>
+
+#include "odometry/key_rig.hpp"
+#include "odometry/prediction.hpp"
+#include "opencl/context.hpp"
+#include "opencl/variants.hpp"
+#include "pose/motion.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/tap.hpp"
+#include "stages/frontend.hpp"
+
+namespace quadedge {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr int kLostBeforeRestart = 2;  // frames with edges but without a motion, until tracking restarts from the newest one
+
+/// Milliseconds since the last lap, steady clock.
+class StageClock {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+FrameStatus lost_status(pose::MotionStatus status) {
+  return status == pose::MotionStatus::too_few_quads ? FrameStatus::lost_too_few_quads : FrameStatus::lost_no_consensus;
+}
+
+/// Covariance of a * b for left perturbations of both, a exact up to its own covariance.
+Eigen::Matrix<double, 6, 6> composed_covariance(const Eigen::Matrix<double, 6, 6>& of_a, const Eigen::Isometry3d& a,
+                                                const Eigen::Matrix<double, 6, 6>& of_b) {
+  Eigen::Matrix3d cross;
+  const Eigen::Vector3d t = a.translation();
+  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  Eigen::Matrix<double, 6, 6> adjoint = Eigen::Matrix<double, 6, 6>::Zero();
+  adjoint.topLeftCorner<3, 3>() = a.linear();
+  adjoint.bottomRightCorner<3, 3>() = a.linear();
+  adjoint.bottomLeftCorner<3, 3>() = cross * a.linear();
+  return of_a + adjoint * of_b * adjoint.transpose();
+}
+
+/// The motion of one of `intervals` equal frame intervals, with the translation spread evenly (a prediction, not an estimate).
+Eigen::Isometry3d one_interval(const Eigen::Isometry3d& motion, int intervals) {
+  const Eigen::AngleAxisd rotation(motion.linear());
+  Eigen::Isometry3d part = Eigen::Isometry3d::Identity();
+  part.linear() = Eigen::AngleAxisd(rotation.angle() / intervals, rotation.axis()).toRotationMatrix();
+  part.translation() = motion.translation() / intervals;
+  return part;
+}
+
+void check_image(const ImageView& image, const PinholeCamera& camera, bool any_size, const char* side) {
+  if (image.empty()) throw DataError(std::string("the ") + side + " image is empty");
+  if (!any_size && (image.width != camera.width || image.height != camera.height)) {
+    throw DataError(std::string("the ") + side + " image has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                    " pixels, the calibration expects " + std::to_string(camera.width) + "x" + std::to_string(camera.height));
+  }
+}
+
+}  // namespace
+
+const char* to_string(FrameStatus status) {
+  switch (status) {
+    case FrameStatus::first: return "first";
+    case FrameStatus::tracked: return "tracked";
+    case FrameStatus::lost_too_few_edges: return "lost_too_few_edges";
+    case FrameStatus::lost_too_few_quads: return "lost_too_few_quads";
+    case FrameStatus::lost_no_consensus: return "lost_no_consensus";
+  }
+  return "unknown";
+}
+
+class StereoOdometry::Implementation {
+ public:
+  Implementation(const StereoRig& rig, Device& device, const Config& config)
+      : rig_(rig), device_(device), config_(config), frontend_(stages::make_frontend(rig, device, config)) {}
+
+  FrameResult track(const StereoFrame& frame);
+  FrameDetails details() const;
+
+  stages::Frontend& frontend() const { return *frontend_; }
+  Device& device() const { return device_; }
+  const Config& config() const { return config_; }
+
+ private:
+  /// Quads between the base and the current frame, and the motion they agree on.
+  struct Step {
+    TemporalMatches matches;
+    pose::QuadObservations quads;
+    pose::MotionEstimate motion;
+  };
+
+  Step match_and_estimate(const std::optional<Eigen::Isometry3d>& prediction, double radius, int step);
+  Step find_step();
+  void locate(const Step& step, FrameResult& result);
+  void lose(FrameStatus status, const std::string& message, FrameResult& result);
+  void become_base(const FrameResult& result);
+  std::optional<Eigen::Isometry3d> predicted_motion() const;
+  double min_epipolar_angle() const { return config_.stereo.min_epipolar_angle * kDegree; }
+
+  StereoRig rig_;
+  Device& device_;
+  Config config_;
+  std::unique_ptr<stages::Frontend> frontend_;
+  odometry::KeyRig key_rig_;
+
+  int frame_ = -1;                 ///< number of the current frame
+  bool has_base_ = false;          ///< a frame that the next one is matched with
+  bool keep_pending_ = false;      ///< the current frame is the next one's base
+  int base_frame_ = 0;
+  Eigen::Isometry3d base_from_key_ = Eigen::Isometry3d::Identity();
+  Eigen::Matrix<double, 6, 6> base_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Isometry3d world_from_last_ = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> velocity_;  ///< current_from_previous of one frame interval
+  int lost_with_edges_ = 0;                    ///< in a row
+
+  TemporalMatches last_matches_;
+  std::vector<std::uint8_t> last_inlier_;
+};
+
+FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
+  check_image(frame.left, rig_.left, !rig_.left_undistortion.empty(), "left");
+  check_image(frame.right, rig_.right, !rig_.right_undistortion.empty(), "right");
+  StageClock latency, clock;
+  ++frame_;
+  last_matches_ = {};
+  last_inlier_.clear();
+  FrameResult result;
+  result.stamp_ns = frame.stamp_ns;
+
+  if (keep_pending_) frontend_->keep();
+  keep_pending_ = false;
+  frontend_->process(frame);
+  result.stages.push_back({"stereo", clock.lap()});
+  result.counts.edges_left = frontend_->counts().edges_left;
+  result.counts.edges_right = frontend_->counts().edges_right;
+  result.counts.stereo_edges = static_cast<int>(frontend_->current().size());
+  if (frontend_->counts().dropped_edges > 0) {
+    result.overflow = true;
+    result.message = std::to_string(frontend_->counts().dropped_edges) + " edges beyond edges.max_edges were dropped";
+  }
+
+  if (result.counts.stereo_edges < config_.pose.min_inliers) {
+    lose(FrameStatus::lost_too_few_edges, std::to_string(result.counts.stereo_edges) + " stereo edges", result);
+  } else if (!has_base_) {
+    result.status = FrameStatus::first;
+    result.world_from_left = world_from_last_;
+    result.new_key_rig = true;
+    result.reference_frame = frame_;
+    key_rig_.start(frame_, result.world_from_left, frontend_->current());
+    become_base(result);
+  } else {
+    Step step = find_step();
+    result.counts.temporal_left = frontend_->counts().temporal_left;
+    result.counts.temporal_right = frontend_->counts().temporal_right;
+    result.counts.quads = static_cast<int>(step.matches.size());
+    result.stages.push_back({"temporal", clock.lap()});
+    if (step.motion.status == pose::MotionStatus::ok) {
+      locate(step, result);
+    } else {
+      lose(lost_status(step.motion.status), pose::to_string(step.motion.status), result);
+    }
+    last_inlier_.assign(step.matches.size(), 0);
+    for (std::size_t q = 0; q < step.quads.size(); ++q) {
+      last_inlier_[static_cast<std::size_t>(step.quads.match[q])] = step.motion.inlier.empty() ? 0 : step.motion.inlier[q];
+    }
+    last_matches_ = std::move(step.matches);
+    result.stages.push_back({"pose", clock.lap()});
+  }
+  world_from_last_ = result.world_from_left;
+  result.latency_ms = latency.lap();
+  if (device_.context() != nullptr && device_.context()->profiling()) {
+    for (const auto& [stage, ms] : device_.context()->take_profile()) result.stages.push_back({"device " + stage, ms});
+  }
+  return result;
+}
+
+/// Constant velocity over the frames since the base; nothing where no velocity is known.
+std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motion() const {
+  if (!velocity_) return std::nullopt;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  for (int i = base_frame_; i < frame_; ++i) motion = *velocity_ * motion;
+  return motion;
+}
+
+StereoOdometry::Implementation::Step StereoOdometry::Implementation::match_and_estimate(
+    const std::optional<Eigen::Isometry3d>& prediction, double radius, int step) {
+  Step result;
+  result.matches = frontend_->match(
+      odometry::predict_places(rig_, frontend_->previous(), prediction, radius, step, min_epipolar_angle()));
+  result.quads = pose::build_quads(rig_, frontend_->previous(), frontend_->current(), result.matches, pose::QuadLimits(config_));
+  result.motion = pose::estimate_motion(rig_, result.quads, config_.pose, config_.seed + static_cast<std::uint64_t>(frame_), prediction);
+  return result;
+}
+
+/// With a trusted prediction the search is narrow. Otherwise a wide search over a part of the edges makes the prediction.
+StereoOdometry::Implementation::Step StereoOdometry::Implementation::find_step() {
+  const auto prediction = predicted_motion();
+  if (prediction) {
+    Step step = match_and_estimate(prediction, config_.temporal.radius, 1);
+    if (step.motion.status == pose::MotionStatus::ok) return step;
+  }
+  Step wide = match_and_estimate(prediction, config_.temporal.radius_wide * rig_.left.width, config_.temporal.wide_step);
+  if (wide.motion.status != pose::MotionStatus::ok) return wide;
+  return match_and_estimate(wide.motion.current_from_previous, config_.temporal.radius, 1);
+}
+
+/// Pose against the key rig, from the chained quads; where they do not suffice, from frame to frame.
+void StereoOdometry::Implementation::locate(const Step& step, FrameResult& result) {
+  const Eigen::Isometry3d current_from_base = step.motion.current_from_previous;
+  Eigen::Isometry3d current_from_key = current_from_base * base_from_key_;
+  Eigen::Matrix<double, 6, 6> covariance = composed_covariance(step.motion.covariance, current_from_base, base_covariance_);
+  int inliers = step.motion.inliers;
+  odometry::KeyRigState state;
+  state.inlier_share = step.motion.share;
+  state.frames = frame_ - key_rig_.frame();
+  if (config_.odometry.key_rig) {
+    key_rig_.extend(step.matches);
+    const TemporalMatches chained = key_rig_.chained(frontend_->current());
+    state.chained_quads = static_cast<int>(chained.size());
+    state.median_parallax = key_rig_.median_parallax(chained);
+    if (base_frame_ != key_rig_.frame()) {
+      const auto quads = pose::build_quads(rig_, key_rig_.edges(), frontend_->current(), chained, pose::QuadLimits(config_));
+      const auto motion = pose::estimate_motion(rig_, quads, config_.pose, config_.seed + static_cast<std::uint64_t>(frame_), current_from_key);
+      if (motion.status == pose::MotionStatus::ok) {
+        current_from_key = motion.current_from_previous;
+        covariance = motion.covariance;
+        inliers = motion.inliers;
+        state.inlier_share = motion.share;
+      }
+    }
+  }
+  state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();
+  result.status = FrameStatus::tracked;
+  result.counts.chained_quads = state.chained_quads;
+  result.counts.inliers = inliers;
+  result.reference_frame = key_rig_.frame();
+  result.current_from_reference = current_from_key;
+  result.covariance = covariance;
+  result.world_from_left = key_rig_.world_from_key() * current_from_key.inverse();
+
+  velocity_ = one_interval(current_from_key * base_from_key_.inverse(), frame_ - base_frame_);
+  lost_with_edges_ = 0;
+  result.new_key_rig = !config_.odometry.key_rig || key_rig_.is_worn(state, config_.odometry);
+  base_from_key_ = current_from_key;
+  base_covariance_ = covariance;
+  if (result.new_key_rig) key_rig_.start(frame_, result.world_from_left, frontend_->current());
+  become_base(result);
+}
+
+/// Repeats the last motion. After several losses in a row tracking restarts from the newest frame that has edges.
+void StereoOdometry::Implementation::lose(FrameStatus status, const std::string& message, FrameResult& result) {
+  result.status = status;
+  result.message += (result.message.empty() ? "" : "; ") + message;
+  result.world_from_left = velocity_ ? world_from_last_ * velocity_->inverse() : world_from_last_;
+  result.reference_frame = key_rig_.frame();
+  if (status == FrameStatus::lost_too_few_edges || ++lost_with_edges_ < kLostBeforeRestart) return;
+  lost_with_edges_ = 0;
+  velocity_ = std::nullopt;
+  result.new_key_rig = true;
+  key_rig_.start(frame_, result.world_from_left, frontend_->current());
+  become_base(result);
+}
+
+/// The current frame is what the next one is matched with. The frontend keeps it when that one comes, so that details() sees both.
+void StereoOdometry::Implementation::become_base(const FrameResult& result) {
+  keep_pending_ = true;
+  has_base_ = true;
+  base_frame_ = frame_;
+  if (result.new_key_rig) {
+    base_from_key_ = Eigen::Isometry3d::Identity();
+    base_covariance_.setZero();
+  }
+}
+
+FrameDetails StereoOdometry::Implementation::details() const {
+  FrameDetails details;
+  details.left_edges = frontend_->edges(false);
+  details.right_edges = frontend_->edges(true);
+  details.previous_stereo = frontend_->previous();
+  details.stereo = frontend_->current();
+  details.quads = last_matches_;
+  details.quad_inlier = last_inlier_;
+  return details;
+}
+
+StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Config& config) {
+  check_rig(rig, "stereo rig");
+  check_config(config);
+  implementation_ = std::make_unique<Implementation>(rig, device, config);
+}
+
+StereoOdometry::~StereoOdometry() = default;
+FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
+FrameDetails StereoOdometry::details() const { return implementation_->details(); }
+void StereoOdometry::set_tap(Tap* tap) { implementation_->frontend().set_tap(tap); }
+std::size_t StereoOdometry::device_bytes() const { return implementation_->frontend().device_bytes(); }
+
+std::map<std::string, std::string> StereoOdometry::variants() const {
+  std::map<std::string, std::string> chosen;
+  if (implementation_->device().context() == nullptr) return chosen;
+  for (const auto& variant : opencl::all_variants()) {
+    chosen[variant.stage] =
+        opencl::choose_variant(variant.stage, *implementation_->device().context(), implementation_->config().variants).name;
+  }
+  return chosen;
+}
+
+double StereoOdometry::kernel_build_ms() const {
+  const auto* context = implementation_->device().context();
+  return context == nullptr ? 0 : context->build_ms();
+}
+
+}  // namespace quadedge

@@ -1,0 +1,57 @@
+#include "reference/candidate_filters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/patches.hpp"
+#include "reference/sift.hpp"
+
+namespace quadedge::reference {
+
+CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescriptions& a, const EdgeDescriptions& b,
+                                  const FilterLimits& limits, int row_step) {
+  CandidateScores scores;
+  const std::size_t total = candidates.target.size();
+  scores.ncc.resize(total);
+  scores.sift.resize(total);
+  scores.pairing.resize(total);
+  scores.rejected_by.assign(total, 0);
+  const auto patch = [](const EdgeDescriptions& set, std::size_t i) { return set.patches.data() + i * kEdgePatchFloats; };
+  const auto sift = [](const EdgeDescriptions& set, std::size_t i) { return set.sift.data() + i * kEdgeSiftBytes; };
+  const int nearly_best_order = std::max(limits.ncc_order, limits.sift_order) + 1;
+
+  for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
+    const auto begin = static_cast<std::size_t>(candidates.first[row]), end = static_cast<std::size_t>(candidates.first[row + 1]);
+    const std::size_t i = row * static_cast<std::size_t>(row_step);
+    float best_ncc = 0;
+    for (std::size_t c = begin; c < end; ++c) {
+      const auto j = static_cast<std::size_t>(candidates.target[c]);
+      const auto similarity = patch_similarity(patch(a, i), patch(b, j));
+      scores.ncc[c] = similarity.ncc;
+      scores.pairing[c] = static_cast<std::uint8_t>(similarity.pairing);
+      scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
+      int rejected = 0;
+      if (similarity.ncc < limits.ncc_min) rejected = limits.ncc_order;
+      if (scores.sift[c] > limits.sift_max) rejected = rejected == 0 ? limits.sift_order : std::min(rejected, limits.sift_order);
+      scores.rejected_by[c] = static_cast<std::uint8_t>(rejected);
+      if (rejected == 0) best_ncc = std::max(best_ncc, similarity.ncc);
+    }
+    float best_sift = INFINITY;
+    for (std::size_t c = begin; c < end; ++c) {
+      if (scores.rejected_by[c] != 0) continue;
+      if (scores.ncc[c] < limits.ncc_nearly_best * best_ncc) {
+        scores.rejected_by[c] = static_cast<std::uint8_t>(nearly_best_order);
+      } else {
+        best_sift = std::min(best_sift, scores.sift[c]);
+      }
+    }
+    for (std::size_t c = begin; c < end; ++c) {
+      if (scores.rejected_by[c] == 0 && limits.sift_nearly_best * scores.sift[c] > best_sift) {
+        scores.rejected_by[c] = static_cast<std::uint8_t>(nearly_best_order + 1);
+      }
+    }
+  }
+  return scores;
+}
+
+}  // namespace quadedge::reference

@@ -1,0 +1,36 @@
+#pragma once
+/// \file candidate_filters.hpp  Plain C++ twin of kernels/candidate_filters.cl.
+
+#include <cstdint>
+#include <vector>
+
+#include "reference/stereo_candidates.hpp"
+
+namespace quadedge::reference {
+
+/// Patches (98 floats per edge, reference/patches.hpp) and SIFT descriptors (256 bytes per edge, reference/sift.hpp).
+struct EdgeDescriptions {
+  std::vector<float> patches;
+  std::vector<std::uint8_t> sift;
+};
+
+/// Thresholds of SPEC section 3 filters 4 to 7, or section 4 filters 3 to 5. The orders are the filters' places in their cascade;
+/// the nearly-best filters follow at the larger one + 1 and + 2.
+struct FilterLimits {
+  float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
+  int ncc_order, sift_order;
+};
+
+/// One entry per candidate.
+struct CandidateScores {
+  std::vector<float> ncc;                  ///< highest of the four side pairings
+  std::vector<float> sift;                 ///< smallest of the four L2 distances
+  std::vector<std::uint8_t> pairing;       ///< SidePairing of the NCC
+  std::vector<std::uint8_t> rejected_by;   ///< order of the filter that rejected the candidate, 0: alive
+};
+
+/// Row r of `candidates` belongs to edge r * row_step of `a`; targets are edges of `b`.
+CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescriptions& a, const EdgeDescriptions& b,
+                                  const FilterLimits& limits, int row_step = 1);
+
+}  // namespace quadedge::reference

@@ -1,0 +1,72 @@
+#include "reference/photometric.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadedge::reference {
+
+PatchFrame patch_frame(double x, double y, double cosine, double sine, double side, double offset) {
+  return {x + side * offset * sine - 3 * cosine + 3 * sine, y - side * offset * cosine - 3 * sine - 3 * cosine, cosine, sine};
+}
+
+double grey_at(const ImageView& image, double x, double y) {
+  x = std::clamp(x, 0.0, static_cast<double>(image.width - 1));
+  y = std::clamp(y, 0.0, static_cast<double>(image.height - 1));
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
+  const double fx = x - x0, fy = y - y0;
+  return (1 - fy) * ((1 - fx) * image.at(x0, y0) + fx * image.at(x1, y0)) +
+         fy * ((1 - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
+}
+
+PatchValues cut_patch(const ImageView& image, const PatchFrame& frame, double dx, double dy) {
+  PatchValues values{};
+  double sum = 0;
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 7; ++j) {
+      const double value = grey_at(image, frame.x + dx + i * frame.cosine - j * frame.sine,
+                                   frame.y + dy + i * frame.sine + j * frame.cosine);
+      values[static_cast<std::size_t>(7 * i + j)] = value;
+      sum += value;
+    }
+  }
+  for (auto& value : values) value -= sum / 49;
+  return values;
+}
+
+PatchValues patch_derivative(const ImageView& image, const PatchFrame& frame, double ex, double ey) {
+  const PatchValues ahead = cut_patch(image, frame, 0.5 * ex, 0.5 * ey);
+  PatchValues values = cut_patch(image, frame, -0.5 * ex, -0.5 * ey);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = ahead[k] - values[k];
+  return values;
+}
+
+double huber_weight(double residual, double limit) {
+  return std::abs(residual) <= limit ? 1.0 : limit / std::abs(residual);
+}
+
+Alignment align_along_line(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
+                           const PatchValues& derivative, const RefinementSettings& settings) {
+  Alignment result;
+  for (int step = 0; step < settings.steps; ++step) {
+    const PatchValues values = cut_patch(image, moving, result.alpha * ex, result.alpha * ey);
+    double curvature = 0, slope = 0, squares = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double residual = fixed[k] - values[k];
+      const double weight = huber_weight(residual, settings.huber);
+      curvature += weight * derivative[k] * derivative[k];
+      slope += weight * derivative[k] * residual;
+      squares += residual * residual;
+    }
+    result.rms = std::sqrt(squares / 49);
+    if (curvature < 1e-6) break;
+    const double change = slope / curvature;
+    result.alpha += change;
+    if (!(std::abs(result.alpha) <= settings.clamp)) return result;
+    if (std::abs(change) < settings.tolerance) break;
+  }
+  result.good = result.rms <= settings.rms_max;
+  return result;
+}
+
+}  // namespace quadedge::reference

@@ -1,0 +1,24 @@
+#pragma once
+/// \file stereo_refinement.hpp  Plain C++ twin of kernels/stereo_refinement.cl, double precision.
+
+#include "quadedge/config.hpp"
+#include "quadedge/image.hpp"
+#include "reference/candidate_filters.hpp"
+
+namespace quadedge::reference {
+
+/// Order of the refinement in Table 1: a candidate that diverges is rejected by it.
+inline constexpr int kStereoRefinementOrder = 8;
+
+/// Place of a point moved onto the epipolar line: along its tangent if the tangent is at least `min_angle` [rad] off the line
+/// and the move is shorter than `max_shift` [px], else orthogonally. Returns px from the point at infinity (SPEC 8a).
+double epipolar_shift(const EpipolarLine& line, double x, double y, double direction, double min_angle, double max_shift);
+
+/// Shifts and refines every candidate that is alive (SPEC 8a, 8b). Returns one place on the left edge's epipolar line per
+/// candidate [px from the point at infinity; 0 for rejected ones] and marks diverged candidates in `scores.rejected_by`.
+std::vector<double> stereo_refinement(const ImageView& left_image, const ImageView& right_image, const EdgeSet& left,
+                                      const EdgeSet& right, const stages::EpipolarGeometry& geometry,
+                                      const Candidates& candidates, const StereoConfig& config, double patch_offset,
+                                      CandidateScores& scores);
+
+}  // namespace quadedge::reference

@@ -1,0 +1,43 @@
+#pragma once
+/// \file candidate_filters.hpp  Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists, in stereo and in time.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "stages/device_candidates.hpp"
+
+namespace quadedge::stages {
+
+/// Thresholds and places of the four filters in their cascade (reference::FilterLimits on the device).
+struct CandidateLimits {
+  float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
+  int ncc_order, sift_order;
+};
+
+/// Variants of the stage "candidate_filters".
+class CandidateFilters {
+ public:
+  CandidateFilters(opencl::Context& context, const std::map<std::string, std::string>& variants);
+
+  /// Fills ncc, sift, pairing and rejected_by of every candidate. Row r belongs to edge r * row_step of the first set.
+  /// `all_scores`: also computes what is not needed to decide (for a tap).
+  void run(const opencl::Buffer<cl_float>& patches_a, const opencl::Buffer<cl_uchar>& sift_a,
+           const opencl::Buffer<cl_float>& patches_b, const opencl::Buffer<cl_uchar>& sift_b, const CandidateLimits& limits,
+           int row_step, bool all_scores, DeviceCandidates& candidates);
+
+ private:
+  template <class T>
+  using In = opencl::In<T>;
+  template <class T>
+  using Out = opencl::Out<T>;
+
+  opencl::Context& context_;
+  std::size_t local_size_;
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_uchar>,
+                 cl_float, cl_float, cl_float, cl_float, cl_int, cl_int, cl_int, Out<cl_float>, Out<cl_float>, Out<cl_uchar>,
+                 Out<cl_uchar>, Out<cl_int>>
+      kernel_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,62 @@
+#pragma once
+/// \file device_candidates.hpp  Candidate lists and their scores on the device.
+
+#include <algorithm>
+
+#include "opencl/kernel.hpp"
+#include "quadedge/tap.hpp"
+#include "stages/scan.hpp"
+
+namespace quadedge::stages {
+
+/// Candidate lists in compressed rows with one set of scores per candidate. The capacity is explicit: a sweep that finds more
+/// makes room and runs again, so nothing is lost.
+struct DeviceCandidates {
+  opencl::Buffer<cl_int> counts;         ///< scratch of the first sweep
+  opencl::Buffer<cl_int> first;          ///< rows + 1
+  opencl::Buffer<cl_int> total;          ///< {candidates that fit, candidates cut off}
+  opencl::Buffer<cl_int> target;         ///< index of the other edge
+  opencl::Buffer<cl_float> ncc, sift;    ///< similarity and distance
+  opencl::Buffer<cl_uchar> pairing;      ///< side pairing of the NCC
+  opencl::Buffer<cl_uchar> rejected_by;  ///< order of the filter that rejected the candidate, 0: alive
+  opencl::Buffer<cl_int> alive;          ///< survivors of the filters per row
+  int rows = 0;
+  int capacity = 0;
+  int host_total = 0;
+
+  /// Makes room for `wanted` candidates; contents are lost when it grows.
+  void reserve(opencl::Context& context, int wanted) {
+    capacity = std::max(capacity, wanted);
+    const auto size = static_cast<std::size_t>(capacity);
+    target.ensure(context, size);
+    ncc.ensure(context, size);
+    sift.ensure(context, size);
+    pairing.ensure(context, size);
+    rejected_by.ensure(context, size);
+  }
+
+  /// Turns counts into lists: `fill` enqueues the second sweep. Runs it again with more room when the lists do not fit.
+  template <class Fill>
+  void build(opencl::Context& context, Scan& scan, const Fill& fill) {
+    for (;;) {
+      scan.run(counts, rows, capacity, first, total);
+      cl_int values[2];
+      total.read(values, 2);
+      host_total = values[0];
+      if (values[1] == 0) break;
+      reserve(context, (values[0] + values[1]) + (values[0] + values[1]) / 4);
+    }
+    fill();
+  }
+
+  /// Rows that kept a candidate through the filters.
+  int living_rows() const {
+    const auto counts_per_row = alive.read(static_cast<std::size_t>(rows));
+    return static_cast<int>(std::count_if(counts_per_row.begin(), counts_per_row.end(), [](cl_int n) { return n > 0; }));
+  }
+
+  /// Candidates that no filter of order <= `order` has rejected, for a tap.
+  CandidateLists alive_after(int order, const opencl::Buffer<cl_float>* cue) const;
+};
+
+}  // namespace quadedge::stages

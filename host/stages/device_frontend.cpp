@@ -1,0 +1,135 @@
+#include "stages/device_frontend.hpp"
+
+#include "reference/temporal_refinement.hpp"
+#include "stages/filter_names.hpp"
+#include "stages/point_index.hpp"
+
+namespace quadedge::stages {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+CandidateLimits stereo_limits(const StereoConfig& config) {
+  return {static_cast<float>(config.ncc_min),         static_cast<float>(config.sift_max),
+          static_cast<float>(config.ncc_nearly_best), static_cast<float>(config.sift_nearly_best),
+          kStereoNccOrder,                            kStereoSiftOrder};
+}
+
+CandidateLimits temporal_limits(const TemporalConfig& config) {
+  return {static_cast<float>(config.ncc_min),         static_cast<float>(config.sift_max),
+          static_cast<float>(config.ncc_nearly_best), static_cast<float>(config.sift_nearly_best),
+          kTemporalNccOrder,                          kTemporalSiftOrder};
+}
+
+}  // namespace
+
+DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
+                               const Config& config)
+    : undistortion(context, table, camera.width, camera.height, config.variants),
+      detection(context, camera.width, camera.height, config.edges, config.variants),
+      description(context, camera.width, camera.height, config.patches, config.sift, config.variants) {}
+
+DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
+    : context_(context),
+      config_(config),
+      epipolar_(make_epipolar_geometry(rig, config.stereo)),
+      left_height_(rig.left.height),
+      right_height_(rig.right.height),
+      left_(context, rig.left, rig.left_undistortion, config),
+      right_(context, rig.right, rig.right_undistortion, config),
+      stereo_candidates_(context, config.variants),
+      filters_(context, config.variants),
+      refinement_(context, config.stereo, config.patches.offset, config.variants),
+      clustering_(context, config.stereo, config.patches.offset, config.variants),
+      temporal_candidates_(context, config.variants),
+      temporal_refinement_(context, config.temporal, config.patches.offset, config.variants) {
+  geometry_.write(context, epipolar_.packed());
+  for (auto& rig_memory : rigs_) {
+    rig_memory.left.width = rig.left.width;
+    rig_memory.left.height = rig.left.height;
+    rig_memory.right.width = rig.right.width;
+    rig_memory.right.height = rig.right.height;
+  }
+}
+
+void DeviceFrontend::process(const StereoFrame& frame) {
+  DeviceRig& rig = rigs_[now_];
+  left_.undistortion.run(frame.left, rig.left.pixels);
+  right_.undistortion.run(frame.right, rig.right.pixels);
+  left_.detection.run(rig.left.pixels, left_.edges);
+  right_.detection.run(rig.right.pixels, right_.edges);
+  left_.edges.read_count();
+  right_.edges.read_count();
+  counts_ = {};
+  counts_.edges_left = left_.edges.host_count;
+  counts_.edges_right = right_.edges.host_count;
+  counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
+  if (tap_ != nullptr) tap_->edges(edges(false), edges(true));
+
+  for (auto* camera : {&left_, &right_}) {
+    camera->description.prepare(camera == &left_ ? rig.left.pixels : rig.right.pixels);
+    camera->description.describe(camera->edges.x, camera->edges.y, camera->edges.direction, camera->edges.host_count,
+                                 camera->descriptions);
+  }
+  if (tap_ != nullptr) tap_candidates_without_limits();
+  stereo_candidates_.run(left_.edges, right_.edges, right_height_, geometry_, candidates_);
+  context_.begin_stage("stereo_filters");
+  filters_.run(left_.descriptions.patches, left_.descriptions.sift, right_.descriptions.patches, right_.descriptions.sift,
+               stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
+  refinement_.run(rig.left, rig.right, left_.edges, right_.edges, geometry_, candidates_, place_);
+  clustering_.run(left_.edges, right_.edges, left_.descriptions, right_.descriptions, right_.description, rig.right, geometry_,
+                  candidates_, place_, clusters_, rig.edges);
+  current_ = rig.edges.read();
+  if (tap_ != nullptr) tap_stereo();
+}
+
+void DeviceFrontend::keep() {
+  now_ = 1 - now_;
+  previous_ = current_;
+}
+
+void DeviceFrontend::match_side(int side, const PlacedEdges& predicted, const TemporalSearch& search,
+                                DeviceCandidates& candidates) {
+  const DeviceStereoEdges& current = rigs_[now_].edges;
+  const DeviceStereoEdges& previous = rigs_[1 - now_].edges;
+  predicted_.x.write(context_, predicted.x);
+  predicted_.y.write(context_, predicted.y);
+  predicted_.direction.write(context_, predicted.direction);
+  predicted_.count = static_cast<int>(predicted.x.size());
+  temporal_candidates_.run(predicted_, search.step, current, side, side == 0 ? left_index_ : right_index_,
+                           side == 0 ? left_height_ : right_height_, search.radius,
+                           static_cast<float>(config_.temporal.orientation * kDegree), candidates);
+  context_.begin_stage("temporal_filters");
+  filters_.run(side == 0 ? previous.left_patches : previous.right_patches, side == 0 ? previous.left_sift : previous.right_sift,
+               side == 0 ? current.left_patches : current.right_patches, side == 0 ? current.left_sift : current.right_sift,
+               temporal_limits(config_.temporal), search.step, tap_ != nullptr, candidates);
+  if (tap_ != nullptr) tap_temporal(side, search);
+}
+
+TemporalMatches DeviceFrontend::match(const TemporalSearch& search) {
+  const auto left_index = make_point_index(current_.left_x, current_.left_y, left_height_);
+  const auto right_index = make_point_index(current_.right_x, current_.right_y, right_height_);
+  left_index_.row_first.write(context_, left_index.row_first);
+  left_index_.order.write(context_, left_index.order);
+  right_index_.row_first.write(context_, right_index.row_first);
+  right_index_.order.write(context_, right_index.order);
+  match_side(0, search.left, search, temporal_left_);
+  match_side(1, search.right, search, temporal_right_);
+  counts_.temporal_left = temporal_left_.living_rows();
+  counts_.temporal_right = temporal_right_.living_rows();
+  temporal_refinement_.agree(temporal_left_, temporal_right_);
+  if (tap_ != nullptr) {
+    tap_->temporal_filter(reference::kAgreementOrder, kTemporalFilters[reference::kAgreementOrder], 0,
+                          temporal_left_.alive_after(reference::kAgreementOrder, nullptr));
+  }
+  temporal_refinement_.refine(rigs_[1 - now_], rigs_[now_], search.step, geometry_, temporal_left_);
+  TemporalMatches matches = temporal_refinement_.collect(rigs_[now_], search.step, temporal_left_);
+  if (tap_ != nullptr) tap_->quads(matches);
+  return matches;
+}
+
+EdgeSet DeviceFrontend::edges(bool right) {
+  return right ? right_.edges.read(right_height_) : left_.edges.read(left_height_);
+}
+
+}  // namespace quadedge::stages

@@ -1,0 +1,21 @@
+#pragma once
+/// \file filter_names.hpp  The filters of both cascades in their order, as the tables print them.
+
+#include <array>
+
+namespace quadedge::stages {
+
+/// Stereo cascade; the index is the order of the paper's Table 1 (SPEC section 3).
+inline constexpr std::array<const char*, 11> kStereoFilters = {
+    "baseline", "epipolar proximity", "limited disparity", "orientation", "SIFT", "NCC", "nearly best NCC",
+    "nearly best SIFT", "refinement and clustering", "NCC of representatives", "best"};
+inline constexpr int kStereoSiftOrder = 4, kStereoNccOrder = 5;
+
+/// Temporal cascade; the index is the order (SPEC section 4). The circle is closed before the refinement, so that a refined
+/// candidate is always one stereo pair.
+inline constexpr std::array<const char*, 9> kTemporalFilters = {
+    "baseline", "displacement", "orientation", "NCC", "SIFT", "nearly best NCC", "nearly best SIFT", "quad agreement",
+    "refinement and clustering"};
+inline constexpr int kTemporalNccOrder = 3, kTemporalSiftOrder = 4;
+
+}  // namespace quadedge::stages

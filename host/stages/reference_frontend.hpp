@@ -1,0 +1,37 @@
+#pragma once
+/// \file reference_frontend.hpp  The frontend in plain C++: the oracle as a whole pipeline (`--device reference`).
+
+#include "reference/candidate_filters.hpp"
+#include "reference/temporal_candidates.hpp"
+#include "stages/frontend.hpp"
+
+namespace quadedge::stages {
+
+/// Slow, clear, single-threaded.
+class ReferenceFrontend : public Frontend {
+ public:
+  ReferenceFrontend(const StereoRig& rig, const Config& config);
+
+  void process(const StereoFrame& frame) override;
+  void keep() override;
+  TemporalMatches match(const TemporalSearch& search) override;
+  EdgeSet edges(bool right) override { return right ? right_edges_ : left_edges_; }
+  std::size_t device_bytes() const override { return 0; }
+
+ private:
+  /// Images and descriptions of one rig's stereo edges.
+  struct RigMemory {
+    Image left, right;
+    reference::EdgeDescriptions left_descriptions, right_descriptions;
+  };
+
+  reference::Candidates side_candidates(int side, const TemporalSearch& search) const;
+
+  StereoRig rig_;
+  Config config_;
+  EpipolarGeometry epipolar_;
+  EdgeSet left_edges_, right_edges_;
+  RigMemory now_, before_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,36 @@
+#include "stages/stereo_candidates.hpp"
+
+#include "opencl/variants.hpp"
+
+namespace quadedge::stages {
+namespace {
+
+constexpr int kFirstCapacityPerEdge = 24;  // grows on its own where a data set needs more
+
+}  // namespace
+
+StereoCandidates::StereoCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants)
+    : context_(context), scan_(context, variants) {
+  const auto& variant = opencl::choose_variant("stereo_candidates", context, variants);
+  local_size_ = static_cast<std::size_t>(variant.local_size);
+  const auto program = context.program({"direction.cl", "epipolar.cl", "stereo_candidates.cl"}, variant.defines);
+  count_ = {context, program, "stereo_candidates_count"};
+  fill_ = {context, program, "stereo_candidates_fill"};
+}
+
+void StereoCandidates::run(const DeviceEdges& left, const DeviceEdges& right, int right_height,
+                           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates) {
+  context_.begin_stage("stereo_candidates");
+  candidates.rows = left.host_count;
+  candidates.counts.ensure(context_, static_cast<std::size_t>(left.host_count));
+  candidates.reserve(context_, kFirstCapacityPerEdge * left.host_count);
+  const opencl::Range range(static_cast<std::size_t>(left.host_count), local_size_);
+  count_(range, left.x, left.y, left.direction, left.host_count, right.x, right.y, right.direction, right.row_first,
+         right_height, geometry, candidates.counts);
+  candidates.build(context_, scan_, [&] {
+    fill_(range, left.x, left.y, left.direction, left.host_count, right.x, right.y, right.direction, right.row_first,
+          right_height, geometry, candidates.first, candidates.capacity, candidates.target);
+  });
+}
+
+}  // namespace quadedge::stages

@@ -1,0 +1,40 @@
+#pragma once
+/// \file stereo_candidates.hpp  Stage 4a: right edges on each left edge's epipolar segment with a similar direction.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "stages/device_candidates.hpp"
+#include "stages/device_edges.hpp"
+#include "stages/epipolar_geometry.hpp"
+
+namespace quadedge::stages {
+
+/// Filters 1 to 3 of SPEC section 3. Variants of the stage "stereo_candidates".
+class StereoCandidates {
+ public:
+  StereoCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants);
+
+  /// One row per left edge. `right_height` [px]; `geometry` packed (EpipolarGeometry::packed).
+  void run(const DeviceEdges& left, const DeviceEdges& right, int right_height, const opencl::Buffer<cl_float>& geometry,
+           DeviceCandidates& candidates);
+
+ private:
+  template <class T>
+  using In = opencl::In<T>;
+  template <class T>
+  using Out = opencl::Out<T>;
+
+  opencl::Context& context_;
+  std::size_t local_size_;
+  Scan scan_;
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, cl_int,
+                 In<cl_float>, Out<cl_int>>
+      count_;
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, cl_int,
+                 In<cl_float>, In<cl_int>, cl_int, Out<cl_int>>
+      fill_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,90 @@
+#include "stages/stereo_clusters.hpp"
+
+#include <limits>
+
+#include "opencl/variants.hpp"
+
+namespace quadedge::stages {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+}  // namespace
+
+StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& config, double patch_offset,
+                               const std::map<std::string, std::string>& variants)
+    : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)), scan_(context, variants) {
+  const auto& variant = opencl::choose_variant("stereo_clusters", context, variants);
+  local_size_ = static_cast<std::size_t>(variant.local_size);
+  const auto program =
+      context.program({"direction.cl", "epipolar.cl", "photometric.cl", "stereo_clusters.cl"}, variant.defines);
+  cluster_ = {context, program, "stereo_clusters"};
+  best_ = {context, program, "stereo_best"};
+  claim_ = {context, program, "stereo_claim"};
+  owner_ = {context, program, "stereo_owner"};
+  mutual_ = {context, program, "stereo_mutual"};
+  collect_ = {context, program, "stereo_collect"};
+  gather_ = {context, program, "stereo_gather"};
+}
+
+void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, const DeviceDescriptions& left_descriptions,
+                         const DeviceDescriptions& right_descriptions, EdgeDescription& right_description,
+                         const DeviceImage& right_image, const opencl::Buffer<cl_float>& geometry,
+                         const DeviceCandidates& candidates, const opencl::Buffer<cl_float>& place, DeviceClusters& clusters,
+                         DeviceStereoEdges& result) {
+  context_.begin_stage("stereo_clusters");
+  const int n = left.host_count;
+  const auto edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
+  const auto capacity = static_cast<std::size_t>(candidates.capacity);
+  clusters.order.ensure(context_, capacity);
+  clusters.place.ensure(context_, capacity);
+  clusters.direction.ensure(context_, capacity);
+  clusters.anchor.ensure(context_, capacity);
+  clusters.ncc.ensure(context_, capacity);
+  clusters.count.ensure(context_, edges);
+  clusters.best.ensure(context_, edges);
+  clusters.keep.ensure(context_, edges);
+  clusters.claimed_ncc.ensure(context_, right_edges);
+  clusters.owner.ensure(context_, right_edges);
+  clusters.claimed_ncc.fill(0, right_edges);
+  clusters.owner.fill(std::numeric_limits<cl_int>::max(), right_edges);
+
+  const opencl::Range range(edges, local_size_);
+  cluster_(range, candidates.first, candidates.target, candidates.capacity, n, right.direction, candidates.rejected_by, place,
+           static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree),
+           config_.cluster_size_max, static_cast<float>(config_.cluster_sigma), clusters.order, clusters.count, clusters.place,
+           clusters.direction, clusters.anchor);
+  best_(range, candidates.first, n, left.x, left.y, left_descriptions.patches, right_image.pixels, right_image.width,
+        right_image.height, geometry, patch_offset_, static_cast<float>(config_.ncc_min), clusters.count, clusters.place,
+        clusters.direction, clusters.ncc, clusters.best);
+  claim_(range, clusters.best, clusters.anchor, clusters.ncc, n, clusters.claimed_ncc);
+  owner_(range, clusters.best, clusters.anchor, clusters.ncc, n, clusters.claimed_ncc, clusters.owner);
+  mutual_(range, clusters.best, clusters.anchor, n, left.x, left.y, static_cast<float>(config_.mutual_radius), clusters.owner,
+          clusters.keep);
+  scan_.run(clusters.keep, n, n, clusters.keep_first, clusters.total);
+
+  result.stride = n;
+  result.left_index.ensure(context_, edges);
+  result.right_index.ensure(context_, edges);
+  result.packed.ensure(context_, 6 * edges);
+  result.right_x.ensure(context_, edges);
+  result.right_y.ensure(context_, edges);
+  result.right_direction.ensure(context_, edges);
+  result.ncc.ensure(context_, edges);
+  collect_(range, clusters.keep_first, n, clusters.best, left.x, left.y, left.direction, geometry, clusters.place,
+           clusters.direction, clusters.anchor, clusters.ncc, result.stride, result.left_index, result.right_index,
+           result.packed, result.right_x, result.right_y, result.right_direction, result.ncc);
+  cl_int total[2];
+  clusters.total.read(total, 2);
+  result.count = total[0];
+
+  const auto count = static_cast<std::size_t>(result.count);
+  result.left_patches.ensure(context_, 98 * count);
+  result.left_sift.ensure(context_, 256 * count);
+  result.right_sift.ensure(context_, 256 * count);
+  gather_({count, local_size_}, result.left_index, result.right_index, result.count, left_descriptions.patches,
+          left_descriptions.sift, right_descriptions.sift, result.left_patches, result.left_sift, result.right_sift);
+  right_description.cut_patches(result.right_x, result.right_y, result.right_direction, result.count, result.right_patches);
+}
+
+}  // namespace quadedge::stages

@@ -1,0 +1,39 @@
+#include "stages/stereo_refinement.hpp"
+
+#include <cmath>
+
+#include "opencl/variants.hpp"
+#include "reference/stereo_refinement.hpp"
+
+namespace quadedge::stages {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+}  // namespace
+
+StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
+                                   const std::map<std::string, std::string>& variants)
+    : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
+  const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
+  local_size_ = static_cast<std::size_t>(variant.local_size);
+  const auto program =
+      context.program({"direction.cl", "epipolar.cl", "photometric.cl", "stereo_refinement.cl"}, variant.defines);
+  kernel_ = {context, program, "stereo_refinement"};
+}
+
+void StereoRefinement::run(const DeviceImage& left_image, const DeviceImage& right_image, const DeviceEdges& left,
+                           const DeviceEdges& right, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates,
+                           opencl::Buffer<cl_float>& place) {
+  context_.begin_stage("stereo_refinement");
+  place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
+  kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.capacity,
+          candidates.rows, left_image.pixels, left_image.width, left_image.height, right_image.pixels, right_image.width,
+          right_image.height, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, candidates.pairing,
+          patch_offset_, static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
+          config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
+          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refine_rms_max),
+          reference::kStereoRefinementOrder, candidates.rejected_by, place);
+}
+
+}  // namespace quadedge::stages

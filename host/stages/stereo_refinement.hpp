@@ -1,0 +1,47 @@
+#pragma once
+/// \file stereo_refinement.hpp  Stage 5a: epipolar shift and photometric refinement of stereo candidates.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "quadedge/config.hpp"
+#include "stages/device_candidates.hpp"
+#include "stages/device_edges.hpp"
+
+namespace quadedge::stages {
+
+/// A packed grey image on the device, height x width.
+struct DeviceImage {
+  opencl::Buffer<cl_uchar> pixels;
+  int width = 0, height = 0;
+};
+
+/// SPEC 8a and 8b. Variants of the stage "stereo_refinement".
+class StereoRefinement {
+ public:
+  StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
+                   const std::map<std::string, std::string>& variants);
+
+  /// `place` receives one place per candidate on its left edge's epipolar line [px from the point at infinity].
+  void run(const DeviceImage& left_image, const DeviceImage& right_image, const DeviceEdges& left, const DeviceEdges& right,
+           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, opencl::Buffer<cl_float>& place);
+
+ private:
+  template <class T>
+  using In = opencl::In<T>;
+  template <class T>
+  using Out = opencl::Out<T>;
+
+  opencl::Context& context_;
+  StereoConfig config_;
+  float patch_offset_;
+  std::size_t local_size_;
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_uchar>, cl_int, cl_int, In<cl_uchar>, cl_int, cl_int,
+                 In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_uchar>,
+                 cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>,
+                 Out<cl_float>>
+      kernel_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,37 @@
+#include "stages/temporal_candidates.hpp"
+
+#include "opencl/variants.hpp"
+
+namespace quadedge::stages {
+namespace {
+
+constexpr int kFirstCapacityPerRow = 48;  // grows on its own where a search needs more
+
+}  // namespace
+
+TemporalCandidates::TemporalCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants)
+    : context_(context), scan_(context, variants) {
+  const auto& variant = opencl::choose_variant("temporal_candidates", context, variants);
+  local_size_ = static_cast<std::size_t>(variant.local_size);
+  const auto program = context.program({"temporal_candidates.cl"}, variant.defines);
+  count_ = {context, program, "temporal_candidates_count"};
+  fill_ = {context, program, "temporal_candidates_fill"};
+}
+
+void TemporalCandidates::run(const DevicePlaces& predicted, int row_step, const DeviceStereoEdges& current, int side,
+                             const DevicePointIndex& index, int height, float radius, float orientation,
+                             DeviceCandidates& candidates) {
+  context_.begin_stage("temporal_candidates");
+  candidates.rows = (predicted.count + row_step - 1) / row_step;
+  candidates.counts.ensure(context_, static_cast<std::size_t>(candidates.rows));
+  candidates.reserve(context_, kFirstCapacityPerRow * candidates.rows);
+  const opencl::Range range(static_cast<std::size_t>(candidates.rows), local_size_);
+  count_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.packed, current.stride, side,
+         index.row_first, index.order, height, radius, orientation, candidates.counts);
+  candidates.build(context_, scan_, [&] {
+    fill_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.packed, current.stride, side,
+          index.row_first, index.order, height, radius, orientation, candidates.first, candidates.capacity, candidates.target);
+  });
+}
+
+}  // namespace quadedge::stages

@@ -1,0 +1,52 @@
+#pragma once
+/// \file temporal_candidates.hpp  Stage 6a: current stereo edges near the predicted places, in the left or the right images.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "stages/device_candidates.hpp"
+#include "stages/device_stereo_edges.hpp"
+#include "stages/temporal_search.hpp"
+
+namespace quadedge::stages {
+
+/// Predicted places of one side on the device.
+struct DevicePlaces {
+  opencl::Buffer<cl_float> x, y, direction;
+  int count = 0;
+};
+
+/// A point index on the device.
+struct DevicePointIndex {
+  opencl::Buffer<cl_int> row_first, order;
+};
+
+/// Filters 1 and 2 of SPEC section 4. Variants of the stage "temporal_candidates".
+class TemporalCandidates {
+ public:
+  TemporalCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants);
+
+  /// `side`: 0 left, 1 right. `height` of that side's image [px], `radius` [px], `orientation` [rad]. Every row_step-th
+  /// predicted place has a row.
+  void run(const DevicePlaces& predicted, int row_step, const DeviceStereoEdges& current, int side,
+           const DevicePointIndex& index, int height, float radius, float orientation, DeviceCandidates& candidates);
+
+ private:
+  template <class T>
+  using In = opencl::In<T>;
+  template <class T>
+  using Out = opencl::Out<T>;
+
+  opencl::Context& context_;
+  std::size_t local_size_;
+  Scan scan_;
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, cl_int, cl_int, In<cl_int>, In<cl_int>,
+                 cl_int, cl_float, cl_float, Out<cl_int>>
+      count_;
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, cl_int, cl_int, In<cl_int>, In<cl_int>,
+                 cl_int, cl_float, cl_float, In<cl_int>, cl_int, Out<cl_int>>
+      fill_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,20 @@
+#pragma once
+/// \file temporal_search.hpp  Where the matching in time looks.
+
+#include <vector>
+
+namespace quadedge::stages {
+
+/// Places and directions of stereo edges in one image [px, rad]; NaN where there is none.
+struct PlacedEdges {
+  std::vector<float> x, y, direction;
+};
+
+/// One entry per previous stereo edge: where it is expected in the current images.
+struct TemporalSearch {
+  PlacedEdges left, right;
+  float radius = 0;  ///< px around the expected place
+  int step = 1;      ///< only every step-th previous edge is looked for
+};
+
+}  // namespace quadedge::stages
