@@ -2,7 +2,7 @@
 //
 // SPEC section 1; reference: host/reference/edges.cpp. Both ways give the same bytes: every number is computed by the macros
 // and functions of this file, with one order of operations. fma is used where one rounding is wanted, and it is exact in
-// vectors and scalars alike; exp is written out for the same reason.
+// vectors and scalars alike; exp and atan2 are written out for the same reason.
 //
 // Data: plane = the image as floats with replicated border (edges_pad); pixel (i, j) lies at (j + PAD_Y) * stride + i + PAD_X.
 // Cell (X, Y) of the doubled grid lies at pixel (X / 2, Y / 2); Y even: phase 0, on a pixel row; Y odd: phase 1, between two.
@@ -18,7 +18,7 @@
 #endif
 
 #define PAIRS (RADIUS + 1)
-#define TAPS (2 * RADIUS + 2)
+#define TAPS (2 * RADIUS + 2)    // per axis around an edge: at least RADIUS to either side
 #define BLOCKS ((TAPS + 7) / 8)  // the taps along x in lanes of 8
 #define COLUMNS (8 * BLOCKS)
 #define PAD_X (16 * ((RADIUS + 18) / 16))
@@ -32,13 +32,13 @@
 #define SMOOTH(T, result, AT, weights, phase)                                                       \
   {                                                                                                 \
     T sum_ = (T)((weights)[0]) * (AT(phase) + AT(0));                                               \
-    for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) + AT(-k), sum_);  \
+    _Pragma("unroll") for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) + AT(-k), sum_);  \
     result = sum_;                                                                                  \
   }
 #define SLOPE(T, result, AT, weights, phase)                                                        \
   {                                                                                                 \
     T sum_ = (T)((weights)[0]) * (AT(phase) - AT(0));                                               \
-    for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) - AT(-k), sum_);  \
+    _Pragma("unroll") for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) - AT(-k), sum_);  \
     result = sum_;                                                                                  \
   }
 
@@ -74,14 +74,14 @@ inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, 
                   (float)cell_x);
 }
 
-// Weights of G, G', G'', G''' at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at index - RADIUS from the
-// point's whole part; `fraction` is the rest. Zero beyond TAPS.
+// Weights of G, G', G'', G''' at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at
+// index - RADIUS from the point's whole part; `fraction` is the rest. Zero beyond TAPS.
 #define DEFINE_WEIGHTS(NAME, T, I, CONVERT_I, CONVERT_T, AS_T)                                                          \
   inline void NAME(const float fraction, const I index, T* g0, T* g1, T* g2, T* g3) {                                   \
-    const T u = fraction - CONVERT_T(index - RADIUS);                                                                   \
+    const T u = fraction - CONVERT_T(index - RADIUS);                                                               \
     const T uu = u * u;                                                                                                 \
     const T e = uu * (-0.5f / (SIGMA * SIGMA));                                                                         \
-    const T n = rint(e * 1.44269504f);                                                                                  \
+    const T n = fma(e, (T)1.44269504f, (T)12582912.0f) - 12582912.0f; /* rounds to a whole number */                    \
     const T r = fma(n, (T)-1.42860677e-6f, fma(n, (T)-0.693145752f, e));                                                 \
     T p = fma(r, (T)1.38888889e-3f, (T)8.33333333e-3f);                                                                 \
     p = fma(r, p, (T)4.16666667e-2f);                                                                                   \
@@ -98,27 +98,55 @@ inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, 
 DEFINE_WEIGHTS(weights, float, int, convert_int, convert_float, as_float)
 DEFINE_WEIGHTS(weights8, float8, int8, convert_int8, convert_float8, as_float8)
 
+// First pixel of the third-order window around the point whose whole part is (x, y).
+#define WINDOW(plane, stride, x, y) ((plane) + ((y) - RADIUS + PAD_Y) * (stride) + (x) - RADIUS + PAD_X)
+
 // Grey level that the third-order window is taken relative to: mean of the four pixels around the point.
 inline float window_level(global const float* plane, const int stride, const int x, const int y) {
   global const float* at = plane + (y + PAD_Y) * stride + x + PAD_X;
   return 0.25f * ((at[0] + at[1]) + (at[stride] + at[stride + 1]));
 }
 
-// From the nine derivatives to the direction and the Newton step onto F = 0; returns (x, y, direction).
-inline float4 third_order(const float x, const float y, const float newton_max, const float ix, const float iy,
-                          const float ixx, const float ixy, const float iyy, const float ixxx, const float ixxy,
-                          const float ixyy, const float iyyy) {
-  const float shared = 2.0f * ixy * (ixx + iyy);
-  const float xx = ix * ix, xy = 2.0f * ix * iy, yy = iy * iy;
-  const float fx = 2.0f * ix * (ixx * ixx + ixy * ixy) + iy * shared + xx * ixxx + xy * ixxy + yy * ixyy;
-  const float fy = 2.0f * iy * (iyy * iyy + ixy * ixy) + ix * shared + xx * ixxy + xy * ixyy + yy * iyyy;
-  const float theta = atan2(fx, -fy);
-  const float slope = fx * ix + fy * iy;  // times |grad I|
-  const float f = xx * ixx + xy * ixy + yy * iyy;
-  const float magnitude = MAGNITUDE(ix, iy);
-  const float step = slope < 0.0f ? clamp(-f * magnitude / slope, -newton_max, newton_max) / magnitude : 0.0f;
-  return (float4)(fma(step, ix, x), fma(step, iy, y), theta > -PI_F ? theta : PI_F, 0.0f);
-}
+// atan2 in [-pi, pi], to 2e-7; polynomial of atan(a) / a on [0, 1] fitted for the smallest largest error.
+#define DEFINE_ANGLE(NAME, T)                                                              \
+  inline T NAME(const T y, const T x) {                                                    \
+    const T ax = fabs(x), ay = fabs(y);                                                    \
+    const T high = fmax(ax, ay);                                                           \
+    const T a = high > 0.0f ? fmin(ax, ay) / high : (T)0.0f;                               \
+    const T t = a * a;                                                                     \
+    T p = fma(t, (T)-0.00490985345f, (T)0.025035454f);                                     \
+    p = fma(t, p, (T)-0.0606097877f);                                                      \
+    p = fma(t, p, (T)0.0999545604f);                                                       \
+    p = fma(t, p, (T)-0.140503764f);                                                       \
+    p = fma(t, p, (T)0.199756086f);                                                        \
+    p = fma(t, p, (T)-0.333324641f);                                                       \
+    const T eighth = fma(a * t, p, a);                                                     \
+    const T quarter = ay > ax ? 0.5f * PI_F - eighth : eighth;                             \
+    return copysign(x < 0.0f ? PI_F - quarter : quarter, y);                               \
+  }
+
+// From the nine derivatives d = ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy at (x, y) to the direction, and the Newton step
+// onto F = 0, which moves x and y.
+#define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                              \
+  inline T NAME(const T* d, const float newton_max, T* x, T* y) {                                                       \
+    const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                                       \
+    const T xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];                                                \
+    const T fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7];         \
+    const T fy = 2.0f * d[1] * (d[4] * d[4] + d[3] * d[3]) + d[0] * shared + xx * d[6] + xy * d[7] + yy * d[8];         \
+    const T theta = ANGLE(fx, -fy);                                                                                     \
+    const T slope = fx * d[0] + fy * d[1]; /* times |grad I| */                                                         \
+    const T f = xx * d[2] + xy * d[3] + yy * d[4];                                                                      \
+    const T magnitude = MAGNITUDE(d[0], d[1]);                                                                          \
+    const T longest = (T)newton_max;                                                                                    \
+    const T step = slope < 0.0f ? clamp(-f * magnitude / slope, -longest, longest) / magnitude : (T)0.0f;               \
+    *x = fma(step, d[0], *x);                                                                                           \
+    *y = fma(step, d[1], *y);                                                                                           \
+    return theta > -PI_F ? theta : (T)PI_F;                                                                             \
+  }
+DEFINE_ANGLE(angle, float)
+DEFINE_ANGLE(angle8, float8)
+DEFINE_THIRD_ORDER(third_order, float, angle)
+DEFINE_THIRD_ORDER(third_order8, float8, angle8)
 
 // The image as floats, border replicated. One work-item = 16 neighbouring floats of the plane.
 kernel void edges_pad(global const uchar* image, const int width, const int height, global float* plane, const int stride) {

@@ -8,7 +8,7 @@
 
 #define TILE_ROWS (2 * TILE_Y + 2)           // rows of the doubled grid: the tile's and one more on either side
 #define TILE_CELLS (2 * TILE_X + 4)          // cells per row: those of the tile's pixels and of one more on either side
-#define TILE_COLUMNS (TILE_X + 2 + TAPS)     // column sums that these cells need
+#define TILE_COLUMNS (TILE_X + 2 + 2 * PAIRS) // column sums that these cells need
 
 // Gradient and maximum test of TILE_X x TILE_Y pixels per work-group of LOCAL.
 //
@@ -122,18 +122,18 @@ kernel void edges_tile_directions(global const float* plane, const int stride, g
   const bool active = n < total[0];
   const float4 winner = active ? vload4(n, compact) : (float4)0.0f;
   const float x = AT_CELL ? 0.5f * winner.w : winner.x, y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
-  const float whole_x = floor(x), whole_y = floor(y);
+  const int whole_x = (int)x, whole_y = (int)y;
   for (int k = lane; k < COLUMNS; k += 8) {
     float w0, w1, w2, w3;
-    weights(y - whole_y, k, &w0, &w1, &w2, &w3);
+    weights(y - (float)whole_y, k, &w0, &w1, &w2, &w3);
     weights_y[group][0][k] = w0;
     weights_y[group][1][k] = w1;
     weights_y[group][2][k] = w2;
     weights_y[group][3][k] = w3;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  const float level = window_level(plane, stride, (int)whole_x, (int)whole_y);
-  global const float* window = plane + ((int)whole_y - RADIUS + PAD_Y) * stride + (int)whole_x - RADIUS + PAD_X;
+  const float level = window_level(plane, stride, whole_x, whole_y);
+  global const float* window = WINDOW(plane, stride, whole_x, whole_y);
   float s[9];
   for (int column = lane; column < COLUMNS; column += 8) {
     float d0 = 0.0f, d1 = 0.0f, d2 = 0.0f, d3 = 0.0f;
@@ -145,7 +145,7 @@ kernel void edges_tile_directions(global const float* plane, const int stride, g
       d3 = fma(weights_y[group][3][k], grey, d3);
     }
     float w0, w1, w2, w3;
-    weights(x - whole_x, column, &w0, &w1, &w2, &w3);
+    weights(x - (float)whole_x, column, &w0, &w1, &w2, &w3);
     const float wx[9] = {w1, w0, w2, w1, w0, w3, w2, w1, w0};
     const float dy[9] = {d0, d1, d0, d1, d2, d0, d1, d2, d3};
     for (int j = 0; j < 9; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
@@ -158,11 +158,11 @@ kernel void edges_tile_directions(global const float* plane, const int stride, g
     }
   }
   if (active && lane == 0) {
-    const float4 edge = third_order(winner.x, winner.y, newton_max, sums[0][item], sums[1][item], sums[2][item], sums[3][item],
-                                    sums[4][item], sums[5][item], sums[6][item], sums[7][item], sums[8][item]);
-    xs[n] = edge.x;
-    ys[n] = edge.y;
-    directions[n] = edge.z;
+    float d[9], edge_x = winner.x, edge_y = winner.y;
+    for (int j = 0; j < 9; ++j) d[j] = sums[j][item];
+    directions[n] = third_order(d, newton_max, &edge_x, &edge_y);
+    xs[n] = edge_x;
+    ys[n] = edge_y;
     strengths[n] = winner.z;
   }
 }

@@ -12,6 +12,7 @@ namespace quadedge::stages {
 namespace {
 
 constexpr int kStripRows = 64;    // rows of the doubled grid that one work-item filters: two more are computed twice
+constexpr std::size_t kPadGroup = 32;  // work-items per group of the padding kernel
 constexpr int kLinesPerStrip = 20;
 constexpr int kLineFront = 16;
 
@@ -128,8 +129,8 @@ void EdgeDetection::run(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edge
 void EdgeDetection::detect(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges) {
   const float newton_max = config_.direction_at == "cell" ? 0.0F : static_cast<float>(config_.newton_max);
   const auto rows = static_cast<std::size_t>(2 * height_);
-  pad_({static_cast<std::size_t>(plane_.stride / 16), static_cast<std::size_t>(plane_.rows), local_size_, 1}, image, width_,
-       height_, plane_.pixels, plane_.stride);
+  pad_({static_cast<std::size_t>(plane_.stride / 16), static_cast<std::size_t>(plane_.rows), kPadGroup, 1}, image, width_, height_,
+       plane_.pixels, plane_.stride);
   if (strips_) {
     find_maxima_in_strips();
     scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
