@@ -15,7 +15,7 @@ venv="$repository/build/venv"
 if ! "$venv/bin/python" -c 'import evo' 2>/dev/null; then
   echo "Installing evo into $venv"
   python3 -m venv "$venv"
-  "$venv/bin/pip" install --quiet --disable-pip-version-check evo==1.31.1
+  "$venv/bin/pip" install --quiet --disable-pip-version-check evo==1.38.1
 fi
 
 exec ctest --test-dir "$repository/build" --output-on-failure "$@"

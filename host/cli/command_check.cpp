@@ -18,7 +18,9 @@ class CheckCommand : public Command {
   }
   void declare(Options& options) override {
     options.positional("PATH", path_, "folder of the sequence");
-    options.text("--format", options_.format, "layout of the data; auto recognises it", "FORMAT");
+    auto formats = dataset_formats();
+    formats.insert(formats.begin(), "auto");
+    options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
     options.text("--sequence", options_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
     options.flag("--quiet", quiet_, "errors only");
   }

@@ -13,7 +13,12 @@ constexpr std::chrono::seconds kPlainInterval{5};           // between two lines
 constexpr std::chrono::milliseconds kTerminalInterval{100};  // between two updates of a terminal's line
 
 void print_errors(const char* title, const PoseErrors& errors) {
-  std::printf("\n%s\n%-22s %12s %12s %12s %12s\n", title, "", "mean", "std", "rmse", "max");
+  std::printf("\n%s\n", title);
+  if (!std::isfinite(errors.ape_translation_m.mean)) {
+    std::printf("not defined: all positions lie on one line\n");
+    return;
+  }
+  std::printf("%-22s %12s %12s %12s %12s\n", "", "mean", "std", "rmse", "max");
   const auto row = [](const char* name, const ErrorStatistics& error) {
     std::printf("%-22s %12.7f %12.7f %12.7f %12.7f\n", name, error.mean, error.std, error.rmse, error.max);
   };

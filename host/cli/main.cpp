@@ -10,6 +10,10 @@ int main(int argc, char** argv) {
   using namespace quadedge;
   try {
     std::vector<std::unique_ptr<cli::Command>> commands;
+    commands.push_back(cli::make_run_command());
+    commands.push_back(cli::make_demo_command());
+    commands.push_back(cli::make_edges_command());
+    commands.push_back(cli::make_evaluate_trajectory_command());
     commands.push_back(cli::make_synth_command());
     commands.push_back(cli::make_check_command());
     commands.push_back(cli::make_devices_command());

@@ -16,7 +16,8 @@ namespace {
 /// Options of one command as options of a CLI11 application.
 class ParserOptions : public Options {
  public:
-  ParserOptions(CLI::App& app, bool full_help) : app_(app), full_help_(full_help) {}
+  /// `short_help`: options that only the full help shows are hidden.
+  ParserOptions(CLI::App& app, bool short_help) : app_(app), short_help_(short_help) {}
 
   void positional(const std::string& name, std::string& value, const std::string& help, bool required) override {
     app_.add_option(name, value, help)->required(required)->type_name("")->configurable(false);
@@ -35,7 +36,10 @@ class ParserOptions : public Options {
   }
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
               const std::string& help) override {
-    add(names, value, help)->check(CLI::IsMember(allowed))->type_name("");
+    std::string type;
+    for (const auto& name : allowed) type += (type.empty() ? "" : "|") + name;
+    CLI::Validator member = CLI::IsMember(allowed);
+    add(names, value, help)->check(member.description(""))->type_name(type);  // the type says it already
   }
   void repeated(const std::string& names, std::vector<std::string>& values, const std::string& help,
                 const std::string& placeholder) override {
@@ -43,12 +47,16 @@ class ParserOptions : public Options {
   }
   void environment(const std::string& variable) override { last_->envname(variable); }
   void group(const std::string& heading, bool only_in_full_help) override {
-    group_ = only_in_full_help && !full_help_ ? "" : heading;  // CLI11 hides options of the group ""
+    // CLI11 hides options of the group "", but not from the help alone: its error messages lose their names, too.
+    group_ = only_in_full_help && short_help_ ? "" : heading;
+    has_full_help_ = has_full_help_ || only_in_full_help;
   }
   void config_file() override {
     text("--config", config_file_, "options from a TOML file, same names as here; the command line wins", "FILE");
     last_->configurable(false);
   }
+
+  bool has_full_help() const { return has_full_help_; }
 
   /// Sets the options that the configuration file names and nobody has set yet.
   void apply_config_file() {
@@ -77,7 +85,7 @@ class ParserOptions : public Options {
     const std::string key = item.fullname();
     CLI::Option* option = app_.get_option_no_throw("--" + key);
     if (option == nullptr || !option->get_configurable()) {
-      throw UsageError(config_file_ + ": unknown key '" + key + "'; `quadedge " + app_.get_name() + " --help-all` lists all keys");
+      throw UsageError(config_file_ + ": unknown key '" + key + "'; `quadedge " + app_.get_name() + " --help-all` lists all options");
     }
     if (option->count() > 0 && configured_.count(option) == 0) return;  // the command line or the environment wins
     if (!configured_.insert({option, key}).second) {
@@ -96,7 +104,8 @@ class ParserOptions : public Options {
   }
 
   CLI::App& app_;
-  bool full_help_;
+  bool short_help_;
+  bool has_full_help_ = false;
   std::string group_ = "Options";
   std::string config_file_;
   CLI::Option* last_ = nullptr;
@@ -120,8 +129,10 @@ CLI::App* add_command(CLI::App& program, std::map<std::string, CLI::App*>& group
 }  // namespace
 
 Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_ptr<Command>>& commands) {
-  bool full_help = false;
-  for (int i = 1; i < argc; ++i) full_help = full_help || std::strcmp(argv[i], "--help-all") == 0;
+  bool short_help = false;
+  for (int i = 1; i < argc; ++i) {
+    short_help = short_help || std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0;
+  }
 
   CLI::App program("Stereo visual odometry from quadruplets of third-order edges", "quadedge");
   program.set_version_flag("--version", "quadedge " QUADEDGE_VERSION);
@@ -135,9 +146,11 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   for (const auto& command : commands) {
     apps.push_back(add_command(program, groups, *command));
     apps.back()->footer("Examples:\n" + command->examples());
-    options.push_back(std::make_unique<ParserOptions>(*apps.back(), full_help));
+    options.push_back(std::make_unique<ParserOptions>(*apps.back(), short_help));
     command->declare(*options.back());
-    apps.back()->set_help_all_flag("--help-all", "this help with every constant of the method");
+    if (options.back()->has_full_help()) {
+      apps.back()->set_help_all_flag("--help-all", "this help with every constant of the method");
+    }
   }
   try {
     program.parse(argc, argv);

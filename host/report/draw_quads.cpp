@@ -33,30 +33,30 @@ double disparity(const StereoEdges& stereo, std::size_t i) {
 
 }  // namespace
 
-void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& now, const FrameDetails& before) {
+void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details) {
   Canvas canvas(left, kBrightness, 2);
   const auto colours = colour_scale();
   std::vector<double> disparities;
-  for (std::size_t i = 0; i < now.stereo.size(); ++i) disparities.push_back(disparity(now.stereo, i));
+  for (std::size_t i = 0; i < details.stereo.size(); ++i) disparities.push_back(disparity(details.stereo, i));
   // A few wrong matches must not stretch the scale.
   const double largest = disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3);
 
   const int radius = std::max(1, canvas.scale() / 2) << kPlaceShift;
-  for (std::size_t i = 0; i < now.stereo.size(); ++i) {
+  for (std::size_t i = 0; i < details.stereo.size(); ++i) {
     const auto level = static_cast<std::size_t>(std::clamp(disparities[i] / largest, 0.0, 1.0) * 255);
-    cv::circle(canvas.picture(), canvas.place(now.stereo.left_x[i], now.stereo.left_y[i]), radius, colours[level], cv::FILLED,
+    cv::circle(canvas.picture(), canvas.place(details.stereo.left_x[i], details.stereo.left_y[i]), radius, colours[level], cv::FILLED,
                cv::LINE_AA, kPlaceShift);
   }
   int inliers = 0;
   for (const bool draw_inliers : {false, true}) {  // inliers lie on top
-    for (std::size_t i = 0; i < now.quads.size(); ++i) {
-      const bool inlier = i < now.quad_inlier.size() && now.quad_inlier[i] != 0;
+    for (std::size_t i = 0; i < details.quads.size(); ++i) {
+      const bool inlier = i < details.quad_inlier.size() && details.quad_inlier[i] != 0;
       if (inlier != draw_inliers) continue;
       inliers += inlier ? 1 : 0;
-      const auto previous = static_cast<std::size_t>(now.quads.previous[i]);
+      const auto previous = static_cast<std::size_t>(details.quads.previous[i]);
       const cv::Scalar& colour = inlier ? kInlier : kOutlier;
-      const cv::Point end = canvas.place(now.quads.left_x[i], now.quads.left_y[i]);
-      cv::line(canvas.picture(), canvas.place(before.stereo.left_x.at(previous), before.stereo.left_y.at(previous)), end, colour, 1,
+      const cv::Point end = canvas.place(details.quads.left_x[i], details.quads.left_y[i]);
+      cv::line(canvas.picture(), canvas.place(details.previous_stereo.left_x.at(previous), details.previous_stereo.left_y.at(previous)), end, colour, 1,
                cv::LINE_AA, kPlaceShift);
     }
   }
@@ -65,13 +65,13 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   int y = canvas.legend_y(0);
   int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kWhite) + 6;
   for (int i = 0; i < 256; ++i, ++x) cv::line(picture, {x, y - 12}, {x, y + 2}, colours[static_cast<std::size_t>(i)]);
-  put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(now.stereo.size()) + " stereo edges)", x + 6, y, kWhite);
+  put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)", x + 6, y, kWhite);
   y = canvas.legend_y(1);
   x = put_text(picture, "motion of quads since the frame before:", 10, y, kWhite) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
-  put_text(picture, std::to_string(static_cast<int>(now.quads.size()) - inliers) + " others", x + 38, y, kOutlier);
+  put_text(picture, std::to_string(static_cast<int>(details.quads.size()) - inliers) + " others", x + 38, y, kOutlier);
   write_png(path, picture);
 }
 

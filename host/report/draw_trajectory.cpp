@@ -11,7 +11,7 @@ namespace quadedge::report {
 namespace {
 
 constexpr int kWidth = 1000, kHeight = 800;                              // px
-constexpr int kLeft = 90, kRight = 30, kTop = 50, kBottom = 70;          // margins of the plot [px]
+constexpr int kLeft = 90, kRight = 30, kTop = 80, kBottom = 70;          // margins of the plot [px]
 constexpr double kSmallestExtent = 1e-3;                                 // m; a rig at rest still gets axes
 const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225), kTruth(150, 150, 150), kEstimate(200, 90, 20), kStart(60, 140, 30);
 
@@ -106,20 +106,18 @@ void draw_path(cv::Mat& picture, const Plot& plot, const std::vector<cv::Point2d
   for (std::size_t i = 1; i < points.size(); ++i) {
     cv::line(picture, fine(points[i - 1]), fine(points[i]), colour, width, cv::LINE_AA, kShift);
   }
-  for (const auto& point : points) cv::circle(picture, fine(point), width << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
+  for (const auto& point : points) cv::circle(picture, fine(point), (width + 1) << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
 }
 
-void draw_legend(cv::Mat& picture, const std::vector<std::pair<std::string, cv::Scalar>>& rows) {
+/// One row between title and plot, where it hides nothing.
+void draw_legend(cv::Mat& picture, const std::vector<std::pair<std::string, cv::Scalar>>& entries) {
   int width = 0;
-  for (const auto& row : rows) width = std::max(width, text_width(row.first));
-  const int x = kWidth - kRight - width - 70, y = kTop + 10;
-  const int height = static_cast<int>(rows.size()) * kLegendLine + 10;
-  cv::rectangle(picture, cv::Rect(x, y, width + 60, height), {255, 255, 255}, cv::FILLED);
-  cv::rectangle(picture, cv::Rect(x, y, width + 60, height), kInk);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const int baseline = y + static_cast<int>(i + 1) * kLegendLine - 4;
-    cv::line(picture, {x + 10, baseline - 5}, {x + 38, baseline - 5}, rows[i].second, 3, cv::LINE_AA);
-    put_text(picture, rows[i].first, x + 46, baseline, kInk);
+  for (const auto& entry : entries) width += 38 + text_width(entry.first) + 30;
+  int x = (kLeft + kWidth - kRight - width + 30) / 2;
+  const int baseline = kTop - 18;
+  for (const auto& entry : entries) {
+    cv::line(picture, {x, baseline - 5}, {x + 28, baseline - 5}, entry.second, 3, cv::LINE_AA);
+    x = put_text(picture, entry.first, x + 38, baseline, kInk) + 30;
   }
 }
 
@@ -137,10 +135,10 @@ void draw_trajectory(const std::string& path, const Trajectory& estimate, const 
   put_text(picture, title, kWidth / 2 - text_width(title, 0.6) / 2, 28, kInk, 0.6);
   std::vector<std::pair<std::string, cv::Scalar>> legend = {{"estimate", kEstimate}};
   if (!truth_points.empty()) {
-    draw_path(picture, plot, truth_points, kTruth, 3);
+    draw_path(picture, plot, truth_points, kTruth, 5);
     legend.emplace_back("ground truth, origin-aligned", kTruth);
   }
-  draw_path(picture, plot, estimate_points, kEstimate, 1);
+  draw_path(picture, plot, estimate_points, kEstimate, 2);
   if (!estimate_points.empty()) {
     const auto start = plot.place(estimate_points.front());
     cv::circle(picture, {static_cast<int>(std::lround(start.x)), static_cast<int>(std::lround(start.y))}, 6, kStart, 2, cv::LINE_AA);

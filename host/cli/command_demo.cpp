@@ -1,0 +1,63 @@
+/// \file command_demo.cpp  quadedge demo: the built-in sequence, run and evaluated.
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/sequence_run.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+class DemoCommand : public Command {
+ public:
+  std::string name() const override { return "demo"; }
+  std::string about() const override { return "track the built-in rendered sequence and compare with its exact poses"; }
+  std::string examples() const override {
+    return "  quadedge demo\n"
+           "  quadedge demo --scene cables --frames 20 -o cables --force";
+  }
+
+  void declare(Options& options) override {
+    options.text("-o,--output", run_.output, "folder for the results", "OUT");
+    options.choice("--scene", scene_.scene, {"room", "cables"}, "room, or cables: thin curves before a plain wall");
+    options.number("--frames", scene_.frames, "length of the sequence");
+    options.text("--size", size_, "size of the images [px]; default 942x489", "WxH");
+    options.flag("--profile", run_.profile, "measure kernel times in a second pass");
+    options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
+    options.number("--draw", run_.draw_every, "pictures of the edges and quads of every N-th frame; 0: of the middle frame");
+    options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");
+    options.flag("--force", run_.force, "replace the results in OUT");
+    options.flag("--quiet", run_.quiet, "no progress");
+    method_.declare(options);
+  }
+
+  int run() override {
+    if (run_.draw_every < 0) throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 or more");
+    if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
+    method_.config();
+    set_size(scene_, size_);
+    const auto source = make_synthetic_source(scene_);
+    if (run_.draw_every == 0) run_.draw_frame = scene_.frames / 2;
+    const report::RunRecord record = run_sequence(*source, method_, run_);
+    print_run(record, run_.output);
+    return exit_code(record, min_tracked_);
+  }
+
+ private:
+  SyntheticOptions scene_;
+  std::string size_;
+  SequenceRunOptions run_ = default_run();
+  double min_tracked_ = 50;
+  MethodOptions method_;
+
+  static SequenceRunOptions default_run() {
+    SequenceRunOptions run;
+    run.output = "quadedge_demo";
+    return run;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_demo_command() { return std::make_unique<DemoCommand>(); }
+
+}  // namespace quadedge::cli

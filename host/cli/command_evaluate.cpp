@@ -1,0 +1,110 @@
+/// \file command_evaluate.cpp  quadedge evaluate trajectory: APE and RPE of a trajectory file.
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/output_folder.hpp"
+#include "data/atomic_file.hpp"
+#include "data/text.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/evaluation.hpp"
+#include "report/json.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+/// A trajectory and whether its stamps are times (TUM, data sets) or row numbers (KITTI).
+struct Loaded {
+  Trajectory poses;
+  bool timed = true;
+};
+
+Loaded load_file(const std::string& path) {
+  Loaded loaded;
+  loaded.poses = read_trajectory(path);
+  loaded.timed = data::split(data::data_lines(path).front().text).size() == 8;
+  return loaded;
+}
+
+/// Gives the rows of a KITTI file the stamps of as many timed poses.
+void give_stamps(Trajectory& rows, const std::vector<std::int64_t>& stamps, const std::string& file, const std::string& timed_file) {
+  if (rows.size() != stamps.size()) {
+    throw DataError(file + ": found " + std::to_string(rows.size()) + " rows without time stamps, expected " +
+                    std::to_string(stamps.size()) + ", one per frame of " + timed_file);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].stamp_ns = stamps[i];
+}
+
+std::vector<std::int64_t> stamps_of(const Trajectory& poses) {
+  std::vector<std::int64_t> stamps;
+  for (const auto& pose : poses) stamps.push_back(pose.stamp_ns);
+  return stamps;
+}
+
+class EvaluateTrajectoryCommand : public Command {
+ public:
+  std::string name() const override { return "evaluate trajectory"; }
+  std::string about() const override { return "absolute and relative pose errors (APE, RPE) of a trajectory"; }
+  std::string examples() const override {
+    return "  quadedge evaluate trajectory results_06/trajectory_kitti.txt kitti/poses/06.txt --from-frame 10\n"
+           "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --json errors.json";
+  }
+  void declare(Options& options) override {
+    options.positional("ESTIMATE", estimate_, "TUM or KITTI file");
+    options.positional("TRUTH", truth_, "TUM or KITTI file, or the folder of a sequence with ground truth");
+    options.number("--from-frame", from_frame_, "leave out the poses before this one of the estimate");
+    options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when TRUTH is a folder with several", "NAME");
+    options.text("--json", json_, "also write the errors, per pose too, to a file", "FILE");
+    options.flag("--force", force_, "replace the --json file");
+  }
+
+  int run() override {
+    if (from_frame_ < 0) throw UsageError("--from-frame " + std::to_string(from_frame_) + ": expected 0 or more");
+    refuse_existing_file(json_, force_);
+    Loaded estimate = load_file(estimate_);
+    Trajectory truth;
+    bool row_numbers = false;
+    if (std::filesystem::is_directory(truth_)) {
+      truth = folder_truth(estimate);
+    } else {
+      Loaded file = load_file(truth_);
+      row_numbers = !estimate.timed && !file.timed;
+      if (estimate.timed && !file.timed) give_stamps(file.poses, stamps_of(estimate.poses), truth_, estimate_);
+      if (!estimate.timed && file.timed) give_stamps(estimate.poses, stamps_of(file.poses), estimate_, truth_);
+      truth = std::move(file.poses);
+    }
+    // Row numbers are one "nanosecond" apart: only equal ones belong together.
+    const TrajectoryEvaluation result = row_numbers ? evaluate_trajectory(estimate.poses, truth, from_frame_, 0)
+                                                    : evaluate_trajectory(estimate.poses, truth, from_frame_);
+    std::printf("estimate   %s\ntruth      %s\n", estimate_.c_str(), truth_.c_str());
+    print_evaluation(result);
+    if (!json_.empty()) data::write_atomically(json_, report::evaluation_json(result, estimate_, truth_));
+    return 0;
+  }
+
+ private:
+  /// Ground truth of a sequence's folder; gives the estimate the stamps of its frames if it has none.
+  Trajectory folder_truth(Loaded& estimate) const {
+    const Dataset dataset = open_dataset(truth_, dataset_);
+    if (dataset.truth.empty()) throw DataError(truth_ + ": the sequence has no ground truth");
+    if (!estimate.timed) {
+      std::vector<std::int64_t> stamps;
+      for (const auto& frame : dataset.frames) stamps.push_back(frame.stamp_ns);
+      give_stamps(estimate.poses, stamps, estimate_, truth_);
+    }
+    return dataset.truth;
+  }
+
+  std::string estimate_, truth_, json_;
+  DatasetOptions dataset_;
+  int from_frame_ = 0;
+  bool force_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_evaluate_trajectory_command() { return std::make_unique<EvaluateTrajectoryCommand>(); }
+
+}  // namespace quadedge::cli

@@ -1,0 +1,81 @@
+/// \file command_run.cpp  quadedge run: one recorded sequence to a trajectory.
+#include <charconv>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/sequence_run.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+/// One side of "A:B"; `missing` where it is left out.
+int frame_number(const std::string& text, int missing, const std::string& whole) {
+  if (text.empty()) return missing;
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 0) {
+    throw UsageError("--frames " + whole + ": expected A:B, the first frame and the one after the last, for example 10:50");
+  }
+  return value;
+}
+
+class RunCommand : public Command {
+ public:
+  std::string name() const override { return "run"; }
+  std::string about() const override { return "track one recorded sequence and write its trajectory"; }
+  std::string examples() const override {
+    return "  quadedge run kitti/sequences/06 -o results_06\n"
+           "  quadedge run V1_01_easy --frames 100:300 --device gpu --draw 50";
+  }
+
+  void declare(Options& options) override {
+    options.positional("PATH", path_, "folder of the sequence");
+    options.text("-o,--output", run_.output, "folder for the results; default: quadedge_NAME here", "OUT");
+    auto formats = dataset_formats();
+    formats.insert(formats.begin(), "auto");
+    options.choice("--format", dataset_.format, formats, "layout of the data; auto recognises it");
+    options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
+    options.text("--frames", frames_, "frames A up to but without B; either side may be left out", "A:B");
+    options.flag("--profile", run_.profile, "measure kernel times in a second pass");
+    options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
+    options.number("--draw", run_.draw_every, "pictures of the edges and quads of every N-th frame");
+    options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");
+    options.flag("--force", run_.force, "replace the results in OUT");
+    options.flag("--quiet", run_.quiet, "no progress");
+    method_.declare(options);
+  }
+
+  int run() override {
+    if (run_.draw_every < 0) throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 (none) or more");
+    if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
+    method_.config();  // complain about options before reading data
+    if (!frames_.empty()) {
+      const auto colon = frames_.find(':');
+      if (colon == std::string::npos) frame_number("?", 0, frames_);
+      dataset_.first_frame = frame_number(frames_.substr(0, colon), 0, frames_);
+      dataset_.last_frame = frame_number(frames_.substr(colon + 1), -1, frames_);
+    }
+    refuse_existing_file(run_.trace, run_.force);
+    Dataset dataset = open_dataset(path_, dataset_);
+    if (run_.output.empty()) run_.output = default_output_folder(dataset.name);
+    const auto source = make_recorded_source(std::move(dataset));
+    const report::RunRecord record = run_sequence(*source, method_, run_);
+    print_run(record, run_.output);
+    return exit_code(record, min_tracked_);
+  }
+
+ private:
+  std::string path_, frames_;
+  DatasetOptions dataset_;
+  SequenceRunOptions run_;
+  double min_tracked_ = 50;
+  MethodOptions method_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_run_command() { return std::make_unique<RunCommand>(); }
+
+}  // namespace quadedge::cli

@@ -1,0 +1,35 @@
+#include "cli/detect_edges.hpp"
+
+#include "quadedge/error.hpp"
+#include "reference/edges.hpp"
+#include "stages/edge_detection.hpp"
+#include "stages/undistortion.hpp"
+
+namespace quadedge::cli {
+
+EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config) {
+  EdgeSet edges;
+  std::size_t found = 0;
+  if (device.is_reference()) {
+    edges = reference::to_edge_set(reference::detect_edges(image, config.edges));
+    found = edges.size();
+  } else {
+    auto& context = *device.context();
+    stages::Undistortion upload(context, {}, image.width, image.height, config.variants);
+    stages::EdgeDetection detection(context, image.width, image.height, config.edges, config.variants);
+    opencl::Buffer<cl_uchar> pixels;
+    stages::DeviceEdges device_edges;
+    upload.run(image, pixels);
+    detection.run(pixels, device_edges);
+    device_edges.read_count();
+    edges = device_edges.read(image.height);
+    found = edges.size() + static_cast<std::size_t>(device_edges.host_dropped);
+  }
+  if (found > static_cast<std::size_t>(config.edges.max_edges)) {
+    throw UsageError("the image has " + std::to_string(found) + " edges; edges.max_edges allows " +
+                     std::to_string(config.edges.max_edges));
+  }
+  return edges;
+}
+
+}  // namespace quadedge::cli

@@ -1,0 +1,15 @@
+#pragma once
+/// \file detect_edges.hpp  Edge detection of a single image.
+
+#include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
+#include "quadedge/edges.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge::cli {
+
+/// Third-order edges of one pinhole image on the chosen device.
+/// \throws DeviceError when the device fails, UsageError when the image has more edges than edges.max_edges.
+EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config);
+
+}  // namespace quadedge::cli

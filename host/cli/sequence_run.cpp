@@ -1,0 +1,188 @@
+#include "cli/sequence_run.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "cli/console.hpp"
+#include "cli/output_folder.hpp"
+#include "data/atomic_file.hpp"
+#include "data/trajectory_rows.hpp"
+#include "opencl/context.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/evaluation.hpp"
+#include "reference/undistortion.hpp"
+#include "report/append_file.hpp"
+#include "report/config_toml.hpp"
+#include "report/drawing.hpp"
+#include "report/frames_csv.hpp"
+#include "report/json.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Largest resident size of this process so far.
+double host_peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts KiB
+}
+
+StereoFrame view(const FramePrefetcher::Frame& frame) { return {frame.stamp_ns, frame.left.view(), frame.right.view()}; }
+
+/// The files that grow with every frame.
+class GrowingFiles {
+ public:
+  explicit GrowingFiles(const std::string& folder)
+      : tum_(folder + "/trajectory.txt"), kitti_(folder + "/trajectory_kitti.txt"), frames_(folder + "/frames.csv") {
+    tum_.append(data::tum_header());
+  }
+  void add(const FrameResult& result) {
+    const StampedPose pose{result.stamp_ns, result.world_from_left};
+    if (is_tracked(result.status)) tum_.append(data::tum_row(pose));
+    kitti_.append(data::kitti_row(pose));
+    frames_.add(result);
+  }
+
+ private:
+  report::AppendFile tum_, kitti_;
+  report::FramesCsv frames_;
+};
+
+/// Draws edges and quads of the frame that was tracked last, if it is one of the chosen.
+void draw_frame(const FramePrefetcher::Frame& frame, const StereoRig& rig, const StereoOdometry& odometry,
+                const SequenceRunOptions& options) {
+  const bool chosen = frame.number == options.draw_frame || (options.draw_every > 0 && frame.number % options.draw_every == 0);
+  if (!chosen) return;
+  const FrameDetails details = odometry.details();
+  // Edges live in the pinhole image; a recorded image with distortion would not lie under them.
+  const auto& table = rig.left_undistortion;
+  const Image left = table.empty() ? frame.left : reference::undistort(frame.left.view(), table);
+  char number[16];
+  std::snprintf(number, sizeof number, "%06d", frame.number);
+  report::draw_edges(options.output + "/pictures/edges_" + number + ".png", left.view(), details.left_edges);
+  report::draw_quads(options.output + "/pictures/quads_" + number + ".png", left.view(), details);
+}
+
+/// Kernel times among the stages of a profiled frame, which the pipeline marks by this prefix.
+std::vector<StageTime> kernel_stages(const std::vector<StageTime>& stages) {
+  const std::string prefix = "device ";
+  std::vector<StageTime> kernels;
+  for (const auto& stage : stages) {
+    if (stage.stage.rfind(prefix, 0) == 0) kernels.push_back({stage.stage.substr(prefix.size()), stage.ms});
+  }
+  return kernels;
+}
+
+/// The largest disparity comes from the data where the configuration leaves it open.
+void complete(Config& config, const FrameSource& source) {
+  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0) config.stereo.max_disparity = source.max_disparity();
+}
+
+/// First pass: poses and latencies.
+void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options, report::RunRecord& run) {
+  Progress progress(options.quiet);
+  const auto start = Clock::now();
+  Device device = method.open_device();
+  StereoOdometry odometry(source.rig(), device, run.config);
+  run.start_ms = milliseconds_since(start);
+  run.kernel_build_ms = odometry.kernel_build_ms();
+  run.device = device.info();
+  run.variants = odometry.variants();
+  data::write_atomically(options.output + "/config.toml", report::config_toml(run.config, method.device_choice()));
+  GrowingFiles files(options.output);
+  int lost = 0;
+  while (const auto frame = source.next()) {
+    report::FrameRecord record;
+    record.start_ms = milliseconds_since(start);
+    record.result = odometry.track(view(*frame));
+    files.add(record.result);
+    draw_frame(*frame, source.rig(), odometry, options);
+    lost += is_tracked(record.result.status) ? 0 : 1;
+    run.frames.push_back(std::move(record));
+    char text[64];
+    std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.latency_ms);
+    progress.update("frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+  }
+  const std::size_t device_peak = device.is_reference() ? 0 : device.context()->peak_bytes();
+  run.device_peak_mb = static_cast<double>(std::max(device_peak, odometry.device_bytes())) / (1024.0 * 1024.0);
+  run.host_peak_mb = host_peak_mb();
+}
+
+/// Second pass, with a profiling queue, which slows the device down: kernel times only.
+void profile_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options, report::RunRecord& run) {
+  Progress progress(options.quiet);
+  source.rewind();
+  Device device = method.open_device(true);
+  if (device.is_reference()) throw UsageError("--profile measures kernels, and the reference device has none");
+  StereoOdometry odometry(source.rig(), device, run.config);
+  while (const auto frame = source.next()) {
+    run.kernel_times.push_back(kernel_stages(odometry.track(view(*frame)).stages));
+    progress.update("profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
+  }
+}
+
+Trajectory tracked_poses(const report::RunRecord& run) {
+  Trajectory trajectory;
+  for (const auto& frame : run.frames) {
+    if (is_tracked(frame.result.status)) trajectory.push_back({frame.result.stamp_ns, frame.result.world_from_left});
+  }
+  return trajectory;
+}
+
+/// Compares with the ground truth, where there is one. Truth that misses most frames is no reason to fail a finished run.
+void evaluate(const FrameSource& source, bool quiet, report::RunRecord& run) {
+  if (source.truth().empty()) return;
+  run.truth_file = source.truth_name();
+  try {
+    run.accuracy = evaluate_trajectory(tracked_poses(run), source.truth());
+    const int missing = run.accuracy->estimate_poses - run.accuracy->matched;
+    if (missing > 0) {
+      note(quiet, run.truth_file + ": ground truth covers " + std::to_string(run.accuracy->matched) + " of " +
+                      std::to_string(run.accuracy->estimate_poses) + " tracked frames; the accuracy is of those alone");
+    }
+  } catch (const DataError& error) {
+    note(quiet, std::string("no accuracy: ") + error.what());
+  }
+}
+
+}  // namespace
+
+report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options) {
+  report::RunRecord run;
+  run.input = source.facts();
+  run.config = method.config();
+  complete(run.config, source);
+  prepare_output_folder(options.output, options.force);
+  try {
+    track_frames(source, method, options, run);
+  } catch (const DataError& error) {
+    if (run.frames.empty()) throw;
+    throw DataError(std::string(error.what()) + "\n" + std::to_string(run.frames.size()) + " finished frames are in " + options.output);
+  }
+  if (options.profile) profile_frames(source, method, options, run);
+  evaluate(source, options.quiet, run);
+  if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
+  report::draw_trajectory(options.output + "/pictures/trajectory.png", tracked_poses(run), source.truth(),
+                          run.input.name + ", left camera from above");
+  data::write_atomically(options.output + "/report.json", report::report_json(run));
+  return run;
+}
+
+int exit_code(const report::RunRecord& run, double min_tracked) {
+  const double share = run.frames.empty() ? 0 : 100.0 * run.tracked() / static_cast<double>(run.frames.size());
+  if (share >= min_tracked) return static_cast<int>(ExitCode::done);
+  std::fprintf(stderr, "quadedge: tracked %d of %zu frames, fewer than --min-tracked %g %%\n", run.tracked(), run.frames.size(),
+               min_tracked);
+  return static_cast<int>(ExitCode::too_few_tracked);
+}
+
+}  // namespace quadedge::cli

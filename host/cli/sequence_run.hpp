@@ -1,0 +1,30 @@
+#pragma once
+/// \file sequence_run.hpp  Tracks a whole sequence and writes its output folder; shared by `run` and `demo`.
+
+#include <string>
+
+#include "cli/frame_source.hpp"
+#include "cli/method_options.hpp"
+#include "report/run_record.hpp"
+
+namespace quadedge::cli {
+
+/// How to run a sequence.
+struct SequenceRunOptions {
+  std::string output;    ///< folder
+  std::string trace;     ///< file of the Chrome trace; empty: none
+  bool profile = false;  ///< a second pass that measures kernel times
+  bool quiet = false, force = false;
+  /// Pictures of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).
+  int draw_every = 0;
+  int draw_frame = -1;
+};
+
+/// Tracks all frames, writing every finished one at once, then the report, the configuration and the pictures.
+/// \throws Error; what was finished before stays on disk.
+report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options);
+
+/// Exit code of a finished run: too_few_tracked below `min_tracked` percent (with a message on stderr), else done.
+int exit_code(const report::RunRecord& run, double min_tracked);
+
+}  // namespace quadedge::cli

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Tracks the built-in sequence and compares the errors that QuadEdge reports with evo's.
+#   run_evo.sh QUADEDGE PYTHON_WITH_EVO COMPARE_SCRIPT
+set -euo pipefail
+quadedge="$1" python="$2" compare="$3"
+if [ ! -x "$python" ]; then
+  echo "$python is not there; scripts/test.sh makes the virtual environment with evo"
+  exit 1
+fi
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+"$quadedge" synth "$folder/room" --frames 8 --size 480x300 --quiet
+"$quadedge" run "$folder/room" -o "$folder/run" --quiet >/dev/null
+truth="$folder/room/groundtruth.txt"
+compare() { echo "evo against $3"; "$python" "$compare" "$@"; }
+# What `run` reports, and what `evaluate trajectory` finds in the files, also from a later frame on.
+compare "$folder/run/trajectory.txt" "$truth" "$folder/run/report.json"
+for from in 0 3; do
+  "$quadedge" evaluate trajectory "$folder/run/trajectory.txt" "$truth" --from-frame $from --json "$folder/from$from.json" >/dev/null
+  compare "$folder/run/trajectory.txt" "$truth" "$folder/from$from.json" --from-frame $from
+done

@@ -1,0 +1,128 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A copy of the small sequence that a test may damage.
+class DamagedSequence {
+ public:
+  DamagedSequence() { fs::copy(small_sequence(), folder_ / "room", fs::copy_options::recursive); }
+  std::string path() const { return folder_ / "room"; }
+  std::string operator/(const std::string& name) const { return path() + "/" + name; }
+  /// The n-th image of a folder in order of names.
+  fs::path image(const std::string& name, std::size_t n) const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(path() + "/" + name)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files.at(n);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// Nothing but a message and code 3: no crash, and no output folder for data that cannot be opened.
+void check_refused(const ProgramResult& result, const std::string& named) {
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("quadedge: ") && Contains(named));
+}
+
+}  // namespace
+
+TEST_CASE("synth: writes a sequence that check finds sound", "[cli]") {
+  const auto check = run_program({"check", small_sequence()});
+  INFO(check.out + check.err);
+  CHECK(check.code == 0);
+  CHECK_THAT(check.out, Contains("eth3d-slam") && Contains("320") && Contains("200") && Contains("0 errors, 0 warnings"));
+}
+
+TEST_CASE("synth: refuses a folder that exists unless forced", "[cli]") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> synth = {"synth", folder / "s", "--frames", "1", "--size", "160x100", "--quiet"};
+  CHECK(run_program(synth).code == 0);
+  const auto again = run_program(synth);
+  CHECK(again.code == 2);
+  CHECK_THAT(again.err, Contains("--force"));
+  auto forced = synth;
+  forced.push_back("--force");
+  CHECK(run_program(forced).code == 0);
+}
+
+TEST_CASE("bad data: an empty or missing folder is refused by name", "[cli]") {
+  const TemporaryFolder folder;
+  check_refused(run_program({"run", folder.path()}), folder.path());
+  check_refused(run_program({"run", folder / "absent"}), "absent");
+  CHECK(run_program({"check", folder.path()}).code == 3);
+}
+
+TEST_CASE("bad data: a missing right image is refused by name", "[cli]") {
+  const DamagedSequence sequence;
+  const auto victim = sequence.image("rgb2", 2);
+  fs::remove(victim);
+  check_refused(run_program({"run", sequence.path()}), victim.filename().string());
+  const auto check = run_program({"check", sequence.path()});
+  CHECK(check.code == 3);
+  CHECK_THAT(check.err, Contains(victim.filename().string()));
+}
+
+TEST_CASE("bad data: an unreadable calibration is refused by name", "[cli]") {
+  const DamagedSequence sequence;
+  std::ofstream(sequence / "calibration.txt") << "focal length: about right\n";
+  check_refused(run_program({"run", sequence.path()}), "calibration.txt");
+}
+
+TEST_CASE("edges: a file that is no image is refused by name", "[cli]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "text.png") << "not an image";
+  check_refused(run_program({"edges", folder / "text.png"}), "text.png");
+}
+
+TEST_CASE("evaluate trajectory: known errors are printed under both alignments", "[cli]") {
+  // Straight line along z, estimate 1 % too long: after alignment at the origin the translation error of pose k is 0.01 k.
+  const TemporaryFolder folder;
+  std::ofstream truth(folder / "truth.txt"), estimate(folder / "estimate.txt");
+  for (int k = 0; k < 5; ++k) {
+    truth << k << " 0 0 " << k << " 0 0 0 1\n";
+    estimate << k << " 0 0 " << 1.01 * k << " 0 0 0 1\n";
+  }
+  truth.close(), estimate.close();
+  const auto result = run_program({"evaluate", "trajectory", folder / "estimate.txt", folder / "truth.txt", "--json", folder / "e.json"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("origin-aligned") && Contains("SE(3)-aligned"));
+  CHECK_THAT(result.out, Contains("APE translation [m]       0.0200000    0.0141421    0.0244949    0.0400000"));
+  CHECK_THAT(result.out, Contains("RPE translation [m]       0.0100000    0.0000000    0.0100000    0.0100000"));
+  CHECK_THAT(read_text(folder / "e.json"), Contains("\"origin_aligned\"") && Contains("\"ape_translation_m\"") && Contains("per_pose"));
+  const auto again = run_program({"evaluate", "trajectory", folder / "estimate.txt", folder / "truth.txt", "--json", folder / "e.json"});
+  CHECK(again.code == 2);
+}
+
+TEST_CASE("evaluate trajectory: KITTI rows are matched by number, and with timed poses one row per pose", "[cli]") {
+  const TemporaryFolder folder;
+  std::ofstream rows(folder / "rows.txt"), timed(folder / "timed.txt"), short_rows(folder / "short.txt");
+  for (int k = 0; k < 5; ++k) {
+    const std::string row = "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k) + "\n";
+    rows << row;
+    if (k < 3) short_rows << row;
+    timed << 100 + k << " 0 0 " << k << " 0 0 0 1\n";
+  }
+  rows.close(), timed.close(), short_rows.close();
+  const std::string zero = "APE translation [m]       0.0000000    0.0000000    0.0000000    0.0000000";
+  for (const auto& [estimate, truth] : {std::pair<std::string, std::string>{"rows.txt", "rows.txt"}, {"rows.txt", "timed.txt"},
+                                        {"timed.txt", "rows.txt"}, {"timed.txt", "timed.txt"}}) {
+    const auto result = run_program({"evaluate", "trajectory", folder / estimate, folder / truth});
+    INFO(estimate + " " + truth + result.err);
+    CHECK(result.code == 0);
+    CHECK_THAT(result.out, Contains(zero) && Contains("5 of 5"));
+  }
+  const auto mismatch = run_program({"evaluate", "trajectory", folder / "timed.txt", folder / "short.txt"});
+  check_refused(mismatch, "short.txt");
+  CHECK_THAT(mismatch.err, Contains("3 rows") && Contains("5"));
+  const auto late = run_program({"evaluate", "trajectory", folder / "rows.txt", folder / "rows.txt", "--from-frame", "2"});
+  CHECK_THAT(late.out, Contains("3 of "));
+}

@@ -1,0 +1,101 @@
+#include <catch2/catch.hpp>
+
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+
+TEST_CASE("command line: every command's help shows two examples", "[cli]") {
+  for (const std::string command : {"run", "demo", "edges", "synth", "check", "devices", "variants"}) {
+    const auto result = run_program({command, "--help"});
+    INFO(command);
+    CHECK(result.code == 0);
+    const auto examples = result.out.find("Examples:");
+    REQUIRE(examples != std::string::npos);
+    const auto first = result.out.find("quadedge " , examples);
+    REQUIRE(first != std::string::npos);
+    CHECK(result.out.find("quadedge ", first + 1) != std::string::npos);
+  }
+  const auto evaluate = run_program({"evaluate", "trajectory", "--help"});
+  CHECK(evaluate.code == 0);
+  CHECK_THAT(evaluate.out, Contains("Examples:") && Contains("ESTIMATE") && Contains("--from-frame"));
+  CHECK_THAT(run_program({"--help"}).out, Contains("evaluate") && Contains("Exit codes"));
+}
+
+TEST_CASE("command line: constants of the method appear in the full help alone", "[cli]") {
+  CHECK_THAT(run_program({"run", "--help"}).out, !Contains("stereo.ncc_min") && Contains("--max-disparity"));
+  CHECK_THAT(run_program({"run", "--help-all"}).out, Contains("stereo.ncc_min") && Contains("odometry.key_max_frames"));
+}
+
+TEST_CASE("command line: misuse ends with code 2 and names what is wrong", "[cli]") {
+  const auto unknown = run_program({"run", "x", "--no-such-option"});
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Contains("--no-such-option"));
+  CHECK(run_program({}).code == 2);
+  CHECK(run_program({"no-such-command"}).code == 2);
+  CHECK(run_program({"run"}).code == 2);
+  CHECK(run_program({"evaluate"}).code == 2);
+  const auto letters = run_program({"edges", "x.png", "--edges.sigma", "wide"});
+  CHECK(letters.code == 2);
+  CHECK_THAT(letters.err, Contains("edges.sigma") && Contains("wide"));
+  const auto range = run_program({"edges", "x.png", "--stereo.ncc_min", "1.5"});
+  CHECK(range.code == 2);
+  CHECK_THAT(range.err, Contains("stereo.ncc_min") && Contains("1.5") && Contains("0.01 to 1"));
+  const auto format = run_program({"run", "x", "--format", "betamax"});
+  CHECK(format.code == 2);
+  CHECK_THAT(format.err, Contains("betamax") && Contains("kitti"));
+  const auto frames = run_program({"run", "x", "--frames", "7"});
+  CHECK(frames.code == 2);
+  CHECK_THAT(frames.err, Contains("A:B"));
+  CHECK(run_program({"run", "x", "--frames", "3:z"}).code == 2);
+  CHECK(run_program({"run", "x", "--min-tracked", "150"}).code == 2);
+  CHECK(run_program({"demo", "--size", "320"}).code == 2);
+  CHECK(run_program({"demo", "--size", "320x200x3"}).code == 2);
+  CHECK(run_program({"demo", "--scene", "kitchen"}).code == 2);
+}
+
+TEST_CASE("command line: an unknown variant is refused with the known ones", "[cli]") {
+  const auto stage = run_program({"demo", "--variant", "cooking=fast"});
+  CHECK(stage.code == 2);
+  CHECK_THAT(stage.err, Contains("cooking") && Contains("undistortion"));
+  CHECK(run_program({"demo", "--variant", "undistortion"}).code == 2);
+  CHECK_THAT(run_program({"variants"}).out, Contains("undistortion") && Contains("item64") && Contains("cpu"));
+}
+
+TEST_CASE("configuration file: unknown keys, bad values and missing files end with code 2 and name the key", "[cli]") {
+  const TemporaryFolder folder;
+  const auto with_file = [&](const std::string& text) {
+    std::ofstream(folder / "config.toml") << text;
+    return run_program({"edges", "x.png", "--config", folder / "config.toml"});
+  };
+  const auto unknown = with_file("[stereo]\nncc_minimum = 0.7\n");
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Contains("stereo.ncc_minimum") && Contains("config.toml"));
+  const auto top = with_file("sigma = 2\n");
+  CHECK(top.code == 2);
+  CHECK_THAT(top.err, Contains("'sigma'"));
+  const auto positional = with_file("IMAGE = \"other.png\"\n");
+  CHECK(positional.code == 2);
+  const auto text = with_file("[edges]\nsigma = \"wide\"\n");
+  CHECK(text.code == 2);
+  CHECK_THAT(text.err, Contains("edges.sigma") && Contains("wide"));
+  const auto range = with_file("[edges]\nsigma = 1000\n");
+  CHECK(range.code == 2);
+  CHECK_THAT(range.err, Contains("edges.sigma") && Contains("1000"));
+  const auto twice = with_file("seed = 3\n[edges]\nsigma = 2\n[stereo]\nncc_min = 0.5\n[edges]\nsigma = 3\n");
+  CHECK(twice.code == 2);
+  CHECK_THAT(twice.err, Contains("edges.sigma") && Contains("twice"));
+  const auto missing = run_program({"edges", "x.png", "--config", folder / "absent.toml"});
+  CHECK(missing.code == 2);
+  CHECK_THAT(missing.err, Contains("absent.toml"));
+  CHECK(run_program({"edges", "x.png", "--config", folder.path()}).code == 2);
+}
+
+TEST_CASE("configuration file: the command line wins over it, and it over the defaults", "[cli]") {
+  // A value out of range shows which one counts.
+  const TemporaryFolder folder;
+  std::ofstream(folder / "config.toml") << "[edges]\nsigma = 1000  # far out of range\n";
+  CHECK(run_program({"edges", folder / "absent.png", "--config", folder / "config.toml"}).code == 2);
+  const auto both = run_program({"edges", folder / "absent.png", "--config", folder / "config.toml", "--edges.sigma", "2"});
+  CHECK(both.code == 3);
+  CHECK_THAT(both.err, Contains("absent.png"));
+}

@@ -1,0 +1,271 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// One run of the small sequence, shared by the tests that only look at its files.
+struct SharedRun {
+  TemporaryFolder folder;
+  ProgramResult result = run_program({"run", small_sequence(), "-o", folder / "out", "--draw", "2", "--trace", folder / "trace.json"});
+  std::string out(const std::string& name) const { return folder / ("out/" + name); }
+};
+const SharedRun& shared_run() {
+  static const SharedRun run;
+  return run;
+}
+
+std::vector<std::string> lines(const std::string& path) {
+  std::ifstream stream(path);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(stream, line);) all.push_back(line);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("run: leaves every documented file behind", "[cli][device]") {
+  const auto& run = shared_run();
+  INFO(run.result.err);
+  REQUIRE(run.result.code == 0);
+  for (const char* name : {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "report.json", "config.toml",
+                           "pictures/trajectory.png", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
+    INFO(name);
+    CHECK(fs::file_size(run.out(name)) > 0);
+  }
+  CHECK_FALSE(fs::exists(run.out("pictures/edges_000001.png")));
+  CHECK_THAT(run.result.out, Contains("tracked") && Contains("origin-aligned") && Contains("latency"));
+}
+
+TEST_CASE("run: trajectories begin at the identity and have one row per tracked or per input frame", "[cli][device]") {
+  const auto& run = shared_run();
+  const auto tum = lines(run.out("trajectory.txt"));
+  const auto kitti = lines(run.out("trajectory_kitti.txt"));
+  REQUIRE(tum.size() == 5);  // comment and four frames
+  REQUIRE(kitti.size() == 4);
+  CHECK(kitti[0] == "1 0 0 0 0 1 0 0 0 0 1 0");
+  std::istringstream first(tum[1]);
+  std::string stamp;
+  double tx, ty, tz, qx, qy, qz, qw;
+  first >> stamp >> tx >> ty >> tz >> qx >> qy >> qz >> qw;
+  REQUIRE(first);
+  CHECK(stamp.size() - stamp.find('.') == 10);  // nine decimals
+  CHECK((tx == 0 && ty == 0 && tz == 0 && qx == 0 && qy == 0 && qz == 0 && qw == 1));
+}
+
+TEST_CASE("run: the report has every documented key", "[cli][device]") {
+  const auto& run = shared_run();
+  const auto report = nlohmann::json::parse(read_text(run.out("report.json")));
+  for (const char* key : {"schema", "version", "device", "variants", "input", "frames_tracked", "latency_ms", "stages_ms", "start_ms",
+                          "memory_mb", "counts", "accuracy"}) {
+    INFO(key);
+    CHECK(report.contains(key));
+  }
+  CHECK(report["frames_tracked"] == 4);
+  CHECK(report["input"]["frames"] == 4);
+  CHECK(report["input"]["width"] == 320);
+  CHECK(report["input"]["format"] == "eth3d-slam");
+  for (const char* key : {"median", "p90", "p99", "max", "first"}) CHECK(report["latency_ms"][key].get<double>() > 0);
+  CHECK(report["latency_ms"]["max"] >= report["latency_ms"]["median"]);
+  for (const char* key : {"name", "driver", "opencl", "type"}) CHECK(report["device"].contains(key));
+  for (const char* key : {"host_peak", "device_peak"}) CHECK(report["memory_mb"][key].get<double>() > 1);
+  CHECK(report["start_ms"]["total"] >= report["start_ms"]["kernel_build"]);
+  CHECK(report["counts"]["edges_left"].get<double>() > 100);
+  for (const char* alignment : {"origin_aligned", "se3_aligned"}) {
+    for (const char* error : {"ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m"}) {
+      for (const char* number : {"mean", "std", "rmse", "max"}) CHECK(report["accuracy"][alignment][error][number].is_number());
+    }
+  }
+  CHECK(report["stages_ms"].size() > 2);
+}
+
+TEST_CASE("run: frames.csv has a row per frame whose stage times make up the latency", "[cli][device]") {
+  const auto& run = shared_run();
+  const auto rows = lines(run.out("frames.csv"));
+  REQUIRE(rows.size() == 5);
+  const auto fields = [](const std::string& row) {
+    std::vector<std::string> values;
+    std::istringstream stream(row + ",");
+    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
+    return values;
+  };
+  const auto names = fields(rows[0]);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto values = fields(rows[i]);
+    REQUIRE(values.size() == names.size());
+    double latency = 0, stages = 0;
+    for (std::size_t column = 0; column < names.size(); ++column) {
+      if (names[column] == "latency_ms") latency = std::stod(values[column]);
+      else if (names[column].size() > 3 && names[column].rfind("_ms") == names[column].size() - 3 && !values[column].empty()) {
+        stages += std::stod(values[column]);
+      }
+    }
+    CHECK(latency > 0);
+    CHECK(stages > 0.5 * latency);
+    CHECK(stages < 1.02 * latency + 0.1);
+  }
+}
+
+TEST_CASE("run: the trace holds each frame with its stages inside", "[cli][device]") {
+  const auto& run = shared_run();
+  const auto trace = nlohmann::json::parse(read_text(run.folder / "trace.json"));
+  double begin = -1, end = -1;
+  int frames = 0, stages = 0;
+  for (const auto& event : trace["traceEvents"]) {
+    CHECK(event["ph"] == "X");
+    const double start = event["ts"], duration = event["dur"];
+    if (event["cat"] == "frame") {
+      CHECK(start >= end);  // frames follow one another
+      begin = start;
+      end = start + duration;
+      ++frames;
+    } else {
+      CHECK(start >= begin);
+      CHECK(start + duration <= end * 1.02 + 100);
+      ++stages;
+    }
+  }
+  CHECK(frames == 4);
+  CHECK(stages > 2 * frames);
+}
+
+TEST_CASE("run: the effective configuration reproduces the trajectory byte by byte", "[cli][device]") {
+  const auto& run = shared_run();
+  const TemporaryFolder folder;
+  const auto again = run_program({"run", small_sequence(), "-o", folder / "out", "--config", run.out("config.toml"), "--quiet"});
+  INFO(again.err);
+  REQUIRE(again.code == 0);
+  CHECK(again.err.empty());
+  CHECK(read_text(folder / "out/trajectory.txt") == read_text(run.out("trajectory.txt")));
+  CHECK(read_text(folder / "out/trajectory_kitti.txt") == read_text(run.out("trajectory_kitti.txt")));
+  CHECK(read_text(folder / "out/config.toml") == read_text(run.out("config.toml")));
+}
+
+TEST_CASE("run: results are not replaced without --force", "[cli][device]") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "out/pictures");
+  std::ofstream(folder / "out/report.json") << "precious";
+  std::ofstream(folder / "out/pictures/quads_000077.png") << "stale";
+  std::ofstream(folder / "out/notes.txt") << "the user's own";
+  const auto refused = run_program({"run", small_sequence(), "-o", folder / "out"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("--force") && Contains(folder / "out"));
+  CHECK(read_text(folder / "out/report.json") == "precious");
+  CHECK(run_program({"run", small_sequence(), "-o", folder / "out", "--force", "--frames", "0:2"}).code == 0);
+  CHECK_THAT(read_text(folder / "out/report.json"), Contains("frames_tracked"));
+  CHECK_FALSE(fs::exists(folder / "out/pictures/quads_000077.png"));
+  CHECK(read_text(folder / "out/notes.txt") == "the user's own");
+}
+
+TEST_CASE("run: an output folder that cannot be written ends with code 3 and its path", "[cli][device]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "in the way";
+  for (const std::string& path : {folder / "file/out", std::string("/proc/quadedge_out")}) {
+    const auto result = run_program({"run", small_sequence(), "-o", path});
+    CHECK(result.code == 3);
+    CHECK_THAT(result.err, Contains(path));
+  }
+  const auto full = run_program({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"});
+  CHECK(full.code == 3);
+  CHECK_THAT(full.err, Contains("/dev/full"));
+}
+
+TEST_CASE("run: no OpenCL device ends with code 4 and installation help", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string no_vendors = "OCL_ICD_VENDORS='" + folder.path() + "/'";
+  const auto result = run_program({"run", small_sequence(), "-o", folder / "out"}, no_vendors);
+  CHECK(result.code == 4);
+  CHECK_THAT(result.err, Contains("pocl-opencl-icd") && Contains("--device reference"));
+  const auto devices = run_program({"devices"}, no_vendors);
+  CHECK(devices.code == 0);
+  CHECK_THAT(devices.out, Contains("reference") && Contains("pocl-opencl-icd"));
+}
+
+TEST_CASE("run: an unknown device ends with code 4 and the list, also from the environment", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> run = {"run", small_sequence(), "-o", folder / "out", "--frames", "0:1"};
+  const auto from_environment = run_program(run, "QUADEDGE_DEVICE=abacus");
+  CHECK(from_environment.code == 4);
+  CHECK_THAT(from_environment.err, Contains("abacus") && Contains("0: "));
+  auto with_flag = run;
+  with_flag.insert(with_flag.end(), {"--device", "auto"});
+  CHECK(run_program(with_flag, "QUADEDGE_DEVICE=abacus").code == 0);  // the flag wins
+}
+
+TEST_CASE("run: ground truth for half of the frames is used for that half, and said", "[cli][device]") {
+  const TemporaryFolder folder;
+  fs::copy(small_sequence(), folder / "room", fs::copy_options::recursive);
+  const auto truth = lines(folder / "room/groundtruth.txt");
+  std::ofstream half(folder / "room/groundtruth.txt");
+  std::size_t data = 0;
+  for (const auto& line : truth) {
+    if (line.empty() || line[0] == '#') continue;
+    if (++data <= 2) half << line << "\n";
+  }
+  half.close();
+  REQUIRE(data == 4);
+  const auto result = run_program({"run", folder / "room", "-o", folder / "out"});
+  INFO(result.err);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.err, Contains("2 of 4"));
+  const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
+  CHECK(report["accuracy"]["matched_poses"] == 2);
+  CHECK(run_program({"check", folder / "room"}).code == 0);
+  CHECK_THAT(run_program({"check", folder / "room"}).out, Contains("warning"));
+}
+
+TEST_CASE("run: frames finished before a broken image stay on disk", "[cli][device]") {
+  const TemporaryFolder folder;
+  fs::copy(small_sequence(), folder / "room", fs::copy_options::recursive);
+  std::vector<fs::path> images;
+  for (const auto& entry : fs::directory_iterator(folder / "room/rgb")) images.push_back(entry.path());
+  std::sort(images.begin(), images.end());
+  fs::resize_file(images[2], fs::file_size(images[2]) / 2);
+  const auto result = run_program({"run", folder / "room", "-o", folder / "out"});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains(images[2].filename().string()) && Contains("2 finished frames"));
+  CHECK(lines(folder / "out/trajectory_kitti.txt").size() == 2);
+  CHECK(lines(folder / "out/frames.csv").size() == 3);
+  CHECK(run_program({"check", folder / "room"}).code == 3);
+}
+
+TEST_CASE("demo: tracks and evaluates the built-in sequence", "[cli][device]") {
+  const TemporaryFolder folder;
+  const auto result = run_program({"demo", "-o", folder / "demo", "--frames", "4", "--size", "320x200"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("4 of 4 frames") && Contains("APE translation [m]") && Contains("RPE rotation [deg]"));
+  for (const char* name : {"pictures/trajectory.png", "pictures/edges_000002.png", "pictures/quads_000002.png"}) {
+    CHECK(fs::file_size(folder / ("demo/" + std::string(name))) > 1000);
+  }
+}
+
+TEST_CASE("edges: the table has a header, six decimals and edges inside the image", "[cli][device]") {
+  const TemporaryFolder folder;
+  std::string image;
+  for (const auto& entry : fs::directory_iterator(small_sequence() + "/rgb")) image = entry.path().string();
+  const auto result = run_program({"edges", image, "--csv", folder / "e.csv", "--draw", folder / "e.png"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const auto rows = lines(folder / "e.csv");
+  REQUIRE(rows.size() > 100);
+  CHECK(rows[0] == "x,y,direction_rad,strength");
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    double x, y, direction, strength;
+    int length = 0;
+    REQUIRE(std::sscanf(rows[i].c_str(), "%lf,%lf,%lf,%lf%n", &x, &y, &direction, &strength, &length) == 4);
+    REQUIRE(length == static_cast<int>(rows[i].size()));
+    REQUIRE(rows[i].size() - rows[i].rfind('.') == 7);
+    REQUIRE((x > 0 && x < 319 && y > 0 && y < 199));
+    REQUIRE(std::abs(direction) <= 3.141593);
+    REQUIRE(strength > 2);
+  }
+  CHECK(fs::file_size(folder / "e.png") > 1000);
+  CHECK(run_program({"edges", image, "--csv", folder / "e.csv"}).code == 2);
+  CHECK(run_program({"edges", image, "--csv", folder / "absent/e.csv"}).code == 3);
+}
