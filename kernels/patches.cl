@@ -91,7 +91,8 @@ kernel void side_patches(global const uint* corners, const int width, const int 
     float8 rows[SIDE];
     for (int i = 0; i < SIDE; ++i) {
       const float along = (float)(i - SIDE / 2);
-      rows[i] = bilinear(corners, width, height, base_x, base_y, (x + along * c) - across * s, (y + along * s) + across * c);
+      rows[i] = bilinear(corners, width, height, base_x, base_y, (x + along * c) - across * s,
+                         (y + along * s) + across * c);
     }
     // Taking the middle sample away first makes a constant patch exactly zero.
     const float middle = rows[SIDE / 2].s3;

@@ -126,25 +126,38 @@ inline void store_descriptor(const float8* histogram, global uchar* descriptor) 
   }
   const float norm = sqrt(sum_lanes(squares));
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
-  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
-    const float8 bins = min(histogram[(cell / CELLS + 1) * ROW + cell % CELLS + 1], clip);
-    vstore8(convert_uchar8(convert_int8(min(bins * scale, 255.0f) + 0.5f)), cell, descriptor);
+  for (int cell = 0; cell < CELLS * CELLS; cell += 2) {
+    const float8* bins = histogram + (cell / CELLS + 1) * ROW + cell % CELLS + 1;
+    const uchar8 even = convert_uchar8(convert_int8(min(min(bins[0], clip) * scale, 255.0f) + 0.5f));
+    const uchar8 odd = convert_uchar8(convert_int8(min(min(bins[1], clip) * scale, 255.0f) + 0.5f));
+    // As four words: PoCL's vstore16 would store the bytes one by one.
+    ((global uint4*)descriptor)[cell / 2] = as_uint4((uchar16)(even, odd));
   }
 }
 
 // One side's samples of a row: shares of the two angle bins next to each, and the lower one.
 inline void sample_row(global const float* magnitude, global const float* angle, const size_t first, const float turn,
-                       float* low, float* high, int* bin) {
+                       float8* low, float8* high, int8* bin) {
+#pragma unroll
   for (int block = 0; block < 2; ++block) {
     const float8 length = vload8(block, magnitude + first);
     const float8 bins = turn - vload8(block, angle + first);
     const int8 whole = whole_below8(bins);
     const float8 part = bins - convert_float8(whole);
-    vstore8(length * (1.0f - part), block, low);
-    vstore8(length * part, block, high);
-    vstore8(whole & (ANGLES - 1), block, bin);
+    low[block] = length * (1.0f - part);
+    high[block] = length * part;
+    bin[block] = whole & (ANGLES - 1);
   }
 }
+
+// The two shares in their angle bins, zeros elsewhere.
+inline float8 two_bins(const float low, const float high, const int bin) {
+  const int8 lower = kAngleMask[bin], upper = kAngleMask[(bin + 1) & (ANGLES - 1)];
+  return as_float8((as_int8((float8)(low)) & lower) | (as_int8((float8)(high)) & upper));
+}
+
+// Lane k of two vectors that stand behind one another.
+#define LANE(T, vectors, k) ((const T*)(vectors))[k]
 
 kernel void sift_describe(global const float* magnitude, global const float* angle, const int width, const int height,
                           const int stride, global const float* xs, global const float* ys, global const float* directions,
@@ -177,8 +190,9 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
     const int first = -whole_below(-from), last = whole_below(to);
     if (last < first) continue;
 
-    float w00[16], w01[16], w10[16], w11[16];
-    int cells[16];
+    float8 w00[2], w01[2], w10[2], w11[2];
+    int8 cells[2];
+#pragma unroll
     for (int block = 0; block < 2; ++block) {
       const float8 j = (float)(8 * block - RADIUS) + (float8)(0, 1, 2, 3, 4, 5, 6, 7);
       const float8 along = j * c + i * s, across = i * c - j * s;
@@ -189,31 +203,30 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
       const float8 part_across = place_across - convert_float8(cell_across);
       const float8 window = as_float8(as_int8(kWindow[row] * vload8(block, kWindow)) & inside);
       const float8 beyond = window * part_across, before = window * (1.0f - part_across);
-      vstore8(before * (1.0f - part_along), block, w00);
-      vstore8(before * part_along, block, w01);
-      vstore8(beyond * (1.0f - part_along), block, w10);
-      vstore8(beyond * part_along, block, w11);
-      vstore8((cell_across * ROW + cell_along + (ROW + 1)) & inside, block, cells);
+      w00[block] = before * (1.0f - part_along);
+      w01[block] = before * part_along;
+      w10[block] = beyond * (1.0f - part_along);
+      w11[block] = beyond * part_along;
+      cells[block] = (cell_across * ROW + cell_along + (ROW + 1)) & inside;
     }
-    float bright_low[16], bright_high[16], dark_low[16], dark_high[16];
-    int bright_bin[16], dark_bin[16];
+    float8 bright_low[2], bright_high[2], dark_low[2], dark_high[2];
+    int8 bright_bin[2], dark_bin[2];
     sample_row(magnitude, angle, bright_first + (size_t)row * stride, turn, bright_low, bright_high, bright_bin);
     sample_row(magnitude, angle, dark_first + (size_t)row * stride, turn, dark_low, dark_high, dark_bin);
     for (int k = first; k <= last; ++k) {
-      float8* b = bright + cells[k];
-      float8* d = dark + cells[k];
-      const float8 in_bright = as_float8((as_int8((float8)(bright_low[k])) & kAngleMask[bright_bin[k]]) |
-                                         (as_int8((float8)(bright_high[k])) & kAngleMask[(bright_bin[k] + 1) & 7]));
-      const float8 in_dark = as_float8((as_int8((float8)(dark_low[k])) & kAngleMask[dark_bin[k]]) |
-                                       (as_int8((float8)(dark_high[k])) & kAngleMask[(dark_bin[k] + 1) & 7]));
-      b[0] += in_bright * w00[k];
-      b[1] += in_bright * w01[k];
-      b[ROW] += in_bright * w10[k];
-      b[ROW + 1] += in_bright * w11[k];
-      d[0] += in_dark * w00[k];
-      d[1] += in_dark * w01[k];
-      d[ROW] += in_dark * w10[k];
-      d[ROW + 1] += in_dark * w11[k];
+      const int cell = LANE(int, cells, k), bin_b = LANE(int, bright_bin, k), bin_d = LANE(int, dark_bin, k);
+      const float8 in_bright = two_bins(LANE(float, bright_low, k), LANE(float, bright_high, k), bin_b);
+      const float8 in_dark = two_bins(LANE(float, dark_low, k), LANE(float, dark_high, k), bin_d);
+      float8* b = bright + cell;
+      float8* d = dark + cell;
+      b[0] += in_bright * LANE(float, w00, k);
+      b[1] += in_bright * LANE(float, w01, k);
+      b[ROW] += in_bright * LANE(float, w10, k);
+      b[ROW + 1] += in_bright * LANE(float, w11, k);
+      d[0] += in_dark * LANE(float, w00, k);
+      d[1] += in_dark * LANE(float, w01, k);
+      d[ROW] += in_dark * LANE(float, w10, k);
+      d[ROW + 1] += in_dark * LANE(float, w11, k);
     }
   }
   global uchar* descriptor = descriptors + (size_t)edge * (2 * BYTES);

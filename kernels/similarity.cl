@@ -22,8 +22,9 @@ inline float patch_ncc_pairing(global const float* a, global const float* b, int
     bright_dark = fma(a_bright, b_dark, bright_dark);
     dark_bright = fma(a_dark, b_bright, dark_bright);
   }
-  const float scores[4] = {fma(a[48], b[48], similarity_sum(bright_bright)), fma(a[97], b[97], similarity_sum(dark_dark)),
-                           fma(a[48], b[97], similarity_sum(bright_dark)), fma(a[97], b[48], similarity_sum(dark_bright))};
+  const float scores[4] = {
+      fma(a[48], b[48], similarity_sum(bright_bright)), fma(a[97], b[97], similarity_sum(dark_dark)),
+      fma(a[48], b[97], similarity_sum(bright_dark)), fma(a[97], b[48], similarity_sum(dark_bright))};
   float best = scores[0];
   int which = 0;
   for (int k = 1; k < 4; ++k) {
@@ -40,27 +41,36 @@ inline float patch_ncc(global const float* a, global const float* b) {
   return patch_ncc_pairing(a, b, &pairing);
 }
 
+// Sum of squares from its two running forms in 16 bits: `total` modulo 65536 and `high`, the sum of the squares' upper bytes.
+// Eight squares a lane: neither `high` nor the sum of the lower bytes, total - 256 high, can overflow.
+inline uint4 wide_sum(const ushort16 total, const ushort16 high) {
+  const ushort16 low = total - (high << (ushort16)8);
+  const uint8 sum = (convert_uint8(high.lo + high.hi) << 8u) + convert_uint8(low.lo + low.hi);
+  return sum.lo + sum.hi;
+}
+
 // Square of the smallest SIFT distance over the four pairings of sides; exact, at most 128 * 255^2.
 inline int sift_distance2(global const uchar* a, global const uchar* b) {
-  uint8 bright_bright = 0, dark_dark = 0, bright_dark = 0, dark_bright = 0;
-#define ADD_SQUARES(sum, p, q)                                        \
-  {                                                                   \
-    const ushort16 difference = convert_ushort16(abs_diff(p, q));     \
-    const ushort16 square = difference * difference;                  \
-    sum += convert_uint8(square.lo) + convert_uint8(square.hi);       \
+  // A difference of bytes fits 16 bits modulo 65536, and so does its square, at most 65025.
+  ushort16 total_bb = 0, total_dd = 0, total_bd = 0, total_db = 0, high_bb = 0, high_dd = 0, high_bd = 0, high_db = 0;
+#define ADD_SQUARES(total, high, p, q)               \
+  {                                                  \
+    const ushort16 difference = (p) - (q);           \
+    const ushort16 square = difference * difference; \
+    total += square;                                 \
+    high += square >> (ushort16)8;                   \
   }
   for (int k = 0; k < 8; ++k) {
-    const uchar16 a_bright = vload16(k, a), a_dark = vload16(k, a + 128);
-    const uchar16 b_bright = vload16(k, b), b_dark = vload16(k, b + 128);
-    ADD_SQUARES(bright_bright, a_bright, b_bright)
-    ADD_SQUARES(dark_dark, a_dark, b_dark)
-    ADD_SQUARES(bright_dark, a_bright, b_dark)
-    ADD_SQUARES(dark_bright, a_dark, b_bright)
+    const ushort16 a_bright = convert_ushort16(vload16(k, a)), a_dark = convert_ushort16(vload16(k, a + 128));
+    const ushort16 b_bright = convert_ushort16(vload16(k, b)), b_dark = convert_ushort16(vload16(k, b + 128));
+    ADD_SQUARES(total_bb, high_bb, a_bright, b_bright)
+    ADD_SQUARES(total_dd, high_dd, a_dark, b_dark)
+    ADD_SQUARES(total_bd, high_bd, a_bright, b_dark)
+    ADD_SQUARES(total_db, high_db, a_dark, b_bright)
   }
 #undef ADD_SQUARES
-  // The four sums, one per lane of the result.
-  const uint4 one = bright_bright.lo + bright_bright.hi, two = dark_dark.lo + dark_dark.hi;
-  const uint4 three = bright_dark.lo + bright_dark.hi, four = dark_bright.lo + dark_bright.hi;
+  const uint4 one = wide_sum(total_bb, high_bb), two = wide_sum(total_dd, high_dd);
+  const uint4 three = wide_sum(total_bd, high_bd), four = wide_sum(total_db, high_db);
   const uint4 sums = ((uint4)(one.x, two.x, three.x, four.x) + (uint4)(one.y, two.y, three.y, four.y)) +
                      ((uint4)(one.z, two.z, three.z, four.z) + (uint4)(one.w, two.w, three.w, four.w));
   return (int)min(min(sums.x, sums.y), min(sums.z, sums.w));

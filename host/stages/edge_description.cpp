@@ -7,8 +7,8 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr int kPadding = 16;   // PAD of sift.cl
-constexpr int kSiftVector = 8; // pixels per work-item there
+constexpr int kPadding = 16;    // PAD of sift.cl
+constexpr int kSiftVector = 8;  // pixels per work-item there
 
 int round_up(int value, int step) { return (value + step - 1) / step * step; }
 
@@ -73,7 +73,8 @@ void EdgeDescription::describe(const opencl::Buffer<cl_float>& x, const opencl::
 }
 
 void EdgeDescription::cut_patches(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
-                                  const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_float>& patches) {
+                                  const opencl::Buffer<cl_float>& direction, int count,
+                                  opencl::Buffer<cl_float>& patches) {
   context_.begin_stage("patches");
   const auto edges = static_cast<std::size_t>(count);
   patches.ensure(context_, edges * reference::kEdgePatchFloats);

@@ -16,8 +16,8 @@ struct DeviceDescriptions {
   opencl::Buffer<cl_uchar> sift;     ///< 256 bytes per edge, see host/reference/sift.hpp
 };
 
-/// Describes edges on the device. One object per camera: it keeps the prepared image until the next one, so that patches can
-/// be cut anew at refined places.
+/// Describes edges on the device. One object per camera: it keeps the prepared image until the next one, so that patches
+/// can be cut anew at refined places.
 class EdgeDescription {
  public:
   /// For images of width x height pixels. Variants of the stages "patches" and "sift".
@@ -56,9 +56,9 @@ class EdgeDescription {
   float patch_offset_, sift_offset_;
   std::size_t patches_local_, patches_items_, sift_local_, sift_items_;  ///< group size; work-items per edge
 
-  opencl::Buffer<cl_uint> corners_;                        ///< height x width
-  opencl::Buffer<cl_float> blurred_down_, blurred_;        ///< height x stride
-  opencl::Buffer<cl_float> magnitude_, angle_;             ///< (height + 2 padding) x stride
+  opencl::Buffer<cl_uint> corners_;                  ///< height x width
+  opencl::Buffer<cl_float> blurred_down_, blurred_;  ///< height x stride
+  opencl::Buffer<cl_float> magnitude_, angle_;       ///< (height + 2 padding) x stride
 
   opencl::Kernel<In<cl_uchar>, cl_int, cl_int, Out<cl_uint>> corners_kernel_;
   opencl::Kernel<In<cl_uint>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_float, Out<cl_float>>
@@ -66,8 +66,8 @@ class EdgeDescription {
   opencl::Kernel<In<cl_uchar>, cl_int, cl_int, cl_int, Out<cl_float>> blur_down_kernel_;
   opencl::Kernel<In<cl_float>, cl_int, cl_int, Out<cl_float>> blur_along_kernel_;
   opencl::Kernel<In<cl_float>, cl_int, cl_int, cl_int, Out<cl_float>, Out<cl_float>> gradient_kernel_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_float,
-                 Out<cl_uchar>>
+  opencl::Kernel<In<cl_float>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, cl_int,
+                 cl_float, Out<cl_uchar>>
       sift_kernel_;
 };
 
