@@ -5,8 +5,8 @@
 // One work-item = one left edge. Two launches: count, then (after an exclusive scan) fill.
 // Reference: host/reference/stereo_candidates.cpp.
 
-// A position differs from its cell of the doubled grid by at most 1/sqrt(2) cells.
-#define CELL_SLACK 0.36f
+// A position differs from its cell of the doubled grid by at most this [px] (kEdgeRowReach in host/reference/edges.hpp).
+#define CELL_SLACK 0.5f
 
 // First index in [begin, end) whose x may reach `x`: positions within a row are ordered up to twice the slack.
 inline int lower_bound_x(global const float* xs, int begin, int end, const float x) {

@@ -72,7 +72,10 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("temporal.radius", &temporal.radius, "search radius around the predicted place [px]", 0, 1000);
   visit("temporal.radius_wide", &temporal.radius_wide,
         "search radius at the first pair and after a loss [share of the image width]", 0, 1);
+  visit("temporal.radius_widest", &temporal.radius_widest,
+        "search radius where radius_wide finds no motion [share of the image width]", 0, 1);
   visit("temporal.wide_step", &temporal.wide_step, "the wide search looks at every n-th stereo edge", 1, 1000);
+  visit("temporal.wide_min_inlier_share", &temporal.wide_min_inlier_share, "smallest inlier share of the wide search", 0, 1);
   visit("temporal.orientation", &temporal.orientation, "largest difference of directions, modulo 360 [deg]", 0, 180);
   visit("temporal.ncc_min", &temporal.ncc_min, "smallest NCC", 0.01, 1);
   visit("temporal.sift_max", &temporal.sift_max, "largest SIFT distance", 0, kUnlimited);

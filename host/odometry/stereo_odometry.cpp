@@ -98,7 +98,7 @@ class StereoOdometry::Implementation {
     pose::MotionEstimate motion;
   };
 
-  Step match_and_estimate(const std::optional<Eigen::Isometry3d>& prediction, double radius, int step);
+  Step match_and_estimate(const std::optional<Eigen::Isometry3d>& prediction, double radius, int step, const PoseConfig& limits);
   Step find_step();
   void locate(const Step& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
@@ -192,25 +192,35 @@ std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motio
 }
 
 StereoOdometry::Implementation::Step StereoOdometry::Implementation::match_and_estimate(
-    const std::optional<Eigen::Isometry3d>& prediction, double radius, int step) {
+    const std::optional<Eigen::Isometry3d>& prediction, double radius, int step, const PoseConfig& limits) {
   Step result;
   result.matches = frontend_->match(
       odometry::predict_places(rig_, frontend_->previous(), prediction, radius, step, min_epipolar_angle()));
   result.quads = pose::build_quads(rig_, frontend_->previous(), frontend_->current(), result.matches, pose::QuadLimits(config_));
-  result.motion = pose::estimate_motion(rig_, result.quads, config_.pose, config_.seed + static_cast<std::uint64_t>(frame_), prediction);
+  result.motion = pose::estimate_motion(rig_, result.quads, limits, config_.seed + static_cast<std::uint64_t>(frame_), prediction);
   return result;
 }
 
-/// With a trusted prediction the search is narrow. Otherwise a wide search over a part of the edges makes the prediction.
+/// With a trusted prediction the search is narrow. Otherwise a wide search over a part of the edges makes the prediction, in two
+/// sizes.
 StereoOdometry::Implementation::Step StereoOdometry::Implementation::find_step() {
   const auto prediction = predicted_motion();
   if (prediction) {
-    Step step = match_and_estimate(prediction, config_.temporal.radius, 1);
+    Step step = match_and_estimate(prediction, config_.temporal.radius, 1, config_.pose);
     if (step.motion.status == pose::MotionStatus::ok) return step;
   }
-  Step wide = match_and_estimate(prediction, config_.temporal.radius_wide * rig_.left.width, config_.temporal.wide_step);
-  if (wide.motion.status != pose::MotionStatus::ok) return wide;
-  return match_and_estimate(wide.motion.current_from_previous, config_.temporal.radius, 1);
+  // What the wide search suggests need not convince: the narrow one around it has to.
+  PoseConfig lenient = config_.pose;
+  lenient.min_inlier_share = config_.temporal.wide_min_inlier_share;
+  lenient.min_spread = 0;
+  Step step;
+  for (const double share : {config_.temporal.radius_wide, config_.temporal.radius_widest}) {
+    step = match_and_estimate(prediction, share * rig_.left.width, config_.temporal.wide_step, lenient);
+    if (step.motion.status != pose::MotionStatus::ok) continue;
+    step = match_and_estimate(step.motion.current_from_previous, config_.temporal.radius, 1, config_.pose);
+    if (step.motion.status == pose::MotionStatus::ok) break;
+  }
+  return step;
 }
 
 /// Pose against the key rig, from the chained quads; where they do not suffice, from frame to frame.
