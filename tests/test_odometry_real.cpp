@@ -1,0 +1,109 @@
+/// \file test_odometry_real.cpp  Recorded sequences against their published poses. Needs QUADEDGE_DATA.
+#include <catch2/catch.hpp>
+
+#include <cstring>
+
+#include "dataset_files.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/evaluation.hpp"
+#include "quadedge/odometry.hpp"
+
+using namespace quadedge;
+using dataset_files::real_data;
+
+namespace {
+
+struct Run {
+  Trajectory tracked;
+  int frames = 0;
+  std::vector<FrameResult> results;
+};
+
+/// Tracks the frames of a data set with its reader's disparity range.
+Run track(const Dataset& dataset, const std::map<std::string, std::string>& variants = {}) {
+  Config config;
+  config.stereo.max_disparity = dataset.max_disparity;
+  config.variants = variants;
+  Device device;
+  StereoOdometry odometry(dataset.rig, device, config);
+  FramePrefetcher frames(dataset);
+  Run run;
+  while (const auto frame = frames.next()) {
+    run.results.push_back(odometry.track({frame->stamp_ns, frame->left.view(), frame->right.view()}));
+    ++run.frames;
+    if (is_tracked(run.results.back().status)) run.tracked.push_back({frame->stamp_ns, run.results.back().world_from_left});
+  }
+  return run;
+}
+
+bool same_bytes(const Run& a, const Run& b) {
+  if (a.tracked.size() != b.tracked.size()) return false;
+  for (std::size_t i = 0; i < a.tracked.size(); ++i) {
+    if (std::memcmp(a.tracked[i].world_from_left.data(), b.tracked[i].world_from_left.data(), 16 * sizeof(double)) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("KITTI 06: all 36 frames tracked within 2 cm and 0.07 degrees per frame", "[real][device]") {
+  const std::string path = real_data("kitti_odometry/sequences/06");
+  if (path.empty()) return;
+  const Dataset dataset = open_dataset(path);
+  const Run run = track(dataset);
+  CHECK(run.frames == 36);
+  REQUIRE(run.tracked.size() == 36);
+  const auto errors = evaluate_trajectory(run.tracked, dataset.truth).origin_aligned;
+  CHECK(errors.rpe_translation_m.mean <= 0.02);
+  CHECK(errors.rpe_rotation_deg.mean <= 0.07);
+}
+
+TEST_CASE("KITTI 01: all 25 frames tracked within 0.06 degrees per frame", "[real][device]") {
+  const std::string path = real_data("kitti_odometry/sequences/01");
+  if (path.empty()) return;
+  const Dataset dataset = open_dataset(path);
+  const Run run = track(dataset);
+  CHECK(run.frames == 25);
+  REQUIRE(run.tracked.size() == 25);
+  CHECK(evaluate_trajectory(run.tracked, dataset.truth).origin_aligned.rpe_rotation_deg.mean <= 0.06);
+}
+
+TEST_CASE("EuRoC at rest: stays within 3 mm and 0.2 degrees over 40 frames", "[real][device]") {
+  const std::string path = real_data("euroc_v1_01_easy_at_rest");
+  if (path.empty()) return;
+  const Dataset dataset = open_dataset(path);
+  const Run run = track(dataset);
+  REQUIRE(run.tracked.size() == 40);
+  const auto errors = evaluate_trajectory(run.tracked, dataset.truth).origin_aligned;
+  CHECK(errors.ape_translation_m.mean <= 0.003);
+  CHECK(errors.ape_rotation_deg.mean <= 0.2);
+}
+
+TEST_CASE("Karlsruhe quad: 0.25 m and 0.61 degrees within 10 percent", "[real][device]") {
+  const std::string path = real_data("karlsruhe_quad");
+  if (path.empty()) return;
+  const Run run = track(open_dataset(path));
+  REQUIRE(run.tracked.size() == 2);
+  const Eigen::Isometry3d motion = run.tracked[0].world_from_left.inverse() * run.tracked[1].world_from_left;
+  CHECK(motion.translation().norm() == Approx(0.25).epsilon(0.1));
+  CHECK(Eigen::AngleAxisd(motion.linear()).angle() * 180 / 3.14159265358979323846 == Approx(0.61).epsilon(0.1));
+}
+
+TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other variants", "[real][device]") {
+  const std::string path = real_data("kitti_odometry/sequences/06");
+  if (path.empty()) return;
+  DatasetOptions options;
+  options.first_frame = 10;
+  options.last_frame = 13;
+  const Dataset dataset = open_dataset(path, options);
+  const Run run = track(dataset);
+  REQUIRE(run.tracked.size() == 3);
+  CHECK(same_bytes(run, track(dataset)));
+  CHECK(same_bytes(run, track(dataset, {{"stereo_candidates", "group16"},
+                                        {"candidate_filters", "group16"},
+                                        {"stereo_refinement", "group16"},
+                                        {"stereo_clusters", "group16"},
+                                        {"temporal_candidates", "group16"},
+                                        {"temporal_refinement", "group16"}})));
+  CHECK(same_bytes(run, track(dataset, {{"edges", "tile64"}, {"scan", "group256"}, {"patches", "lanes"}, {"sift", "cells"}})));
+}
