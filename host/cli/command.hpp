@@ -14,6 +14,8 @@ class Options {
   virtual ~Options() = default;
   /// A positional argument.
   virtual void positional(const std::string& name, std::string& value, const std::string& help, bool required = true) = 0;
+  /// One or more positional arguments; the last ones of the command.
+  virtual void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) = 0;
   virtual void text(const std::string& names, std::string& value, const std::string& help, const std::string& placeholder) = 0;
   virtual void number(const std::string& names, double& value, const std::string& help) = 0;
   virtual void number(const std::string& names, int& value, const std::string& help) = 0;
@@ -55,5 +57,6 @@ std::unique_ptr<Command> make_devices_command();
 std::unique_ptr<Command> make_variants_command();
 std::unique_ptr<Command> make_synth_command();
 std::unique_ptr<Command> make_evaluate_trajectory_command();
+std::unique_ptr<Command> make_evaluate_matching_command();
 
 }  // namespace quadedge::cli

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     commands.push_back(cli::make_demo_command());
     commands.push_back(cli::make_edges_command());
     commands.push_back(cli::make_evaluate_trajectory_command());
+    commands.push_back(cli::make_evaluate_matching_command());
     commands.push_back(cli::make_synth_command());
     commands.push_back(cli::make_check_command());
     commands.push_back(cli::make_devices_command());

@@ -22,6 +22,9 @@ class ParserOptions : public Options {
   void positional(const std::string& name, std::string& value, const std::string& help, bool required) override {
     app_.add_option(name, value, help)->required(required)->type_name("")->configurable(false);
   }
+  void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
+    app_.add_option(name, values, help)->required()->type_name("")->configurable(false);
+  }
   void text(const std::string& names, std::string& value, const std::string& help, const std::string& placeholder) override {
     add(names, value, help)->type_name(placeholder);
   }

@@ -1,4 +1,4 @@
-/// \file json.cpp  The only file that includes nlohmann-json.
+/// \file json.cpp  Results of runs and trajectories; with matching_json.cpp the only file that includes nlohmann-json.
 #include "report/json.hpp"
 
 #include <cmath>

@@ -1,0 +1,115 @@
+/// \file command_evaluate_matching.cpp  quadedge evaluate matching: what every filter keeps and loses.
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/frame_source.hpp"
+#include "cli/matching_tables.hpp"
+#include "cli/method_options.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/sweep.hpp"
+#include "data/atomic_file.hpp"
+#include "evaluation/matching_evaluation.hpp"
+#include "quadedge/error.hpp"
+#include "report/matching_json.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+constexpr int kRenderedFrames = 10;  // of a built-in scene, unless --frames says otherwise
+
+class EvaluateMatchingCommand : public Command {
+ public:
+  std::string name() const override { return "evaluate matching"; }
+  std::string about() const override { return "recall, precision and ambiguity after every filter (Tables 1 to 3)"; }
+  std::string examples() const override {
+    return "  quadedge evaluate matching two_view_training/terrace_2s --json terrace.json\n"
+           "  quadedge evaluate matching room --frames 5 --sweep stereo.ncc_min=0.4:0.9:0.05";
+  }
+  void declare(Options& options) override {
+    options.positionals("PATH", paths_,
+                        "pairs with disparities, sequences with depth (`quadedge synth`), folders of those, or a built-in scene: room, "
+                        "cables");
+    options.number("--frames", frames_, "only the first N frames of each sequence; 0: all, of a built-in scene 10");
+    options.text("--size", size_, "size of the images of built-in scenes [px]; default 942x489", "WxH");
+    options.number("--tolerance", tolerance_.place, "a match this near to the true place is veridical [px]");
+    options.text("--sweep", sweep_, "only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
+    options.text("--json", json_, "also write the tables to a file", "FILE");
+    options.flag("--force", force_, "replace files that exist");
+    options.flag("--quiet", quiet_, "no progress");
+    method_.declare(options);
+  }
+
+  int run() override {
+    if (frames_ < 0) throw UsageError("--frames " + std::to_string(frames_) + ": expected 0 or more");
+    if (!(tolerance_.place > 0 && tolerance_.place <= 100)) throw UsageError("--tolerance: expected more than 0 and at most 100 px");
+    if (!sweep_.empty() && !json_.empty()) throw UsageError("--sweep prints lines only; run without it for --json");
+    refuse_existing_file(json_, force_);
+    const Config config = method_.config();
+    open_sources();
+    Device device = method_.open_device();
+    if (!sweep_.empty()) return run_sweep(config, device);
+    const auto results = evaluate(config, device);
+    if (results.size() > 1) {
+      for (const auto& result : results) print_matching(result.name, evaluation::summarise({result}));
+    }
+    print_matching(results.size() > 1 ? "all" : results[0].name, evaluation::summarise(results));
+    if (!json_.empty()) data::write_atomically(json_, report::matching_json(results));
+    return 0;
+  }
+
+ private:
+  void open_sources() {
+    for (const auto& path : paths_) {
+      if ((path == "room" || path == "cables") && !std::filesystem::exists(path)) {
+        SyntheticOptions scene;
+        scene.scene = path;
+        scene.frames = frames_ > 0 ? frames_ : kRenderedFrames;
+        set_size(scene, size_);
+        sources_.push_back(evaluation::make_rendered_source(scene));
+        continue;
+      }
+      std::vector<std::string> skipped;
+      for (const auto& dataset : evaluation::find_true_datasets(path, skipped)) {
+        sources_.push_back(evaluation::make_recorded_source(dataset));
+      }
+      for (const auto& folder : skipped) note(quiet_, folder + ": left out, it has no ground truth of edges");
+    }
+  }
+
+  std::vector<evaluation::MatchingResult> evaluate(const Config& config, Device& device) const {
+    Progress progress(quiet_);
+    std::vector<evaluation::MatchingResult> results;
+    for (const auto& source : sources_) {
+      results.push_back(evaluation::evaluate_matching(*source, device, config, frames_, tolerance_, [&](int done, int all) {
+        progress.update(source->name(), done, all);
+      }));
+    }
+    return results;
+  }
+
+  int run_sweep(const Config& config, Device& device) const {
+    const Sweep sweep = parse_sweep(sweep_);
+    for (std::size_t i = 0; i < sweep.values.size(); ++i) {
+      const auto summary = evaluation::summarise(evaluate(with_value(config, sweep.key, sweep.values[i]), device));
+      if (i == 0) print_sweep_heading(sweep.key, summary, sweep.stereo_orders, sweep.temporal_orders);
+      print_sweep_line(sweep.values[i], summary, sweep.stereo_orders, sweep.temporal_orders);
+    }
+    return 0;
+  }
+
+  std::vector<std::string> paths_;
+  std::string size_, sweep_, json_;
+  int frames_ = 0;
+  bool force_ = false, quiet_ = false;
+  evaluation::MatchingTolerance tolerance_;
+  MethodOptions method_;
+  std::vector<std::unique_ptr<evaluation::MatchingSource>> sources_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_evaluate_matching_command() { return std::make_unique<EvaluateMatchingCommand>(); }
+
+}  // namespace quadedge::cli

@@ -1,0 +1,185 @@
+#include "evaluation/matching_source.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "data/pfm.hpp"
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint8_t kMaskHidden = 128;  // of mask0nocc.png: 255 visible, 128 hidden in the other view, 0 unknown
+
+/// Names of the right view's disparities and of the mask that belong to a left one, in the published layouts.
+struct Companions {
+  const char *left, *right, *mask;
+};
+constexpr Companions kCompanions[] = {{"disp0GT.pfm", "disp1GT.pfm", "mask0nocc.png"},
+                                      {"disp0.pfm", "disp1.pfm", "mask0nocc.png"},
+                                      {"disp1.png", "disp5.png", ""},
+                                      {"disp2.png", "disp6.png", ""}};
+
+void check_size(const SurfaceMap& map, const PinholeCamera& camera, const std::string& file) {
+  if (map.width == camera.width && map.height == camera.height) return;
+  data::fail(file, std::to_string(map.width) + " x " + std::to_string(map.height) + " values",
+             std::to_string(camera.width) + " x " + std::to_string(camera.height) + " as the image");
+}
+
+SurfaceMap read_disparity(const std::string& file, double scale, const PinholeCamera& camera) {
+  const SurfaceMap map = fs::path(file).extension() == ".pfm" ? surface_from_disparity(data::read_pfm(file), scale)
+                                                              : surface_from_grey(read_grey_image(file), scale);
+  check_size(map, camera, file);
+  return map;
+}
+
+/// depth/NAME.pfm beside rgb/NAME.png, depth2 beside rgb2.
+std::string depth_file(const std::string& image) {
+  const fs::path path(image), folder = path.parent_path();
+  const std::string name = folder.filename().string();
+  if (name.rfind("rgb", 0) != 0) return {};
+  return (folder.parent_path() / ("depth" + name.substr(3)) / path.stem()).string() + ".pfm";
+}
+
+FrameTruth read_pair_truth(const Dataset& dataset) {
+  FrameTruth truth;
+  const fs::path left(dataset.disparity_truth);
+  truth.left = read_disparity(dataset.disparity_truth, dataset.disparity_truth_scale, dataset.rig.left);
+  for (const auto& names : kCompanions) {
+    if (left.filename() != names.left) continue;
+    const fs::path right = left.parent_path() / names.right, mask = left.parent_path() / names.mask;
+    if (fs::exists(right)) {
+      truth.right = read_disparity(right.string(), dataset.disparity_truth_scale, dataset.rig.right);
+      truth.right_is_measured = true;
+    }
+    if (*names.mask != '\0' && fs::exists(mask)) {
+      const Image image = read_grey_image(mask.string());
+      check_size({image.width, image.height, {}}, dataset.rig.left, mask.string());
+      for (const auto pixel : image.pixels) truth.hidden.push_back(pixel == kMaskHidden ? 1 : 0);
+    }
+  }
+  if (!truth.right_is_measured) truth.right = right_from_left(truth.left, dataset.rig.right.width);
+  return truth;
+}
+
+class RecordedSource : public MatchingSource {
+ public:
+  explicit RecordedSource(const Dataset& dataset) : dataset_(dataset) {}
+  std::string name() const override { return dataset_.name; }
+  const StereoRig& rig() const override { return dataset_.rig; }
+  double max_disparity() const override { return dataset_.max_disparity; }
+  int frames() const override { return static_cast<int>(dataset_.frames.size()); }
+  TrueFrame load(int number) const override {
+    const FrameFiles& files = dataset_.frames[static_cast<std::size_t>(number)];
+    TrueFrame frame;
+    frame.frame = {number, files.stamp_ns, read_grey_image(files.left), read_grey_image(files.right)};
+    if (!dataset_.disparity_truth.empty()) {
+      frame.truth = read_pair_truth(dataset_);
+      return frame;
+    }
+    const double scale = dataset_.rig.left.fx * dataset_.rig.baseline();
+    frame.truth.depth_scale = scale;
+    frame.truth.right_is_measured = true;
+    frame.truth.left = surface_from_depth(data::read_pfm(depth_file(files.left)), scale);
+    frame.truth.right = surface_from_depth(data::read_pfm(depth_file(files.right)), scale);
+    check_size(frame.truth.left, dataset_.rig.left, depth_file(files.left));
+    check_size(frame.truth.right, dataset_.rig.right, depth_file(files.right));
+    for (const auto& pose : dataset_.truth) {
+      if (pose.stamp_ns == files.stamp_ns) frame.truth.world_from_left = pose.world_from_left;
+    }
+    return frame;
+  }
+
+ private:
+  Dataset dataset_;
+};
+
+class RenderedSource : public MatchingSource {
+ public:
+  explicit RenderedSource(const SyntheticOptions& options) : name_(options.scene), sequence_(options) {}
+  std::string name() const override { return name_; }
+  const StereoRig& rig() const override { return sequence_.rig(); }
+  double max_disparity() const override { return sequence_.max_disparity(); }
+  int frames() const override { return sequence_.frames(); }
+  TrueFrame load(int number) const override {
+    RenderedView left = sequence_.render(number, false), right = sequence_.render(number, true);
+    TrueFrame frame;
+    frame.truth.depth_scale = rig().left.fx * rig().baseline();
+    frame.truth.right_is_measured = true;
+    const auto map = [&](RenderedView& view) {
+      return surface_from_depth({view.image.width, view.image.height, std::move(view.depth)}, frame.truth.depth_scale);
+    };
+    frame.truth.left = map(left);
+    frame.truth.right = map(right);
+    frame.truth.world_from_left = sequence_.world_from_left(number);
+    frame.frame = {number, sequence_.stamp_ns(number), std::move(left.image), std::move(right.image)};
+    return frame;
+  }
+
+ private:
+  std::string name_;
+  SyntheticSequence sequence_;
+};
+
+/// Data sets below a folder, `levels` deep, in the order of their names.
+void find_below(const fs::path& folder, int levels, std::vector<Dataset>& found, std::vector<std::string>& skipped) {
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory()) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  for (const auto& path : folders) {
+    try {
+      Dataset dataset = open_dataset(path.string());
+      if (has_matching_truth(dataset)) {
+        found.push_back(std::move(dataset));
+      } else {
+        skipped.push_back(path.string());
+      }
+    } catch (const DataError&) {  // no data set of its own: look inside
+      if (levels > 1) find_below(path, levels - 1, found, skipped);
+    }
+  }
+}
+
+}  // namespace
+
+bool has_matching_truth(const Dataset& dataset) {
+  if (!dataset.disparity_truth.empty()) return true;
+  if (dataset.frames.empty()) return false;
+  const std::string left = depth_file(dataset.frames[0].left), right = depth_file(dataset.frames[0].right);
+  return !left.empty() && fs::exists(left) && fs::exists(right);
+}
+
+std::unique_ptr<MatchingSource> make_recorded_source(const Dataset& dataset) {
+  if (!has_matching_truth(dataset)) {
+    data::fail(dataset.path, "no ground truth of edges", "disparities (pairs), or depth and poses as `quadedge synth` writes them");
+  }
+  if (!dataset.rig.left_undistortion.empty() || !dataset.rig.right_undistortion.empty()) {
+    data::fail(dataset.path, "distorted images", "pinhole images, to which the ground truth belongs");
+  }
+  return std::make_unique<RecordedSource>(dataset);
+}
+
+std::unique_ptr<MatchingSource> make_rendered_source(const SyntheticOptions& options) {
+  return std::make_unique<RenderedSource>(options);
+}
+
+std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std::string>& skipped) {
+  std::vector<Dataset> found;
+  try {
+    found.push_back(open_dataset(path));
+    return found;
+  } catch (const DataError&) {
+    if (!fs::is_directory(path)) throw;
+    find_below(path, 2, found, skipped);
+    if (found.empty() && skipped.empty()) throw;
+  }
+  if (found.empty()) data::fail(path, std::to_string(skipped.size()) + " data sets, none with ground truth", "disparities or depth");
+  return found;
+}
+
+}  // namespace quadedge::evaluation

@@ -1,0 +1,63 @@
+#pragma once
+/// \file surface_map.hpp  Ground truth of one view: how near the scene is at every pixel, and what an edge there belongs to.
+
+#include <optional>
+#include <vector>
+
+#include "data/pfm.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge::evaluation {
+
+/// height x width, row-major. Nearness is the disparity, or focal length x baseline / depth [px]; NaN is unknown. It is the
+/// right quantity to interpolate: along any plane it is a linear function of the pixel, which depth is not.
+struct SurfaceMap {
+  int width = 0, height = 0;
+  std::vector<float> nearness;
+  bool empty() const { return nearness.empty(); }
+  /// Value at the pixel nearest to a place, NaN outside.
+  float nearest(double x, double y) const;
+};
+
+/// Disparities in `scale` px per unit; infinite, NaN, zero and negative ones are unknown.
+SurfaceMap surface_from_disparity(const data::FloatImage& disparity, double scale);
+/// Grey-coded disparities, `scale` px per grey level; 0 is unknown.
+SurfaceMap surface_from_grey(const Image& disparity, double scale);
+/// Depths z [m]; 0 is unknown.
+SurfaceMap surface_from_depth(const data::FloatImage& depth, double focal_times_baseline);
+
+/// More than this between neighbouring pixels is a depth step, less is one surface [px of nearness].
+inline constexpr double kDepthStep = 1.0;
+/// How far across an edge the map is searched for a depth step [px]: half a pixel of the map's own rounding plus the displacement
+/// that blur by the detector's Gaussian and an imprecise truth bring.
+inline constexpr double kContourReach = 1.5;
+
+/// What an edge belongs to.
+struct SurfacePoint {
+  double nearness = 0;   ///< px, sub-pixel
+  bool contour = false;  ///< the edge lies on a depth step; `nearness` is that of the nearer surface
+};
+
+/// The surface that an edge belongs to. The map is read at the pixels met within kContourReach to either side along the
+/// edge's normal.
+/// - Any of them unknown: nothing is known (an unseen nearer surface could own the edge).
+/// - They differ by more than kDepthStep: the edge is an occluding contour and belongs to the nearer surface, whose values
+///   within kDepthStep of the nearest one are weighted by their closeness to the edge's place and averaged.
+/// - Else bilinear interpolation, over those of the four pixels around the place that lie within kDepthStep of the nearest
+///   pixel: a step that the edge ends at (along its direction) does not smear into it.
+/// \param direction of the tangent [rad]
+std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y, double direction);
+
+/// Whether another view shows a point.
+enum class Visibility { unknown, visible, hidden };
+
+/// Compares a point's nearness with the map of a view in which it falls on (x, y). Visible: one of the pixels within 1.5 px
+/// shows that nearness to within kDepthStep. Hidden: all known ones are nearer, or the place is outside the image. Unknown: none
+/// is known, or the view shows something farther there, which contradicts the point.
+Visibility visibility(const SurfaceMap& map, double x, double y, double nearness);
+
+/// The right view's map as far as the left one tells it (rectified pairs): every known pixel moved by its disparity, gaps between
+/// neighbours on one surface filled, the nearest surface wins.
+SurfaceMap right_from_left(const SurfaceMap& left, int right_width);
+
+}  // namespace quadedge::evaluation
