@@ -1,10 +1,7 @@
 // patches.cl: two side patches of 7 x 7 samples per edge, mean-free with unit norm (SPEC section 2).
 //
-// patch_corners  In: image (width x height, packed). Out: per pixel the four grey levels that bilinear interpolation to its
-//                right and below needs, one byte each: (x, y), (x+1, y), (x, y+1), (x+1, y+1); border replicated.
-//                One work-item = one pixel.
-// side_patches   In: corners, edges (x, y [px], direction [rad]). Out: 98 floats per edge, laid out as in
-//                host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
+// In: corners of the image (corners.cl), edges (x, y [px], direction [rad]). Out: 98 floats per edge, laid out as in
+// host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
 //                ITEMS_PER_EDGE 1: one work-item = one edge, the 7 samples across the edge are the lanes of a float8;
 //                ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
 //                GROUP floats.
@@ -19,16 +16,6 @@
 #define SIDE 7
 #define SAMPLES 49
 #define FLAT_SQUARES 1e-10f
-
-kernel void patch_corners(global const uchar* image, const int width, const int height, global uint* corners) {
-  const int x = (int)get_global_id(0), y = (int)get_global_id(1);
-  if (x >= width || y >= height) return;
-  const int right = min(x + 1, width - 1);
-  global const uchar* above = image + y * width;
-  global const uchar* below = image + min(y + 1, height - 1) * width;
-  corners[y * width + x] =
-      (uint)above[x] | (uint)above[right] << 8 | (uint)below[x] << 16 | (uint)below[right] << 24;
-}
 
 #if ITEMS_PER_EDGE == 1
 #define REAL float8

@@ -1,23 +1,27 @@
-// photometric.cl: photometric alignment of side patches, shared by stereo and temporal refinement. Functions only. Needs direction.cl.
+// photometric.cl: photometric alignment of side patches, shared by stereo and temporal refinement. Functions only.
+// Needs direction.cl. Images come as the corners of corners.cl.
+//
+// A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the dark side. The
+// eighth lane is a sample again, finite and without meaning; sums leave it out.
 // Reference: host/reference/photometric.cpp.
 
 #define PATCH_SIDE 7
 #define PATCH_SAMPLES 49
+#define PATCH_REACH 8  // px, more than half the diagonal of a patch
 
-// Bilinear grey level at (x, y); coordinates outside are clamped to the border.
-inline float grey_at(global const uchar* image, const int width, const int height, float x, float y) {
-  x = clamp(x, 0.0f, (float)(width - 1));
-  y = clamp(y, 0.0f, (float)(height - 1));
-  const int x0 = min((int)x, width - 2 < 0 ? 0 : width - 2), y0 = min((int)y, height - 2 < 0 ? 0 : height - 2);
-  const int x1 = min(x0 + 1, width - 1), y1 = min(y0 + 1, height - 1);
-  const float fx = x - (float)x0, fy = y - (float)y0;
-  const float a = image[y0 * width + x0], b = image[y0 * width + x1];
-  const float c = image[y1 * width + x0], d = image[y1 * width + x1];
-  const float top = a + fx * (b - a), bottom = c + fx * (d - c);
-  return top + fy * (bottom - top);
+inline float8 used_lanes(const float8 v) {
+  return as_float8(as_int8(v) & (int8)(-1, -1, -1, -1, -1, -1, -1, 0));
 }
 
-// Where a side patch lies: its first sample and the steps along the tangent (i) and along the normal to the dark side (j).
+// Sum of the seven used lanes, always in this order.
+inline float sum_used(const float8 v) {
+  const float8 used = used_lanes(v);
+  const float4 four = used.lo + used.hi;
+  const float2 two = four.lo + four.hi;
+  return two.x + two.y;
+}
+
+// Where a side patch lies: its centre and the steps along the tangent.
 typedef struct {
   float x, y;
   float cosine, sine;
@@ -29,8 +33,8 @@ inline PatchFrame patch_frame(const float x, const float y, const float cosine, 
   PatchFrame frame;
   frame.cosine = cosine;
   frame.sine = sine;
-  frame.x = x + side * offset * sine - 3.0f * cosine + 3.0f * sine;
-  frame.y = y - side * offset * cosine - 3.0f * sine - 3.0f * cosine;
+  frame.x = x + side * offset * sine;
+  frame.y = y - side * offset * cosine;
   return frame;
 }
 
@@ -40,30 +44,58 @@ inline PatchFrame directed_frame(const float x, const float y, const float direc
   return patch_frame(x, y, cosine, sine, side, offset);
 }
 
-// Mean-free grey levels of a patch moved by (dx, dy).
-inline void cut_patch(global const uchar* image, const int width, const int height, const PatchFrame frame, const float dx,
-                      const float dy, float* values) {
-  float sum = 0.0f;
+inline float8 corner_bytes(const uint8 corners, const uint shift) {
+  return convert_float8(as_int8(corners >> shift & (uint8)(255u)));
+}
+
+// Mean-free grey levels of a patch moved by (dx, dy); coordinates outside the image are clamped to the border.
+inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame, const float dx,
+                      const float dy, float8* rows) {
+  const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
+  const float x = frame.x + dx, y = frame.y + dy;
+  // Relative to this pixel all samples inside the image have positive coordinates, so that truncating rounds down.
+  const int base_x = (int)x - PATCH_REACH, base_y = (int)y - PATCH_REACH;
+  const float8 middle_x = (x - (float)base_x) - across * frame.sine;
+  const float8 middle_y = (y - (float)base_y) + across * frame.cosine;
+  const float8 low_x = (float)-base_x, high_x = (float)(width - 1 - base_x);
+  const float8 low_y = (float)-base_y, high_y = (float)(height - 1 - base_y);
+  const int8 stride = width, origin = base_y * width + base_x;
+  float8 sum = 0.0f;
+#pragma unroll
   for (int i = 0; i < PATCH_SIDE; ++i) {
-    for (int j = 0; j < PATCH_SIDE; ++j) {
-      const float x = frame.x + dx + (float)i * frame.cosine - (float)j * frame.sine;
-      const float y = frame.y + dy + (float)i * frame.sine + (float)j * frame.cosine;
-      const float value = grey_at(image, width, height, x, y);
-      values[PATCH_SIDE * i + j] = value;
-      sum += value;
-    }
+    const float along = (float)(i - PATCH_SIDE / 2);
+    const float8 u = clamp(middle_x + along * frame.cosine, low_x, high_x);
+    const float8 v = clamp(middle_y + along * frame.sine, low_y, high_y);
+    const int8 u0 = convert_int8(u), v0 = convert_int8(v);
+    const float8 fx = u - convert_float8(u0), fy = v - convert_float8(v0);
+    const int8 k = origin + v0 * stride + u0;
+    const uint8 four = (uint8)(corners[k.s0], corners[k.s1], corners[k.s2], corners[k.s3], corners[k.s4], corners[k.s5],
+                               corners[k.s6], corners[k.s7]);
+    const float8 a = corner_bytes(four, 0), b = corner_bytes(four, 8);
+    const float8 c = corner_bytes(four, 16), d = corner_bytes(four, 24);
+    const float8 top = a + fx * (b - a), bottom = c + fx * (d - c);
+    rows[i] = top + fy * (bottom - top);
   }
-  const float mean = sum / (float)PATCH_SAMPLES;
-  for (int k = 0; k < PATCH_SAMPLES; ++k) values[k] -= mean;
+  // Taking the middle sample away first makes a constant patch exactly zero.
+  const float middle = rows[PATCH_SIDE / 2].s3;
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) {
+    rows[i] -= middle;
+    sum += rows[i];
+  }
+  const float mean = sum_used(sum) * (1.0f / PATCH_SAMPLES);
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] -= mean;
 }
 
 // Mean-free derivative of a patch along the unit vector (ex, ey), grey levels per px: central difference over 1 px.
-inline void patch_derivative(global const uchar* image, const int width, const int height, const PatchFrame frame,
-                             const float ex, const float ey, float* values) {
-  float ahead[PATCH_SAMPLES];
-  cut_patch(image, width, height, frame, 0.5f * ex, 0.5f * ey, ahead);
-  cut_patch(image, width, height, frame, -0.5f * ex, -0.5f * ey, values);
-  for (int k = 0; k < PATCH_SAMPLES; ++k) values[k] = ahead[k] - values[k];
+inline void patch_derivative(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                             const float ex, const float ey, float8* rows) {
+  float8 ahead[PATCH_SIDE];
+  cut_patch(corners, width, height, frame, 0.5f * ex, 0.5f * ey, ahead);
+  cut_patch(corners, width, height, frame, -0.5f * ex, -0.5f * ey, rows);
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] = ahead[i] - rows[i];
 }
 
 // Settings of the Gauss-Newton loops.
@@ -75,31 +107,33 @@ typedef struct {
   float rms_max;    // grey levels
 } RefinementSettings;
 
-inline float huber_weight(const float residual, const float limit) {
-  const float magnitude = fabs(residual);
-  return magnitude <= limit ? 1.0f : limit / magnitude;
-}
+inline float8 huber_weight(const float8 residual, const float limit) { return limit / max(fabs(residual), limit); }
+
+inline float root_mean_square(const float8 squares) { return sqrt(sum_used(squares) / (float)PATCH_SAMPLES); }
 
 // Gauss-Newton on the move `alpha` along (ex, ey) that makes the patch at `moving` look like `fixed`; `derivative` is the
-// derivative of `fixed` along the move. Returns 0 when it diverged or the residual stayed large.
-inline int align_along_line(global const uchar* image, const int width, const int height, const PatchFrame moving,
-                            const float ex, const float ey, const float* fixed, const float* derivative,
-                            const RefinementSettings settings, float* alpha) {
-  float values[PATCH_SAMPLES];
+// derivative of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start.
+// Returns 0 when it diverged or the residual stayed large.
+inline int align_along_line(global const uint* corners, const int width, const int height, const PatchFrame moving,
+                            const float ex, const float ey, const float8* fixed, const float8* derivative,
+                            const float stiffness, const RefinementSettings settings, float* alpha) {
+  float8 values[PATCH_SIDE];
   float move = 0.0f, rms = 0.0f;
   for (int step = 0; step < settings.steps; ++step) {
-    cut_patch(image, width, height, moving, move * ex, move * ey, values);
-    float curvature = 0.0f, slope = 0.0f, squares = 0.0f;
-    for (int k = 0; k < PATCH_SAMPLES; ++k) {
-      const float residual = fixed[k] - values[k];
-      const float weight = huber_weight(residual, settings.huber);
-      curvature += weight * derivative[k] * derivative[k];
-      slope += weight * derivative[k] * residual;
+    cut_patch(corners, width, height, moving, move * ex, move * ey, values);
+    float8 curvatures = 0.0f, slopes = 0.0f, squares = 0.0f;
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) {
+      const float8 residual = fixed[i] - values[i];
+      const float8 weighted = huber_weight(residual, settings.huber) * derivative[i];
+      curvatures += weighted * derivative[i];
+      slopes += weighted * residual;
       squares += residual * residual;
     }
-    rms = sqrt(squares / (float)PATCH_SAMPLES);
+    rms = root_mean_square(squares);
+    const float curvature = stiffness + sum_used(curvatures);
     if (curvature < 1e-6f) break;
-    const float change = slope / curvature;
+    const float change = (sum_used(slopes) - stiffness * move) / curvature;
     move += change;
     if (!(fabs(move) <= settings.clamp)) return 0;
     if (fabs(change) < settings.tolerance) break;

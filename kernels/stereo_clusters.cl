@@ -60,28 +60,39 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
   cluster_count[i] = clusters;
 }
 
+// Row i of a stored patch in the layout of photometric.cl. The last row must not be read beyond its end.
+inline float8 stored_row(global const float* patch, const int i) {
+  return i < PATCH_SIDE - 1 ? vload8(0, patch + PATCH_SIDE * i) : vload8(0, patch + PATCH_SIDE * i - 1).s12345677;
+}
+
 // Highest NCC of a freshly cut representative with the left edge's stored patches.
-inline float representative_ncc(global const float* left_patches, global const uchar* image, const int width, const int height,
-                                const float x, const float y, const float direction, const float patch_offset) {
+inline float representative_ncc(global const float* left_patches, global const uint* corners, const int width,
+                                const int height, const float x, const float y, const float direction,
+                                const float patch_offset) {
   float best = -1.0f;
+  float cosine;
+  const float sine = sine_cosine(direction, &cosine);
   for (int side = 0; side < 2; ++side) {
-    float values[PATCH_SAMPLES];
-    cut_patch(image, width, height, directed_frame(x, y, direction, side == 0 ? 1.0f : -1.0f, patch_offset), 0.0f, 0.0f, values);
-    float squares = 0.0f, bright = 0.0f, dark = 0.0f;
-    for (int k = 0; k < PATCH_SAMPLES; ++k) {
-      squares += values[k] * values[k];
-      bright += values[k] * left_patches[k];
-      dark += values[k] * left_patches[PATCH_SAMPLES + k];
+    float8 values[PATCH_SIDE];
+    const PatchFrame frame = patch_frame(x, y, cosine, sine, side == 0 ? 1.0f : -1.0f, patch_offset);
+    cut_patch(corners, width, height, frame, 0.0f, 0.0f, values);
+    float8 squares = 0.0f, bright = 0.0f, dark = 0.0f;
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) {
+      squares += values[i] * values[i];
+      bright += values[i] * stored_row(left_patches, i);
+      dark += values[i] * stored_row(left_patches + PATCH_SAMPLES, i);
     }
-    if (squares < 1e-10f) continue;
-    best = fmax(best, fmax(bright, dark) / sqrt(squares));
+    const float norm = sum_used(squares);
+    if (norm < 1e-10f) continue;
+    best = fmax(best, fmax(sum_used(bright), sum_used(dark)) / sqrt(norm));
   }
   return best;
 }
 
 // One work-item = one left edge: NCC of its clusters and the best of those that reach ncc_min (-1: none).
 kernel void stereo_best(global const int* first, const int left_count, global const float* left_x, global const float* left_y,
-                        global const float* left_patches, global const uchar* right_image, const int right_width,
+                        global const float* left_patches, global const uint* right_corners, const int right_width,
                         const int right_height, global const float* geometry, const float patch_offset, const float ncc_min,
                         global const int* cluster_count, global const float* cluster_place,
                         global const float* cluster_direction, global float* cluster_ncc, global int* best_cluster) {
@@ -90,7 +101,7 @@ kernel void stereo_best(global const int* first, const int left_count, global co
   const EpipolarLine line = epipolar_line(geometry, left_x[i], left_y[i]);
   int best = -1;
   for (int k = first[i]; k < first[i] + cluster_count[i]; ++k) {
-    const float ncc = representative_ncc(left_patches + 98 * (size_t)i, right_image, right_width, right_height,
+    const float ncc = representative_ncc(left_patches + 98 * (size_t)i, right_corners, right_width, right_height,
                                          line.x + cluster_place[k] * line.ex, line.y + cluster_place[k] * line.ey,
                                          cluster_direction[k], patch_offset);
     cluster_ncc[k] = ncc;

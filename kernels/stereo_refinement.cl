@@ -1,6 +1,6 @@
 // stereo_refinement.cl: filter 8a and 8b of the stereo cascade: epipolar shift, then photometric refinement along the line.
 //
-// Needs direction.cl, epipolar.cl and photometric.cl. In: both images (packed), edges, candidate lists with their side pairing.
+// Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, candidate lists with their side pairing.
 // Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity); rejected_by = REJECTED
 // where the refinement diverged. One work-item = one left edge.
 // Reference: host/reference/stereo_refinement.cpp.
@@ -21,8 +21,8 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
 }
 
 kernel void stereo_refinement(global const int* first, global const int* target, const int capacity, const int left_count,
-                              global const uchar* left_image, const int left_width, const int left_height,
-                              global const uchar* right_image, const int right_width, const int right_height,
+                              global const uint* left_corners, const int left_width, const int left_height,
+                              global const uint* right_corners, const int right_width, const int right_height,
                               global const float* left_x, global const float* left_y, global const float* left_direction,
                               global const float* right_x, global const float* right_y, global const float* right_direction,
                               global const float* geometry, global const uchar* pairing, const float patch_offset,
@@ -37,7 +37,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   const EpipolarLine line = epipolar_line(geometry, left_x[i], left_y[i]);
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
-  float fixed[2][PATCH_SAMPLES], derivative[2][PATCH_SAMPLES];
+  float8 fixed[2][PATCH_SIDE], derivative[2][PATCH_SIDE];
   int ready[2] = {0, 0};
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
@@ -48,8 +48,8 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     const int right_side = pairing[c] == 1 || pairing[c] == 2;
     if (!ready[left_side]) {
       const PatchFrame frame = patch_frame(left_x[i], left_y[i], cosine, sine, left_side ? -1.0f : 1.0f, patch_offset);
-      cut_patch(left_image, left_width, left_height, frame, 0.0f, 0.0f, fixed[left_side]);
-      patch_derivative(left_image, left_width, left_height, frame, line.ex, line.ey, derivative[left_side]);
+      cut_patch(left_corners, left_width, left_height, frame, 0.0f, 0.0f, fixed[left_side]);
+      patch_derivative(left_corners, left_width, left_height, frame, line.ex, line.ey, derivative[left_side]);
       ready[left_side] = 1;
     }
     // Both patches are cut with the left direction, turned by half a turn where the right edge has the other polarity.
@@ -57,8 +57,8 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, turn * cosine, turn * sine,
                                           right_side ? -1.0f : 1.0f, patch_offset);
     float alpha = 0.0f;
-    const int good = align_along_line(right_image, right_width, right_height, moving, turn * line.ex, turn * line.ey,
-                                      fixed[left_side], derivative[left_side], settings, &alpha);
+    const int good = align_along_line(right_corners, right_width, right_height, moving, turn * line.ex, turn * line.ey,
+                                      fixed[left_side], derivative[left_side], 0.0f, settings, &alpha);
     place[c] = s + turn * alpha;
     if (!good) rejected_by[c] = (uchar)rejected_order;
   }

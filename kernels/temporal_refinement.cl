@@ -1,7 +1,7 @@
 // temporal_refinement.cl: the circle is closed (a candidate must be alive in the left and in the right images), then filters 6
 // and 7 of the temporal cascade: photometric refinement of place and disparity together, and clustering.
 //
-// Needs direction.cl, epipolar.cl and photometric.cl. Row r belongs to previous stereo edge r * row_step.
+// Needs direction.cl, epipolar.cl and photometric.cl; images come as corners. Row r belongs to previous stereo edge r * row_step.
 // Reference: host/reference/temporal_refinement.cpp.
 
 // One work-item = one row. A living left candidate stays if the right list holds the same current edge alive; `score` becomes the mean
@@ -31,30 +31,34 @@ kernel void temporal_agreement(global const int* left_first, global const int* l
 
 // Gauss-Newton on the move (dx, dy) in the current image, held by a prior of `stiffness` (grey levels^2 / px^2) around the start.
 // `turn` = previous minus current direction: turns axes of the current image into those of the previous one.
-inline int align_freely(global const uchar* fixed_image, const int fixed_width, const int fixed_height, const PatchFrame fixed,
-                        global const uchar* image, const int width, const int height, const PatchFrame moving,
-                        const float turn, const float stiffness, const RefinementSettings settings, float* dx, float* dy) {
-  float goal[PATCH_SAMPLES], gx[PATCH_SAMPLES], gy[PATCH_SAMPLES], values[PATCH_SAMPLES];
+inline int align_freely(global const uint* fixed_corners, global const uint* corners, const int width, const int height,
+                        const PatchFrame fixed, const PatchFrame moving, const float turn, const float stiffness,
+                        const RefinementSettings settings, float* dx, float* dy) {
+  float8 goal[PATCH_SIDE], gx[PATCH_SIDE], gy[PATCH_SIDE], values[PATCH_SIDE];
   float cosine;
   const float sine = sine_cosine(turn, &cosine);
-  cut_patch(fixed_image, fixed_width, fixed_height, fixed, 0.0f, 0.0f, goal);
-  patch_derivative(fixed_image, fixed_width, fixed_height, fixed, cosine, sine, gx);
-  patch_derivative(fixed_image, fixed_width, fixed_height, fixed, -sine, cosine, gy);
+  cut_patch(fixed_corners, width, height, fixed, 0.0f, 0.0f, goal);
+  patch_derivative(fixed_corners, width, height, fixed, cosine, sine, gx);
+  patch_derivative(fixed_corners, width, height, fixed, -sine, cosine, gy);
   float x = 0.0f, y = 0.0f, rms = 0.0f;
   for (int step = 0; step < settings.steps; ++step) {
-    cut_patch(image, width, height, moving, x, y, values);
-    float xx = stiffness, xy = 0.0f, yy = stiffness, bx = -stiffness * x, by = -stiffness * y, squares = 0.0f;
-    for (int k = 0; k < PATCH_SAMPLES; ++k) {
-      const float residual = goal[k] - values[k];
-      const float weight = huber_weight(residual, settings.huber);
-      xx += weight * gx[k] * gx[k];
-      xy += weight * gx[k] * gy[k];
-      yy += weight * gy[k] * gy[k];
-      bx += weight * gx[k] * residual;
-      by += weight * gy[k] * residual;
+    cut_patch(corners, width, height, moving, x, y, values);
+    float8 xxs = 0.0f, xys = 0.0f, yys = 0.0f, bxs = 0.0f, bys = 0.0f, squares = 0.0f;
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) {
+      const float8 residual = goal[i] - values[i];
+      const float8 weight = huber_weight(residual, settings.huber);
+      const float8 weighted_x = weight * gx[i], weighted_y = weight * gy[i];
+      xxs += weighted_x * gx[i];
+      xys += weighted_x * gy[i];
+      yys += weighted_y * gy[i];
+      bxs += weighted_x * residual;
+      bys += weighted_y * residual;
       squares += residual * residual;
     }
-    rms = sqrt(squares / (float)PATCH_SAMPLES);
+    rms = root_mean_square(squares);
+    const float xx = stiffness + sum_used(xxs), xy = sum_used(xys), yy = stiffness + sum_used(yys);
+    const float bx = sum_used(bxs) - stiffness * x, by = sum_used(bys) - stiffness * y;
     const float determinant = xx * yy - xy * xy;
     const float change_x = (yy * bx - xy * by) / determinant, change_y = (xx * by - xy * bx) / determinant;
     x += change_x;
@@ -67,35 +71,16 @@ inline int align_freely(global const uchar* fixed_image, const int fixed_width, 
   return rms <= settings.rms_max;
 }
 
-// The same along one line (unit vector (ex, ey) in the current image), with the prior.
-inline int align_along_held(global const uchar* fixed_image, const int fixed_width, const int fixed_height,
-                            const PatchFrame fixed, global const uchar* image, const int width, const int height,
-                            const PatchFrame moving, const float turn, const float ex, const float ey, const float stiffness,
-                            const RefinementSettings settings, float* alpha) {
-  float goal[PATCH_SAMPLES], derivative[PATCH_SAMPLES], values[PATCH_SAMPLES];
+// The same along one line (unit vector (ex, ey) in the current image).
+inline int align_along_held(global const uint* fixed_corners, global const uint* corners, const int width, const int height,
+                            const PatchFrame fixed, const PatchFrame moving, const float turn, const float ex, const float ey,
+                            const float stiffness, const RefinementSettings settings, float* alpha) {
+  float8 goal[PATCH_SIDE], derivative[PATCH_SIDE];
   float cosine;
   const float sine = sine_cosine(turn, &cosine);
-  cut_patch(fixed_image, fixed_width, fixed_height, fixed, 0.0f, 0.0f, goal);
-  patch_derivative(fixed_image, fixed_width, fixed_height, fixed, cosine * ex - sine * ey, sine * ex + cosine * ey, derivative);
-  float move = 0.0f, rms = 0.0f;
-  for (int step = 0; step < settings.steps; ++step) {
-    cut_patch(image, width, height, moving, move * ex, move * ey, values);
-    float curvature = stiffness, slope = -stiffness * move, squares = 0.0f;
-    for (int k = 0; k < PATCH_SAMPLES; ++k) {
-      const float residual = goal[k] - values[k];
-      const float weight = huber_weight(residual, settings.huber);
-      curvature += weight * derivative[k] * derivative[k];
-      slope += weight * derivative[k] * residual;
-      squares += residual * residual;
-    }
-    rms = sqrt(squares / (float)PATCH_SAMPLES);
-    const float change = slope / curvature;
-    move += change;
-    if (!(fabs(move) <= settings.clamp)) return 0;
-    if (fabs(change) < settings.tolerance) break;
-  }
-  *alpha = move;
-  return rms <= settings.rms_max;
+  cut_patch(fixed_corners, width, height, fixed, 0.0f, 0.0f, goal);
+  patch_derivative(fixed_corners, width, height, fixed, cosine * ex - sine * ey, sine * ex + cosine * ey, derivative);
+  return align_along_line(corners, width, height, moving, ex, ey, goal, derivative, stiffness, settings, alpha);
 }
 
 // A stereo edge's arrays come packed as x, y, direction blocks of `count` floats each: left (3 blocks), then right (3 blocks).
@@ -109,8 +94,8 @@ inline int align_along_held(global const uchar* fixed_image, const int fixed_wid
 // One work-item = one row. Refines its living candidates: left place freely, then the right point along its epipolar line.
 // Out per candidate: refined (left x, left y, right x, right y) in `refined`.
 kernel void temporal_refinement(global const int* first, global const int* target, const int capacity, const int rows,
-                                const int row_step, global const uchar* previous_left, global const uchar* previous_right,
-                                global const uchar* current_left, global const uchar* current_right, const int left_width,
+                                const int row_step, global const uint* previous_left, global const uint* previous_right,
+                                global const uint* current_left, global const uint* current_right, const int left_width,
                                 const int left_height, const int right_width, const int right_height,
                                 global const float* previous, const int previous_count, global const float* current,
                                 const int current_count, global const float* geometry, global const uchar* left_pairing,
@@ -134,8 +119,8 @@ kernel void temporal_refinement(global const int* first, global const int* targe
                                             patch_offset);
     const PatchFrame moving = directed_frame(jx, jy, after, side, patch_offset);
     float dx = 0.0f, dy = 0.0f, alpha = 0.0f;
-    int good = align_freely(previous_left, left_width, left_height, fixed, current_left, left_width, left_height, moving,
-                            before - after, stiffness, settings, &dx, &dy);
+    int good = align_freely(previous_left, current_left, left_width, left_height, fixed, moving, before - after, stiffness,
+                            settings, &dx, &dy);
     float x = jx + dx, y = jy + dy, right_x = 0.0f, right_y = 0.0f;
     if (good) {
       const EpipolarLine old_line = epipolar_line(geometry, jx, jy), line = epipolar_line(geometry, x, y);
@@ -149,8 +134,8 @@ kernel void temporal_refinement(global const int* first, global const int* targe
                          patch_offset);
       const PatchFrame right_moving = directed_frame(line.x + s * line.ex, line.y + s * line.ey, right_after, right_side,
                                                      patch_offset);
-      good = align_along_held(previous_right, right_width, right_height, right_fixed, current_right, right_width, right_height,
-                              right_moving, right_before - right_after, line.ex, line.ey, stiffness, settings, &alpha);
+      good = align_along_held(previous_right, current_right, right_width, right_height, right_fixed, right_moving,
+                              right_before - right_after, line.ex, line.ey, stiffness, settings, &alpha);
       right_x = line.x + (s + alpha) * line.ex;
       right_y = line.y + (s + alpha) * line.ey;
     }

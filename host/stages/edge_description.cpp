@@ -25,12 +25,12 @@ EdgeDescription::EdgeDescription(opencl::Context& context, int width, int height
       height_(height),
       stride_(round_up(width, kSiftVector) + 2 * kPadding),
       patch_offset_(static_cast<float>(patches.offset)),
-      sift_offset_(static_cast<float>(sift.offset)) {
+      sift_offset_(static_cast<float>(sift.offset)),
+      corners_(context) {
   const auto& patches_variant = opencl::choose_variant("patches", context, variants);
   patches_local_ = static_cast<std::size_t>(patches_variant.local_size);
   patches_items_ = items_per_edge(patches_variant);
   const auto patches_program = context.program({"direction.cl", "patches.cl"}, patches_variant.defines);
-  corners_kernel_ = {context, patches_program, "patch_corners"};
   patches_kernel_ = {context, patches_program, "side_patches"};
 
   const auto& sift_variant = opencl::choose_variant("sift", context, variants);
@@ -42,7 +42,6 @@ EdgeDescription::EdgeDescription(opencl::Context& context, int width, int height
   gradient_kernel_ = {context, sift_program, "sift_gradient"};
   sift_kernel_ = {context, sift_program, "sift_describe"};
 
-  corners_.ensure(context, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const std::size_t plane = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height);
   const std::size_t map = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2 * kPadding);
   blurred_down_.ensure(context, plane);
@@ -53,10 +52,10 @@ EdgeDescription::EdgeDescription(opencl::Context& context, int width, int height
 }
 
 void EdgeDescription::prepare(const opencl::Buffer<cl_uchar>& image) {
-  const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+  const auto height = static_cast<std::size_t>(height_);
   const auto stride = static_cast<std::size_t>(stride_);
   context_.begin_stage("patches");
-  corners_kernel_({width, height, 64, 1}, image, width_, height_, corners_);
+  corners_.prepare(image, width_, height_);
   context_.begin_stage("sift");
   const std::size_t group = 16;
   blur_down_kernel_({(stride - 2 * kPadding) / kSiftVector + 2, height, group, 1}, image, width_, height_, stride_,
@@ -78,7 +77,7 @@ void EdgeDescription::cut_patches(const opencl::Buffer<cl_float>& x, const openc
   context_.begin_stage("patches");
   const auto edges = static_cast<std::size_t>(count);
   patches.ensure(context_, edges * reference::kEdgePatchFloats);
-  patches_kernel_({edges * patches_items_, patches_local_}, corners_, width_, height_, x, y, direction, count, patch_offset_,
+  patches_kernel_({edges * patches_items_, patches_local_}, corners_.values(), width_, height_, x, y, direction, count, patch_offset_,
                   patches);
 }
 

@@ -7,6 +7,7 @@
 #include "opencl/kernel.hpp"
 #include "quadedge/config.hpp"
 #include "stages/device_edges.hpp"
+#include "stages/pixel_corners.hpp"
 
 namespace quadedge::stages {
 
@@ -44,6 +45,9 @@ class EdgeDescription {
   void describe_sift(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
                      const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_uchar>& sift);
 
+  /// The prepared image for bilinear sampling.
+  const PixelCorners& corners() const { return corners_; }
+
  private:
   template <class T>
   using In = opencl::In<T>;
@@ -56,11 +60,10 @@ class EdgeDescription {
   float patch_offset_, sift_offset_;
   std::size_t patches_local_, patches_items_, sift_local_, sift_items_;  ///< group size; work-items per edge
 
-  opencl::Buffer<cl_uint> corners_;                  ///< height x width
+  PixelCorners corners_;
   opencl::Buffer<cl_float> blurred_down_, blurred_;  ///< height x stride
   opencl::Buffer<cl_float> magnitude_, angle_;       ///< (height + 2 padding) x stride
 
-  opencl::Kernel<In<cl_uchar>, cl_int, cl_int, Out<cl_uint>> corners_kernel_;
   opencl::Kernel<In<cl_uint>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_float, Out<cl_float>>
       patches_kernel_;
   opencl::Kernel<In<cl_uchar>, cl_int, cl_int, cl_int, Out<cl_float>> blur_down_kernel_;

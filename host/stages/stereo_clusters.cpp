@@ -54,8 +54,8 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, cons
            static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree),
            config_.cluster_size_max, static_cast<float>(config_.cluster_sigma), clusters.order, clusters.count, clusters.place,
            clusters.direction, clusters.anchor);
-  best_(range, candidates.first, n, left.x, left.y, left_descriptions.patches, right_image.pixels, right_image.width,
-        right_image.height, geometry, patch_offset_, static_cast<float>(config_.ncc_min), clusters.count, clusters.place,
+  best_(range, candidates.first, n, left.x, left.y, left_descriptions.patches, right_description.corners().values(),
+        right_image.width, right_image.height, geometry, patch_offset_, static_cast<float>(config_.ncc_min), clusters.count, clusters.place,
         clusters.direction, clusters.ncc, clusters.best);
   claim_(range, clusters.best, clusters.anchor, clusters.ncc, n, clusters.claimed_ncc);
   owner_(range, clusters.best, clusters.anchor, clusters.ncc, n, clusters.claimed_ncc, clusters.owner);

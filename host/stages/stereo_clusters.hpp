@@ -54,7 +54,7 @@ class StereoClusters {
   opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, cl_float, cl_float, cl_int,
                  cl_float, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>, Out<cl_int>>
       cluster_;
-  opencl::Kernel<In<cl_int>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_uchar>, cl_int, cl_int, In<cl_float>,
+  opencl::Kernel<In<cl_int>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_uint>, cl_int, cl_int, In<cl_float>,
                  cl_float, cl_float, In<cl_int>, In<cl_float>, In<cl_float>, Out<cl_float>, Out<cl_int>>
       best_;
   opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, Out<cl_int>> claim_;

@@ -14,7 +14,11 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
                                    const std::map<std::string, std::string>& variants)
-    : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
+    : context_(context),
+      config_(config),
+      patch_offset_(static_cast<float>(patch_offset)),
+      left_corners_(context),
+      right_corners_(context) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto program =
@@ -27,8 +31,10 @@ void StereoRefinement::run(const DeviceImage& left_image, const DeviceImage& rig
                            opencl::Buffer<cl_float>& place) {
   context_.begin_stage("stereo_refinement");
   place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
+  left_corners_.prepare(left_image.pixels, left_image.width, left_image.height);
+  right_corners_.prepare(right_image.pixels, right_image.width, right_image.height);
   kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.capacity,
-          candidates.rows, left_image.pixels, left_image.width, left_image.height, right_image.pixels, right_image.width,
+          candidates.rows, left_corners_.values(), left_image.width, left_image.height, right_corners_.values(), right_image.width,
           right_image.height, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, candidates.pairing,
           patch_offset_, static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
           config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),

@@ -8,6 +8,7 @@
 #include "quadedge/config.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
+#include "stages/pixel_corners.hpp"
 
 namespace quadedge::stages {
 
@@ -37,7 +38,8 @@ class StereoRefinement {
   StereoConfig config_;
   float patch_offset_;
   std::size_t local_size_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_uchar>, cl_int, cl_int, In<cl_uchar>, cl_int, cl_int,
+  PixelCorners left_corners_, right_corners_;
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
                  In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_uchar>,
                  cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>,
                  Out<cl_float>>

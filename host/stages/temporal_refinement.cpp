@@ -14,7 +14,13 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 TemporalRefinement::TemporalRefinement(opencl::Context& context, const TemporalConfig& config, double patch_offset,
                                        const std::map<std::string, std::string>& variants)
-    : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
+    : context_(context),
+      config_(config),
+      patch_offset_(static_cast<float>(patch_offset)),
+      previous_left_(context),
+      previous_right_(context),
+      current_left_(context),
+      current_right_(context) {
   const auto& variant = opencl::choose_variant("temporal_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto program =
@@ -38,9 +44,13 @@ void TemporalRefinement::refine(const DeviceRig& previous, const DeviceRig& curr
                                 const opencl::Buffer<cl_float>& geometry, DeviceCandidates& left) {
   refined_.ensure(context_, 4 * static_cast<std::size_t>(left.capacity));
   const auto stiffness = static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2));
+  previous_left_.prepare(previous.left.pixels, previous.left.width, previous.left.height);
+  previous_right_.prepare(previous.right.pixels, previous.right.width, previous.right.height);
+  current_left_.prepare(current.left.pixels, current.left.width, current.left.height);
+  current_right_.prepare(current.right.pixels, current.right.width, current.right.height);
   refine_({static_cast<std::size_t>(left.rows), local_size_}, left.first, left.target, left.capacity, left.rows, row_step,
-          previous.left.pixels, previous.right.pixels, current.left.pixels, current.right.pixels, current.left.width,
-          current.left.height, current.right.width, current.right.height, previous.edges.packed, previous.edges.stride,
+          previous_left_.values(), previous_right_.values(), current_left_.values(), current_right_.values(),
+          current.left.width, current.left.height, current.right.width, current.right.height, previous.edges.packed, previous.edges.stride,
           current.edges.packed, current.edges.stride, geometry, left.pairing, right_pairing_, patch_offset_, stiffness,
           config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
           static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refine_rms_max),

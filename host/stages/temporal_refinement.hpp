@@ -9,6 +9,7 @@
 #include "quadedge/edges.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_stereo_edges.hpp"
+#include "stages/pixel_corners.hpp"
 #include "stages/stereo_refinement.hpp"
 
 namespace quadedge::stages {
@@ -45,13 +46,14 @@ class TemporalRefinement {
   TemporalConfig config_;
   float patch_offset_;
   std::size_t local_size_;
+  PixelCorners previous_left_, previous_right_, current_left_, current_right_;
   opencl::Buffer<cl_float> score_, refined_, best_score_, best_place_;
   opencl::Buffer<cl_uchar> right_pairing_;
   opencl::Buffer<cl_int> label_, best_, rivals_;
   opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, Out<cl_uchar>, In<cl_int>, In<cl_int>, cl_int, In<cl_float>,
                  In<cl_uchar>, In<cl_uchar>, cl_int, cl_int, Out<cl_float>, Out<cl_uchar>>
       agree_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_uchar>, In<cl_uchar>, In<cl_uchar>, cl_int,
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_uint>, In<cl_uint>, In<cl_uint>, In<cl_uint>, cl_int,
                  cl_int, cl_int, cl_int, In<cl_float>, cl_int, In<cl_float>, cl_int, In<cl_float>, In<cl_uchar>, In<cl_uchar>,
                  cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>>
       refine_;
