@@ -2,9 +2,9 @@
 //
 // In: corners of the image (corners.cl), edges (x, y [px], direction [rad]). Out: 98 floats per edge, laid out as in
 // host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
-//                ITEMS_PER_EDGE 1: one work-item = one edge, the 7 samples across the edge are the lanes of a float8;
-//                ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
-//                GROUP floats.
+//   ITEMS_PER_EDGE 1: one work-item = one edge, the 7 samples across the edge are the lanes of a float8;
+//   ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
+//   GROUP floats.
 // Needs direction.cl before it. Reference: host/reference/patches.cpp.
 
 #ifndef ITEMS_PER_EDGE
