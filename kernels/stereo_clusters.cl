@@ -4,6 +4,10 @@
 // Needs direction.cl, epipolar.cl and photometric.cl. Cluster k of left edge i is element first[i] + k of the cluster arrays.
 // Reference: host/reference/stereo_clusters.cpp.
 
+// Members whose distances to the centroid differ by less are equally near [px]: the first one counts. The two members of a pair always
+// are, and rounding must not choose between them. Twin: kAnchorTie in host/reference/stereo_clusters.cpp.
+#define ANCHOR_TIE 1e-3f
+
 // One work-item = one left edge. Sorts its living candidates by place, cuts the row where the gap reaches cluster_gap, the direction
 // differs by more than cluster_orientation, or cluster_size_max is reached. `order` is scratch.
 kernel void stereo_clusters(global const int* first, global const int* target, const int capacity, const int left_count,
@@ -43,7 +47,7 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
       const float doubled_sine = sine_cosine(2.0f * direction, &doubled_cosine);
       cosine += weight * doubled_cosine;
       sine += weight * doubled_sine;
-      if (distance < nearest) {
+      if (distance < nearest - ANCHOR_TIE) {
         nearest = distance;
         anchor = target[order[k]];
       }

@@ -11,6 +11,9 @@ namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+/// Members whose distances to the centroid differ by less are equally near: the first one counts [px]. The two members of a pair
+/// always are, and rounding must not choose between them.
+constexpr double kAnchorTie = 1e-3;
 
 /// Highest NCC of patches cut at a place with the stored patches (98 floats) of an edge; -1 where both are flat.
 double representative_ncc(const float* stored, const ImageView& image, double x, double y, double direction, double offset) {
@@ -57,7 +60,7 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
         const double weight = std::exp(-0.5 * std::pow(distance / config.cluster_sigma, 2));
         cosine += weight * std::cos(2.0 * direction(alive[k]));
         sine += weight * std::sin(2.0 * direction(alive[k]));
-        if (distance < nearest) {
+        if (distance < nearest - kAnchorTie) {
           nearest = distance;
           anchor = alive[k];
         }

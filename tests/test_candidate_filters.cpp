@@ -1,0 +1,167 @@
+#include "matching.hpp"
+#include "reference/patches.hpp"
+#include "reference/sift.hpp"
+#include "stages/candidate_filters.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+constexpr int kNcc = 5, kSift = 4;  // orders as in the stereo cascade; nearly best follow at 6 and 7
+
+/// Descriptions made to measure. Edges of the first set have the unit vector e0 as bright patch and no dark one (flat), SIFT all zero
+/// on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt(1 - c^2) e1 and one byte d.
+struct Measured {
+  reference::EdgeDescriptions a, b;
+  explicit Measured(int first_edges) {
+    for (int i = 0; i < first_edges; ++i) {
+      a.patches.resize(a.patches.size() + 98, 0.0f);
+      a.patches[a.patches.size() - 98] = 1.0f;
+      a.sift.resize(a.sift.size() + 256, 0);
+    }
+  }
+  /// `dark`: the similar side is the second set's dark one.
+  int add(double ncc, int distance, bool dark = false) {
+    const std::size_t patch = b.patches.size() + (dark ? 49 : 0), sift = b.sift.size();
+    b.patches.resize(b.patches.size() + 98, 0.0f);
+    b.patches[patch] = static_cast<float>(ncc);
+    b.patches[patch + 1] = static_cast<float>(std::sqrt(1 - ncc * ncc));
+    b.sift.resize(sift + 256, 0);
+    b.sift[sift + 7] = static_cast<std::uint8_t>(distance);
+    std::fill_n(b.sift.begin() + static_cast<std::ptrdiff_t>(sift) + 128, 128, static_cast<std::uint8_t>(255));
+    return static_cast<int>(b.sift.size() / 256) - 1;
+  }
+};
+
+reference::FilterLimits limits_of(float ncc_min, float sift_max, float ncc_share, float sift_share, int ncc = kNcc, int sift = kSift) {
+  return {ncc_min, sift_max, ncc_share, sift_share, ncc, sift};
+}
+
+/// What every variant on every device finds.
+void on_devices(const reference::Candidates& lists, const reference::EdgeDescriptions& a, const reference::EdgeDescriptions& b,
+                const reference::FilterLimits& limits, int row_step, bool all_scores,
+                const std::function<void(const reference::CandidateScores&, const std::vector<cl_int>& alive)>& check) {
+  for_each_variant("candidate_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+    INFO(name << (all_scores ? ", all scores" : ""));
+    stages::CandidateFilters stage(context, variants);
+    auto device = upload(context, lists);
+    opencl::Buffer<cl_float> patches_a, patches_b;
+    opencl::Buffer<cl_uchar> sift_a, sift_b;
+    patches_a.write(context, a.patches);
+    patches_b.write(context, b.patches);
+    sift_a.write(context, a.sift);
+    sift_b.write(context, b.sift);
+    stage.run(patches_a, sift_a, patches_b, sift_b,
+              {limits.ncc_min, limits.sift_max, limits.ncc_nearly_best, limits.sift_nearly_best, limits.ncc_order, limits.sift_order},
+              row_step, all_scores, device);
+    const auto size = lists.target.size();
+    check({device.ncc.read(size), device.sift.read(size), device.pairing.read(size), device.rejected_by.read(size)},
+          device.alive.read(static_cast<std::size_t>(device.rows)));
+  });
+}
+
+/// Reference and devices must reject exactly as `expected` says.
+void check_states(const reference::Candidates& lists, const Measured& edges, const reference::FilterLimits& limits,
+                  const std::vector<std::uint8_t>& expected, int row_step = 1) {
+  CHECK(reference::candidate_filters(lists, edges.a, edges.b, limits, row_step).rejected_by == expected);
+  std::vector<cl_int> living;
+  for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
+    living.push_back(static_cast<cl_int>(std::count(expected.begin() + lists.first[row], expected.begin() + lists.first[row + 1], 0)));
+  }
+  on_devices(lists, edges.a, edges.b, limits, row_step, true, [&](const auto& scores, const auto& alive) {
+    CHECK(scores.rejected_by == expected);
+    CHECK(alive == living);
+  });
+  // Without all scores only the order of the first failed filter may differ, never who survives.
+  on_devices(lists, edges.a, edges.b, limits, row_step, false, [&](const auto& scores, const auto& alive) {
+    for (std::size_t c = 0; c < expected.size(); ++c) CHECK((scores.rejected_by[c] == 0) == (expected[c] == 0));
+    CHECK(alive == living);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("candidate filters: thresholds and nearly best reject what they should on paper", "[filters][matching][device][oclgrind]") {
+  Measured edges(1);
+  reference::Candidates lists;
+  lists.target = {edges.add(0.96875, 100), edges.add(0.90625, 60), edges.add(0.59375, 50), edges.add(0.75, 201),
+                  edges.add(0.59375, 201), edges.add(0.84375, 20), edges.add(0.9375, 160)};
+  lists.first = {0, 7};
+  // NCC at least 0.6, SIFT at most 200; nearly best NCC 0.9 x 0.96875 = 0.872, which takes the one of SIFT 20 out before it can
+  // set the mark; best SIFT of the rest is 60, so distances over 60 / 0.5 = 120 go.
+  check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f), {0, 0, kNcc, kSift, kSift, 6, 7});
+  // The other order of the first two filters: who fails both is named after the earlier one.
+  check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f, 3, 4), {0, 0, 3, 4, 3, 5, 6});
+}
+
+TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][matching][device][oclgrind]") {
+  Measured edges(1);
+  reference::Candidates lists;
+  lists.target = {edges.add(0.5, 200), edges.add(0.5, 200), edges.add(1, 100), edges.add(1, 100, true)};
+  lists.first = {0, 4};
+  check_states(lists, edges, limits_of(0.5f, 200, 0.5f, 0.5f), {0, 0, 0, 0});
+  const auto scores = reference::candidate_filters(lists, edges.a, edges.b, limits_of(0.5f, 200, 0.5f, 0.5f));
+  CHECK(scores.pairing == std::vector<std::uint8_t>{0, 0, 0, 2});  // bright-bright, and bright-dark
+  CHECK(scores.ncc == std::vector<float>{0.5f, 0.5f, 1, 1});
+  CHECK(scores.sift == std::vector<float>{200, 200, 100, 100});
+}
+
+TEST_CASE("candidate filters: rows are judged alone, also empty ones and every second edge", "[filters][matching][device][oclgrind]") {
+  Measured edges(5);
+  // Edge 2 is the opposite of the others: what is like them is unlike it. Rows 0, 1, 2 belong to edges 0, 2, 4.
+  edges.a.patches[2 * 98] = -1.0f;
+  const int good = edges.add(0.96875, 40), bad = edges.add(-0.9375, 40);
+  reference::Candidates lists;
+  lists.target = {good, bad, good, bad};
+  lists.first = {0, 2, 4, 4};
+  check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.4f), {0, kNcc, kNcc, 0}, 2);
+  lists.target.clear();
+  lists.first = {0, 0, 0, 0};
+  check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.4f), {}, 2);
+  lists.first = {0};
+  check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.4f), {});
+}
+
+TEST_CASE("candidate filters: devices decide like the reference on random descriptions", "[filters][matching][device]") {
+  Random random(5);
+  const auto describe = [&](int count) {
+    reference::EdgeDescriptions set;
+    for (int i = 0; i < count; ++i) {
+      for (int side = 0; side < 2; ++side) {
+        double values[49], squares = 0;
+        for (double& v : values) {
+          v = random(-0.5, 1);
+          squares += v * v;
+        }
+        for (const double v : values) set.patches.push_back(static_cast<float>(v / std::sqrt(squares)));
+      }
+      for (int k = 0; k < 256; ++k) set.sift.push_back(static_cast<std::uint8_t>(random(0, 60)));
+    }
+    return set;
+  };
+  const auto a = describe(60), b = describe(80);
+  reference::Candidates lists;
+  lists.first = {0};
+  for (int row = 0; row < 60; ++row) {
+    for (int j = row % 7; j < 80; j += 1 + row % 5) lists.target.push_back(j);
+    lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
+  }
+  const auto limits = limits_of(0.3f, 265, 0.85f, 0.97f);
+  const auto truth = reference::candidate_filters(lists, a, b, limits);
+  int seen[8] = {};
+  for (const auto state : truth.rejected_by) ++seen[state];
+  for (const int state : {0, kSift, kNcc, 6, 7}) {
+    INFO(state);
+    CHECK(seen[state] > 10);
+  }
+  // Same summation order in the same precision, exact integers: the same bits, so no band is needed.
+  on_devices(lists, a, b, limits, 1, true, [&](const auto& scores, const auto&) {
+    CHECK(scores.ncc == truth.ncc);
+    CHECK(scores.pairing == truth.pairing);
+    CHECK(scores.rejected_by == truth.rejected_by);
+    float largest = 0;
+    for (std::size_t c = 0; c < truth.sift.size(); ++c) largest = std::max(largest, std::abs(scores.sift[c] - truth.sift[c]));
+    CHECK(largest < 1e-4f);
+  });
+}

@@ -1,0 +1,132 @@
+#include <catch2/catch.hpp>
+
+#include "matching.hpp"
+#include "opencl/kernel.hpp"
+#include "opencl/kernel_sources.hpp"
+#include "reference/photometric.hpp"
+
+using namespace quadedge;
+using namespace matching;
+using reference::cut_patch;
+using reference::patch_derivative;
+using reference::patch_frame;
+
+namespace {
+
+constexpr reference::RefinementSettings kSettings{8, 1e-3, 3, 2, 6};
+
+/// The texture moved so that what the first image shows at p lies at p + (dx, dy).
+Image moved(double dx, double dy) {
+  return image_of(64, 60, [=](double x, double y) { return smooth_grey(x - dx, y - dy); });
+}
+
+reference::Alignment align(const Image& fixed, const Image& image, double x, double y, double angle, double ex, double ey) {
+  const auto frame = patch_frame(x, y, std::cos(angle), std::sin(angle), 1, 5);
+  return reference::align_along_line(image.view(), frame, ex, ey, cut_patch(fixed.view(), frame, 0, 0),
+                                     patch_derivative(fixed.view(), frame, ex, ey), kSettings);
+}
+
+}  // namespace
+
+TEST_CASE("photometric: patches hold the mean-free texture where their frame says", "[photometric][matching]") {
+  const Image image = image_of(64, 60, [](double x, double y) { return 3 * x + y; });  // bilinear is exact
+  const double angle = 0.4, c = std::cos(angle), s = std::sin(angle);
+  const auto bright = cut_patch(image.view(), patch_frame(30, 25, c, s, 1, 5), 0, 0);
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 7; ++j) {  // relative to the middle sample the mean is its own value on a plane
+      const double x = (i - 3) * c - (j - 3) * s, y = (i - 3) * s + (j - 3) * c;
+      CHECK(bright[static_cast<std::size_t>(7 * i + j)] == Approx(3 * x + y).margin(1e-9));
+    }
+  }
+  // The frame's middle: the bright side lies at (sin, -cos), the dark one opposite.
+  const auto frame = patch_frame(30, 25, c, s, -1, 5);
+  CHECK(frame.x + 3 * c - 3 * s == Approx(30 - 5 * s));
+  CHECK(frame.y + 3 * s + 3 * c == Approx(25 + 5 * c));
+  // A plane's derivative is one number, which the mean takes away; that of a product is not.
+  for (const double d : patch_derivative(image.view(), frame, 0.6, 0.8)) CHECK(d == Approx(0).margin(1e-9));
+  const Image saddle = image_of(64, 60, [](double x, double y) { return 0.1 * (x - 32) * (y - 30) + 128; });
+  const auto level = patch_frame(32, 30, 1, 0, 1, 5);
+  const auto slope = patch_derivative(saddle.view(), level, 1, 0);  // d/dx = 0.1 (y - 30), minus its mean; 8-bit rounding up to 0.5 / px
+  for (int j = 0; j < 7; ++j) CHECK(slope[static_cast<std::size_t>(7 * 3 + j)] == Approx(0.1 * (j - 3)).margin(1.01));
+}
+
+TEST_CASE("photometric: a known move along a line is found to 0.02 px", "[photometric][matching]") {
+  const Image fixed = moved(0, 0);
+  Random random(7);
+  int found = 0;
+  std::vector<double> errors;
+  for (int k = 0; k < 60; ++k) {
+    const double heading = random(-kPi, kPi), move = random(-1.4, 1.4), ex = std::cos(heading), ey = std::sin(heading);
+    const auto result = align(fixed, moved(move * ex, move * ey), random(20, 44), random(20, 40), random(-kPi, kPi), ex, ey);
+    if (!result.good) continue;
+    ++found;
+    errors.push_back(result.alpha - move);
+  }
+  CHECK(found >= 58);
+  check_subpixel(errors);
+}
+
+TEST_CASE("photometric: what is too far, or not alike, is rejected", "[photometric][matching]") {
+  const Image fixed = moved(0, 0);
+  CHECK(align(fixed, moved(1, 0), 30, 30, 0.3, 1, 0).good);
+  CHECK_FALSE(align(fixed, moved(2.6, 0), 30, 30, 0.3, 1, 0).good);  // beyond the clamp of 2 px
+  const Image other = image_of(64, 60, [](double x, double y) { return 128 + 60 * std::sin(1.1 * x) * std::cos(0.9 * y); });
+  CHECK_FALSE(align(fixed, other, 30, 30, 0.3, 1, 0).good);
+  // Nothing to hold on to: no move, and nothing that speaks against it.
+  const Image flat(64, 60);
+  const auto still = align(flat, flat, 30, 30, 0.3, 1, 0);
+  CHECK(still.good);
+  CHECK(still.alpha == 0);
+}
+
+TEST_CASE("photometric: the Huber weight falls from 1 beyond its limit", "[photometric][matching]") {
+  CHECK(reference::huber_weight(2.9, 3) == 1);
+  CHECK(reference::huber_weight(-3, 3) == 1);
+  CHECK(reference::huber_weight(-12, 3) == Approx(0.25));
+}
+
+TEST_CASE("photometric: devices cut the same patches, also across the border", "[photometric][matching][device][oclgrind]") {
+  const std::string source =
+      "kernel void probe(global const uint* corners, const int width, const int height, global const float* at, const int count,\n"
+      "                  global float* grey) {\n"
+      "  const int i = (int)get_global_id(0);\n"
+      "  if (i >= count) return;\n"
+      "  float8 rows[PATCH_SIDE];\n"
+      "  cut_patch(corners, width, height, directed_frame(at[4 * i], at[4 * i + 1], at[4 * i + 2], at[4 * i + 3], 5.0f), 0.25f, -0.5f, rows);\n"
+      "  for (int k = 0; k < PATCH_SIDE; ++k) vstore8(rows[k], k, grey + 56 * i);\n"
+      "}\n";
+  const auto& kernels = opencl::embedded_kernels();
+  for (const auto& [width, height] : {std::pair(27, 21), std::pair(2, 2), std::pair(3, 31)}) {
+    const Image image = image_of(width, height, [](double x, double y) { return 128 + 100 * std::sin(3 * x + 5 * y); });
+    Random random(11);
+    std::vector<float> at = {-300, -50, 1, 1, 500, 1000, 2, -1};
+    for (int k = 0; k < 20; ++k) {
+      const double values[4] = {random(-12, width + 11), random(-12, height + 11), random(-kPi, kPi), k % 2 == 0 ? 1.0 : -1.0};
+      for (const double v : values) at.push_back(static_cast<float>(v));
+    }
+    const std::size_t count = at.size() / 4;
+    for (const auto& index : all_devices()) {
+      Device device(index);
+      auto& context = *device.context();
+      cl::Program program(context.context(), kernels.at("common.cl") + "\n" + kernels.at("direction.cl") + "\n" +
+                                                 kernels.at("photometric.cl") + "\n" + source);
+      program.build({context.device()}, "-cl-std=CL1.2 -cl-kernel-arg-info");
+      opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, cl_int, opencl::Out<cl_float>> kernel(context, program,
+                                                                                                                  "probe");
+      stages::PixelCorners corners(context);
+      corners.prepare(upload(context, image).pixels, width, height);
+      opencl::Buffer<cl_float> places, grey(context, 56 * count);
+      places.write(context, at);
+      kernel({count, 1}, corners.values(), width, height, places, static_cast<cl_int>(count), grey);
+      const auto found = grey.read(56 * count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto frame = patch_frame(at[4 * i], at[4 * i + 1], std::cos(at[4 * i + 2]), std::sin(at[4 * i + 2]), at[4 * i + 3], 5);
+        const auto truth = cut_patch(image.view(), frame, 0.25, -0.5);
+        double largest = 0;
+        for (std::size_t k = 0; k < 49; ++k) largest = std::max(largest, std::abs(truth[k] - static_cast<double>(found[56 * i + 8 * (k / 7) + k % 7])));
+        INFO(width << " x " << height << ", patch " << i);
+        CHECK(largest < 5e-3);  // 1e-5 px of rounding times up to 255 grey levels per px
+      }
+    }
+  }
+}

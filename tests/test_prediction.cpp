@@ -1,0 +1,85 @@
+#include <catch2/catch.hpp>
+
+#include "generated_quads.hpp"
+#include "odometry/prediction.hpp"
+
+using namespace quadedge;
+using Eigen::Vector3d;
+
+namespace {
+
+StereoEdges edges_of(const StereoRig& rig, const std::vector<pose::OrientedPoint>& points) {
+  StereoEdges edges;
+  for (const auto& point : points) {
+    const auto seen = generated::observe(rig, point);
+    edges.left_index.push_back(0);
+    edges.right_index.push_back(0);
+    edges.left_x.push_back(static_cast<float>(seen.left.x()));
+    edges.left_y.push_back(static_cast<float>(seen.left.y()));
+    edges.left_direction.push_back(static_cast<float>(seen.left_direction));
+    edges.right_x.push_back(static_cast<float>(seen.right.x()));
+    edges.right_y.push_back(static_cast<float>(seen.right.y()));
+    edges.right_direction.push_back(static_cast<float>(seen.right_direction));
+    edges.ncc.push_back(1);
+  }
+  return edges;
+}
+
+}  // namespace
+
+TEST_CASE("prediction: points moved by a known motion are expected where they project to", "[odometry][prediction]") {
+  for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
+    generated::Random random(5);
+    std::vector<pose::OrientedPoint> points;
+    for (int k = 0; k < 60; ++k) {
+      // Upright and oblique tangents, so that neither rig sees them along its epipolar lines.
+      points.push_back({Vector3d(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), random.uniform(1.5, 4)), random.unit()});
+    }
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    motion.linear() = Eigen::AngleAxisd(0.05, Vector3d(0.2, 1, 0.1).normalized()).toRotationMatrix();
+    motion.translation() = Vector3d(0.05, -0.02, -0.2);
+    const auto search = odometry::predict_places(rig, edges_of(rig, points), motion, 12, 1, 0.07);
+    CHECK(search.radius == 12.0f);
+    CHECK(search.step == 1);
+    REQUIRE(search.left.x.size() == points.size());
+    int predicted = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (std::isnan(search.left.x[i])) continue;
+      ++predicted;
+      const Vector3d after = motion * points[i].point;
+      const auto left = rig.left.project(after), right = rig.right.project(rig.right_from_left * after);
+      CHECK(search.left.x[i] == Approx(left.x()).margin(0.01));  // single precision places: about 1e-4 px of disparity
+      CHECK(search.left.y[i] == Approx(left.y()).margin(0.01));
+      CHECK(search.right.x[i] == Approx(right.x()).margin(0.01));
+      CHECK(search.right.y[i] == Approx(right.y()).margin(0.01));
+      // The tangent: a second point a little further along it.
+      const auto ahead = rig.left.project(motion * (points[i].point + 1e-6 * points[i].tangent));
+      const double direction = std::atan2(ahead.y() - left.y(), ahead.x() - left.x());
+      CHECK(std::abs(std::remainder(static_cast<double>(search.left.direction[i]) - direction, 2 * 3.14159265358979)) < 0.02);
+    }
+    CHECK(predicted > 45);
+  }
+}
+
+TEST_CASE("prediction: without a motion everything is expected where it was", "[odometry][prediction]") {
+  const auto rig = generated::car_rig();
+  const auto edges = edges_of(rig, {{Vector3d(0, 0, 5), Vector3d::UnitY()}, {Vector3d(1, 0, 9), Vector3d(0.5, 1, 0).normalized()}});
+  const auto search = odometry::predict_places(rig, edges, std::nullopt, 30, 8, 0.07);
+  CHECK(search.left.x == edges.left_x);
+  CHECK(search.left.direction == edges.left_direction);
+  CHECK(search.right.y == edges.right_y);
+  CHECK(search.step == 8);
+}
+
+TEST_CASE("prediction: no place for what has no depth or falls behind the camera", "[odometry][prediction]") {
+  const auto rig = generated::car_rig();
+  auto edges = edges_of(rig, {{Vector3d(0, 0.2, 5), Vector3d::UnitY()}, {Vector3d(0.5, 0.2, 3), Vector3d::UnitY()}, {Vector3d(0, 0.2, 5), Vector3d::UnitX()}});
+  edges.right_x[0] = edges.left_x[0] + 2;  // negative disparity
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.translation() = Vector3d(0, 0, -4);  // the second point is passed
+  const auto search = odometry::predict_places(rig, edges, motion, 10, 1, 0.07);
+  for (std::size_t i = 0; i < 3; ++i) {  // the third one lies along its epipolar line
+    CHECK(std::isnan(search.left.x[i]));
+    CHECK(std::isnan(search.right.x[i]));
+  }
+}

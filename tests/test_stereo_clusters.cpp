@@ -1,0 +1,237 @@
+#include "matching.hpp"
+#include "reference/patches.hpp"
+#include "reference/stereo_clusters.hpp"
+#include "stages/stereo_clusters.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+constexpr double kOffset = 5;
+
+/// Candidates of left edges on a rectified rig: place on the line [px] and direction [degrees] of each.
+struct Lists {
+  reference::Candidates candidates;
+  reference::CandidateScores scores;
+  std::vector<double> places;
+  EdgeSet right;
+
+  struct Member {
+    double place, degrees;
+  };
+  explicit Lists(const std::vector<std::vector<Member>>& rows) {
+    candidates.first = {0};
+    for (const auto& row : rows) {
+      for (const Member& member : row) {
+        candidates.target.push_back(static_cast<std::int32_t>(right.direction.size()));
+        places.push_back(member.place);
+        right.direction.push_back(static_cast<float>(member.degrees * kDegree));
+      }
+      candidates.first.push_back(static_cast<std::int32_t>(candidates.target.size()));
+    }
+    scores = fresh_scores(places.size());
+  }
+  reference::StereoClusters clusters(const StereoConfig& config = {}) const {
+    return reference::stereo_clusters(candidates, scores, places, right, config);
+  }
+};
+
+/// Two images of the smooth texture 6.3 px apart, with left edges at chosen places.
+struct Scene {
+  StereoRig rig = flat_rig(97, 71);
+  StereoConfig config;
+  Config all;
+  stages::EpipolarGeometry geometry;
+  Image left_image = image_of(97, 71, smooth_grey);
+  Image right_image = image_of(97, 71, [](double x, double y) { return smooth_grey(x + 6.3, y); });
+  EdgeSet left, right;
+  reference::Candidates candidates;
+  reference::CandidateScores scores;
+  std::vector<double> places;
+
+  Scene() {
+    config.max_disparity = 20;
+    geometry = stages::make_epipolar_geometry(rig, config);
+    candidates.first = {0};
+  }
+  /// Candidates of the next left edge: right edge and place on the line.
+  void add(const std::vector<std::pair<int, double>>& row) {
+    for (const auto& [target, place] : row) {
+      candidates.target.push_back(target);
+      places.push_back(place);
+    }
+    candidates.first.push_back(static_cast<std::int32_t>(candidates.target.size()));
+    scores = fresh_scores(places.size());
+  }
+  StereoEdges match() const {
+    auto clusters = reference::stereo_clusters(candidates, scores, places, right, config);
+    const auto patches = reference::side_patches(left_image.view(), left.x, left.y, left.direction, all.patches);
+    const auto best = reference::stereo_best(clusters, left, patches, right_image.view(), geometry, config, kOffset);
+    return reference::stereo_mutual(clusters, best, left, geometry, config);
+  }
+  /// Every device and variant finds the same stereo edges. Single precision may turn a decision that lies within 1e-5 of a limit
+  /// or of a tie: `band` rows at most.
+  void compare_devices(std::size_t band) const {
+    const StereoEdges truth = match();
+    for_each_variant("stereo_clusters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+      INFO(name);
+      stages::StereoClusters stage(context, config, kOffset, variants);
+      stages::EdgeDescription describe_left(context, 97, 71, all.patches, all.sift, {}), describe_right(context, 97, 71, all.patches, all.sift, {});
+      const auto image = upload(context, right_image);
+      const auto device_left = upload(context, left), device_right = upload(context, right);
+      stages::DeviceDescriptions left_descriptions, right_descriptions;
+      describe_left.prepare(upload(context, left_image).pixels);
+      describe_left.describe(device_left, left_descriptions);
+      describe_right.prepare(image.pixels);
+      describe_right.describe(device_right, right_descriptions);
+      auto lists = upload(context, candidates);
+      upload(context, scores, lists);
+      opencl::Buffer<cl_float> packed, place;
+      packed.write(context, geometry.packed());
+      place.write(context, {places.begin(), places.end()});
+      place.ensure(context, static_cast<std::size_t>(lists.capacity));
+      stages::DeviceClusters clusters;
+      stages::DeviceStereoEdges result;
+      stage.run(device_left, device_right, left_descriptions, right_descriptions, describe_right, image, packed, lists, place, clusters,
+                result);
+      const StereoEdges found = result.read();
+      std::size_t same = 0, j = 0;
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        while (j < found.size() && found.left_index[j] < truth.left_index[i]) ++j;
+        if (j == found.size() || found.left_index[j] != truth.left_index[i] || found.right_index[j] != truth.right_index[i]) continue;
+        ++same;
+        CHECK(found.left_x[j] == truth.left_x[i]);
+        CHECK(found.left_y[j] == truth.left_y[i]);
+        CHECK(found.left_direction[j] == truth.left_direction[i]);
+        CHECK(found.right_x[j] == Approx(truth.right_x[i]).margin(1e-3));
+        CHECK(found.right_y[j] == Approx(truth.right_y[i]).margin(1e-3));
+        CHECK(std::abs(std::remainder(static_cast<double>(found.right_direction[j]) - static_cast<double>(truth.right_direction[i]), 2 * kPi)) < 1e-4);
+        CHECK(found.ncc[j] == Approx(truth.ncc[i]).margin(1e-4));
+      }
+      CHECK(same + band >= truth.size());
+      CHECK(same + band >= found.size());
+      // What a later frame needs goes along: the left edge's own descriptions, the right anchor's SIFT, patches cut at the right place.
+      const auto left_patches = left_descriptions.patches.read(98 * left.size()), kept = result.left_patches.read(98 * found.size());
+      const auto right_sift = right_descriptions.sift.read(256 * right.size()), kept_sift = result.right_sift.read(256 * found.size());
+      const auto left_sift = left_descriptions.sift.read(256 * left.size()), kept_left_sift = result.left_sift.read(256 * found.size());
+      const auto recut = reference::side_patches(right_image.view(), found.right_x, found.right_y, found.right_direction, all.patches);
+      const auto kept_right = result.right_patches.read(98 * found.size());
+      std::size_t wrong = 0;
+      for (std::size_t row = 0; row < found.size(); ++row) {
+        const auto from = static_cast<std::size_t>(found.left_index[row]), to = static_cast<std::size_t>(found.right_index[row]);
+        for (std::size_t k = 0; k < 98; ++k) {
+          wrong += kept[98 * row + k] != left_patches[98 * from + k] || std::abs(kept_right[98 * row + k] - recut[98 * row + k]) > 1e-3f ? 1 : 0;
+        }
+        for (std::size_t k = 0; k < 256; ++k) {
+          wrong += kept_sift[256 * row + k] != right_sift[256 * to + k] || kept_left_sift[256 * row + k] != left_sift[256 * from + k] ? 1 : 0;
+        }
+      }
+      CHECK(wrong == 0);
+    });
+  }
+};
+
+/// Three left edges with candidates at the true place, beside it, and at a wrong one.
+Scene small_scene() {
+  Scene scene;
+  scene.left = make_edges({{40, 30, 1.2}, {60, 30, -1.0}, {50, 40, 1.6}}, 71);
+  scene.right = make_edges({{33.7, 30, 1.2}, {34.1, 30, 1.25}, {53.7, 30, -1.0}, {38, 40, 1.6}, {43.7, 40, 1.6}}, 71);
+  scene.add({{0, 6.3}, {1, 5.9}});
+  scene.add({{2, 6.3}, {1, 14}});
+  scene.add({{3, 12.0}, {4, 6.35}});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("stereo clusters: cut at gaps, represented by centroid and nearest member", "[stereo][matching]") {
+  const Lists lists({{{5.5, 10}, {3, 10}, {3.9, 12}, {4.5, 8}}, {}, {{7, 0}, {8, 0}}});
+  const auto clusters = lists.clusters();
+  // 3, 3.9, 4.5 chain up (gaps 0.9, 0.6), 5.5 is a gap of exactly 1 away; 7 and 8 as well.
+  CHECK(clusters.first == std::vector<std::int32_t>{0, 2, 2, 4});
+  CHECK(clusters.place[0] == Approx(3.8));
+  CHECK(clusters.place[1] == Approx(5.5));
+  CHECK(clusters.anchor == std::vector<std::int32_t>{2, 0, 4, 5});
+  // Weights exp(-d^2 / 8) of 10, 12, 8 degrees at distances 0.8, 0.1, 0.7.
+  const double a = std::exp(-0.08), b = std::exp(-0.00125), c = std::exp(-0.06125);
+  CHECK(clusters.direction[0] / kDegree == Approx((10 * a + 12 * b + 8 * c) / (a + b + c)).margin(1e-3));
+}
+
+TEST_CASE("stereo clusters: directions are lines, and the mean keeps the nearest member's polarity", "[stereo][matching]") {
+  // 178 and -179 degrees are 3 apart as directions, 178 and -1 as lines; 30 and 55 are 25 apart, over the limit of 20.
+  const auto clusters = Lists({{{1, 178}, {1.5, -179}}, {{1, 178}, {1.2, 178}, {1.9, -1}}, {{1, 30}, {1.5, 55}}}).clusters();
+  CHECK(clusters.first == std::vector<std::int32_t>{0, 1, 2, 4});
+  CHECK(std::abs(std::remainder(clusters.direction[0] - 179.5 * kDegree, 2 * kPi)) < 1e-5);
+  CHECK(std::abs(std::remainder(clusters.direction[1] - 178.3 * kDegree, 2 * kPi)) < 0.2 * kDegree);
+  CHECK(clusters.direction[3] == Approx(55 * kDegree));
+}
+
+TEST_CASE("stereo clusters: no more members than allowed, and none that a filter rejected", "[stereo][matching]") {
+  std::vector<Lists::Member> row;
+  for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20});
+  Lists lists({row});
+  CHECK(lists.clusters().first == std::vector<std::int32_t>{0, 2});  // 10 and 2
+  CHECK(lists.clusters().place[0] == Approx(2.25));
+  for (const std::size_t dead : {5, 6, 7}) lists.scores.rejected_by[dead] = 7;  // a gap of 2 px in the middle
+  const auto clusters = lists.clusters();
+  CHECK(clusters.first == std::vector<std::int32_t>{0, 2});
+  CHECK(clusters.place[0] == Approx(1));
+  CHECK(clusters.place[1] == Approx(4.75));
+}
+
+TEST_CASE("stereo best: the cluster that looks alike wins and is placed on the line", "[stereo][matching]") {
+  const auto edges = small_scene().match();
+  CHECK(edges.left_index == std::vector<std::int32_t>{0, 1, 2});
+  CHECK(edges.right_index == std::vector<std::int32_t>{1, 2, 4});  // both of the pair are equally near: the first on the line
+  CHECK(edges.right_x[0] == Approx(40 - 6.1));
+  CHECK(edges.right_x[1] == Approx(60 - 6.3));
+  CHECK(edges.right_x[2] == Approx(50 - 6.35));
+  for (const float ncc : edges.ncc) CHECK(ncc > 0.99f);
+}
+
+TEST_CASE("stereo best: one right edge serves only neighbours of its best left edge", "[stereo][matching][device]") {
+  Scene scene;
+  scene.left = make_edges({{40, 30, 1.2}, {41, 30, 1.2}, {43, 30, 1.2}}, 71);
+  scene.right = make_edges({{33.7, 30, 1.2}}, 71);
+  scene.add({{0, 6.3}});  // exact: the best
+  scene.add({{0, 6.8}});  // 1 px beside the best one, within mutual_radius
+  scene.add({{0, 6.8}});  // 3 px beside
+  CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1});
+  scene.compare_devices(0);
+  scene.config.mutual_radius = 0.5;
+  CHECK(scene.match().left_index == std::vector<std::int32_t>{0});
+  scene.compare_devices(0);
+  // A tie: the same left edge twice. The first one owns the right edge; both are at its place.
+  scene.config.mutual_radius = 0;
+  scene.left.x = {40, 40, 40};
+  scene.places = {6.3, 6.3, 6.3};
+  scene.left.y = {30, 30, 30};
+  CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1, 2});
+  scene.compare_devices(0);
+}
+
+TEST_CASE("stereo clusters: devices agree with the reference on random lists", "[stereo][matching][device]") {
+  Scene scene;
+  Random random(19);
+  std::vector<Edge> left, right;
+  for (int i = 0; i < 250; ++i) left.push_back({random(30, 80), random(14, 56), random(-kPi, kPi)});
+  for (int j = 0; j < 300; ++j) right.push_back({random(14, 80), random(14, 56), random(-kPi, kPi)});
+  scene.left = make_edges(left, 71);
+  scene.right = make_edges(right, 71);
+  for (int i = 0; i < 250; ++i) {
+    std::vector<std::pair<int, double>> row;
+    for (int k = 0; k < i % 14; ++k) row.emplace_back(static_cast<int>(random(0, 300)), random(4, 9));
+    scene.add(row);
+  }
+  for (std::size_t c = 0; c < scene.places.size(); c += 7) scene.scores.rejected_by[c] = 8;
+  CHECK(scene.match().size() > 30);
+  scene.compare_devices(3);
+}
+
+TEST_CASE("stereo clusters: few edges, and none", "[stereo][matching][device][oclgrind]") {
+  small_scene().compare_devices(0);
+  Scene none;
+  none.left = none.right = make_edges({}, 71);
+  none.compare_devices(0);
+}

@@ -1,0 +1,156 @@
+#include "matching.hpp"
+#include "stages/stereo_refinement.hpp"
+#include "reference/stereo_refinement.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+constexpr double kOffset = 5;
+
+/// A right image that shows the left one's texture at a disparity of 6.3 px everywhere, with edges all over it, and one candidate
+/// per left edge that lies up to 1.2 px beside the truth along the line and up to 0.4 px across it.
+struct Scene {
+  StereoRig rig = flat_rig(97, 71);
+  StereoConfig config;
+  Image left_image, right_image;
+  EdgeSet left, right;
+  reference::Candidates lists;
+  reference::CandidateScores scores;
+  stages::EpipolarGeometry geometry;
+
+  explicit Scene(int count, std::uint64_t seed = 2) {
+    config.max_disparity = 20;
+    geometry = stages::make_epipolar_geometry(rig, config);
+    left_image = image_of(97, 71, smooth_grey);
+    right_image = image_of(97, 71, [](double x, double y) { return smooth_grey(x + kDisparity, y); });
+    Random random(seed);
+    std::vector<Edge> edges;
+    for (int i = 0; i < count; ++i) edges.push_back({random(26, 80), random(14, 56), random(0.3, kPi - 0.3) * (i % 2 == 0 ? 1 : -1)});
+    left = make_edges(edges, 71);
+    right = left;
+    lists.first = {0};
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      // Off the line by d: the edge's point moves along its tangent, so that the shift brings it back.
+      const double d = random(-0.4, 0.4), wrong = random(-1.2, 1.2);
+      right.x[i] += static_cast<float>(-kDisparity + wrong + d / std::tan(static_cast<double>(left.direction[i])));
+      right.y[i] += static_cast<float>(d);
+      lists.target.push_back(static_cast<std::int32_t>(i));
+      lists.first.push_back(static_cast<std::int32_t>(i) + 1);
+    }
+    scores = fresh_scores(left.size());
+    for (std::size_t i = 0; i < left.size(); ++i) scores.pairing[i] = i % 2;  // bright-bright and dark-dark
+  }
+  static constexpr double kDisparity = 6.3;
+
+  std::vector<double> refine(reference::CandidateScores& result) const {
+    return reference::stereo_refinement(left_image.view(), right_image.view(), left, right, geometry, lists, config, kOffset, result);
+  }
+  /// Every variant and device: living candidates within 1e-2 px of the reference. The same may be rejected on one side only
+  /// where a residual or a move lies within rounding of its limit: at most 1 % of them.
+  void compare_devices() const {
+    auto truth = scores;
+    const auto places = refine(truth);
+    for_each_variant("stereo_refinement", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+      INFO(name);
+      stages::StereoRefinement stage(context, config, kOffset, variants);
+      auto device = upload(context, lists);
+      upload(context, scores, device);
+      opencl::Buffer<cl_float> packed, found;
+      packed.write(context, geometry.packed());
+      stage.run(upload(context, left_image), upload(context, right_image), upload(context, left), upload(context, right), packed, device,
+                found);
+      const auto states = device.rejected_by.read(places.size());
+      const auto device_places = found.read(places.size());
+      std::size_t other_state = 0;
+      double largest = 0;
+      for (std::size_t c = 0; c < places.size(); ++c) {
+        other_state += states[c] != truth.rejected_by[c] ? 1 : 0;
+        if (states[c] == 0 && truth.rejected_by[c] == 0) largest = std::max(largest, std::abs(places[c] - static_cast<double>(device_places[c])));
+      }
+      CHECK(other_state <= places.size() / 100);
+      CHECK(largest < 1e-2);
+    });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("epipolar shift: along the tangent where it crosses the line, else straight", "[stereo][matching]") {
+  // The line through (50, 20) towards -x.
+  const reference::EpipolarLine line{50, 20, -1, 0, 30, true};
+  const auto shift = [&](double x, double y, double degrees) {
+    return reference::epipolar_shift(line, x, y, degrees * kDegree, 12 * kDegree, 3);
+  };
+  CHECK(shift(40, 20, 70) == Approx(10));
+  CHECK(shift(40, 20.5, 90) == Approx(10));
+  // Tangent at 45 degrees through (40, 20.5): meets y = 20 at x = 39.5, s = 10.5.
+  CHECK(shift(40, 20.5, 45) == Approx(10.5));
+  CHECK(shift(40, 20.5, -135) == Approx(10.5));
+  CHECK(shift(40, 20.5, -45) == Approx(9.5));
+  // 10 degrees are less than 12: projected straight. 13 degrees and 0.8 px: a move of 0.8 / sin 13 = 3.56 px is too long.
+  CHECK(shift(40, 20.5, 10) == Approx(10));
+  CHECK(shift(40, 20.8, 13) == Approx(10));
+  CHECK(shift(40, 20.5, 13) == Approx(10 + 0.5 / std::tan(13 * kDegree)));
+}
+
+TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px", "[stereo][matching]") {
+  const Scene scene(150);
+  auto result = scene.scores;
+  const auto places = scene.refine(result);
+  std::vector<double> errors;
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    if (result.rejected_by[c] == 0) errors.push_back(places[c] - Scene::kDisparity);
+  }
+  CHECK(errors.size() >= 145);
+  check_subpixel(errors);
+}
+
+TEST_CASE("stereo refinement: an edge of the other polarity is compared half a turn around", "[stereo][matching]") {
+  // The right image is the left one turned by half a turn: what lies at p + v in the left one lies at q - v in the right one.
+  Scene scene(60);
+  const double px = 50, py = 35, qx = px - Scene::kDisparity;
+  scene.right_image = image_of(97, 71, [=](double x, double y) { return smooth_grey(px + qx - x, 2 * py - y); });
+  Random random(3);
+  for (std::size_t i = 0; i < scene.left.size(); ++i) {
+    scene.left.x[i] = static_cast<float>(px);
+    scene.right.x[i] = static_cast<float>(qx + random(-1.2, 1.2));
+    scene.left.y[i] = scene.right.y[i] = static_cast<float>(py);
+    scene.right.direction[i] = scene.left.direction[i] + static_cast<float>(scene.left.direction[i] > 0 ? -kPi : kPi);
+  }
+  auto result = scene.scores;
+  const auto places = scene.refine(result);
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    CHECK(result.rejected_by[c] == 0);
+    CHECK(std::abs(places[c] - Scene::kDisparity) < 0.04);  // all at one place: rounding to 8 bits errs alike
+  }
+  scene.compare_devices();
+}
+
+TEST_CASE("stereo refinement: rejects what leaves the clamp or stays unlike, and leaves the dead alone", "[stereo][matching]") {
+  Scene scene(60);
+  for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] -= i % 3 == 0 ? 4.5f : 0.0f;
+  scene.scores.rejected_by[1] = 5;
+  auto result = scene.scores;
+  scene.refine(result);
+  CHECK(result.rejected_by[1] == 5);
+  for (std::size_t i = 0; i < scene.right.size(); i += 3) CHECK(result.rejected_by[i] == reference::kStereoRefinementOrder);
+  scene.right_image = image_of(97, 71, [](double x, double y) { return 128 + 70 * std::sin(1.3 * x) * std::cos(1.1 * y); });
+  result = scene.scores;
+  scene.refine(result);
+  CHECK(std::count(result.rejected_by.begin(), result.rejected_by.end(), 0) <= 2);
+}
+
+TEST_CASE("stereo refinement: devices agree with the reference", "[stereo][matching][device]") {
+  Scene scene(400, 8);
+  scene.compare_devices();
+  for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] += static_cast<float>(i % 5) - 2.0f;
+  scene.scores.rejected_by[3] = 4;
+  scene.compare_devices();
+}
+
+TEST_CASE("stereo refinement: few candidates, and none", "[stereo][matching][device][oclgrind]") {
+  Scene(3).compare_devices();
+  Scene(0).compare_devices();
+}

@@ -1,0 +1,129 @@
+#include "matching.hpp"
+#include "reference/temporal_candidates.hpp"
+#include "stages/temporal_candidates.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+stages::PlacedEdges places_of(const std::vector<Edge>& edges) {
+  stages::PlacedEdges places;
+  for (const Edge& edge : edges) {
+    places.x.push_back(static_cast<float>(edge.x));
+    places.y.push_back(static_cast<float>(edge.y));
+    places.direction.push_back(static_cast<float>(edge.direction));
+  }
+  return places;
+}
+
+/// In units of what single precision may get wrong (1e-4 px, 1e-6 rad); positive: inside.
+double margin(const stages::PlacedEdges& predicted, std::size_t i, const stages::PlacedEdges& current, std::size_t j, double radius,
+              double orientation) {
+  if (!std::isfinite(predicted.x[i]) || !std::isfinite(predicted.y[i]) || !std::isfinite(predicted.direction[i])) return -1e9;
+  const double distance = std::hypot(static_cast<double>(current.x[j]) - static_cast<double>(predicted.x[i]),
+                                     static_cast<double>(current.y[j]) - static_cast<double>(predicted.y[i]));
+  const double turn = std::abs(std::remainder(static_cast<double>(current.direction[j]) - static_cast<double>(predicted.direction[i]), 2 * kPi));
+  return std::min((radius - distance) / 1e-4, (orientation - turn) / 1e-6);
+}
+
+/// Lists against the definition over all pairs.
+std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target, const stages::PlacedEdges& predicted,
+                        const stages::PlacedEdges& current, double radius, double orientation, int step) {
+  std::size_t certain = 0, missing = 0, extra = 0;
+  const auto rows = (predicted.x.size() + static_cast<std::size_t>(step) - 1) / static_cast<std::size_t>(step);
+  REQUIRE(first.size() == rows + 1);
+  REQUIRE(first.back() == static_cast<std::int32_t>(target.size()));
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t j = 0; j < current.x.size(); ++j) {
+      const auto times = std::count(target.begin() + first[row], target.begin() + first[row + 1], static_cast<std::int32_t>(j));
+      const double inside = margin(predicted, row * static_cast<std::size_t>(step), current, j, radius, orientation);
+      certain += inside > 1 ? 1 : 0;
+      missing += inside > 1 && times != 1 ? 1 : 0;
+      extra += (inside < -1 && times != 0) || times > 1 ? 1 : 0;
+    }
+  }
+  CHECK(missing == 0);
+  CHECK(extra == 0);
+  return certain;
+}
+
+/// The current edges stand in the left blocks; the right blocks are moved by 3 px, and searched with places moved alike.
+std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std::vector<Edge>& current_edges, int height, double radius,
+                             double orientation, int step) {
+  const auto predicted = places_of(predicted_edges), current = places_of(current_edges);
+  const auto index = stages::make_point_index(current.x, current.y, height);
+  const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius), static_cast<float>(orientation), step);
+  const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
+  for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+    for (const int side : {0, 1}) {
+      INFO(name << ", side " << side);
+      auto here = current, sought = predicted;
+      for (auto* values : {&here.x, &sought.x}) {
+        for (float& x : *values) x += side == 0 ? 0.0f : 3.0f;
+      }
+      stages::DeviceStereoEdges edges;
+      edges.count = static_cast<int>(here.x.size());
+      edges.stride = edges.count + 5;
+      const auto stride = static_cast<std::size_t>(edges.stride);
+      std::vector<float> packed(6 * stride, 1e3f);  // the other side's edges are nowhere near
+      const auto begin = packed.begin() + static_cast<std::ptrdiff_t>(3 * stride * static_cast<std::size_t>(side));
+      std::copy(here.x.begin(), here.x.end(), begin);
+      std::copy(here.y.begin(), here.y.end(), begin + edges.stride);
+      std::copy(here.direction.begin(), here.direction.end(), begin + 2 * edges.stride);
+      edges.packed.write(context, packed);
+      const auto points = stages::make_point_index(here.x, here.y, height);
+      stages::DevicePointIndex device_index;
+      device_index.row_first.write(context, points.row_first);
+      device_index.order.write(context, points.order);
+      stages::DevicePlaces device_places;
+      device_places.x.write(context, sought.x);
+      device_places.y.write(context, sought.y);
+      device_places.direction.write(context, sought.direction);
+      device_places.count = static_cast<int>(sought.x.size());
+      stages::TemporalCandidates stage(context, variants);
+      stages::DeviceCandidates lists;
+      stage.run(device_places, step, edges, side, device_index, height, static_cast<float>(radius), static_cast<float>(orientation), lists);
+      check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1), lists.target.read(static_cast<std::size_t>(lists.host_total)),
+                  sought, here, radius, orientation, step);
+    }
+  });
+  return certain;
+}
+
+std::vector<Edge> random_edges(int count, double width, double height, std::uint64_t seed, double beyond = 0) {
+  Random random(seed);
+  std::vector<Edge> edges;
+  for (int k = 0; k < count; ++k) edges.push_back({random(-beyond, width + beyond), random(-beyond, height + beyond), random(-kPi, kPi)});
+  return edges;
+}
+
+}  // namespace
+
+TEST_CASE("temporal candidates: a circle around the predicted place and a full turn of directions", "[temporal][matching][device][oclgrind]") {
+  const double nan = std::nan("");
+  const std::vector<Edge> predicted = {{20, 15, 3.1}, {nan, 15, 0}, {20, 15, 3.1 - kPi}};
+  // At 5 px, beside the corner of the square, at the right place with the other contrast, across the wrap of the direction.
+  const std::vector<Edge> current = {{24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
+  const auto places = places_of(current);
+  const auto lists = reference::temporal_candidates(places_of(predicted), places, stages::make_point_index(places.x, places.y, 30), 5.0f, 0.15f);
+  CHECK(lists.first == std::vector<std::int32_t>{0, 2, 2, 3});
+  CHECK(lists.target == std::vector<std::int32_t>{0, 3, 2});
+  CHECK(check_everywhere(predicted, current, 30, 5, 0.15, 1) == 3);
+}
+
+TEST_CASE("temporal candidates: the lists hold what the definition says", "[temporal][matching][device]") {
+  const auto current = random_edges(700, 90, 61, 3);
+  CHECK(check_everywhere(random_edges(300, 90, 61, 4, 15), current, 61, 10, 0.6, 1) > 500);
+  CHECK(check_everywhere(random_edges(301, 90, 61, 5, 15), current, 61, 7.3, 1.5, 8) > 50);
+}
+
+TEST_CASE("temporal candidates: a search wider than the first capacity loses nothing", "[temporal][matching][device]") {
+  CHECK(check_everywhere(random_edges(20, 50, 40, 6), random_edges(400, 50, 40, 7), 40, 200, 4, 1) == 20 * 400);
+}
+
+TEST_CASE("temporal candidates: nothing to look for, or nothing there", "[temporal][matching][device][oclgrind]") {
+  CHECK(check_everywhere({}, random_edges(9, 50, 40, 7), 40, 10, 4, 1) == 0);
+  CHECK(check_everywhere(random_edges(9, 50, 40, 7), {}, 40, 10, 4, 8) == 0);
+  CHECK(check_everywhere({}, {}, 40, 10, 4, 1) == 0);
+}
