@@ -1,15 +1,25 @@
 #!/usr/bin/env bash
-# Runs the kernel tests of small size on oclgrind's simulator, which sees every memory access. Fails when a test fails or when
-# oclgrind reports anything: a wrong address, a data race, a wrong call.
-#   run_oclgrind.sh QUADEDGE_TESTS
+# Runs the kernel tests of small size on oclgrind's simulator, which sees every memory access. Fails when a test fails, when
+# oclgrind reports anything (a wrong address, a data race, a wrong call), or when a kernel was never run.
+#   run_oclgrind.sh QUADEDGE_TESTS KERNEL_FOLDER
 set -euo pipefail
-log="$(mktemp)"
-trap 'rm -f "$log"' EXIT
+tests="$1" kernels="$2"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
 status=0
-oclgrind --check-api --data-races --log "$log" "$1" "[oclgrind]" || status=$?
-if [ -s "$log" ]; then
+oclgrind --check-api --data-races --inst-counts --log "$folder/log" "$tests" "[oclgrind]" >"$folder/out" || status=$?
+grep -vE "^Instructions executed|^ +[0-9,]+ - |^$" "$folder/out" || true
+if [ -s "$folder/log" ]; then
   echo "oclgrind reports:"
-  head -100 "$log"
+  head -100 "$folder/log"
   exit 1
 fi
+cat "$kernels"/*.cl | tr '\n' ' ' | grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +)?void +[a-z_0-9]+' | sed 's/.* //' | sort -u >"$folder/all"
+grep -oE "^Instructions executed for kernel '[a-z_0-9]+'" "$folder/out" | cut -d"'" -f2 | sort -u >"$folder/run"
+never="$(comm -23 "$folder/all" "$folder/run")"
+if [ -n "$never" ]; then
+  echo "kernels that no [oclgrind] test runs:" $never
+  exit 1
+fi
+echo "$(wc -l <"$folder/run") kernels ran"
 exit $status

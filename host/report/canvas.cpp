@@ -31,7 +31,7 @@ Canvas::Canvas(const ImageView& image, double brightness, int legend_lines)
   cv::Mat large;
   cv::resize(grey, large, {}, scale_, scale_, cv::INTER_LINEAR);
   large.convertTo(large, CV_8UC1, brightness);
-  picture_ = cv::Mat::zeros(large.rows + legend_lines * kLegendLine + 8, std::max(large.cols, 760), CV_8UC3);
+  picture_ = cv::Mat::zeros(large.rows + legend_lines * kLegendLine + 8, std::max(large.cols, kSmallestWidth), CV_8UC3);
   cv::Mat target = picture_(cv::Rect(0, 0, large.cols, large.rows));
   cv::cvtColor(large, target, cv::COLOR_GRAY2BGR);
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "report/canvas.hpp"
 #include "report/drawing.hpp"
@@ -11,6 +12,7 @@ namespace quadedge::report {
 namespace {
 
 constexpr double kBrightness = 0.45;
+constexpr int kCell = 16;  // px of the image; one motion is drawn per cell
 const cv::Scalar kWhite(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
 
 /// Colours from small (dark) to large (bright) values.
@@ -31,6 +33,17 @@ double disparity(const StereoEdges& stereo, std::size_t i) {
   return std::hypot(stereo.left_x[i] - stereo.right_x[i], stereo.left_y[i] - stereo.right_y[i]);
 }
 
+/// The first quad of every cell of the image: all of them would cover the picture, and this keeps the share of the kinds.
+std::vector<std::size_t> one_per_cell(const TemporalMatches& quads) {
+  std::set<std::pair<int, int>> taken;
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    const std::pair<int, int> cell(static_cast<int>(quads.left_x[i]) / kCell, static_cast<int>(quads.left_y[i]) / kCell);
+    if (taken.insert(cell).second) chosen.push_back(i);
+  }
+  return chosen;
+}
+
 }  // namespace
 
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details) {
@@ -47,19 +60,15 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
     cv::circle(canvas.picture(), canvas.place(details.stereo.left_x[i], details.stereo.left_y[i]), radius, colours[level], cv::FILLED,
                cv::LINE_AA, kPlaceShift);
   }
-  int inliers = 0;
-  for (const bool draw_inliers : {false, true}) {  // inliers lie on top
-    for (std::size_t i = 0; i < details.quads.size(); ++i) {
-      const bool inlier = i < details.quad_inlier.size() && details.quad_inlier[i] != 0;
-      if (inlier != draw_inliers) continue;
-      inliers += inlier ? 1 : 0;
-      const auto previous = static_cast<std::size_t>(details.quads.previous[i]);
-      const cv::Scalar& colour = inlier ? kInlier : kOutlier;
-      const cv::Point end = canvas.place(details.quads.left_x[i], details.quads.left_y[i]);
-      cv::line(canvas.picture(), canvas.place(details.previous_stereo.left_x.at(previous), details.previous_stereo.left_y.at(previous)), end, colour, 1,
-               cv::LINE_AA, kPlaceShift);
-    }
+  for (const std::size_t i : one_per_cell(details.quads)) {
+    const auto previous = static_cast<std::size_t>(details.quads.previous[i]);
+    const cv::Scalar& colour = details.quad_inlier.at(i) != 0 ? kInlier : kOutlier;
+    const cv::Point start = canvas.place(details.previous_stereo.left_x.at(previous), details.previous_stereo.left_y.at(previous));
+    const cv::Point end = canvas.place(details.quads.left_x[i], details.quads.left_y[i]);
+    cv::line(canvas.picture(), start, end, colour, 1, cv::LINE_AA, kPlaceShift);
+    cv::circle(canvas.picture(), end, 5 << (kPlaceShift - 1), colour, cv::FILLED, cv::LINE_AA, kPlaceShift);
   }
+  const auto inliers = std::count_if(details.quad_inlier.begin(), details.quad_inlier.end(), [](auto flag) { return flag != 0; });
 
   cv::Mat& picture = canvas.picture();
   int y = canvas.legend_y(0);
@@ -67,11 +76,11 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   for (int i = 0; i < 256; ++i, ++x) cv::line(picture, {x, y - 12}, {x, y + 2}, colours[static_cast<std::size_t>(i)]);
   put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)", x + 6, y, kWhite);
   y = canvas.legend_y(1);
-  x = put_text(picture, "motion of quads since the frame before:", 10, y, kWhite) + 10;
+  x = put_text(picture, "motion of quads since the frame before, one per cell of 16 px (dot: now):", 10, y, kWhite) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
-  put_text(picture, std::to_string(static_cast<int>(details.quads.size()) - inliers) + " others", x + 38, y, kOutlier);
+  put_text(picture, std::to_string(static_cast<std::ptrdiff_t>(details.quads.size()) - inliers) + " others", x + 38, y, kOutlier);
   write_png(path, picture);
 }
 

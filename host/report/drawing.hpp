@@ -15,7 +15,7 @@ namespace quadedge::report {
 void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& edges);
 
 /// The left image with its stereo edges coloured by disparity, and for every quad the way of its left edge from the frame
-/// before to this one: inliers white, others red.
+/// before to this one: inliers white, others red, one per cell of 16 px.
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details);
 
 /// A trajectory from above: x to the right, z forward, metres, one scale for both axes. `truth` may be empty and is moved so

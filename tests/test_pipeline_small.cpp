@@ -1,0 +1,54 @@
+#include <catch2/catch.hpp>
+
+#include "devices.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/synthetic.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+/// Two frames of the room, with so few edges that a simulator of OpenCL devices gets through them.
+std::vector<FrameResult> track_small_room(const std::string& device_name) {
+  SyntheticOptions options;
+  options.frames = 2;
+  options.width = 96;
+  options.height = 64;
+  options.focal = 55;
+  options.baseline = 0.15;
+  const SyntheticSequence sequence(options);
+  Config config;
+  config.stereo.max_disparity = sequence.max_disparity();
+  config.edges.threshold = 10;
+  Device device(device_name);
+  StereoOdometry odometry(sequence.rig(), device, config);
+  std::vector<FrameResult> results;
+  for (int i = 0; i < sequence.frames(); ++i) {
+    const Image left = sequence.render(i, false).image, right = sequence.render(i, true).image;
+    results.push_back(odometry.track({sequence.stamp_ns(i), left.view(), right.view()}));
+  }
+  return results;
+}
+
+}  // namespace
+
+TEST_CASE("pipeline: every device finds the reference's edges, quads and poses in a small sequence", "[device][oclgrind]") {
+  const auto expected = track_small_room("reference");
+  REQUIRE(expected.back().status == FrameStatus::tracked);
+  for (const auto& name : all_devices()) {
+    const auto found = track_small_room(name);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      INFO("device " << name << ", frame " << i);
+      CHECK(found[i].status == expected[i].status);
+      // Edges within rounding of a threshold may differ, and everything that follows from them.
+      const auto near = [](int count) { return Approx(count).epsilon(0.02).margin(2); };
+      CHECK(found[i].counts.edges_left == near(expected[i].counts.edges_left));
+      CHECK(found[i].counts.edges_right == near(expected[i].counts.edges_right));
+      CHECK(found[i].counts.stereo_edges == near(expected[i].counts.stereo_edges));
+      CHECK(found[i].counts.quads == near(expected[i].counts.quads));
+      const Eigen::Isometry3d difference = found[i].world_from_left.inverse() * expected[i].world_from_left;
+      CHECK(difference.translation().norm() < 1e-3);
+      CHECK(Eigen::AngleAxisd(difference.linear()).angle() < 1e-3);
+    }
+  }
+}
