@@ -74,7 +74,7 @@ void visit_config(Config& config, const std::function<void(const std::string& na
         "search radius at the first pair and after a loss [share of the image width]", 0, 1);
   visit("temporal.radius_widest", &temporal.radius_widest,
         "search radius where radius_wide finds no motion [share of the image width]", 0, 1);
-  visit("temporal.wide_step", &temporal.wide_step, "the wide search looks at every n-th stereo edge", 1, 1000);
+  visit("temporal.wide_edges", &temporal.wide_edges, "the wide search looks for about this many stereo edges", 100, 1000000);
   visit("temporal.wide_min_inlier_share", &temporal.wide_min_inlier_share, "smallest inlier share of the wide search", 0, 1);
   visit("temporal.orientation", &temporal.orientation, "largest difference of directions, modulo 360 [deg]", 0, 180);
   visit("temporal.ncc_min", &temporal.ncc_min, "smallest NCC", 0.01, 1);

@@ -1,4 +1,5 @@
 /// \file stereo_odometry.cpp  The way of a frame (DESIGN section 1), from two images to a pose.
+#include <algorithm>
 #include <chrono>
 
 #include "odometry/key_rig.hpp"
@@ -213,9 +214,10 @@ StereoOdometry::Implementation::Step StereoOdometry::Implementation::find_step()
   PoseConfig lenient = config_.pose;
   lenient.min_inlier_share = config_.temporal.wide_min_inlier_share;
   lenient.min_spread = 0;
+  const int every = std::max(1, static_cast<int>(frontend_->previous().size()) / config_.temporal.wide_edges);
   Step step;
   for (const double share : {config_.temporal.radius_wide, config_.temporal.radius_widest}) {
-    step = match_and_estimate(prediction, share * rig_.left.width, config_.temporal.wide_step, lenient);
+    step = match_and_estimate(prediction, share * rig_.left.width, every, lenient);
     if (step.motion.status != pose::MotionStatus::ok) continue;
     step = match_and_estimate(step.motion.current_from_previous, config_.temporal.radius, 1, config_.pose);
     if (step.motion.status == pose::MotionStatus::ok) break;

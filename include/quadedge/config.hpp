@@ -62,7 +62,7 @@ struct TemporalConfig {
   double radius = 10.0;             ///< around the predicted place [px]
   double radius_wide = 0.1;         ///< around the same place, where no prediction is trusted [share of the image width]
   double radius_widest = 0.3;       ///< where that finds no motion [share of the image width]
-  int wide_step = 8;                ///< the wide search looks at every n-th stereo edge; its motion then predicts for all
+  int wide_edges = 4000;            ///< the wide search looks for about this many stereo edges; its motion then predicts for all
   double wide_min_inlier_share = 0.03;  ///< of the wide search's quads; the narrow search that follows has to convince
   double orientation = 10.0;        ///< [deg], modulo 360
   double ncc_min = 0.8;
