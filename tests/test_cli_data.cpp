@@ -1,30 +1,14 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 
+#include "damaged_sequence.hpp"
 #include "program.hpp"
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A copy of the small sequence that a test may damage.
-class DamagedSequence {
- public:
-  DamagedSequence() { fs::copy(small_sequence(), folder_ / "room", fs::copy_options::recursive); }
-  std::string path() const { return folder_ / "room"; }
-  std::string operator/(const std::string& name) const { return path() + "/" + name; }
-  /// The n-th image of a folder in order of names.
-  fs::path image(const std::string& name, std::size_t n) const {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(path() + "/" + name)) files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files.at(n);
-  }
-
- private:
-  TemporaryFolder folder_;
-};
 
 /// Nothing but a message and code 3: no crash, and no output folder for data that cannot be opened.
 void check_refused(const ProgramResult& result, const std::string& named) {
@@ -74,6 +58,38 @@ TEST_CASE("bad data: an unreadable calibration is refused by name", "[cli]") {
   const DamagedSequence sequence;
   std::ofstream(sequence / "calibration.txt") << "focal length: about right\n";
   check_refused(run_program({"run", sequence.path()}), "calibration.txt");
+}
+
+TEST_CASE("bad data: a baseline that is zero or no number is refused by name", "[cli]") {
+  for (const char* baseline : {"0", "nan"}) {
+    const DamagedSequence sequence;
+    std::ofstream(sequence / "extrinsics_1_2.txt") << "1 0 0 " << baseline << "\n0 1 0 0\n0 0 1 0\n";
+    check_refused(run_program({"run", sequence.path()}), "extrinsics_1_2.txt");
+  }
+}
+
+TEST_CASE("bad data: time stamps out of order are refused by name", "[cli]") {
+  const DamagedSequence sequence;
+  std::vector<std::string> rows;
+  std::ifstream list(sequence / "rgb.txt");
+  for (std::string row; std::getline(list, row);) rows.push_back(row);
+  list.close();
+  REQUIRE(rows.size() >= 4);
+  std::swap(rows[rows.size() - 1], rows[rows.size() - 2]);
+  std::ofstream swapped(sequence / "rgb.txt");
+  for (const auto& row : rows) swapped << row << "\n";
+  swapped.close();
+  check_refused(run_program({"run", sequence.path()}), "0.100000000");
+}
+
+TEST_CASE("bad data: an image of another size is refused by name", "[cli][device]") {
+  const DamagedSequence sequence;
+  const auto victim = sequence.image("rgb", 1);
+  cv::imwrite(victim.string(), cv::Mat(100, 160, CV_8UC1, cv::Scalar(90)));
+  const TemporaryFolder folder;
+  const auto result = run_program({"run", sequence.path(), "-o", folder / "out"});
+  check_refused(result, victim.filename().string());
+  CHECK_THAT(result.err, Contains("160") && Contains("320"));
 }
 
 TEST_CASE("edges: a file that is no image is refused by name", "[cli]") {

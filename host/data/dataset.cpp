@@ -53,6 +53,13 @@ void check_stamps(const Dataset& dataset, Findings& findings) {
   }
 }
 
+/// Folder and files that a rig was read from, for messages.
+std::string calibration_of(const Dataset& dataset) {
+  if (dataset.format == "euroc") return dataset.path + " (cam0/sensor.yaml, cam1/sensor.yaml)";
+  if (dataset.format == "eth3d-slam") return dataset.path + " (calibration.txt, calibration2.txt, extrinsics_1_2.txt)";
+  return fs::exists(fs::path(dataset.path) / "calib.txt") ? dataset.path + "/calib.txt" : dataset.path;
+}
+
 }  // namespace
 
 Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings) {
@@ -65,7 +72,7 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
   } else {
     cut_frames(dataset, options);
   }
-  findings.attempt([&] { check_rig(dataset.rig, dataset.path.c_str()); });
+  findings.attempt([&] { check_rig(dataset.rig, calibration_of(dataset).c_str()); });
   return dataset;
 }
 

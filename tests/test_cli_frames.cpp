@@ -1,0 +1,108 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+
+#include "damaged_sequence.hpp"
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+void blacken(const DamagedSequence& sequence, std::size_t frame) {
+  for (const char* camera : {"rgb", "rgb2"}) {
+    cv::imwrite(sequence.image(camera, frame).string(), cv::Mat::zeros(200, 320, CV_8UC1));
+  }
+}
+
+/// Status of every frame as frames.csv tells it.
+std::vector<std::string> statuses(const std::string& path) {
+  std::vector<std::string> result;
+  std::ifstream stream(path);
+  std::string row, field;
+  std::getline(stream, row);
+  while (std::getline(stream, row)) {
+    std::istringstream fields(row);
+    for (int i = 0; i < 3; ++i) std::getline(fields, field, ',');
+    result.push_back(field);
+  }
+  return result;
+}
+
+/// Places of the left camera in a KITTI file.
+std::vector<std::array<double, 3>> places(const std::string& path) {
+  std::vector<std::array<double, 3>> result;
+  std::ifstream stream(path);
+  for (std::array<double, 12> row; true;) {
+    for (auto& value : row) stream >> value;
+    if (!stream) return result;
+    result.push_back({row[3], row[7], row[11]});
+  }
+}
+
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+}  // namespace
+
+TEST_CASE("run: a black frame is lost, and tracking resumes behind it", "[cli][device]") {
+  const DamagedSequence sequence;
+  blacken(sequence, 1);
+  const TemporaryFolder folder;
+  const auto result = run_program({"run", sequence.path(), "-o", folder / "out"});
+  INFO(result.err);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.out, Contains("3 of 4 frames"));
+  const auto status = statuses(folder / "out/frames.csv");
+  REQUIRE(status.size() == 4);
+  CHECK(status[0] == "first");
+  CHECK(status[1] == "lost_too_few_edges");
+  CHECK(status[2] == "tracked");
+  CHECK(status[3] == "tracked");
+  CHECK(places(folder / "out/trajectory_kitti.txt").size() == 4);
+  const auto whole = run_program({"run", small_sequence(), "-o", folder / "whole"});
+  REQUIRE(whole.code == 0);
+  const auto here = places(folder / "out/trajectory_kitti.txt"), there = places(folder / "whole/trajectory_kitti.txt");
+  CHECK(distance(here[3], there[3]) < 0.05 * distance(there[0], there[3]));
+}
+
+TEST_CASE("run: too few tracked frames end with code 5 after everything is written", "[cli][device]") {
+  const DamagedSequence sequence;
+  for (const std::size_t frame : {1, 2, 3}) blacken(sequence, frame);
+  const TemporaryFolder folder;
+  const auto result = run_program({"run", sequence.path(), "-o", folder / "out"});
+  CHECK(result.code == 5);
+  CHECK_THAT(result.err, Contains("1 of 4 frames") && Contains("--min-tracked"));
+  CHECK_THAT(read_text(folder / "out/report.json"), Contains("\"frames_lost\": 3"));
+  CHECK(run_program({"run", sequence.path(), "-o", folder / "out", "--force", "--min-tracked", "25"}).code == 0);
+}
+
+TEST_CASE("run: the same frame twice gives no motion", "[cli][device]") {
+  const DamagedSequence sequence;
+  for (const char* camera : {"rgb", "rgb2"}) {
+    std::filesystem::copy_file(sequence.image(camera, 0), sequence.image(camera, 1), std::filesystem::copy_options::overwrite_existing);
+  }
+  const TemporaryFolder folder;
+  const auto result = run_program({"run", sequence.path(), "-o", folder / "out", "--frames", "0:2"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  CHECK(statuses(folder / "out/frames.csv") == std::vector<std::string>{"first", "tracked"});
+  const auto place = places(folder / "out/trajectory_kitti.txt");
+  REQUIRE(place.size() == 2);
+  CHECK(distance(place[0], place[1]) < 1e-5);
+}
+
+TEST_CASE("edges: a kernel that does not build ends with code 4, its file and its line", "[cli][device]") {
+  const TemporaryFolder folder;
+  std::filesystem::copy(QUADEDGE_KERNELS, folder / "kernels");
+  std::ofstream(folder / "kernels/common.cl") << "int broken(int a) {\n  return undeclared;\n}\n";
+  const DamagedSequence sequence;
+  const auto result = run_program({"edges", sequence.image("rgb", 0).string(), "--kernels", folder / "kernels"});
+  CHECK(result.code == 4);
+  CHECK_THAT(result.err, Contains("common.cl:2"));
+  std::filesystem::remove(folder / "kernels/common.cl");
+  const auto missing = run_program({"edges", sequence.image("rgb", 0).string(), "--kernels", folder / "kernels"});
+  CHECK(missing.code == 3);
+  CHECK_THAT(missing.err, Contains("common.cl"));
+}
