@@ -4,9 +4,10 @@
 // Needs direction.cl, epipolar.cl and photometric.cl. Cluster k of left edge i is element first[i] + k of the cluster arrays.
 // Reference: host/reference/stereo_clusters.cpp.
 
-// Members whose distances to the centroid differ by less are equally near [px]: the first one counts. The two members of a pair always
-// are, and rounding must not choose between them. Twin: kAnchorTie in host/reference/stereo_clusters.cpp.
-#define ANCHOR_TIE 1e-3f
+// Members whose distances to the centroid differ by less are equally near [px]: the first right edge in scan order counts. Members
+// that the refinement led to the same place, and the two of a pair, always are; rounding must not choose between them.
+// Twin: kAnchorTie in host/reference/stereo_clusters.cpp.
+#define ANCHOR_TIE 1e-2f
 
 // One work-item = one left edge. Sorts its living candidates by place, cuts the row where the gap reaches cluster_gap, the direction
 // differs by more than cluster_orientation, or cluster_size_max is reached. `order` is scratch.
@@ -38,7 +39,6 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
     for (int k = from; k < to; ++k) sum += place[order[k]];
     const float centroid = sum / (float)(to - from);
     float cosine = 0.0f, sine = 0.0f, nearest = INFINITY;
-    int anchor = 0;
     for (int k = from; k < to; ++k) {
       const float distance = fabs(place[order[k]] - centroid);
       const float direction = right_direction[target[order[k]]];
@@ -47,10 +47,11 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
       const float doubled_sine = sine_cosine(2.0f * direction, &doubled_cosine);
       cosine += weight * doubled_cosine;
       sine += weight * doubled_sine;
-      if (distance < nearest - ANCHOR_TIE) {
-        nearest = distance;
-        anchor = target[order[k]];
-      }
+      nearest = fmin(nearest, distance);
+    }
+    int anchor = INT_MAX;
+    for (int k = from; k < to; ++k) {
+      if (fabs(place[order[k]] - centroid) <= nearest + ANCHOR_TIE) anchor = min(anchor, target[order[k]]);
     }
     // The mean of the doubled angles leaves the polarity open: it is the anchor's.
     float direction = 0.5f * atan2(sine, cosine);

@@ -167,6 +167,12 @@ TEST_CASE("stereo clusters: directions are lines, and the mean keeps the nearest
   CHECK(clusters.direction[3] == Approx(55 * kDegree));
 }
 
+TEST_CASE("stereo clusters: of equally near members the first by number stands for the cluster", "[stereo][matching]") {
+  // A pair, and three that met at one place but for the refinement's last digits.
+  const auto clusters = Lists({{{1.5, 20}, {1, 20}}, {{4.0003, 20}, {4.0001, 20}, {4, 20}}, {{3.4, 20}, {3.1, 20}, {2.9, 20}}}).clusters();
+  CHECK(clusters.anchor == std::vector<std::int32_t>{0, 2, 6});
+}
+
 TEST_CASE("stereo clusters: no more members than allowed, and none that a filter rejected", "[stereo][matching]") {
   std::vector<Lists::Member> row;
   for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20});
@@ -183,7 +189,7 @@ TEST_CASE("stereo clusters: no more members than allowed, and none that a filter
 TEST_CASE("stereo best: the cluster that looks alike wins and is placed on the line", "[stereo][matching]") {
   const auto edges = small_scene().match();
   CHECK(edges.left_index == std::vector<std::int32_t>{0, 1, 2});
-  CHECK(edges.right_index == std::vector<std::int32_t>{1, 2, 4});  // both of the pair are equally near: the first on the line
+  CHECK(edges.right_index == std::vector<std::int32_t>{0, 2, 4});  // both of the pair are equally near: the first by number
   CHECK(edges.right_x[0] == Approx(40 - 6.1));
   CHECK(edges.right_x[1] == Approx(60 - 6.3));
   CHECK(edges.right_x[2] == Approx(50 - 6.35));

@@ -11,9 +11,9 @@ namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Members whose distances to the centroid differ by less are equally near: the first one counts [px]. The two members of a pair
-/// always are, and rounding must not choose between them.
-constexpr double kAnchorTie = 1e-3;
+/// Members whose distances to the centroid differ by less are equally near: the first right edge in scan order counts [px]. Members
+/// that the refinement led to the same place, and the two of a pair, always are; rounding must not choose between them.
+constexpr double kAnchorTie = 1e-2;
 
 /// Highest NCC of patches cut at a place with the stored patches (98 floats) of an edge; -1 where both are flat.
 double representative_ncc(const float* stored, const ImageView& image, double x, double y, double direction, double offset) {
@@ -54,22 +54,22 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
       double centroid = 0;
       for (std::size_t k = from; k < to; ++k) centroid += places[alive[k]] / static_cast<double>(to - from);
       double cosine = 0, sine = 0, nearest = std::numeric_limits<double>::infinity();
-      std::size_t anchor = alive[from];
       for (std::size_t k = from; k < to; ++k) {
         const double distance = std::abs(places[alive[k]] - centroid);
         const double weight = std::exp(-0.5 * std::pow(distance / config.cluster_sigma, 2));
         cosine += weight * std::cos(2.0 * direction(alive[k]));
         sine += weight * std::sin(2.0 * direction(alive[k]));
-        if (distance < nearest - kAnchorTie) {
-          nearest = distance;
-          anchor = alive[k];
-        }
+        nearest = std::min(nearest, distance);
+      }
+      std::int32_t anchor = std::numeric_limits<std::int32_t>::max();
+      for (std::size_t k = from; k < to; ++k) {
+        if (std::abs(places[alive[k]] - centroid) <= nearest + kAnchorTie) anchor = std::min(anchor, candidates.target[alive[k]]);
       }
       double mean = 0.5 * std::atan2(sine, cosine);
-      if (angle_between(static_cast<float>(mean), direction(anchor)) > 0.5 * kPi) mean += mean > 0 ? -kPi : kPi;
+      if (angle_between(static_cast<float>(mean), right.direction[static_cast<std::size_t>(anchor)]) > 0.5 * kPi) mean += mean > 0 ? -kPi : kPi;
       clusters.place.push_back(centroid);
       clusters.direction.push_back(mean);
-      clusters.anchor.push_back(candidates.target[anchor]);
+      clusters.anchor.push_back(anchor);
     }
     clusters.first.push_back(static_cast<std::int32_t>(clusters.place.size()));
   }

@@ -11,7 +11,7 @@ struct StereoClusters {
   std::vector<std::int32_t> first;
   std::vector<double> place;          ///< on the left edge's epipolar line [px from the point at infinity]
   std::vector<double> direction;      ///< [rad], with the anchor's polarity
-  std::vector<std::int32_t> anchor;   ///< the right edge nearest to the centroid, of equally near ones the first on the line
+  std::vector<std::int32_t> anchor;   ///< the right edge nearest to the centroid, of equally near ones the first in scan order
   std::vector<double> ncc;            ///< of the freshly cut patches; filled by stereo_best()
 };
 

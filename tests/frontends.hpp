@@ -1,0 +1,90 @@
+#pragma once
+/// \file frontends.hpp  Small rendered scenes and runs of the whole frontend on them.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "matching.hpp"
+#include "quadedge/synthetic.hpp"
+#include "stages/frontend.hpp"
+
+namespace matching {
+
+/// A few rendered frames of a small scene, with the limits of the search that belong to it.
+struct RenderedScene {
+  StereoRig rig;
+  Config config;
+  std::vector<Image> left, right;
+  std::vector<Eigen::Isometry3d> world_from_left;
+
+  RenderedScene(const std::string& name, int width, int height, int frames, int step = 1) {
+    SyntheticOptions options;
+    options.scene = name;
+    options.width = width;
+    options.height = height;
+    options.focal = 0.575 * width;
+    options.baseline = 0.15;
+    options.frames = 1 + (frames - 1) * step;
+    options.supersampling = 3;
+    const SyntheticSequence sequence(options);
+    rig = sequence.rig();
+    config.stereo.max_disparity = sequence.max_disparity();
+    for (int i = 0; i < options.frames; i += step) {
+      left.push_back(sequence.render(i, false).image);
+      right.push_back(sequence.render(i, true).image);
+      world_from_left.push_back(sequence.world_from_left(i));
+    }
+  }
+  StereoFrame frame(std::size_t i) const { return {static_cast<std::int64_t>(i) * 50000000, left[i].view(), right[i].view()}; }
+};
+
+/// What a frontend makes of the first two frames.
+struct FrontendResult {
+  EdgeSet left_edges, right_edges;
+  StereoEdges previous, current;
+  TemporalMatches quads;
+};
+
+/// Edges stay where they were in both images, `radius` px around.
+inline stages::TemporalSearch search_around(const StereoEdges& previous, float radius, int step = 1) {
+  return {{previous.left_x, previous.left_y, previous.left_direction}, {previous.right_x, previous.right_y, previous.right_direction}, radius, step};
+}
+
+inline FrontendResult run_frontend(const RenderedScene& scene, const std::string& device_name, const Variants& variants = {}, Tap* tap = nullptr,
+                                   float radius = 12, int step = 1) {
+  Device device(device_name);
+  Config config = scene.config;
+  config.variants = variants;
+  const auto frontend = stages::make_frontend(scene.rig, device, config);
+  frontend->set_tap(tap);
+  frontend->process(scene.frame(0));
+  frontend->keep();
+  frontend->process(scene.frame(1));
+  FrontendResult result;
+  result.quads = frontend->match(search_around(frontend->previous(), radius, step));
+  result.left_edges = frontend->edges(false);
+  result.right_edges = frontend->edges(true);
+  result.previous = frontend->previous();
+  result.current = frontend->current();
+  return result;
+}
+
+inline bool same_bytes(const StereoEdges& a, const StereoEdges& b) {
+  return a.left_index == b.left_index && a.right_index == b.right_index && a.left_x == b.left_x && a.left_y == b.left_y &&
+         a.left_direction == b.left_direction && a.right_x == b.right_x && a.right_y == b.right_y &&
+         a.right_direction == b.right_direction && a.ncc == b.ncc;
+}
+inline bool same_bytes(const TemporalMatches& a, const TemporalMatches& b) {
+  return a.previous == b.previous && a.current == b.current && a.left_x == b.left_x && a.left_y == b.left_y && a.right_x == b.right_x &&
+         a.right_y == b.right_y && a.ncc == b.ncc && a.rivals == b.rivals;
+}
+inline bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
+  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength && a.row_first == b.row_first;
+}
+inline bool same_bytes(const FrontendResult& a, const FrontendResult& b) {
+  return same_bytes(a.left_edges, b.left_edges) && same_bytes(a.right_edges, b.right_edges) && same_bytes(a.previous, b.previous) &&
+         same_bytes(a.current, b.current) && same_bytes(a.quads, b.quads);
+}
+
+}  // namespace matching

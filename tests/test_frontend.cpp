@@ -1,0 +1,170 @@
+#include <map>
+#include <set>
+
+#include "frontends.hpp"
+#include "quadedge/error.hpp"
+#include "stages/filter_names.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+/// A place in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all numbers.
+using Key = std::pair<long, long>;
+Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
+
+/// Share of the rows of `a` that `b` holds too: left places (x, y) and right column u within 0.02 px.
+template <class Matches>
+double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const Matches& b_x, const Matches& b_y, const Matches& b_u) {
+  std::multimap<Key, std::size_t> rows;
+  for (std::size_t i = 0; i < b_x.size(); ++i) rows.emplace(key(b_x[i], b_y[i]), i);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < a_x.size(); ++i) {
+    bool hit = false;
+    const Key middle = key(a_x[i], a_y[i]);
+    for (long dx = -2; dx <= 2; ++dx) {
+      for (long dy = -2; dy <= 2; ++dy) {
+        const auto [begin, end] = rows.equal_range({middle.first + dx, middle.second + dy});
+        for (auto row = begin; row != end; ++row) hit = hit || std::abs(a_u[i] - b_u[row->second]) < 0.02f;
+      }
+    }
+    found += hit ? 1 : 0;
+  }
+  return a_x.empty() ? 1 : static_cast<double>(found) / static_cast<double>(a_x.size());
+}
+
+/// Device and reference see the same, but for what hangs on rounding: the reference works in double precision, places differ by up to
+/// 0.01 px in 99.9 % (SPEC section 1), and each of some twenty thresholds parts candidates that lie within that of it. Decisions
+/// between equals must not hang on rounding, so 0.5 % is ample in stereo; a quad needs two good stereo edges and their neighbours: 1 %.
+void compare(const FrontendResult& a, const FrontendResult& b) {
+  const auto stereo = [](const StereoEdges& p, const StereoEdges& q) {
+    return shared(p.left_x, p.left_y, p.right_x, q.left_x, q.left_y, q.right_x);
+  };
+  CHECK(stereo(a.current, b.current) > 0.995);
+  CHECK(stereo(b.current, a.current) > 0.995);
+  CHECK(stereo(a.previous, b.previous) > 0.995);
+  const auto quads = [](const TemporalMatches& p, const TemporalMatches& q) {
+    return shared(p.left_x, p.left_y, p.right_x, q.left_x, q.left_y, q.right_x);
+  };
+  CHECK(quads(a.quads, b.quads) > 0.99);
+  CHECK(quads(b.quads, a.quads) > 0.99);
+}
+
+/// Keeps the lists of the last frame per cascade, side and order.
+class Lists : public Tap {
+ public:
+  void edges(const EdgeSet&, const EdgeSet&) override { ++edge_calls; }
+  void stereo_filter(int order, const std::string& name, const CandidateLists& lists) override {
+    CHECK(name == stages::kStereoFilters[static_cast<std::size_t>(order)]);
+    stereo_lists[order] = lists;
+  }
+  void stereo(const StereoEdges& edges) override { stereo_edges = edges; }
+  void temporal_filter(int order, const std::string& name, int side, const CandidateLists& lists) override {
+    CHECK(name == stages::kTemporalFilters[static_cast<std::size_t>(order)]);
+    temporal_lists[side][order] = lists;
+  }
+  void quads(const TemporalMatches& matches) override { matched = matches; }
+
+  int edge_calls = 0;
+  std::map<int, CandidateLists> stereo_lists, temporal_lists[2];
+  StereoEdges stereo_edges;
+  TemporalMatches matched;
+};
+
+/// Every row of `after` is a part of the same row of `before`; returns how many went.
+std::size_t check_subset(const CandidateLists& before, const CandidateLists& after) {
+  REQUIRE(before.first.size() == after.first.size());
+  std::size_t strangers = 0;
+  for (std::size_t row = 0; row + 1 < after.first.size(); ++row) {
+    const std::multiset<std::int32_t> known(before.target.begin() + before.first[row], before.target.begin() + before.first[row + 1]);
+    for (auto c = after.first[row]; c < after.first[row + 1]; ++c) strangers += known.count(after.target[static_cast<std::size_t>(c)]) == 0 ? 1 : 0;
+  }
+  CHECK(strangers == 0);
+  return before.target.size() - after.target.size();
+}
+
+}  // namespace
+
+TEST_CASE("frontend: every device finds the reference's stereo edges and quads", "[frontend][matching][device]") {
+  for (const auto& scene : {RenderedScene("room", 320, 200, 2), RenderedScene("room", 161, 97, 2), RenderedScene("cables", 200, 125, 2)}) {
+    const auto truth = run_frontend(scene, "reference");
+    CHECK(truth.current.size() > 100);
+    CHECK(truth.quads.size() > 50);
+    for (const auto& device : all_devices()) {
+      INFO("device " << device << ", width " << scene.rig.left.width);
+      compare(run_frontend(scene, device), truth);
+    }
+  }
+}
+
+TEST_CASE("frontend: every variant of every stage gives the default's bytes, and so does a second run", "[frontend][matching][device]") {
+  const RenderedScene scene("room", 161, 97, 2);
+  for (const auto& device : all_devices()) {
+    const auto expected = run_frontend(scene, device);
+    REQUIRE(expected.quads.size() > 50);
+    CHECK(same_bytes(run_frontend(scene, device), expected));
+    for (const auto& variant : opencl::all_variants()) {
+      INFO("device " << device << ", " << variant.stage << " " << variant.name);
+      CHECK(same_bytes(run_frontend(scene, device, {{variant.stage, variant.name}}), expected));
+    }
+  }
+}
+
+TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[frontend][matching][device]") {
+  const RenderedScene scene("room", 161, 97, 2);
+  for (const auto& device : all_devices()) {
+    for (const int step : {1, 8}) {
+      Lists tap;
+      const auto seen = run_frontend(scene, device, {}, &tap, 16, step);
+      CHECK(same_bytes(seen, run_frontend(scene, device, {}, nullptr, 16, step)));
+      CHECK(tap.edge_calls == 2);
+      CHECK(same_bytes(tap.stereo_edges, seen.current));
+      CHECK(same_bytes(tap.matched, seen.quads));
+      REQUIRE(tap.stereo_lists.size() == 9);  // filters 1 to 9; 10 is the stereo edges
+      CHECK(tap.stereo_lists[1].first.size() == seen.left_edges.size() + 1);
+      std::size_t gone = 0;
+      for (int order = 2; order <= 7; ++order) gone += check_subset(tap.stereo_lists[order - 1], tap.stereo_lists[order]);
+      CHECK(gone > 1000);
+      check_subset(tap.stereo_lists[7], tap.stereo_lists[8]);  // anchors of clusters are candidates
+      check_subset(tap.stereo_lists[8], tap.stereo_lists[9]);
+      for (std::size_t i = 0; i < seen.current.size(); ++i) {  // the final edge is one of the clusters of its row
+        const auto row = static_cast<std::size_t>(seen.current.left_index[i]);
+        const auto& lists = tap.stereo_lists[9];
+        bool found = false;
+        for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]); ++c) {
+          found = found || (lists.target[c] == seen.current.right_index[i] && std::abs(lists.x[c] - seen.current.right_x[i]) < 1e-3f);
+        }
+        if (!found) FAIL_CHECK("stereo edge " << i << " is no cluster of its row");
+      }
+      const auto rows = (seen.previous.size() + static_cast<std::size_t>(step) - 1) / static_cast<std::size_t>(step);
+      for (const int side : {0, 1}) {
+        REQUIRE(tap.temporal_lists[side].size() == (side == 0 ? 7 : 6));  // the agreement is told for the left list
+        CHECK(tap.temporal_lists[side][1].first.size() == rows + 1);
+        for (int order = 2; order <= (side == 0 ? 7 : 6); ++order) check_subset(tap.temporal_lists[side][order - 1], tap.temporal_lists[side][order]);
+      }
+      for (std::size_t q = 0; q < seen.quads.size(); ++q) {  // a quad was alive in both lists
+        CHECK(seen.quads.previous[q] % step == 0);
+        const auto row = static_cast<std::size_t>(seen.quads.previous[q] / step);
+        for (const int side : {0, 1}) {
+          const auto& lists = tap.temporal_lists[side][6];
+          const auto begin = lists.target.begin() + lists.first[row], end = lists.target.begin() + lists.first[row + 1];
+          if (std::find(begin, end, seen.quads.current[q]) == end) FAIL_CHECK("quad " << q << " is not in the lists of side " << side);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("frontend: unknown variants and missing limits are refused", "[frontend][matching][device]") {
+  RenderedScene scene("cables", 64, 48, 1);
+  for (const auto& name : {std::string("reference"), all_devices().front()}) {
+    Device device(name);
+    Config config = scene.config;
+    config.variants["stereo_clusters"] = "no such variant";
+    CHECK_THROWS_AS(stages::make_frontend(scene.rig, device, config), UsageError);
+    config = scene.config;
+    config.stereo.max_disparity = 0;
+    CHECK_THROWS_AS(stages::make_frontend(scene.rig, device, config), UsageError);
+  }
+}
