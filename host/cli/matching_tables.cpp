@@ -97,6 +97,10 @@ void for_rows(const evaluation::MatchingSummary& summary, const std::vector<int>
 
 void print_matching(const std::string& title, const evaluation::MatchingSummary& summary) {
   std::printf("\n=== %s: %d stereo frame%s ===\n", title.c_str(), summary.frames, summary.frames == 1 ? "" : "s");
+  const auto& census = summary.census;
+  std::printf("left edges %" PRId64 ": no statement about %" PRId64 ", along their epipolar line %" PRId64 ", hidden %" PRId64
+              ", on depth steps %" PRId64 "\n",
+              census.edges, census.no_statement, census.along_line, census.hidden, census.contour);
   print_filters("Table 1: stereo", summary.stereo);
   std::printf("disparity error: median %s px, p90 %s px, bias %s px; across the edge: median %s px, p90 %s px\n",
               decimal(summary.disparity_median, 4).c_str(), decimal(summary.disparity_p90, 4).c_str(),

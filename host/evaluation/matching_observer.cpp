@@ -69,8 +69,14 @@ void MatchingObserver::edges(const EdgeSet& left, const EdgeSet& right) {
   right_ = right;
   stereo_truth_ = true_right_places(rig_, current_.truth, {left.x, left.y, left.direction});
   stereo_pools_ = stereo_pools(rig_, left, right, stereo_truth_, config_.stereo.min_epipolar_angle, tolerance_);
+  EdgeCensus& census = measured_.census;
+  census.edges = static_cast<std::int64_t>(left.size());
   for (std::size_t i = 0; i < left.size(); ++i) {
-    if (stereo_truth_.state[i] != Visibility::unknown && stereo_pools_.all[i] == 0) ++measured_.left_out_along_line;
+    const bool known = stereo_truth_.state[i] != Visibility::unknown, takes_part = stereo_pools_.all[i] != 0;
+    census.no_statement += known ? 0 : 1;
+    census.along_line += known && !takes_part ? 1 : 0;
+    census.hidden += takes_part && stereo_truth_.state[i] == Visibility::hidden ? 1 : 0;
+    census.contour += takes_part && stereo_truth_.contour[i] != 0 ? 1 : 0;
   }
   measured_.stereo.push_back(judge_baseline(stages::kStereoFilters[0], right.x, right.y, rig_.right.height, stereo_truth_,
                                             stereo_pools_, tolerance_));

@@ -56,6 +56,11 @@ MatchingSummary summarise(const std::vector<MatchingResult>& results) {
   for (const auto& result : results) {
     for (const auto& frame : result.frames) {
       ++summary.frames;
+      summary.census.edges += frame.census.edges;
+      summary.census.no_statement += frame.census.no_statement;
+      summary.census.along_line += frame.census.along_line;
+      summary.census.hidden += frame.census.hidden;
+      summary.census.contour += frame.census.contour;
       if (!frame.stereo.empty()) stereo.push_back(&frame.stereo);
       if (!frame.temporal_left.empty()) {
         ++summary.temporal_frames;

@@ -20,6 +20,15 @@ struct ConstraintCounts {
 };
 using ConstraintTable = std::array<ConstraintCounts, kConstraintNames.size()>;
 
+/// What the ground truth says about the left edges of a frame.
+struct EdgeCensus {
+  std::int64_t edges = 0;
+  std::int64_t no_statement = 0;  ///< unknown disparity, or no telling which surface owns the edge
+  std::int64_t along_line = 0;    ///< known, but along the epipolar line: takes no part in stereo
+  std::int64_t hidden = 0;        ///< of the others: not visible in the right view
+  std::int64_t contour = 0;       ///< of the others: on a depth step
+};
+
 /// One frame.
 struct FrameMatching {
   FrameCounts counts;                 ///< the pipeline's own
@@ -28,7 +37,7 @@ struct FrameMatching {
   FilterTable temporal_left, temporal_right;  ///< Table 2; empty for the first frame and single pairs
   FilterCounts quads_paired, quads_all;
   std::int64_t quad_rivals = 0;       ///< further clusters that the paired quads' edges had
-  std::int64_t left_out_along_line = 0;  ///< left edges of known disparity that lie along their epipolar line
+  EdgeCensus census;
   ConstraintTable constraints{};      ///< Table 3
   /// Final stereo edges whose truth is known and visible [px]: place along the epipolar line minus the true one, and the part of
   /// it that is across the edge, without sign.
@@ -56,6 +65,7 @@ struct MatchingSummary {
   double disparity_median = 0, disparity_p90 = 0;  ///< of the absolute error [px]; NaN without stereo edges of known truth
   double disparity_bias = 0;                       ///< median of the signed error [px]
   double across_median = 0, across_p90 = 0;        ///< of the part across the edge [px]
+  EdgeCensus census;
   int frames = 0, temporal_frames = 0;
 };
 MatchingSummary summarise(const std::vector<MatchingResult>& results);

@@ -65,7 +65,14 @@ std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y
     nearest = std::max<double>(nearest, value);
     farthest = std::min<double>(farthest, value);
   }
-  if (nearest - farthest <= kDepthStep) return SurfacePoint{interpolate(map, x, y, map.nearest(x, y)), false};
+  if (nearest - farthest <= kDepthStep) {
+    for (double s = kContourReach + kNormalStep; s <= kDoubtReach; s += kNormalStep) {
+      for (const double side : {-s, s}) {
+        if (map.nearest(x + side * nx, y + side * ny) - nearest > kDepthStep) return std::nullopt;
+      }
+    }
+    return SurfacePoint{interpolate(map, x, y, map.nearest(x, y)), false};
+  }
   double sum = 0, weights = 0;
   for (double s = -kContourReach; s <= kContourReach; s += kNormalStep) {
     const float value = map.nearest(x + s * nx, y + s * ny);

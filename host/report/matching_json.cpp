@@ -48,6 +48,9 @@ Json constraints(const evaluation::ConstraintTable& table) {
 
 Json everything(const evaluation::MatchingSummary& summary) {
   Json json;
+  json["left_edges"] = {{"detected", summary.census.edges},     {"no_statement", summary.census.no_statement},
+                        {"along_line", summary.census.along_line}, {"hidden", summary.census.hidden},
+                        {"contour", summary.census.contour}};
   json["stereo"] = table(summary.stereo, false);
   json["stereo_all"] = table(summary.stereo, true);
   json["disparity_error_px"] = {{"median", number(summary.disparity_median)}, {"p90", number(summary.disparity_p90)},
