@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "evaluation/matching_evaluation.hpp"
+#include "program.hpp"
+#include "quadedge/error.hpp"
+
+using namespace quadedge;
+using namespace quadedge::evaluation;
+
+namespace {
+
+SyntheticOptions small_room() {
+  SyntheticOptions options;
+  options.width = 320;
+  options.height = 200;
+  options.focal *= 320.0 / 942.0;
+  options.frames = 2;
+  return options;
+}
+
+/// The rendered room with something done to its frames.
+class ChangedRoom : public MatchingSource {
+ public:
+  ChangedRoom(const std::function<void(StereoRig&)>& change_rig, std::function<void(TrueFrame&)> change)
+      : room_(make_rendered_source(small_room())), change_(std::move(change)), rig_(room_->rig()) {
+    change_rig(rig_);
+  }
+  std::string name() const override { return "changed"; }
+  const StereoRig& rig() const override { return rig_; }
+  double max_disparity() const override { return room_->max_disparity(); }
+  int frames() const override { return 1; }
+  TrueFrame load(int number) const override {
+    TrueFrame frame = room_->load(number);
+    change_(frame);
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<MatchingSource> room_;
+  std::function<void(TrueFrame&)> change_;
+  StereoRig rig_;
+};
+
+template <class Values>
+void mirror(Values& values, int width) {
+  for (auto row = values.begin(); row != values.end(); row += width) std::reverse(row, row + width);
+}
+
+FilterCounts last_row(const MatchingSource& source) {
+  Device device("auto");
+  const auto summary = summarise({evaluate_matching(source, device, {})});
+  return summary.stereo.back().row.all;
+}
+
+const FilterCounts& plain() {
+  static const FilterCounts counts = last_row(*make_rendered_source([] {
+    auto options = small_room();
+    options.frames = 1;
+    return options;
+  }()));
+  return counts;
+}
+
+}  // namespace
+
+TEST_CASE("On the rendered room most final stereo edges are true", "[matching]") {
+  CHECK(plain().pool > 5000);
+  CHECK(plain().precision() > 0.9);
+  CHECK(plain().recall() > 0.6);
+}
+
+TEST_CASE("Ground truth that is wrong by two pixels leaves nearly nothing true", "[matching]") {
+  const auto wrong = last_row(ChangedRoom([](StereoRig&) {}, [](TrueFrame& frame) {
+    for (auto* map : {&frame.truth.left, &frame.truth.right}) {
+      for (auto& value : map->nearness) value += 2;
+    }
+  }));
+  CHECK(wrong.candidates > 5000);
+  CHECK(wrong.precision() < 0.05);
+}
+
+TEST_CASE("Left and right change places without harm", "[matching]") {
+  const auto swapped = last_row(ChangedRoom(
+      [](StereoRig& rig) {
+        rig.left.cx = rig.left.width - 1 - rig.left.cx;
+        rig.right.cx = rig.right.width - 1 - rig.right.cx;
+      },
+      [](TrueFrame& frame) {
+        std::swap(frame.frame.left, frame.frame.right);
+        std::swap(frame.truth.left, frame.truth.right);
+        for (auto* image : {&frame.frame.left, &frame.frame.right}) mirror(image->pixels, image->width);
+        for (auto* map : {&frame.truth.left, &frame.truth.right}) mirror(map->nearness, map->width);
+      }));
+  CHECK(swapped.precision() == Approx(plain().precision()).margin(0.02));
+  CHECK(swapped.recall() == Approx(plain().recall()).margin(0.03));
+}
+
+TEST_CASE("The reference has no filters to observe and says so", "[matching]") {
+  Device device("reference");
+  CHECK_THROWS_AS(evaluate_matching(*make_rendered_source(small_room()), device, {}), UsageError);
+}
+
+TEST_CASE("evaluate matching prints all tables of a sequence and writes them as JSON", "[matching][cli]") {
+  const TemporaryFolder folder;
+  const auto result =
+      run_program({"evaluate", "matching", small_sequence(), "--frames", "2", "--json", folder / "m.json", "--quiet"});
+  REQUIRE(result.code == 0);
+  for (const char* text : {"Table 1", "Table 2: in time, left", "Table 2: in time, right", "Table 3", "disparity error"}) {
+    CHECK(result.out.find(text) != std::string::npos);
+  }
+  const auto json = nlohmann::json::parse(read_text(folder / "m.json"));
+  REQUIRE(json["pairs"].size() == 1);
+  CHECK(json["pairs"][0]["name"] == "room4");
+  CHECK(json["pairs"][0]["disparity_error_px"]["median"].get<double>() < 0.3);
+  const auto& pooled = json["pooled"];
+  REQUIRE(pooled["stereo"].size() == 11);
+  CHECK(pooled["stereo"][0]["recall"] == 1.0);
+  CHECK(pooled["stereo"][10]["ambiguity_mean"] == 0.0);
+  CHECK(pooled["stereo"][10]["precision"].get<double>() > 0.9);
+  CHECK(pooled["temporal_left"].size() == 9);
+  CHECK(pooled["temporal_right"].size() == 9);
+  CHECK(pooled["quads"]["precision"].get<double>() > 0.8);
+  REQUIRE(pooled["constraints"].size() == 7);
+  CHECK(pooled["constraints"][0]["recall"] == 1.0);
+  // Each filter reads the list of the one before it, so nothing that is true can come back before the refinement.
+  for (std::size_t row = 1; row < 8; ++row) {
+    CHECK(pooled["stereo"][row]["recall"].get<double>() <= pooled["stereo"][row - 1]["recall"].get<double>());
+    CHECK(pooled["stereo"][row]["kept"].get<long long>() < pooled["stereo"][row - 1]["kept"].get<long long>());
+  }
+}
+
+TEST_CASE("A sweep shows one line per value, and a stricter threshold keeps less", "[matching][cli]") {
+  const auto result = run_program({"evaluate", "matching", "room", "--frames", "1", "--size", "320x200", "--sweep",
+                                   "stereo.orientation=2:10:8", "--quiet"});
+  REQUIRE(result.code == 0);
+  std::istringstream lines(result.out);
+  std::string heading, columns, strict, generous;
+  std::getline(lines, heading);
+  std::getline(lines, columns);
+  std::getline(lines, strict);
+  std::getline(lines, generous);
+  CHECK(heading.find("orientation") != std::string::npos);
+  double value = 0, strict_recall = 0, generous_recall = 0;
+  CHECK(std::sscanf(strict.c_str(), "%lf | %lf", &value, &strict_recall) == 2);
+  CHECK(value == 2);
+  CHECK(std::sscanf(generous.c_str(), "%lf | %lf", &value, &generous_recall) == 2);
+  CHECK(value == 10);
+  CHECK(strict_recall < generous_recall);
+}
+
+TEST_CASE("evaluate matching refuses what it cannot judge", "[matching][cli]") {
+  const TemporaryFolder folder;
+  CHECK(run_program({"evaluate", "matching", folder / "nothing"}).code == 3);
+  CHECK(run_program({"evaluate", "matching", "room", "--sweep", "stereo.nothing=0:1:1"}).code == 2);
+  CHECK(run_program({"evaluate", "matching", "room", "--sweep", "stereo.ncc_min=0.9:0.4:0.1"}).code == 2);
+  const TemporaryFolder blind;
+  std::filesystem::copy(small_sequence(), blind / "room4", std::filesystem::copy_options::recursive);
+  std::filesystem::remove_all(blind / "room4/depth");
+  const auto result = run_program({"evaluate", "matching", blind / "room4"});
+  CHECK(result.code == 3);
+  CHECK(result.err.find("no ground truth") != std::string::npos);
+}
