@@ -104,7 +104,9 @@ TEST_CASE("frontend: every variant of every stage gives the default's bytes, and
     const auto expected = run_frontend(scene, device);
     REQUIRE(expected.quads.size() > 50);
     CHECK(same_bytes(run_frontend(scene, device), expected));
+    const Device same(device);
     for (const auto& variant : opencl::all_variants()) {
+      if (opencl::choose_variant(variant.stage, *same.context(), {}).name == variant.name) continue;
       INFO("device " << device << ", " << variant.stage << " " << variant.name);
       CHECK(same_bytes(run_frontend(scene, device, {{variant.stage, variant.name}}), expected));
     }

@@ -1,0 +1,221 @@
+#include <Eigen/Eigenvalues>
+
+#include "data/synthetic_path.hpp"
+#include "data/synthetic_render.hpp"
+#include "data/synthetic_scenes.hpp"
+#include "frontends.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/odometry.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+/// Eight frames of the room, rendered once.
+const RenderedScene& room() {
+  static const RenderedScene scene("room", 240, 150, 8);
+  return scene;
+}
+
+std::vector<FrameResult> track(const RenderedScene& scene, const std::string& device_name, const Config& config) {
+  Device device(device_name);
+  StereoOdometry odometry(scene.rig, device, config);
+  std::vector<FrameResult> results;
+  for (std::size_t i = 0; i < scene.left.size(); ++i) results.push_back(odometry.track(scene.frame(i)));
+  return results;
+}
+
+double turn_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return Eigen::AngleAxisd((a.inverse() * b).linear()).angle();
+}
+
+/// The first frame is the origin in both. Metres and degrees.
+void check_pose(const FrameResult& result, const Eigen::Isometry3d& truth, double metres, double degrees) {
+  INFO("moved " << truth.translation().norm() << " m");
+  CHECK((result.world_from_left.translation() - truth.translation()).norm() < metres);
+  CHECK(turn_between(result.world_from_left, truth) < degrees * kDegree);
+}
+
+/// All but times.
+bool same_bytes(const FrameResult& a, const FrameResult& b) {
+  return a.status == b.status && a.world_from_left.matrix() == b.world_from_left.matrix() &&
+         a.current_from_reference.matrix() == b.current_from_reference.matrix() && a.covariance == b.covariance &&
+         a.reference_frame == b.reference_frame && a.new_key_rig == b.new_key_rig && a.overflow == b.overflow && a.message == b.message &&
+         a.counts.quads == b.counts.quads && a.counts.inliers == b.counts.inliers && a.counts.chained_quads == b.counts.chained_quads;
+}
+
+}  // namespace
+
+TEST_CASE("odometry: a rendered room is tracked, twice with the same bytes", "[odometry][device]") {
+  for (const auto& name : all_devices()) {
+    const auto results = track(room(), name, room().config), again = track(room(), name, room().config);
+    CHECK(results[0].status == FrameStatus::first);
+    CHECK(results[0].world_from_left.matrix() == Eigen::Matrix4d::Identity());
+    CHECK(results[0].new_key_rig);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      INFO("device " << name << ", frame " << i);
+      CHECK(same_bytes(results[i], again[i]));
+      if (i == 0) continue;
+      const FrameResult& result = results[i];
+      CHECK(result.status == FrameStatus::tracked);
+      check_pose(result, room().world_from_left[i], 4e-3, 0.1);
+      CHECK_FALSE(result.overflow);
+      CHECK(result.counts.inliers > 500);
+      CHECK(result.counts.inliers <= std::max(result.counts.quads, result.counts.chained_quads));
+      // The reference is the key rig: its pose and the motion from it make the pose.
+      const auto& reference = results[static_cast<std::size_t>(result.reference_frame)];
+      CHECK(reference.new_key_rig);
+      CHECK((reference.world_from_left * result.current_from_reference.inverse()).isApprox(result.world_from_left, 1e-9));
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(result.covariance);
+      CHECK((result.covariance - result.covariance.transpose()).norm() < 1e-9 * result.covariance.norm());
+      CHECK(solver.eigenvalues().minCoeff() > 0);
+      CHECK(std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace()) < 0.02);
+    }
+  }
+}
+
+TEST_CASE("odometry: the plain C++ reference tracks as well and agrees with the devices", "[odometry][device]") {
+  const RenderedScene scene("room", 200, 125, 3);
+  const auto truth = track(scene, "reference", scene.config);
+  for (std::size_t i = 1; i < truth.size(); ++i) check_pose(truth[i], scene.world_from_left[i], 6e-3, 0.15);
+  for (const auto& name : all_devices()) {
+    const auto results = track(scene, name, scene.config);
+    for (std::size_t i = 1; i < truth.size(); ++i) {
+      CHECK(results[i].status == truth[i].status);
+      check_pose(results[i], truth[i].world_from_left, 2e-4, 0.005);
+    }
+  }
+}
+
+TEST_CASE("odometry: a frame that comes again has not moved", "[odometry][device]") {
+  Device device(all_devices().front());
+  StereoOdometry odometry(room().rig, device, room().config);
+  odometry.track(room().frame(0));
+  for (int k = 0; k < 2; ++k) {
+    const auto result = odometry.track(room().frame(0));
+    CHECK(result.status == FrameStatus::tracked);
+    check_pose(result, Eigen::Isometry3d::Identity(), 1e-4, 1e-3);
+  }
+}
+
+TEST_CASE("odometry: a black frame is lost, and tracking goes on after it at the right place", "[odometry][device]") {
+  Device device(all_devices().front());
+  StereoOdometry odometry(room().rig, device, room().config);
+  const Image black(240, 150);
+  for (std::size_t i = 0; i < 6; ++i) {
+    INFO("frame " << i);
+    if (i == 3) {
+      const auto before = odometry.track({150000000, black.view(), black.view()});
+      CHECK(before.status == FrameStatus::lost_too_few_edges);
+      CHECK_FALSE(before.message.empty());
+      CHECK(before.counts.stereo_edges == 0);
+      // The last motion repeated: the path is smooth, so the guess is near.
+      check_pose(before, room().world_from_left[i], 0.03, 1);
+      CHECK(odometry.details().stereo.size() == 0);
+      continue;
+    }
+    const auto result = odometry.track(room().frame(i));
+    CHECK(is_tracked(result.status));
+    check_pose(result, room().world_from_left[i], 4e-3, 0.1);
+  }
+}
+
+TEST_CASE("odometry: a sequence that begins in the dark starts at the first frame with edges", "[odometry][device]") {
+  Device device(all_devices().front());
+  StereoOdometry odometry(room().rig, device, room().config);
+  const Image black(240, 150);
+  CHECK(odometry.track({0, black.view(), black.view()}).status == FrameStatus::lost_too_few_edges);
+  CHECK(odometry.track(room().frame(0)).status == FrameStatus::first);
+  const auto result = odometry.track(room().frame(1));
+  CHECK(result.status == FrameStatus::tracked);
+  CHECK(result.reference_frame == 1);
+  check_pose(result, room().world_from_left[1], 4e-3, 0.1);
+}
+
+TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odometry][device]") {
+  Device device(all_devices().front());
+  StereoOdometry odometry(room().rig, device, room().config);
+  const Image small(239, 150);
+  CHECK_THROWS_AS(odometry.track({0, small.view(), room().right[0].view()}), DataError);
+  CHECK_THROWS_AS(odometry.track({0, room().left[0].view(), small.view()}), DataError);
+  CHECK_THROWS_AS(odometry.track({0, {}, {}}), DataError);
+  // A refused frame leaves no trace.
+  CHECK(odometry.track(room().frame(0)).status == FrameStatus::first);
+  CHECK(odometry.track(room().frame(1)).reference_frame == 0);
+}
+
+TEST_CASE("odometry: without a key rig every frame is tracked against the one before", "[odometry][device]") {
+  Config config = room().config;
+  config.odometry.key_rig = false;
+  const auto results = track(room(), all_devices().front(), config);
+  for (std::size_t i = 1; i < results.size(); ++i) {
+    CHECK(results[i].status == FrameStatus::tracked);
+    CHECK(results[i].reference_frame == static_cast<int>(i) - 1);
+    CHECK(results[i].counts.chained_quads == 0);
+    check_pose(results[i], room().world_from_left[i], 6e-3, 0.15);
+  }
+}
+
+TEST_CASE("odometry: a new key rig after as many frames as allowed", "[odometry][device]") {
+  Config config = room().config;
+  config.odometry.key_max_frames = 3;
+  config.odometry.key_min_quads = 0;
+  config.odometry.key_min_share = 0;
+  const auto results = track(room(), all_devices().front(), config);
+  const std::vector<int> expected = {0, 0, 0, 0, 3, 3, 3, 6};
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    CHECK(results[i].reference_frame == expected[i]);
+    CHECK(results[i].new_key_rig == (i % 3 == 0));
+  }
+}
+
+TEST_CASE("odometry: edges beyond the capacity are reported", "[odometry][device]") {
+  Config config = room().config;
+  config.edges.max_edges = 3000;
+  for (const auto& name : {std::string("reference"), all_devices().front()}) {
+    Device device(name);
+    StereoOdometry odometry(room().rig, device, config);
+    const auto result = odometry.track(room().frame(0));
+    CHECK(result.overflow);
+    CHECK(result.message.find("max_edges") != std::string::npos);
+    CHECK(result.counts.edges_left == 3000);
+    CHECK(result.status == FrameStatus::first);
+    const auto edges = odometry.details().left_edges;
+    CHECK(edges.size() == 3000);
+    CHECK(edges.row_first.back() == 3000);
+  }
+}
+
+TEST_CASE("odometry: cameras of different sizes, turned against one another, track too", "[odometry][device]") {
+  RenderedScene scene = RenderedScene("cables", 64, 48, 1);  // replaced below
+  scene.rig.left = {185, 187, 158, 101, 320, 200};
+  scene.rig.right = {170, 168, 150, 128, 300, 240};
+  scene.rig.right_from_left.linear() = Eigen::AngleAxisd(0.06, Eigen::Vector3d(0.5, 1, -0.8).normalized()).toRotationMatrix();
+  scene.rig.right_from_left.translation() = Eigen::Vector3d(-0.14, 0.05, 0.01);
+  const auto world = synthetic::make_room(7, 185);
+  scene.left.clear();
+  scene.right.clear();
+  scene.world_from_left.clear();
+  const auto render = [&](const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world) {
+    const auto view = synthetic::render(world, camera, camera_from_world, 3, 0);
+    Image image(camera.width, camera.height);
+    for (std::size_t i = 0; i < view.grey.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
+    return image;
+  };
+  for (int i = 0; i < 4; ++i) {
+    scene.world_from_left.push_back(synthetic::world_from_left(i));
+    const Eigen::Isometry3d left_from_world = scene.world_from_left.back().inverse();
+    scene.left.push_back(render(scene.rig.left, left_from_world));
+    scene.right.push_back(render(scene.rig.right, scene.rig.right_from_left * left_from_world));
+  }
+  scene.config = {};
+  scene.config.stereo.min_depth = 0.8 * world.nearest;
+  for (const auto& name : all_devices()) {
+    const auto results = track(scene, name, scene.config);
+    for (std::size_t i = 1; i < results.size(); ++i) {
+      CHECK(results[i].status == FrameStatus::tracked);
+      check_pose(results[i], scene.world_from_left[i], 4e-3, 0.1);
+    }
+  }
+}
