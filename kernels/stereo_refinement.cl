@@ -26,7 +26,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
                               global const float* left_x, global const float* left_y, global const float* left_direction,
                               global const float* right_x, global const float* right_y, global const float* right_direction,
                               global const float* geometry, global const uchar* pairing, const float patch_offset,
-                              const float shift_min_sine, const float shift_max, const int steps, const float tolerance,
+                              const float shift_min_sine, const float shift_max, const float stiffness, const int steps, const float tolerance,
                               const float huber, const float clamp_px, const float rms_max, const int rejected_order,
                               global uchar* rejected_by, global float* place) {
   const int i = (int)get_global_id(0);
@@ -58,7 +58,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
                                           right_side ? -1.0f : 1.0f, patch_offset);
     float alpha = 0.0f;
     const int good = align_along_line(right_corners, right_width, right_height, moving, turn * line.ex, turn * line.ey,
-                                      fixed[left_side], derivative[left_side], 0.0f, settings, &alpha);
+                                      fixed[left_side], derivative[left_side], stiffness, settings, &alpha);
     place[c] = s + turn * alpha;
     if (!good) rejected_by[c] = (uchar)rejected_order;
   }

@@ -21,7 +21,7 @@ void add_edge(quadedge::StereoEdges& edges, const StereoObservation& o) {
 
 }  // namespace
 
-TEST_CASE("Quads take the refined places, keep their match's row and leave out what has no depth", "[pose][quads]") {
+TEST_CASE("Quads take the detected places, keep their match's row and leave out what has no depth", "[pose][quads]") {
   const quadedge::StereoRig rig = generated::car_rig();
   generated::Random random(10);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
@@ -37,15 +37,12 @@ TEST_CASE("Quads take the refined places, keep their match's row and leave out w
     if (i == 7) before.right.x() = before.left.x() + 3;  // behind the cameras
     add_edge(previous, before);
     const StereoObservation after = generated::observe(rig, {motion * p.point, motion.linear() * p.tangent});
-    StereoObservation shifted = after;  // the stereo edge itself lies elsewhere: its place must not be used
-    shifted.left.x() += 0.7;
-    shifted.right.x() += 0.9;
-    add_edge(current, shifted);
+    add_edge(current, after);
     matches.previous.push_back(i);
     matches.current.push_back(i);
-    matches.left_x.push_back(static_cast<float>(after.left.x()));
+    matches.left_x.push_back(static_cast<float>(after.left.x()) + 0.7f);  // the match's own refined place is not used
     matches.left_y.push_back(static_cast<float>(after.left.y()));
-    matches.right_x.push_back(static_cast<float>(after.right.x()));
+    matches.right_x.push_back(static_cast<float>(after.right.x()) + 0.9f);
     matches.right_y.push_back(static_cast<float>(after.right.y()));
     matches.ncc.push_back(static_cast<float>(i) / 20.0f);
     matches.rivals.push_back(i % 3);

@@ -62,6 +62,8 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.refine_huber", &stereo.refine_huber, "Huber threshold of the refinement [grey levels]", 0.01, 255);
   visit("stereo.refine_clamp", &stereo.refine_clamp, "longest move of the refinement along the line [px]", 0, 100);
   visit("stereo.refine_rms_max", &stereo.refine_rms_max, "largest residual after the refinement [grey levels]", 0, 255);
+  visit("stereo.refine_prior", &stereo.refine_prior, "spread of the shifted edge around its true place [px]", 0.01, 100);
+  visit("stereo.refine_noise", &stereo.refine_noise, "camera noise that the prior is weighed against [grey levels]", 0, 255);
   visit("stereo.cluster_gap", &stereo.cluster_gap, "gap that separates two clusters [px]", 0, 100);
   visit("stereo.cluster_orientation", &stereo.cluster_orientation, "change of direction that separates two clusters [deg]", 0, 90);
   visit("stereo.cluster_size_max", &stereo.cluster_size_max, "most members of a cluster", 1, 1000);

@@ -75,10 +75,8 @@ QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, 
   QuadObservations quads;
   quads.reserve(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    StereoObservation after = observation(current, static_cast<std::size_t>(matches.current[i]));
-    after.left = {matches.left_x[i], matches.left_y[i]};
-    after.right = {matches.right_x[i], matches.right_y[i]};
-    quads.append(rig, observation(previous, static_cast<std::size_t>(matches.previous[i])), after, matches.ncc[i],
+    quads.append(rig, observation(previous, static_cast<std::size_t>(matches.previous[i])),
+                 observation(current, static_cast<std::size_t>(matches.current[i])), matches.ncc[i],
                  matches.rivals[i], static_cast<std::int32_t>(i), limits);
   }
   return quads;

@@ -50,7 +50,7 @@ Alignment align_along_line(const ImageView& image, const PatchFrame& moving, dou
   Alignment result;
   for (int step = 0; step < settings.steps; ++step) {
     const PatchValues values = cut_patch(image, moving, result.alpha * ex, result.alpha * ey);
-    double curvature = 0, slope = 0, squares = 0;
+    double curvature = settings.stiffness, slope = -settings.stiffness * result.alpha, squares = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
       const double residual = fixed[k] - values[k];
       const double weight = huber_weight(residual, settings.huber);

@@ -33,6 +33,7 @@ struct RefinementSettings {
   double huber;      ///< grey levels
   double clamp;      ///< px
   double rms_max;    ///< grey levels
+  double stiffness = 0;  ///< of a prior around the start [grey levels^2 / px^2]
 };
 
 /// Outcome of an alignment.

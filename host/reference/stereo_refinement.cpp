@@ -28,7 +28,7 @@ std::vector<double> stereo_refinement(const ImageView& left_image, const ImageVi
                                       CandidateScores& scores) {
   std::vector<double> places(candidates.target.size(), 0.0);
   const RefinementSettings settings{config.refine_steps, config.refine_tolerance, config.refine_huber, config.refine_clamp,
-                                    config.refine_rms_max};
+                                    config.refine_rms_max, std::pow(config.refine_noise / config.refine_prior, 2)};
   for (std::size_t i = 0; i < left.size(); ++i) {
     const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
     const double cosine = std::cos(left.direction[i]), sine = std::sin(left.direction[i]);

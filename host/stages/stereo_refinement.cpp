@@ -36,7 +36,7 @@ void StereoRefinement::run(const DeviceImage& left_image, const DeviceImage& rig
   kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.capacity,
           candidates.rows, left_corners_.values(), left_image.width, left_image.height, right_corners_.values(), right_image.width,
           right_image.height, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, candidates.pairing,
-          patch_offset_, static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
+          patch_offset_, static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max), static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2)),
           config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
           static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refine_rms_max),
           reference::kStereoRefinementOrder, candidates.rejected_by, place);

@@ -41,7 +41,7 @@ class StereoRefinement {
   PixelCorners left_corners_, right_corners_;
   opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
                  In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_uchar>,
-                 cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>,
+                 cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>,
                  Out<cl_float>>
       kernel_;
 };

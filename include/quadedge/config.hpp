@@ -49,7 +49,9 @@ struct StereoConfig {
   double refine_tolerance = 1e-3;   ///< [px]
   double refine_huber = 3.0;        ///< [grey levels]
   double refine_clamp = 2.0;        ///< longest move along the line [px]
-  double refine_rms_max = 6.0;      ///< [grey levels]
+  double refine_rms_max = 20.0;     ///< [grey levels]
+  double refine_prior = 0.5;        ///< spread of the shifted edge around its true place [px]
+  double refine_noise = 2.0;        ///< camera noise that the prior is weighed against [grey levels]
   double cluster_gap = 1.0;         ///< [px]
   double cluster_orientation = 20.0;  ///< [deg]
   int cluster_size_max = 10;        ///< members
