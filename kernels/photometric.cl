@@ -1,7 +1,7 @@
 // photometric.cl: photometric alignment of side patches, shared by stereo and temporal refinement. Functions only.
 // Needs direction.cl. Images come as the corners of corners.cl.
 //
-// A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the dark side. The
+// A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the bright side. The
 // eighth lane is a sample again, finite and without meaning; sums leave it out.
 // Reference: host/reference/photometric.cpp.
 
@@ -27,7 +27,7 @@ typedef struct {
   float cosine, sine;
 } PatchFrame;
 
-// `side`: +1 bright, -1 dark.
+// `side`: +1 dark, -1 bright.
 inline PatchFrame patch_frame(const float x, const float y, const float cosine, const float sine, const float side,
                               const float offset) {
   PatchFrame frame;

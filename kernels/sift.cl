@@ -167,16 +167,16 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
   const float direction = directions[edge], x = xs[edge], y = ys[edge];
   float cosine;
   const float sine = sine_cosine(direction, &cosine);
-  const float to_bright_x = offset * sine, to_bright_y = -offset * cosine;
+  const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
   const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
   const float turn = direction * (ANGLES / (2.0f * PI_F));
-  const size_t bright_first = (size_t)(nearest(y + to_bright_y, height) + PAD - RADIUS) * stride +
-                              nearest(x + to_bright_x, width) + PAD - RADIUS;
-  const size_t dark_first = (size_t)(nearest(y - to_bright_y, height) + PAD - RADIUS) * stride +
-                            nearest(x - to_bright_x, width) + PAD - RADIUS;
+  const size_t dark_first = (size_t)(nearest(y + to_dark_y, height) + PAD - RADIUS) * stride +
+                              nearest(x + to_dark_x, width) + PAD - RADIUS;
+  const size_t bright_first = (size_t)(nearest(y - to_dark_y, height) + PAD - RADIUS) * stride +
+                            nearest(x - to_dark_x, width) + PAD - RADIUS;
 
-  float8 bright[ROW * ROW], dark[ROW * ROW];
-  for (int k = 0; k < ROW * ROW; ++k) bright[k] = dark[k] = 0.0f;
+  float8 dark[ROW * ROW], bright[ROW * ROW];
+  for (int k = 0; k < ROW * ROW; ++k) dark[k] = bright[k] = 0.0f;
 
   // Samples of a row inside the window: |j c + i s| < 2.5 and |i c - j s| < 2.5. A c or s that is nearly 0 bounds nothing.
   const float by_c = 1.0f / copysign(max(fabs(c), 1e-3f), c), by_s = 1.0f / copysign(max(fabs(s), 1e-3f), s);
@@ -209,29 +209,29 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
       w11[block] = beyond * part_along;
       cells[block] = (cell_across * ROW + cell_along + (ROW + 1)) & inside;
     }
-    float8 bright_low[2], bright_high[2], dark_low[2], dark_high[2];
-    int8 bright_bin[2], dark_bin[2];
-    sample_row(magnitude, angle, bright_first + (size_t)row * stride, turn, bright_low, bright_high, bright_bin);
+    float8 dark_low[2], dark_high[2], bright_low[2], bright_high[2];
+    int8 dark_bin[2], bright_bin[2];
     sample_row(magnitude, angle, dark_first + (size_t)row * stride, turn, dark_low, dark_high, dark_bin);
+    sample_row(magnitude, angle, bright_first + (size_t)row * stride, turn, bright_low, bright_high, bright_bin);
     for (int k = first; k <= last; ++k) {
-      const int cell = LANE(int, cells, k), bin_b = LANE(int, bright_bin, k), bin_d = LANE(int, dark_bin, k);
-      const float8 in_bright = two_bins(LANE(float, bright_low, k), LANE(float, bright_high, k), bin_b);
-      const float8 in_dark = two_bins(LANE(float, dark_low, k), LANE(float, dark_high, k), bin_d);
-      float8* b = bright + cell;
-      float8* d = dark + cell;
-      b[0] += in_bright * LANE(float, w00, k);
-      b[1] += in_bright * LANE(float, w01, k);
-      b[ROW] += in_bright * LANE(float, w10, k);
-      b[ROW + 1] += in_bright * LANE(float, w11, k);
-      d[0] += in_dark * LANE(float, w00, k);
-      d[1] += in_dark * LANE(float, w01, k);
-      d[ROW] += in_dark * LANE(float, w10, k);
-      d[ROW + 1] += in_dark * LANE(float, w11, k);
+      const int cell = LANE(int, cells, k), bin_dark = LANE(int, dark_bin, k), bin_bright = LANE(int, bright_bin, k);
+      const float8 in_dark = two_bins(LANE(float, dark_low, k), LANE(float, dark_high, k), bin_dark);
+      const float8 in_bright = two_bins(LANE(float, bright_low, k), LANE(float, bright_high, k), bin_bright);
+      float8* dark_cell = dark + cell;
+      float8* bright_cell = bright + cell;
+      dark_cell[0] += in_dark * LANE(float, w00, k);
+      dark_cell[1] += in_dark * LANE(float, w01, k);
+      dark_cell[ROW] += in_dark * LANE(float, w10, k);
+      dark_cell[ROW + 1] += in_dark * LANE(float, w11, k);
+      bright_cell[0] += in_bright * LANE(float, w00, k);
+      bright_cell[1] += in_bright * LANE(float, w01, k);
+      bright_cell[ROW] += in_bright * LANE(float, w10, k);
+      bright_cell[ROW + 1] += in_bright * LANE(float, w11, k);
     }
   }
   global uchar* descriptor = descriptors + (size_t)edge * (2 * BYTES);
-  store_descriptor(bright, descriptor);
-  store_descriptor(dark, descriptor + BYTES);
+  store_descriptor(dark, descriptor);
+  store_descriptor(bright, descriptor + BYTES);
 }
 
 #else
@@ -256,12 +256,12 @@ void sift_describe(global const float* magnitude, global const float* angle, con
   const float direction = directions[edge], x = xs[edge], y = ys[edge];
   float cosine;
   const float sine = sine_cosine(direction, &cosine);
-  const float to_bright_x = offset * sine, to_bright_y = -offset * cosine;
+  const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
   const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
   const float turn = direction * (ANGLES / (2.0f * PI_F));
   const int first[SIDES] = {
-      (nearest(y + to_bright_y, height) + PAD - RADIUS) * stride + nearest(x + to_bright_x, width) + PAD - RADIUS,
-      (nearest(y - to_bright_y, height) + PAD - RADIUS) * stride + nearest(x - to_bright_x, width) + PAD - RADIUS};
+      (nearest(y + to_dark_y, height) + PAD - RADIUS) * stride + nearest(x + to_dark_x, width) + PAD - RADIUS,
+      (nearest(y - to_dark_y, height) + PAD - RADIUS) * stride + nearest(x - to_dark_x, width) + PAD - RADIUS};
 
   for (int k = item; k < WINDOW * WINDOW; k += ITEMS_PER_EDGE) {
     const int row = k / WINDOW, column = k % WINDOW;

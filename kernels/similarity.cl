@@ -10,21 +10,21 @@ inline float similarity_sum(const float8 v) {
   return two.x + two.y;
 }
 
-// NCC of two edges: the highest of the four products of side patches. Its pairing: 0 bright-bright, 1 dark-dark,
-// 2 bright-dark, 3 dark-bright, the first one on a tie.
+// NCC of two edges: the highest of the four products of side patches. Its pairing: 0 dark-dark, 1 bright-bright,
+// 2 dark-bright, 3 bright-dark, the first one on a tie.
 inline float patch_ncc_pairing(global const float* a, global const float* b, int* pairing) {
-  float8 bright_bright = 0.0f, dark_dark = 0.0f, bright_dark = 0.0f, dark_bright = 0.0f;
+  float8 dark_dark = 0.0f, bright_bright = 0.0f, dark_bright = 0.0f, bright_dark = 0.0f;
   for (int k = 0; k < 6; ++k) {
-    const float8 a_bright = vload8(k, a), a_dark = vload8(k, a + 49);
-    const float8 b_bright = vload8(k, b), b_dark = vload8(k, b + 49);
-    bright_bright = fma(a_bright, b_bright, bright_bright);
+    const float8 a_dark = vload8(k, a), a_bright = vload8(k, a + 49);
+    const float8 b_dark = vload8(k, b), b_bright = vload8(k, b + 49);
     dark_dark = fma(a_dark, b_dark, dark_dark);
-    bright_dark = fma(a_bright, b_dark, bright_dark);
+    bright_bright = fma(a_bright, b_bright, bright_bright);
     dark_bright = fma(a_dark, b_bright, dark_bright);
+    bright_dark = fma(a_bright, b_dark, bright_dark);
   }
   const float scores[4] = {
-      fma(a[48], b[48], similarity_sum(bright_bright)), fma(a[97], b[97], similarity_sum(dark_dark)),
-      fma(a[48], b[97], similarity_sum(bright_dark)), fma(a[97], b[48], similarity_sum(dark_bright))};
+      fma(a[48], b[48], similarity_sum(dark_dark)), fma(a[97], b[97], similarity_sum(bright_bright)),
+      fma(a[48], b[97], similarity_sum(dark_bright)), fma(a[97], b[48], similarity_sum(bright_dark))};
   float best = scores[0];
   int which = 0;
   for (int k = 1; k < 4; ++k) {
@@ -52,7 +52,7 @@ inline uint4 wide_sum(const ushort16 total, const ushort16 high) {
 // Square of the smallest SIFT distance over the four pairings of sides; exact, at most 128 * 255^2.
 inline int sift_distance2(global const uchar* a, global const uchar* b) {
   // A difference of bytes fits 16 bits modulo 65536, and so does its square, at most 65025.
-  ushort16 total_bb = 0, total_dd = 0, total_bd = 0, total_db = 0, high_bb = 0, high_dd = 0, high_bd = 0, high_db = 0;
+  ushort16 total_dd = 0, total_bb = 0, total_db = 0, total_bd = 0, high_dd = 0, high_bb = 0, high_db = 0, high_bd = 0;
 #define ADD_SQUARES(total, high, p, q)               \
   {                                                  \
     const ushort16 difference = (p) - (q);           \
@@ -61,16 +61,16 @@ inline int sift_distance2(global const uchar* a, global const uchar* b) {
     high += square >> (ushort16)8;                   \
   }
   for (int k = 0; k < 8; ++k) {
-    const ushort16 a_bright = convert_ushort16(vload16(k, a)), a_dark = convert_ushort16(vload16(k, a + 128));
-    const ushort16 b_bright = convert_ushort16(vload16(k, b)), b_dark = convert_ushort16(vload16(k, b + 128));
-    ADD_SQUARES(total_bb, high_bb, a_bright, b_bright)
+    const ushort16 a_dark = convert_ushort16(vload16(k, a)), a_bright = convert_ushort16(vload16(k, a + 128));
+    const ushort16 b_dark = convert_ushort16(vload16(k, b)), b_bright = convert_ushort16(vload16(k, b + 128));
     ADD_SQUARES(total_dd, high_dd, a_dark, b_dark)
-    ADD_SQUARES(total_bd, high_bd, a_bright, b_dark)
+    ADD_SQUARES(total_bb, high_bb, a_bright, b_bright)
     ADD_SQUARES(total_db, high_db, a_dark, b_bright)
+    ADD_SQUARES(total_bd, high_bd, a_bright, b_dark)
   }
 #undef ADD_SQUARES
-  const uint4 one = wide_sum(total_bb, high_bb), two = wide_sum(total_dd, high_dd);
-  const uint4 three = wide_sum(total_bd, high_bd), four = wide_sum(total_db, high_db);
+  const uint4 one = wide_sum(total_dd, high_dd), two = wide_sum(total_bb, high_bb);
+  const uint4 three = wide_sum(total_db, high_db), four = wide_sum(total_bd, high_bd);
   const uint4 sums = ((uint4)(one.x, two.x, three.x, four.x) + (uint4)(one.y, two.y, three.y, four.y)) +
                      ((uint4)(one.z, two.z, three.z, four.z) + (uint4)(one.w, two.w, three.w, four.w));
   return (int)min(min(sums.x, sums.y), min(sums.z, sums.w));

@@ -81,16 +81,16 @@ inline float representative_ncc(global const float* left_patches, global const u
     float8 values[PATCH_SIDE];
     const PatchFrame frame = patch_frame(x, y, cosine, sine, side == 0 ? 1.0f : -1.0f, patch_offset);
     cut_patch(corners, width, height, frame, 0.0f, 0.0f, values);
-    float8 squares = 0.0f, bright = 0.0f, dark = 0.0f;
+    float8 squares = 0.0f, dark = 0.0f, bright = 0.0f;
 #pragma unroll
     for (int i = 0; i < PATCH_SIDE; ++i) {
       squares += values[i] * values[i];
-      bright += values[i] * stored_row(left_patches, i);
-      dark += values[i] * stored_row(left_patches + PATCH_SAMPLES, i);
+      dark += values[i] * stored_row(left_patches, i);
+      bright += values[i] * stored_row(left_patches + PATCH_SAMPLES, i);
     }
     const float norm = sum_used(squares);
     if (norm < 1e-10f) continue;
-    best = fmax(best, fmax(sum_used(bright), sum_used(dark)) / sqrt(norm));
+    best = fmax(best, fmax(sum_used(dark), sum_used(bright)) / sqrt(norm));
   }
   return best;
 }

@@ -43,7 +43,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     if (rejected_by[c] != 0) continue;
     const int j = target[c];
     const float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
-    // Pairings: 0 bright-bright, 1 dark-dark, 2 bright-dark, 3 dark-bright.
+    // Pairings: 0 dark-dark, 1 bright-bright, 2 dark-bright, 3 bright-dark.
     const int left_side = pairing[c] & 1;
     const int right_side = pairing[c] == 1 || pairing[c] == 2;
     if (!ready[left_side]) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kNcc = 5, kSift = 4;  // orders as in the stereo cascade; nearly best follow at 6 and 7
 
-/// Descriptions made to measure. Edges of the first set have the unit vector e0 as bright patch and no dark one (flat), SIFT all zero
+/// Descriptions made to measure. Edges of the first set have the unit vector e0 as dark patch and no bright one (flat), SIFT all zero
 /// on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt(1 - c^2) e1 and one byte d.
 struct Measured {
   reference::EdgeDescriptions a, b;
@@ -21,9 +21,9 @@ struct Measured {
       a.sift.resize(a.sift.size() + 256, 0);
     }
   }
-  /// `dark`: the similar side is the second set's dark one.
-  int add(double ncc, int distance, bool dark = false) {
-    const std::size_t patch = b.patches.size() + (dark ? 49 : 0), sift = b.sift.size();
+  /// `bright`: the similar side is the second set's bright one.
+  int add(double ncc, int distance, bool bright = false) {
+    const std::size_t patch = b.patches.size() + (bright ? 49 : 0), sift = b.sift.size();
     b.patches.resize(b.patches.size() + 98, 0.0f);
     b.patches[patch] = static_cast<float>(ncc);
     b.patches[patch + 1] = static_cast<float>(std::sqrt(1 - ncc * ncc));
@@ -102,7 +102,7 @@ TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][m
   lists.first = {0, 4};
   check_states(lists, edges, limits_of(0.5f, 200, 0.5f, 0.5f), {0, 0, 0, 0});
   const auto scores = reference::candidate_filters(lists, edges.a, edges.b, limits_of(0.5f, 200, 0.5f, 0.5f));
-  CHECK(scores.pairing == std::vector<std::uint8_t>{0, 0, 0, 2});  // bright-bright, and bright-dark
+  CHECK(scores.pairing == std::vector<std::uint8_t>{0, 0, 0, 2});  // dark-dark, and dark-bright
   CHECK(scores.ncc == std::vector<float>{0.5f, 0.5f, 1, 1});
   CHECK(scores.sift == std::vector<float>{200, 200, 100, 100});
 }

@@ -43,7 +43,7 @@ TEST_CASE("patches: a constant image gives zeros and no similarity", "[patches]"
 }
 
 TEST_CASE("patches: a linear ramp shows the sample layout", "[patches]") {
-  // I = 2 x + 3 y. A step along the tangent (c, s) adds 2 c + 3 s, one along the dark normal (-s, c) adds -2 s + 3 c.
+  // I = 2 x + 3 y. A step along the tangent (c, s) adds 2 c + 3 s, one along the bright normal (-s, c) adds -2 s + 3 c.
   Image image(40, 40);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) {
@@ -67,21 +67,21 @@ TEST_CASE("patches: a linear ramp shows the sample layout", "[patches]") {
   }
 }
 
-TEST_CASE("patches: the bright side lies 5 px along (sin, -cos) and comes first", "[patches]") {
+TEST_CASE("patches: the dark side lies 5 px along (sin, -cos) and comes first", "[patches]") {
   // One lit pixel: where it shows up in the patches tells where each patch lies.
   Image image(41, 41);
   image.pixels[20 * 41 + 25] = 255;
-  // Tangent upwards (direction -90 degrees): bright side at (-1, 0), dark side at (1, 0).
+  // Tangent upwards (direction -90 degrees): dark side at (-1, 0), bright side at (1, 0).
   const auto patches = cut(image, 20, 20, -kPi / 2);
   CHECK(norm(patches.data()) == 0.0f);
-  const float* dark = patches.data() + kPatchSamples;
-  CHECK(std::max_element(dark, dark + kPatchSamples) - dark == 24);  // the middle sample
-  // The pixel one step along the tangent (0, -1) and two steps along the dark normal (1, 0): i = 4, j = 5.
+  const float* bright = patches.data() + kPatchSamples;
+  CHECK(std::max_element(bright, bright + kPatchSamples) - bright == 24);  // the middle sample
+  // The pixel one step along the tangent (0, -1) and two steps along the bright normal (1, 0): i = 4, j = 5.
   std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{0});
   image.pixels[19 * 41 + 27] = 255;
   const auto moved = cut(image, 20, 20, -kPi / 2);
-  dark = moved.data() + kPatchSamples;
-  CHECK(std::max_element(dark, dark + kPatchSamples) - dark == 7 * 4 + 5);
+  bright = moved.data() + kPatchSamples;
+  CHECK(std::max_element(bright, bright + kPatchSamples) - bright == 7 * 4 + 5);
 }
 
 TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches", "[patches]") {
@@ -139,10 +139,10 @@ TEST_CASE("patches: beyond the border the outermost pixels repeat", "[patches]")
 
 TEST_CASE("patches: the similarity is the best pairing of sides, the first one on a tie", "[patches]") {
   // Four patches without anything in common: unit vectors along different axes.
-  const auto edge = [](int bright, int dark) {
+  const auto edge = [](int dark, int bright) {
     std::vector<float> patches(kEdgePatchFloats, 0.0f);
-    patches[static_cast<std::size_t>(bright)] = 1;
-    patches[static_cast<std::size_t>(kPatchSamples + dark)] = 1;
+    patches[static_cast<std::size_t>(dark)] = 1;
+    patches[static_cast<std::size_t>(kPatchSamples + bright)] = 1;
     return patches;
   };
   const auto pairing = [](const std::vector<float>& a, const std::vector<float>& b) {
@@ -150,12 +150,12 @@ TEST_CASE("patches: the similarity is the best pairing of sides, the first one o
     CHECK(best.ncc == 1.0f);
     return best.pairing;
   };
-  CHECK(pairing(edge(0, 1), edge(0, 3)) == SidePairing::bright_bright);
-  CHECK(pairing(edge(0, 48), edge(2, 48)) == SidePairing::dark_dark);
-  CHECK(pairing(edge(7, 1), edge(2, 7)) == SidePairing::bright_dark);
-  CHECK(pairing(edge(0, 17), edge(17, 3)) == SidePairing::dark_bright);
-  CHECK(pairing(edge(5, 6), edge(5, 6)) == SidePairing::bright_bright);
-  CHECK(pairing(edge(5, 6), edge(6, 5)) == SidePairing::bright_dark);
+  CHECK(pairing(edge(0, 1), edge(0, 3)) == SidePairing::dark_dark);
+  CHECK(pairing(edge(0, 48), edge(2, 48)) == SidePairing::bright_bright);
+  CHECK(pairing(edge(7, 1), edge(2, 7)) == SidePairing::dark_bright);
+  CHECK(pairing(edge(0, 17), edge(17, 3)) == SidePairing::bright_dark);
+  CHECK(pairing(edge(5, 6), edge(5, 6)) == SidePairing::dark_dark);
+  CHECK(pairing(edge(5, 6), edge(6, 5)) == SidePairing::dark_bright);
 }
 
 TEST_CASE("patches: every device and variant equals the reference", "[patches][device][oclgrind]") {
@@ -211,7 +211,7 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
   auto patches = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
   std::fill_n(patches.begin(), kEdgePatchFloats, 0.0f);                          // a flat edge
   std::copy_n(patches.begin() + kEdgePatchFloats, kPatchSamples,                 // a tie: both sides of edge 2 are the
-              patches.begin() + 2 * kEdgePatchFloats);                           // bright side of edge 1
+              patches.begin() + 2 * kEdgePatchFloats);                           // dark side of edge 1
   std::copy_n(patches.begin() + kEdgePatchFloats, kPatchSamples, patches.begin() + 2 * kEdgePatchFloats + kPatchSamples);
   for (const auto& index : all_devices()) {
     Device device(index);

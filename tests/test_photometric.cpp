@@ -31,14 +31,14 @@ reference::Alignment align(const Image& fixed, const Image& image, double x, dou
 TEST_CASE("photometric: patches hold the mean-free texture where their frame says", "[photometric][matching]") {
   const Image image = image_of(64, 60, [](double x, double y) { return 3 * x + y; });  // bilinear is exact
   const double angle = 0.4, c = std::cos(angle), s = std::sin(angle);
-  const auto bright = cut_patch(image.view(), patch_frame(30, 25, c, s, 1, 5), 0, 0);
+  const auto dark = cut_patch(image.view(), patch_frame(30, 25, c, s, 1, 5), 0, 0);
   for (int i = 0; i < 7; ++i) {
     for (int j = 0; j < 7; ++j) {  // relative to the middle sample the mean is its own value on a plane
       const double x = (i - 3) * c - (j - 3) * s, y = (i - 3) * s + (j - 3) * c;
-      CHECK(bright[static_cast<std::size_t>(7 * i + j)] == Approx(3 * x + y).margin(1e-9));
+      CHECK(dark[static_cast<std::size_t>(7 * i + j)] == Approx(3 * x + y).margin(1e-9));
     }
   }
-  // The frame's middle: the bright side lies at (sin, -cos), the dark one opposite.
+  // The frame's middle: the dark side lies at (sin, -cos), the bright one opposite.
   const auto frame = patch_frame(30, 25, c, s, -1, 5);
   CHECK(frame.x + 3 * c - 3 * s == Approx(30 - 5 * s));
   CHECK(frame.y + 3 * s + 3 * c == Approx(25 + 5 * c));

@@ -47,6 +47,10 @@ TEST_CASE("scan: sums past the capacity are cut at it and counted", "[scan][devi
   check_scan({300}, 0);
 }
 
+TEST_CASE("scan: a list just too long for one group is shared by two", "[scan][device][oclgrind]") {
+  check_scan({4097}, 1 << 30);
+}
+
 TEST_CASE("scan: long lists are shared by several groups", "[scan][device]") {
   check_scan({4096, 4097, 70001}, 1 << 30);
   check_scan({70001}, 50000);

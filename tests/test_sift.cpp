@@ -111,23 +111,23 @@ TEST_CASE("sift: turning image and edge by 90 degrees gives the same descriptors
   for (int k = 0; k < kEdgeSiftBytes; ++k) CHECK(std::abs(before[k] - after[k]) <= 1);
 }
 
-TEST_CASE("sift: the bright side's descriptor comes first, 8 px along (sin, -cos)", "[sift]") {
+TEST_CASE("sift: the dark side's descriptor comes first, 8 px along (sin, -cos)", "[sift]") {
   const Image image = textured_image(70, 60, 4);
   const auto map = reference::sift_gradients(image.view());
-  const float direction = static_cast<float>(-kPi / 2);  // bright side at (-1, 0)
+  const float direction = static_cast<float>(-kPi / 2);  // dark side at (-1, 0)
   const auto both = reference::sift_descriptors(image.view(), {35.0f}, {30.0f}, {direction}, SiftConfig{});
-  std::uint8_t bright[kSiftBytes], dark[kSiftBytes];
-  reference::sift_descriptor(map, 27, 30, direction, bright);
-  reference::sift_descriptor(map, 43, 30, direction, dark);
-  CHECK(std::equal(bright, bright + kSiftBytes, both.begin()));
-  CHECK(std::equal(dark, dark + kSiftBytes, both.begin() + kSiftBytes));
+  std::uint8_t dark[kSiftBytes], bright[kSiftBytes];
+  reference::sift_descriptor(map, 27, 30, direction, dark);
+  reference::sift_descriptor(map, 43, 30, direction, bright);
+  CHECK(std::equal(dark, dark + kSiftBytes, both.begin()));
+  CHECK(std::equal(bright, bright + kSiftBytes, both.begin() + kSiftBytes));
 }
 
 TEST_CASE("sift: the distance of two edges is the smallest of the four pairings", "[sift]") {
-  const auto edge = [](int bright, int dark) {
+  const auto edge = [](int dark, int bright) {
     std::vector<std::uint8_t> bytes(kEdgeSiftBytes, 0);
-    bytes[static_cast<std::size_t>(bright)] = 255;
-    bytes[static_cast<std::size_t>(kSiftBytes + dark)] = 200;
+    bytes[static_cast<std::size_t>(dark)] = 255;
+    bytes[static_cast<std::size_t>(kSiftBytes + bright)] = 200;
     return bytes;
   };
   const auto distance2 = [](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {

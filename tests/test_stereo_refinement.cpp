@@ -22,6 +22,7 @@ struct Scene {
 
   explicit Scene(int count, std::uint64_t seed = 2) {
     config.max_disparity = 20;
+    config.refine_prior = 100;  // the candidates lie farther off than edges do: the images alone decide
     geometry = stages::make_epipolar_geometry(rig, config);
     left_image = image_of(97, 71, smooth_grey);
     right_image = image_of(97, 71, [](double x, double y) { return smooth_grey(x + kDisparity, y); });
@@ -40,7 +41,7 @@ struct Scene {
       lists.first.push_back(static_cast<std::int32_t>(i) + 1);
     }
     scores = fresh_scores(left.size());
-    for (std::size_t i = 0; i < left.size(); ++i) scores.pairing[i] = i % 2;  // bright-bright and dark-dark
+    for (std::size_t i = 0; i < left.size(); ++i) scores.pairing[i] = i % 2;  // dark-dark and bright-bright
   }
   static constexpr double kDisparity = 6.3;
 
@@ -105,6 +106,33 @@ TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px", "[stereo]
   }
   CHECK(errors.size() >= 145);
   check_subpixel(errors);
+}
+
+TEST_CASE("stereo refinement: a strong prior holds the shifted place, the default one weighs it against the images",
+          "[stereo][matching][device]") {
+  Scene scene(60);
+  auto result = scene.scores;
+  const auto free = scene.refine(result);
+  scene.config.refine_prior = 0.01;
+  result = scene.scores;
+  const auto held = scene.refine(result);
+  scene.config.refine_prior = StereoConfig{}.refine_prior;
+  result = scene.scores;
+  const auto weighed = scene.refine(result);
+  int moved = 0;
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    const double y = scene.right.y[c];
+    const auto line = reference::epipolar_line(scene.geometry, scene.left.x[c], scene.left.y[c]);
+    const double start = reference::epipolar_shift(line, scene.right.x[c], y, scene.right.direction[c],
+                                                   scene.config.shift_min_angle * kDegree, scene.config.shift_max);
+    CHECK(std::abs(held[c] - start) < 0.1);
+    if (std::abs(free[c] - start) > 0.5 && std::abs(free[c] - Scene::kDisparity) < 0.05) {
+      ++moved;
+      CHECK(std::abs(weighed[c] - Scene::kDisparity) < std::abs(start - Scene::kDisparity));
+    }
+  }
+  CHECK(moved > 10);
+  scene.compare_devices();
 }
 
 TEST_CASE("stereo refinement: an edge of the other polarity is compared half a turn around", "[stereo][matching]") {

@@ -59,18 +59,18 @@ std::vector<float> side_patches(const ImageView& image, const std::vector<float>
   std::vector<float> patches(xs.size() * kEdgePatchFloats);
   for (std::size_t e = 0; e < xs.size(); ++e) {
     const double c = std::cos(static_cast<double>(directions[e])), s = std::sin(static_cast<double>(directions[e]));
-    const double to_bright_x = config.offset * s, to_bright_y = -config.offset * c;
+    const double to_dark_x = config.offset * s, to_dark_y = -config.offset * c;
     float* edge = patches.data() + e * kEdgePatchFloats;
-    sample_patch(image, xs[e] + to_bright_x, ys[e] + to_bright_y, c, s, edge);
-    sample_patch(image, xs[e] - to_bright_x, ys[e] - to_bright_y, c, s, edge + kPatchSamples);
+    sample_patch(image, xs[e] + to_dark_x, ys[e] + to_dark_y, c, s, edge);
+    sample_patch(image, xs[e] - to_dark_x, ys[e] - to_dark_y, c, s, edge + kPatchSamples);
   }
   return patches;
 }
 
 PatchSimilarity patch_similarity(const float* a, const float* b) {
-  const float* a_dark = a + kPatchSamples;
-  const float* b_dark = b + kPatchSamples;
-  const std::array<float, 4> scores = {dot(a, b), dot(a_dark, b_dark), dot(a, b_dark), dot(a_dark, b)};
+  const float* a_bright = a + kPatchSamples;
+  const float* b_bright = b + kPatchSamples;
+  const std::array<float, 4> scores = {dot(a, b), dot(a_bright, b_bright), dot(a, b_bright), dot(a_bright, b)};
   const auto best = std::max_element(scores.begin(), scores.end());
   return {*best, static_cast<SidePairing>(best - scores.begin())};
 }

@@ -10,14 +10,14 @@ namespace quadedge::reference {
 
 inline constexpr int kPatchSide = 7;                           ///< samples along each axis of a patch
 inline constexpr int kPatchSamples = kPatchSide * kPatchSide;  ///< floats of one patch
-inline constexpr int kEdgePatchFloats = 2 * kPatchSamples;     ///< floats of one edge: bright side, then dark side
+inline constexpr int kEdgePatchFloats = 2 * kPatchSamples;     ///< floats of one edge: dark side, then bright side
 inline constexpr double kFlatPatchSquares = 1e-10;             ///< below this sum of squares a patch is flat
 
-/// The two side patches of every edge: `kEdgePatchFloats` floats per edge, the bright side's 49 first.
+/// The two side patches of every edge: `kEdgePatchFloats` floats per edge, the dark side's 49 first.
 ///
 /// Sample (i, j) of a patch is element 7 i + j. i steps along the tangent (cos t, sin t), j along the normal that points
-/// to the dark side (-sin t, cos t), both 1 px per step; the middle sample (3, 3) lies `config.offset` px from the edge, on the
-/// bright side at (x + offset sin t, y - offset cos t) and on the dark side opposite to it. Bilinear; coordinates outside the
+/// to the bright side (-sin t, cos t), both 1 px per step; the middle sample (3, 3) lies `config.offset` px from the edge, on the
+/// dark side at (x + offset sin t, y - offset cos t) and on the bright side opposite to it. Bilinear; coordinates outside the
 /// image are clamped to its border. Each patch is mean-free with unit norm; a flat one (sum of squares below
 /// `kFlatPatchSquares`) is all zeros, so that its NCC with anything is 0.
 /// `xs`, `ys` in pixels and `directions` in radians have one entry per edge and must be finite.
@@ -25,7 +25,7 @@ std::vector<float> side_patches(const ImageView& image, const std::vector<float>
                                 const std::vector<float>& directions, const PatchesConfig& config);
 
 /// Which sides of two edges are compared; the numbers are those of kernels/similarity.cl.
-enum class SidePairing : int { bright_bright = 0, dark_dark = 1, bright_dark = 2, dark_bright = 3 };
+enum class SidePairing : int { dark_dark = 0, bright_bright = 1, dark_bright = 2, bright_dark = 3 };
 
 /// Highest NCC over the four pairings of sides, and the first pairing that reaches it.
 struct PatchSimilarity {

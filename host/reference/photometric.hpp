@@ -9,12 +9,12 @@ namespace quadedge::reference {
 
 using PatchValues = std::array<double, 49>;
 
-/// Where a 7 x 7 side patch lies: its first sample, steps (cosine, sine) along the tangent and (-sine, cosine) to the dark side.
+/// Where a 7 x 7 side patch lies: its first sample, steps (cosine, sine) along the tangent and (-sine, cosine) to the bright side.
 struct PatchFrame {
   double x, y, cosine, sine;
 };
 
-/// `side`: +1 bright, -1 dark; `offset` px from the edge to the patch centre.
+/// `side`: +1 dark, -1 bright; `offset` px from the edge to the patch centre.
 PatchFrame patch_frame(double x, double y, double cosine, double sine, double side, double offset);
 
 /// Bilinear grey level, coordinates clamped to the border.

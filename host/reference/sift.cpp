@@ -121,11 +121,11 @@ std::vector<std::uint8_t> sift_descriptors(const ImageView& image, const std::ve
   for (std::size_t e = 0; e < xs.size(); ++e) {
     // Rounded like on the device, because the nearest pixel is a discrete choice.
     const float offset = static_cast<float>(config.offset);
-    const float to_bright_x = offset * static_cast<float>(std::sin(static_cast<double>(directions[e])));
-    const float to_bright_y = -offset * static_cast<float>(std::cos(static_cast<double>(directions[e])));
+    const float to_dark_x = offset * static_cast<float>(std::sin(static_cast<double>(directions[e])));
+    const float to_dark_y = -offset * static_cast<float>(std::cos(static_cast<double>(directions[e])));
     std::uint8_t* edge = descriptors.data() + e * kEdgeSiftBytes;
-    sift_descriptor(map, xs[e] + to_bright_x, ys[e] + to_bright_y, directions[e], edge);
-    sift_descriptor(map, xs[e] - to_bright_x, ys[e] - to_bright_y, directions[e], edge + kSiftBytes);
+    sift_descriptor(map, xs[e] + to_dark_x, ys[e] + to_dark_y, directions[e], edge);
+    sift_descriptor(map, xs[e] - to_dark_x, ys[e] - to_dark_y, directions[e], edge + kSiftBytes);
   }
   return descriptors;
 }

@@ -13,7 +13,7 @@ namespace quadedge::reference {
 inline constexpr int kSiftCells = 4;               ///< spatial bins along each axis
 inline constexpr int kSiftAngles = 8;              ///< orientation bins
 inline constexpr int kSiftBytes = kSiftCells * kSiftCells * kSiftAngles;
-inline constexpr int kEdgeSiftBytes = 2 * kSiftBytes;  ///< bytes of one edge: bright side, then dark side
+inline constexpr int kEdgeSiftBytes = 2 * kSiftBytes;  ///< bytes of one edge: dark side, then bright side
 inline constexpr double kSiftAssumedSigma = 0.5;   ///< blur that a recorded image is taken to have [px]
 inline constexpr double kSiftBaseSigma = 1.6;      ///< blur in which gradients are taken [px]
 inline constexpr int kSiftBlurRadius = 6;          ///< taps on either side: 4 sigma of the blur that is added, rounded
@@ -38,8 +38,8 @@ GradientMap sift_gradients(const ImageView& image);
 /// direction in which t grows. All zeros where there is no gradient at all.
 void sift_descriptor(const GradientMap& map, float x, float y, float direction, std::uint8_t* descriptor);
 
-/// Both descriptors of every edge, `kEdgeSiftBytes` per edge: at `config.offset` px on the bright side
-/// (x + offset sin t, y - offset cos t), then on the dark side. `xs`, `ys` in pixels and `directions` in radians, finite.
+/// Both descriptors of every edge, `kEdgeSiftBytes` per edge: at `config.offset` px on the dark side
+/// (x + offset sin t, y - offset cos t), then on the bright side. `xs`, `ys` in pixels and `directions` in radians, finite.
 std::vector<std::uint8_t> sift_descriptors(const ImageView& image, const std::vector<float>& xs,
                                            const std::vector<float>& ys, const std::vector<float>& directions,
                                            const SiftConfig& config);

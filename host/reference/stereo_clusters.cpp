@@ -20,13 +20,13 @@ double representative_ncc(const float* stored, const ImageView& image, double x,
   double best = -1;
   for (const double side : {1.0, -1.0}) {
     const auto values = cut_patch(image, patch_frame(x, y, std::cos(direction), std::sin(direction), side, offset), 0, 0);
-    double squares = 0, bright = 0, dark = 0;
+    double squares = 0, dark = 0, bright = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
       squares += values[k] * values[k];
-      bright += values[k] * static_cast<double>(stored[k]);
-      dark += values[k] * static_cast<double>(stored[values.size() + k]);
+      dark += values[k] * static_cast<double>(stored[k]);
+      bright += values[k] * static_cast<double>(stored[values.size() + k]);
     }
-    if (squares >= 1e-10) best = std::max(best, std::max(bright, dark) / std::sqrt(squares));
+    if (squares >= 1e-10) best = std::max(best, std::max(dark, bright) / std::sqrt(squares));
   }
   return best;
 }

@@ -54,8 +54,8 @@ std::optional<Eigen::Vector2d> align_held(const ImageView& fixed_image, const Pa
   return axes * move;
 }
 
-PatchFrame frame_at(double x, double y, double direction, bool bright, double offset) {
-  return patch_frame(x, y, std::cos(direction), std::sin(direction), bright ? 1 : -1, offset);
+PatchFrame frame_at(double x, double y, double direction, bool dark, double offset) {
+  return patch_frame(x, y, std::cos(direction), std::sin(direction), dark ? 1 : -1, offset);
 }
 
 }  // namespace
@@ -95,10 +95,10 @@ std::vector<RefinedPlace> temporal_refinement(const RigImages& previous_images, 
     for (auto c = static_cast<std::size_t>(candidates.first[row]); c < static_cast<std::size_t>(candidates.first[row + 1]); ++c) {
       if (scores.rejected_by[c] != 0) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
-      const bool bright = (scores.pairing[c] & 1) == 0, right_bright = (agreement.right_pairing[c] & 1) == 0;
+      const bool dark = (scores.pairing[c] & 1) == 0, right_dark = (agreement.right_pairing[c] & 1) == 0;
       const auto move = align_held<2>(
-          previous_images.left, frame_at(previous.left_x[i], previous.left_y[i], previous.left_direction[i], bright, patch_offset),
-          current_images.left, frame_at(current.left_x[j], current.left_y[j], current.left_direction[j], bright, patch_offset),
+          previous_images.left, frame_at(previous.left_x[i], previous.left_y[i], previous.left_direction[i], dark, patch_offset),
+          current_images.left, frame_at(current.left_x[j], current.left_y[j], current.left_direction[j], dark, patch_offset),
           previous.left_direction[i] - current.left_direction[j], Eigen::Matrix2d::Identity(), stiffness, settings);
       if (!move) {
         scores.rejected_by[c] = kTemporalRefinementOrder;
@@ -112,8 +112,8 @@ std::vector<RefinedPlace> temporal_refinement(const RigImages& previous_images, 
       const Eigen::Vector2d start = Eigen::Vector2d(line.x, line.y) + s * axis;
       const auto right_move = align_held<1>(
           previous_images.right,
-          frame_at(previous.right_x[i], previous.right_y[i], previous.right_direction[i], right_bright, patch_offset),
-          current_images.right, frame_at(start.x(), start.y(), current.right_direction[j], right_bright, patch_offset),
+          frame_at(previous.right_x[i], previous.right_y[i], previous.right_direction[i], right_dark, patch_offset),
+          current_images.right, frame_at(start.x(), start.y(), current.right_direction[j], right_dark, patch_offset),
           previous.right_direction[i] - current.right_direction[j], axis, stiffness, settings);
       if (!right_move) {
         scores.rejected_by[c] = kTemporalRefinementOrder;
