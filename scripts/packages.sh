@@ -1,7 +1,7 @@
 # Installs Debian packages that are missing. Sourced by run.sh and test.sh.
 
 build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers
-  libeigen3-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-features2d-dev
+  libeigen3-dev libopencv-dev
   libcli11-dev catch2 nlohmann-json3-dev"
 test_packages="oclgrind clang python3-venv"
 
