@@ -68,13 +68,13 @@ const FilterCounts& plain() {
 
 }  // namespace
 
-TEST_CASE("On the rendered room most final stereo edges are true", "[matching]") {
+TEST_CASE("On the rendered room most final stereo edges are true", "[matching][device]") {
   CHECK(plain().pool > 5000);
   CHECK(plain().precision() > 0.9);
   CHECK(plain().recall() > 0.6);
 }
 
-TEST_CASE("Ground truth that is wrong by two pixels leaves nearly nothing true", "[matching]") {
+TEST_CASE("Ground truth that is wrong by two pixels leaves nearly nothing true", "[matching][device]") {
   const auto wrong = last_row(ChangedRoom([](StereoRig&) {}, [](TrueFrame& frame) {
     for (auto* map : {&frame.truth.left, &frame.truth.right}) {
       for (auto& value : map->nearness) value += 2;
@@ -84,7 +84,7 @@ TEST_CASE("Ground truth that is wrong by two pixels leaves nearly nothing true",
   CHECK(wrong.precision() < 0.05);
 }
 
-TEST_CASE("Left and right change places without harm", "[matching]") {
+TEST_CASE("Left and right change places without harm", "[matching][device]") {
   const auto swapped = last_row(ChangedRoom(
       [](StereoRig& rig) {
         rig.left.cx = rig.left.width - 1 - rig.left.cx;
@@ -105,7 +105,7 @@ TEST_CASE("The reference has no filters to observe and says so", "[matching]") {
   CHECK_THROWS_AS(evaluate_matching(*make_rendered_source(small_room()), device, {}), UsageError);
 }
 
-TEST_CASE("evaluate matching prints all tables of a sequence and writes them as JSON", "[matching][cli]") {
+TEST_CASE("evaluate matching prints all tables of a sequence and writes them as JSON", "[matching][device][cli]") {
   const TemporaryFolder folder;
   const auto result =
       run_program({"evaluate", "matching", small_sequence(), "--frames", "2", "--json", folder / "m.json", "--quiet"});
@@ -134,7 +134,7 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
   }
 }
 
-TEST_CASE("A sweep shows one line per value, and a stricter threshold keeps less", "[matching][cli]") {
+TEST_CASE("A sweep shows one line per value, and a stricter threshold keeps less", "[matching][device][cli]") {
   const auto result = run_program({"evaluate", "matching", "room", "--frames", "1", "--size", "320x200", "--sweep",
                                    "stereo.orientation=2:10:8", "--quiet"});
   REQUIRE(result.code == 0);
