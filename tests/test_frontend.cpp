@@ -64,13 +64,33 @@ class Lists : public Tap {
     CHECK(name == stages::kTemporalFilters[static_cast<std::size_t>(order)]);
     temporal_lists[side][order] = lists;
   }
+  void temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double radius, int step) override {
+    expected_left = left;
+    expected_right = right;
+    search_radius = radius;
+    search_step = step;
+  }
   void quads(const TemporalMatches& matches) override { matched = matches; }
 
+  ExpectedEdges expected_left, expected_right;
+  double search_radius = 0;
+  int search_step = 0;
   int edge_calls = 0;
   std::map<int, CandidateLists> stereo_lists, temporal_lists[2];
   StereoEdges stereo_edges;
   TemporalMatches matched;
 };
+
+/// Every candidate that fulfils `passes` is kept by the filter that judges its cue, and no other.
+template <class Passes>
+void check_cue(const CandidateLists& before, const CandidateLists& after, const Passes& passes) {
+  REQUIRE(before.cue.size() == before.target.size());
+  std::vector<std::int32_t> expected;
+  for (std::size_t c = 0; c < before.target.size(); ++c) {
+    if (passes(before.cue[c])) expected.push_back(before.target[c]);
+  }
+  CHECK(expected == after.target);
+}
 
 /// Every row of `after` is a part of the same row of `before`; returns how many went.
 std::size_t check_subset(const CandidateLists& before, const CandidateLists& after) {
@@ -130,6 +150,23 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       CHECK(gone > 1000);
       check_subset(tap.stereo_lists[7], tap.stereo_lists[8]);  // anchors of clusters are candidates
       check_subset(tap.stereo_lists[8], tap.stereo_lists[9]);
+      // The cue of a list is what the next filter judges.
+      const Config& config = scene.config;
+      check_cue(tap.stereo_lists[3], tap.stereo_lists[4], [&](float sift) { return sift <= static_cast<float>(config.stereo.sift_max); });
+      check_cue(tap.stereo_lists[4], tap.stereo_lists[5], [&](float ncc) { return ncc >= static_cast<float>(config.stereo.ncc_min); });
+      check_cue(tap.stereo_lists[8], tap.stereo_lists[9], [&](float ncc) { return ncc >= static_cast<float>(config.stereo.ncc_min); });
+      CHECK(tap.stereo_lists[5].cue.size() == tap.stereo_lists[5].target.size());
+      CHECK(tap.stereo_lists[6].cue.size() == tap.stereo_lists[6].target.size());
+      CHECK(tap.stereo_lists[7].cue.empty());
+      for (const int side : {0, 1}) {
+        auto& lists = tap.temporal_lists[side];
+        check_cue(lists[2], lists[3], [&](float ncc) { return ncc >= static_cast<float>(config.temporal.ncc_min); });
+        check_cue(lists[3], lists[4], [&](float sift) { return sift <= static_cast<float>(config.temporal.sift_max); });
+      }
+      CHECK(tap.search_radius == 16);
+      CHECK(tap.search_step == step);
+      CHECK(tap.expected_left.x == seen.previous.left_x);
+      CHECK(tap.expected_right.direction == seen.previous.right_direction);
       for (std::size_t i = 0; i < seen.current.size(); ++i) {  // the final edge is one of the clusters of its row
         const auto row = static_cast<std::size_t>(seen.current.left_index[i]);
         const auto& lists = tap.stereo_lists[9];

@@ -113,6 +113,10 @@ TemporalMatches DeviceFrontend::match(const TemporalSearch& search) {
   left_index_.order.write(context_, left_index.order);
   right_index_.row_first.write(context_, right_index.row_first);
   right_index_.order.write(context_, right_index.order);
+  if (tap_ != nullptr) {
+    tap_->temporal_search({search.left.x, search.left.y, search.left.direction}, {search.right.x, search.right.y, search.right.direction},
+                          search.radius, search.step);
+  }
   match_side(0, search.left, search, temporal_left_);
   match_side(1, search.right, search, temporal_right_);
   counts_.temporal_left = temporal_left_.living_rows();

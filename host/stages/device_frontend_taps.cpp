@@ -1,4 +1,6 @@
 /// \file device_frontend_taps.cpp  What the device frontend shows a tap after each filter; nothing here runs without one.
+#include <algorithm>
+
 #include "reference/temporal_refinement.hpp"
 #include "stages/device_frontend.hpp"
 #include "stages/filter_names.hpp"
@@ -11,12 +13,20 @@ constexpr float kAllDirections = 4.0f;  // rad, more than any angle
 std::string stereo_name(int order) { return kStereoFilters[static_cast<std::size_t>(order)]; }
 std::string temporal_name(int order) { return kTemporalFilters[static_cast<std::size_t>(order)]; }
 
+/// The scores that filter number `order` of a cascade judges; null for filters that judge neither.
+const opencl::Buffer<cl_float>* scores_for(const DeviceCandidates& lists, int order, int sift_order, int ncc_order) {
+  const int nearly_best_ncc = std::max(sift_order, ncc_order) + 1;
+  if (order == sift_order || order == nearly_best_ncc + 1) return &lists.sift;
+  if (order == ncc_order || order == nearly_best_ncc) return &lists.ncc;
+  return nullptr;
+}
+
 }  // namespace
 
 void DeviceFrontend::tap_candidates_without_limits() {
   DeviceCandidates lists;
   opencl::Buffer<cl_float> geometry;
-  for (int order = 1; order <= 3; ++order) {
+  for (int order = 1; order < kStereoSiftOrder - 1; ++order) {
     geometry.write(context_, without_limits(epipolar_, order < 2, order < 3).packed());
     stereo_candidates_.run(left_.edges, right_.edges, right_height_, geometry, lists);
     lists.rejected_by.fill(0, static_cast<std::size_t>(lists.host_total));
@@ -25,9 +35,9 @@ void DeviceFrontend::tap_candidates_without_limits() {
 }
 
 void DeviceFrontend::tap_stereo() {
-  for (int order = kStereoSiftOrder; order <= kStereoNccOrder + 2; ++order) {
-    const bool by_sift = order == kStereoSiftOrder || order == kStereoNccOrder + 2;
-    tap_->stereo_filter(order, stereo_name(order), candidates_.alive_after(order, by_sift ? &candidates_.sift : &candidates_.ncc));
+  for (int order = kStereoSiftOrder - 1; order <= kStereoNccOrder + 2; ++order) {
+    const auto* scores = scores_for(candidates_, order + 1, kStereoSiftOrder, kStereoNccOrder);
+    tap_->stereo_filter(order, stereo_name(order), candidates_.alive_after(order, scores));
   }
   const auto rows = static_cast<std::size_t>(candidates_.rows), size = static_cast<std::size_t>(candidates_.capacity);
   const auto first = candidates_.first.read(rows + 1);
@@ -63,8 +73,8 @@ void DeviceFrontend::tap_temporal(int side, const TemporalSearch& search) {
   tap_->temporal_filter(1, temporal_name(1), side, near.alive_after(1, nullptr));
   const DeviceCandidates& lists = side == 0 ? temporal_left_ : temporal_right_;
   for (int order = 2; order < reference::kAgreementOrder; ++order) {
-    const auto* cue = order == kTemporalSiftOrder || order == kTemporalSiftOrder + 2 ? &lists.sift : &lists.ncc;
-    tap_->temporal_filter(order, temporal_name(order), side, lists.alive_after(order, order == 2 ? nullptr : cue));
+    const auto* scores = scores_for(lists, order + 1, kTemporalSiftOrder, kTemporalNccOrder);
+    tap_->temporal_filter(order, temporal_name(order), side, lists.alive_after(order, scores));
   }
 }
 
