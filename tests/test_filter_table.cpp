@@ -2,41 +2,12 @@
 #include <cmath>
 
 #include "evaluation/matching_observer.hpp"
+#include "paper_scene.hpp"
 #include "quadedge/error.hpp"
 
 using namespace quadedge;
 using namespace quadedge::evaluation;
-
-namespace {
-
-constexpr float kSteep = 1.5F;  // rad, nearly vertical
-
-StereoRig small_rig() {
-  StereoRig rig;
-  rig.left = rig.right = {100, 100, 49.5, 29.5, 100, 60};
-  rig.right_from_left.translation().x() = -0.1;
-  return rig;
-}
-
-void add_edge(EdgeSet& edges, float x, float y, float direction = kSteep) {
-  edges.x.push_back(x);
-  edges.y.push_back(y);
-  edges.direction.push_back(direction);
-  edges.strength.push_back(10);
-}
-
-/// Every pixel of the left view has disparity 10, but column 80 and beyond is unknown.
-FrameTruth plane_truth() {
-  FrameTruth truth;
-  truth.left = {100, 60, std::vector<float>(6000, 10.0F)};
-  for (std::size_t i = 0; i < 6000; ++i) {
-    if (i % 100 >= 80) truth.left.nearness[i] = std::nanf("");
-  }
-  truth.right = right_from_left(truth.left, 100);
-  return truth;
-}
-
-}  // namespace
+using namespace paper_scene;
 
 TEST_CASE("A scene on paper has the recall, precision and ambiguity that were worked out on paper", "[matching]") {
   EdgeSet left, right;
@@ -129,7 +100,7 @@ TEST_CASE("Pooled tables add up counts, not percentages, and tell the spread ove
   FilterCounts small, large;
   small.add_edge(1, 1);  // one edge, found
   for (int i = 0; i < 3; ++i) large.add_edge(2, i == 0 ? 1 : 0);
-  MatchingResult result{"two frames", std::vector<FrameMatching>(2)};
+  MatchingResult result{"two frames", std::vector<FrameMatching>(2), {}, {}};
   result.frames[0].stereo = {{0, "baseline", small, small}};
   result.frames[1].stereo = {{0, "baseline", large, large}};
   result.frames[0].disparity_error = {-0.1F, 0.2F};
@@ -139,7 +110,7 @@ TEST_CASE("Pooled tables add up counts, not percentages, and tell the spread ove
   CHECK(summary.stereo[0].row.paired.recall() == Approx(2.0 / 4));
   CHECK(summary.stereo[0].row.paired.precision() == Approx(2.0 / 7));
   CHECK(summary.stereo[0].row.paired.ambiguity_max() == 1.0);
-  CHECK(summary.stereo[0].paired_recall_std == Approx((1.0 - 1.0 / 3) / 2));
+  CHECK(summary.stereo[0].paired_std.recall == Approx((1.0 - 1.0 / 3) / 2));
   CHECK(summary.disparity_median == Approx(0.2));
   CHECK(summary.disparity_bias == Approx(0.2));
   FilterTable one = {{0, "baseline", small, small}}, two = {{0, "baseline", small, small}, {1, "next", small, small}};

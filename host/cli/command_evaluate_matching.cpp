@@ -50,7 +50,7 @@ class EvaluateMatchingCommand : public Command {
     open_sources();
     Device device = method_.open_device();
     if (!sweep_.empty()) return run_sweep(config, device);
-    const auto results = evaluate(config, device);
+    const auto results = evaluate(config, device, true);
     if (results.size() > 1) {
       for (const auto& result : results) print_matching(result.name, evaluation::summarise({result}));
     }
@@ -78,13 +78,16 @@ class EvaluateMatchingCommand : public Command {
     }
   }
 
-  std::vector<evaluation::MatchingResult> evaluate(const Config& config, Device& device) const {
+  std::vector<evaluation::MatchingResult> evaluate(const Config& config, Device& device, bool with_figures) const {
     Progress progress(quiet_);
     std::vector<evaluation::MatchingResult> results;
     for (const auto& source : sources_) {
-      results.push_back(evaluation::evaluate_matching(*source, device, config, frames_, tolerance_, [&](int done, int all) {
-        progress.update(source->name(), done, all);
-      }));
+      evaluation::MatchingOptions options;
+      options.frames = frames_;
+      options.tolerance = tolerance_;
+      options.distributions = with_figures;
+      options.progress = [&](int done, int all) { progress.update(source->name(), done, all); };
+      results.push_back(evaluation::evaluate_matching(*source, device, config, options));
     }
     return results;
   }
@@ -92,7 +95,7 @@ class EvaluateMatchingCommand : public Command {
   int run_sweep(const Config& config, Device& device) const {
     const Sweep sweep = parse_sweep(sweep_);
     for (std::size_t i = 0; i < sweep.values.size(); ++i) {
-      const auto summary = evaluation::summarise(evaluate(with_value(config, sweep.key, sweep.values[i]), device));
+      const auto summary = evaluation::summarise(evaluate(with_value(config, sweep.key, sweep.values[i]), device, false));
       if (i == 0) print_sweep_heading(sweep.key, summary, sweep.stereo_orders, sweep.temporal_orders);
       print_sweep_line(sweep.values[i], summary, sweep.stereo_orders, sweep.temporal_orders);
     }

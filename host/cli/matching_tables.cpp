@@ -24,9 +24,9 @@ std::string percent(double share, int decimals = 2) { return decimal(100 * share
 /// A share that may be far below one percent.
 std::string fine_percent(double share) { return percent(share, share < 0.0005 ? 4 : 2); }
 
-void print_counts(const FilterCounts& counts, double recall_std, double precision_std) {
-  std::printf(" | %7s +-%5s %7s +-%5s %9s %6s", percent(counts.recall()).c_str(), percent(recall_std, 1).c_str(),
-              fine_percent(counts.precision()).c_str(), percent(precision_std, 1).c_str(), decimal(counts.ambiguity_mean(), 3).c_str(),
+void print_counts(const FilterCounts& counts, const evaluation::FilterSpread& spread) {
+  std::printf(" | %7s +-%5s %7s +-%5s %9s %6s", percent(counts.recall()).c_str(), percent(spread.recall, 1).c_str(),
+              fine_percent(counts.precision()).c_str(), percent(spread.precision, 1).c_str(), decimal(counts.ambiguity_mean(), 3).c_str(),
               decimal(counts.ambiguity_max(), 0).c_str());
 }
 
@@ -39,27 +39,31 @@ void print_filters(const char* title, const std::vector<PooledRow>& rows) {
   std::printf("\n");
   for (const auto& pooled : rows) {
     std::printf("%2d %-26s", pooled.row.order, pooled.row.filter.c_str());
-    print_counts(pooled.row.paired, pooled.paired_recall_std, pooled.paired_precision_std);
-    print_counts(pooled.row.all, pooled.all_recall_std, pooled.all_precision_std);
+    print_counts(pooled.row.paired, pooled.paired_std);
+    print_counts(pooled.row.all, pooled.all_std);
     std::printf("\n");
   }
 }
 
-void print_constraints(const evaluation::ConstraintTable& table) {
-  if (table[0].pairs == 0) return;
-  std::printf("\nTable 3: pairs of quads after each constraint, %" PRId64 " pairs drawn\n%-29s %10s %12s\n", table[0].pairs,
-              "order constraint", "recall %", "precision %");
+void print_constraints(const evaluation::MatchingSummary& summary) {
+  const auto& table = summary.constraints;
+  if (table[0].counts.pairs == 0) return;
+  std::printf("\nTable 3: pairs of quads after each constraint, %" PRId64 " pairs drawn\n%-29s  %-15s  %-15s\n", table[0].counts.pairs,
+              "order constraint", "  recall %", "precision %");
   for (std::size_t order = 0; order < table.size(); ++order) {
     const auto& row = table[order];
-    std::printf("%2zu %-26s %10s %12s\n", order, evaluation::kConstraintNames[order],
-                percent(static_cast<double>(row.veridical) / static_cast<double>(table[0].veridical)).c_str(),
-                percent(static_cast<double>(row.veridical) / static_cast<double>(row.pairs)).c_str());
+    std::printf("%2zu %-26s  %7s +-%5s  %7s +-%5s\n", order, evaluation::kConstraintNames[order],
+                percent(static_cast<double>(row.counts.veridical) / static_cast<double>(table[0].counts.veridical)).c_str(),
+                percent(row.recall_std, 1).c_str(),
+                percent(static_cast<double>(row.counts.veridical) / static_cast<double>(row.counts.pairs)).c_str(),
+                percent(row.precision_std, 1).c_str());
   }
 }
 
-void print_quads(const char* pool, const FilterCounts& counts) {
-  std::printf("quads, %-7s recall %s %%, precision %s %% (%" PRId64 " edges, %" PRId64 " quads)\n", pool,
-              percent(counts.recall()).c_str(), percent(counts.precision()).c_str(), counts.pool, counts.candidates);
+void print_quads(const char* pool, const evaluation::PooledQuads& quads) {
+  std::printf("quads, %-7s recall %s +- %s %%, precision %s +- %s %% (%" PRId64 " edges, %" PRId64 " quads)\n", pool,
+              percent(quads.counts.recall()).c_str(), percent(quads.std.recall, 1).c_str(), percent(quads.counts.precision()).c_str(),
+              percent(quads.std.precision, 1).c_str(), quads.counts.pool, quads.counts.candidates);
 }
 
 const PooledRow* find(const std::vector<PooledRow>& rows, int order) {
@@ -102,6 +106,11 @@ void print_matching(const std::string& title, const evaluation::MatchingSummary&
               ", on depth steps %" PRId64 "\n",
               census.edges, census.no_statement, census.along_line, census.hidden, census.contour);
   print_filters("Table 1: stereo", summary.stereo);
+  std::printf("final stereo edges: ");
+  for (std::size_t kind = 0; kind < summary.classes.size(); ++kind) {
+    std::printf("%s%" PRId64 " %s", kind == 0 ? "" : ", ", summary.classes[kind], evaluation::kMatchClassNames[kind]);
+  }
+  std::printf("\n");
   std::printf("disparity error: median %s px, p90 %s px, bias %s px; across the edge: median %s px, p90 %s px\n",
               decimal(summary.disparity_median, 4).c_str(), decimal(summary.disparity_p90, 4).c_str(),
               decimal(summary.disparity_bias, 4).c_str(), decimal(summary.across_median, 4).c_str(),
@@ -112,9 +121,10 @@ void print_matching(const std::string& title, const evaluation::MatchingSummary&
     std::printf("\n");
     print_quads("paired:", summary.quads_paired);
     print_quads("all:", summary.quads_all);
-    std::printf("quads, rivals per quad %s\n", decimal(summary.quads_ambiguity_mean, 3).c_str());
+    std::printf("quads, paired: ambiguity %s +- %s (further matches per quad)\n", decimal(summary.quads_ambiguity_mean, 3).c_str(),
+                decimal(summary.quads_paired.std.ambiguity, 3).c_str());
   }
-  print_constraints(summary.constraints);
+  print_constraints(summary);
 }
 
 void print_sweep_heading(const std::string& key, const evaluation::MatchingSummary& summary, const std::vector<int>& stereo_orders,
@@ -133,8 +143,9 @@ void print_sweep_line(double value, const evaluation::MatchingSummary& summary, 
   std::printf("%12g", value);
   for_rows(summary, stereo_orders, temporal_orders,
            [](const char*, const std::vector<PooledRow>& rows, int order) { print_sweep_row(rows, order); });
-  std::printf("  %9s %5s %9s %9s\n", percent(summary.quads_paired.recall()).c_str(), percent(summary.quads_paired.precision()).c_str(),
-              percent(summary.quads_all.precision()).c_str(), decimal(summary.disparity_median, 4).c_str());
+  const FilterCounts& quads = summary.quads_paired.counts;
+  std::printf("  %9s %5s %9s %9s\n", percent(quads.recall()).c_str(), percent(quads.precision()).c_str(),
+              percent(summary.quads_all.counts.precision()).c_str(), decimal(summary.disparity_median, 4).c_str());
   std::fflush(stdout);
 }
 

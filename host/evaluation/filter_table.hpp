@@ -13,6 +13,7 @@ namespace quadedge::evaluation {
 /// When a candidate counts as the true one, and when an edge has a counterpart at all.
 struct MatchingTolerance {
   double place = 1.0;               ///< px from the true place: veridical
+  double wrong = 10.0;              ///< px from the true place: beyond it a match is wrong, before only inaccurate
   double line = 0.5;                ///< px from the epipolar line; counterparts in stereo
   double stereo_direction = 5.0;    ///< deg, modulo 180; counterparts in stereo
   double temporal_direction = 10.0; ///< deg, modulo 180; counterparts in time

@@ -7,21 +7,28 @@
 
 namespace quadedge::evaluation {
 
-MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config, int frames,
-                                 const MatchingTolerance& tolerance, const std::function<void(int, int)>& progress) {
+MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config, const MatchingOptions& options) {
   if (device.is_reference()) throw UsageError("the filters are observed on an OpenCL device; the reference shows its results only");
   if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0) config.stereo.max_disparity = source.max_disparity();
-  MatchingObserver observer(source.rig(), config, tolerance);
+  MatchingObserver observer(source.rig(), config, options.tolerance, options.distributions);
   StereoOdometry odometry(source.rig(), device, config);
   odometry.set_tap(&observer);
-  MatchingResult result{source.name(), {}};
-  const int count = frames > 0 ? std::min(frames, source.frames()) : source.frames();
+  MatchingResult result;
+  result.name = source.name();
+  const int count = options.frames > 0 ? std::min(options.frames, source.frames()) : source.frames();
+  const int drawn = std::min(options.draw_frame, count - 1);
   for (int number = 0; number < count; ++number) {
     TrueFrame frame = source.load(number);
     observer.begin(std::move(frame.truth));
-    result.frames.push_back(
-        observer.end(odometry.track({frame.frame.stamp_ns, frame.frame.left.view(), frame.frame.right.view()})));
-    if (progress) progress(number + 1, count);
+    FrameMatching measured =
+        observer.end(odometry.track({frame.frame.stamp_ns, frame.frame.left.view(), frame.frame.right.view()}));
+    add(result.cues, measured.cues);
+    measured.cues = {};
+    result.frames.push_back(std::move(measured));
+    if (number == drawn) {
+      result.drawn = DrawnFrame{number, std::move(frame.frame.left), std::move(frame.frame.right), observer.final_matches()};
+    }
+    if (options.progress) options.progress(number + 1, count);
   }
   return result;
 }

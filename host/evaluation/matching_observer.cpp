@@ -1,10 +1,8 @@
 #include "evaluation/matching_observer.hpp"
 
 #include <cmath>
-#include <random>
 
 #include "evaluation/pools.hpp"
-#include "pose/constraints.hpp"
 #include "pose/quads.hpp"
 #include "stages/filter_names.hpp"
 
@@ -13,7 +11,6 @@ namespace {
 
 constexpr int kBestOrder = static_cast<int>(stages::kStereoFilters.size()) - 1;
 constexpr int kTemporalLastOrder = static_cast<int>(stages::kTemporalFilters.size()) - 1;
-constexpr int kConstraintPairs = 200000;  // drawn per frame
 
 /// The final stereo edges as lists over all left edges.
 CandidateLists lists_of(const StereoEdges& edges, std::size_t left_edges) {
@@ -39,26 +36,37 @@ CandidateLists lists_of(const TemporalMatches& matches, std::size_t previous_edg
   return lists;
 }
 
-/// Uniform in 0 .. size - 1; the same on every standard library.
-std::size_t draw(std::mt19937_64& random, std::size_t size) {
-  return static_cast<std::size_t>(static_cast<double>(random() >> 11) * 0x1p-53 * static_cast<double>(size));
+/// What the truth says about a match; nothing for edges of unknown truth.
+MatchClass classify(const TruePlaces& truth, std::size_t i, double x, double y, const MatchingTolerance& tolerance) {
+  if (truth.state[i] == Visibility::hidden) return MatchClass::hidden;
+  if (is_veridical(truth, i, x, y, tolerance)) return MatchClass::correct;
+  return std::hypot(x - truth.x[i], y - truth.y[i]) <= tolerance.wrong ? MatchClass::inaccurate : MatchClass::wrong;
 }
 
 }  // namespace
 
-MatchingObserver::MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance)
-    : rig_(rig), config_(config), tolerance_(tolerance) {}
+MatchingObserver::MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance, bool distributions)
+    : rig_(rig), config_(config), tolerance_(tolerance) {
+  if (distributions) empty_cues_ = make_cues(rig, config);
+}
 
 void MatchingObserver::begin(FrameTruth truth) {
   current_ = {};
   current_.truth = std::move(truth);
   measured_ = {};
+  measured_.cues = empty_cues_;
+  final_matches_.clear();
   complete_search_ = false;
 }
 
 FrameMatching MatchingObserver::end(const FrameResult& result) {
   measured_.counts = result.counts;
   measured_.status = result.status;
+  current_.world_from_left = result.world_from_left;
+  if (result.status == FrameStatus::tracked && is_known_motion()) {
+    measured_.motion = motion_error(current_.world_from_left.inverse() * base_->world_from_left,
+                                    current_.truth.world_from_left->inverse() * *base_->truth.world_from_left);
+  }
   // The rule by which the pipeline chooses what the next frame is matched with.
   if (is_tracked(result.status) || result.new_key_rig) base_ = std::move(current_);
   return std::move(measured_);
@@ -80,10 +88,12 @@ void MatchingObserver::edges(const EdgeSet& left, const EdgeSet& right) {
   }
   measured_.stereo.push_back(judge_baseline(stages::kStereoFilters[0], right.x, right.y, rig_.right.height, stereo_truth_,
                                             stereo_pools_, tolerance_));
+  collect_stereo(0, {});
 }
 
 void MatchingObserver::stereo_filter(int order, const std::string& name, const CandidateLists& candidates) {
   measured_.stereo.push_back(judge(order, name, candidates, right_.x, right_.y, stereo_truth_, stereo_pools_, tolerance_));
+  collect_stereo(order, candidates);
 }
 
 void MatchingObserver::stereo(const StereoEdges& edges) {
@@ -92,12 +102,34 @@ void MatchingObserver::stereo(const StereoEdges& edges) {
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const auto i = static_cast<std::size_t>(edges.left_index[k]);
     current_.veridical.push_back(is_veridical(stereo_truth_, i, edges.right_x[k], edges.right_y[k], tolerance_) ? 1 : 0);
+    if (stereo_pools_.all[i] != 0) {
+      const MatchClass kind = classify(stereo_truth_, i, edges.right_x[k], edges.right_y[k], tolerance_);
+      ++measured_.classes[static_cast<std::size_t>(kind)];
+      final_matches_.push_back({edges.left_x[k], edges.left_y[k], edges.left_direction[k], edges.right_x[k], edges.right_y[k],
+                                edges.right_direction[k], stereo_truth_.x[i], stereo_truth_.y[i], kind});
+    }
     if (stereo_truth_.state[i] != Visibility::visible) continue;
     const double dx = edges.right_x[k] - stereo_truth_.x[i], dy = edges.right_y[k] - stereo_truth_.y[i];
     const double angle = edges.right_direction[k];
     measured_.disparity_error.push_back(static_cast<float>(std::copysign(std::hypot(dx, dy), -dx)));
     measured_.across_error.push_back(static_cast<float>(std::abs(std::cos(angle) * dy - std::sin(angle) * dx)));
   }
+}
+
+void MatchingObserver::temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double, int step) {
+  complete_search_ = step == 1 && is_known_motion();  // a search that looks at a part of the edges only makes a prediction
+  measured_.temporal_left.clear();
+  measured_.temporal_right.clear();
+  measured_.quads_paired = measured_.quads_all = {};
+  measured_.quad_rivals = 0;
+  measured_.pairs = {};
+  for (auto& cue : measured_.cues) {  // of an earlier search
+    if (cue.table != CueTable::stereo) cue = *find_cue(empty_cues_, cue.table, cue.order);
+  }
+  if (!complete_search_) return;
+  expected_left_ = left;
+  expected_right_ = right;
+  start_temporal();
 }
 
 /// Truth and pools of the matching with the base, and row 0 of both tables.
@@ -114,19 +146,11 @@ void MatchingObserver::start_temporal() {
   const char* name = stages::kTemporalFilters[0];
   measured_.temporal_left = {judge_baseline(name, now.left_x, now.left_y, rig_.left.height, later_left_, left_pools_, tolerance_)};
   measured_.temporal_right = {judge_baseline(name, now.right_x, now.right_y, rig_.right.height, later_right_, right_pools_, tolerance_)};
+  collect_temporal(0, false, {});
+  collect_temporal(0, true, {});
 }
 
 void MatchingObserver::temporal_filter(int order, const std::string& name, int side, const CandidateLists& candidates) {
-  if (!base_ || !base_->truth.world_from_left || !current_.truth.world_from_left) return;
-  if (order == 1 && side == 0) {  // a new search; one that looks at a part of the edges only makes a prediction
-    complete_search_ = candidates.first.size() == base_->edges.size() + 1;
-    measured_.temporal_left.clear();
-    measured_.temporal_right.clear();
-    measured_.quads_paired = measured_.quads_all = {};
-    measured_.quad_rivals = 0;
-    measured_.constraints = {};
-    if (complete_search_) start_temporal();
-  }
   if (!complete_search_) return;
   const StereoEdges& now = current_.edges;
   const auto row = [&](bool right) {
@@ -137,6 +161,7 @@ void MatchingObserver::temporal_filter(int order, const std::string& name, int s
   const bool joint = order == kTemporalLastOrder - 1;
   if (side == 0 || joint) measured_.temporal_left.push_back(row(false));
   if (side == 1 || joint) measured_.temporal_right.push_back(row(true));
+  collect_temporal(order, side == 1, candidates);
 }
 
 void MatchingObserver::quads(const TemporalMatches& matches) {
@@ -148,6 +173,12 @@ void MatchingObserver::quads(const TemporalMatches& matches) {
                                           left_pools_, tolerance_));
   measured_.temporal_right.push_back(judge(kTemporalLastOrder, name, lists_of(matches, rows, true), none, none, later_right_,
                                            right_pools_, tolerance_));
+  measure_quads(matches);
+}
+
+/// The quads' own recall and precision, and pairs of them under the constraints.
+void MatchingObserver::measure_quads(const TemporalMatches& matches) {
+  const std::size_t rows = base_->edges.size();
   std::vector<std::uint8_t> known(matches.size(), 0), veridical(matches.size(), 0), candidates(rows, 0), true_candidates(rows, 0);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     const auto i = static_cast<std::size_t>(matches.previous[k]);
@@ -162,32 +193,16 @@ void MatchingObserver::quads(const TemporalMatches& matches) {
     if (quad_pools_.all[i] != 0) measured_.quads_all.add_edge(candidates[i], true_candidates[i]);
     if (quad_pools_.paired[i] != 0) measured_.quads_paired.add_edge(candidates[i], true_candidates[i]);
   }
-  measure_constraints(matches, known, veridical);
-}
-
-/// Pairs of quads of known truth, drawn uniformly.
-void MatchingObserver::measure_constraints(const TemporalMatches& matches, const std::vector<std::uint8_t>& known,
-                                           const std::vector<std::uint8_t>& veridical) {
   const auto quads = pose::build_quads(rig_, base_->edges, current_.edges, matches, pose::QuadLimits(config_));
-  std::vector<std::size_t> usable;
+  std::vector<std::size_t> usable;  // quads of known truth
+  std::vector<std::uint8_t> veridical_quad;
   for (std::size_t q = 0; q < quads.size(); ++q) {
-    if (known[static_cast<std::size_t>(quads.match[q])] != 0) usable.push_back(q);
+    const auto match = static_cast<std::size_t>(quads.match[q]);
+    if (known[match] != 0) usable.push_back(q);
+    veridical_quad.push_back(veridical[match]);
   }
-  if (usable.size() < 2) return;
-  const pose::ConstraintLimits limits(config_.pose);
-  std::mt19937_64 random(config_.seed);
-  for (int n = 0; n < kConstraintPairs; ++n) {
-    const std::size_t a = usable[draw(random, usable.size())], b = usable[draw(random, usable.size())];
-    if (a == b) continue;
-    const bool both = veridical[static_cast<std::size_t>(quads.match[a])] != 0 && veridical[static_cast<std::size_t>(quads.match[b])] != 0;
-    const auto check = pose::check_constraints({quads.previous_points[a], quads.previous_points[b]},
-                                               {quads.current_points[a], quads.current_points[b]}, limits);
-    for (std::size_t order = 0; order < measured_.constraints.size(); ++order) {
-      if (order > 0 && !check.passed[order - 1]) break;
-      ++measured_.constraints[order].pairs;
-      measured_.constraints[order].veridical += both ? 1 : 0;
-    }
-  }
+  measured_.pairs = measure_pairs(quads, usable, veridical_quad, config_.pose, config_.seed,
+                                  current_.truth.world_from_left->inverse() * *base_->truth.world_from_left, measured_.cues);
 }
 
 }  // namespace quadedge::evaluation

@@ -29,21 +29,72 @@ double quantile(std::vector<float> values, double share) {
   return values[static_cast<std::size_t>(rank)];
 }
 
+/// Recall, precision and ambiguity of single frames.
+struct FrameValues {
+  std::vector<double> recall, precision, ambiguity;
+  void add(const FilterCounts& counts) { add(counts.recall(), counts.precision(), counts.ambiguity_mean()); }
+  void add(double recall_value, double precision_value, double ambiguity_value) {
+    recall.push_back(recall_value);
+    precision.push_back(precision_value);
+    ambiguity.push_back(ambiguity_value);
+  }
+  FilterSpread spread() const { return {deviation(recall), deviation(precision), deviation(ambiguity)}; }
+};
+
+double ratio(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::vector<PooledRow> pool(const std::vector<const FilterTable*>& tables) {
   FilterTable sum;
   for (const auto* table : tables) add(sum, *table);
   std::vector<PooledRow> rows;
   for (std::size_t i = 0; i < sum.size(); ++i) {
-    std::vector<double> paired_recall, paired_precision, all_recall, all_precision;
+    FrameValues paired, all;
     for (const auto* table : tables) {
-      paired_recall.push_back((*table)[i].paired.recall());
-      paired_precision.push_back((*table)[i].paired.precision());
-      all_recall.push_back((*table)[i].all.recall());
-      all_precision.push_back((*table)[i].all.precision());
+      paired.add((*table)[i].paired);
+      all.add((*table)[i].all);
     }
-    rows.push_back({sum[i], deviation(paired_recall), deviation(paired_precision), deviation(all_recall), deviation(all_precision)});
+    rows.push_back({sum[i], paired.spread(), all.spread()});
   }
   return rows;
+}
+
+/// The frames with a matching in time.
+void pool_quads(const std::vector<const FrameMatching*>& frames, MatchingSummary& summary) {
+  FrameValues paired, all;
+  std::int64_t rivals = 0;
+  for (const auto* frame : frames) {
+    summary.quads_paired.counts.add(frame->quads_paired);
+    summary.quads_all.counts.add(frame->quads_all);
+    rivals += frame->quad_rivals;
+    paired.add(frame->quads_paired.recall(), frame->quads_paired.precision(), ratio(frame->quad_rivals, frame->quads_paired.candidates));
+    all.add(frame->quads_all);
+  }
+  summary.quads_paired.std = paired.spread();
+  summary.quads_all.std = all.spread();
+  summary.quads_ambiguity_mean = ratio(rivals, summary.quads_paired.counts.candidates);
+  for (std::size_t order = 0; order < summary.constraints.size(); ++order) {
+    PooledConstraint& row = summary.constraints[order];
+    std::vector<double> recall, precision;
+    for (const auto* frame : frames) {
+      const ConstraintCounts& counts = frame->pairs.table[order];
+      row.counts.pairs += counts.pairs;
+      row.counts.veridical += counts.veridical;
+      recall.push_back(ratio(counts.veridical, frame->pairs.table[0].veridical));
+      precision.push_back(ratio(counts.veridical, counts.pairs));
+    }
+    row.recall_std = deviation(recall);
+    row.precision_std = deviation(precision);
+  }
+}
+
+void add(EdgeCensus& sum, const EdgeCensus& census) {
+  sum.edges += census.edges;
+  sum.no_statement += census.no_statement;
+  sum.along_line += census.along_line;
+  sum.hidden += census.hidden;
+  sum.contour += census.contour;
 }
 
 }  // namespace
@@ -51,38 +102,28 @@ std::vector<PooledRow> pool(const std::vector<const FilterTable*>& tables) {
 MatchingSummary summarise(const std::vector<MatchingResult>& results) {
   MatchingSummary summary;
   std::vector<const FilterTable*> stereo, temporal_left, temporal_right;
+  std::vector<const FrameMatching*> matched_in_time;
   std::vector<float> errors, absolute, across;
-  std::int64_t rivals = 0;
   for (const auto& result : results) {
+    add(summary.cues, result.cues);
     for (const auto& frame : result.frames) {
       ++summary.frames;
-      summary.census.edges += frame.census.edges;
-      summary.census.no_statement += frame.census.no_statement;
-      summary.census.along_line += frame.census.along_line;
-      summary.census.hidden += frame.census.hidden;
-      summary.census.contour += frame.census.contour;
+      add(summary.census, frame.census);
+      for (std::size_t kind = 0; kind < frame.classes.size(); ++kind) summary.classes[kind] += frame.classes[kind];
       if (!frame.stereo.empty()) stereo.push_back(&frame.stereo);
-      if (!frame.temporal_left.empty()) {
-        ++summary.temporal_frames;
-        temporal_left.push_back(&frame.temporal_left);
-        temporal_right.push_back(&frame.temporal_right);
-      }
-      summary.quads_paired.add(frame.quads_paired);
-      summary.quads_all.add(frame.quads_all);
-      rivals += frame.quad_rivals;
-      for (std::size_t i = 0; i < frame.constraints.size(); ++i) {
-        summary.constraints[i].pairs += frame.constraints[i].pairs;
-        summary.constraints[i].veridical += frame.constraints[i].veridical;
-      }
       errors.insert(errors.end(), frame.disparity_error.begin(), frame.disparity_error.end());
       across.insert(across.end(), frame.across_error.begin(), frame.across_error.end());
+      if (frame.temporal_left.empty()) continue;
+      ++summary.temporal_frames;
+      temporal_left.push_back(&frame.temporal_left);
+      temporal_right.push_back(&frame.temporal_right);
+      matched_in_time.push_back(&frame);
     }
   }
   summary.stereo = pool(stereo);
   summary.temporal_left = pool(temporal_left);
   summary.temporal_right = pool(temporal_right);
-  const double quads = static_cast<double>(summary.quads_paired.candidates);
-  summary.quads_ambiguity_mean = quads > 0 ? static_cast<double>(rivals) / quads : std::numeric_limits<double>::quiet_NaN();
+  pool_quads(matched_in_time, summary);
   for (const float error : errors) absolute.push_back(std::abs(error));
   summary.disparity_median = quantile(absolute, 0.5);
   summary.disparity_p90 = quantile(absolute, 0.9);

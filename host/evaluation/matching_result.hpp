@@ -2,23 +2,17 @@
 /// \file matching_result.hpp  What the evaluation of the matching measures; frames add up to sequences and pairs to sets.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluation/cue_distribution.hpp"
 #include "evaluation/filter_table.hpp"
+#include "evaluation/final_match.hpp"
+#include "evaluation/quad_pairs.hpp"
 #include "quadedge/odometry.hpp"
 
 namespace quadedge::evaluation {
-
-/// Rows of Table 3: all pairs of quads, then the constraints of the paper's Equation 9 one after another.
-inline constexpr std::array<const char*, 7> kConstraintNames = {
-    "baseline", "length of D", "angle of D and T1", "angle of D and T2", "angle of T1 and T2", "D not along T1", "handedness"};
-
-/// Pairs of quads that fulfil constraints 1 to `order`.
-struct ConstraintCounts {
-  std::int64_t pairs = 0, veridical = 0;
-};
-using ConstraintTable = std::array<ConstraintCounts, kConstraintNames.size()>;
 
 /// What the ground truth says about the left edges of a frame.
 struct EdgeCensus {
@@ -38,34 +32,59 @@ struct FrameMatching {
   FilterCounts quads_paired, quads_all;
   std::int64_t quad_rivals = 0;       ///< further clusters that the paired quads' edges had
   EdgeCensus census;
-  ConstraintTable constraints{};      ///< Table 3
+  PairMeasurement pairs;              ///< Table 3 and Figure 7
+  /// Error of the motion that the pipeline found since the frame that this one was matched with; for tracked frames.
+  std::optional<MotionError> motion;
   /// Final stereo edges whose truth is known and visible [px]: place along the epipolar line minus the true one, and the part of
   /// it that is across the edge, without sign.
   std::vector<float> disparity_error, across_error;
+  MatchClassCounts classes{};         ///< final stereo edges of the pool `all`
+  std::vector<CueDistribution> cues;  ///< moved to the result when the frame is done
 };
 
 /// One pair or one sequence.
 struct MatchingResult {
   std::string name;
   std::vector<FrameMatching> frames;
+  std::vector<CueDistribution> cues;  ///< over all frames
+  std::optional<DrawnFrame> drawn;    ///< the frame that MatchingOptions asked for
 };
 
-/// A row of a pooled table with the standard deviations of recall and precision over the frames (N, not N - 1).
+/// Standard deviations over frames (N, not N - 1).
+struct FilterSpread {
+  double recall = 0, precision = 0, ambiguity = 0;
+};
+
+/// A row of a pooled table: sums of the counts, and how recall, precision and mean ambiguity of single frames scatter.
 struct PooledRow {
   FilterRow row;
-  double paired_recall_std = 0, paired_precision_std = 0, all_recall_std = 0, all_precision_std = 0;
+  FilterSpread paired_std, all_std;
+};
+
+/// Quads of one pool. Ambiguity is rivals per quad: further clusters of the quad's previous edge.
+struct PooledQuads {
+  FilterCounts counts;
+  FilterSpread std;
+};
+
+/// A row of the pooled Table 3.
+struct PooledConstraint {
+  ConstraintCounts counts;
+  double recall_std = 0, precision_std = 0;
 };
 
 /// Everything that tables and JSON print of one or several results.
 struct MatchingSummary {
   std::vector<PooledRow> stereo, temporal_left, temporal_right;
-  FilterCounts quads_paired, quads_all;
+  PooledQuads quads_paired, quads_all;
   double quads_ambiguity_mean = 0;  ///< rivals per quad of the paired pool; NaN without quads
-  ConstraintTable constraints{};
+  std::array<PooledConstraint, kConstraintNames.size()> constraints{};
   double disparity_median = 0, disparity_p90 = 0;  ///< of the absolute error [px]; NaN without stereo edges of known truth
   double disparity_bias = 0;                       ///< median of the signed error [px]
   double across_median = 0, across_p90 = 0;        ///< of the part across the edge [px]
   EdgeCensus census;
+  MatchClassCounts classes{};
+  std::vector<CueDistribution> cues;
   int frames = 0, temporal_frames = 0;
 };
 MatchingSummary summarise(const std::vector<MatchingResult>& results);

@@ -1,0 +1,72 @@
+#include "evaluation/cue_collector.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "evaluation/draw.hpp"
+#include "evaluation/pools.hpp"
+
+namespace quadedge::evaluation {
+namespace {
+
+/// Calls `visit(row, candidate, target, veridical)` for every candidate in a row of the paired pool.
+template <class Visit>
+void visit_candidates(const CandidateLists& lists, const CandidateTruth& judge, const Visit& visit) {
+  const bool placed = lists.x.size() == lists.target.size();
+  for (std::size_t i = 0; i + 1 < lists.first.size(); ++i) {
+    if (judge.pools.paired[i] == 0) continue;
+    for (auto k = static_cast<std::size_t>(lists.first[i]); k < static_cast<std::size_t>(lists.first[i + 1]); ++k) {
+      const auto target = static_cast<std::size_t>(lists.target[k]);
+      const double x = placed ? lists.x[k] : judge.target_x[target], y = placed ? lists.y[k] : judge.target_y[target];
+      visit(i, k, target, is_veridical(judge.truth, i, x, y, judge.tolerance));
+    }
+  }
+}
+
+void add(double value, bool veridical, CueDistribution& cue) { (veridical ? cue.veridical : cue.other).add(value); }
+
+}  // namespace
+
+void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, const PairValue& value, CueDistribution& cue) {
+  visit_candidates(lists, judge, [&](std::size_t row, std::size_t, std::size_t target, bool veridical) {
+    add(value(row, target), veridical, cue);
+  });
+}
+
+void collect_scores(const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue) {
+  if (lists.cue.size() != lists.target.size()) return;
+  visit_candidates(lists, judge, [&](std::size_t, std::size_t candidate, std::size_t, bool veridical) {
+    add(lists.cue[candidate], veridical, cue);
+  });
+}
+
+void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best, CueDistribution& cue) {
+  if (lists.cue.size() != lists.target.size()) return;
+  visit_candidates(lists, judge, [&](std::size_t row, std::size_t candidate, std::size_t, bool veridical) {
+    const auto begin = lists.cue.begin() + lists.first[row], end = lists.cue.begin() + lists.first[row + 1];
+    const double own = lists.cue[candidate];
+    if (highest_is_best) {
+      add(own / *std::max_element(begin, end), veridical, cue);
+    } else {
+      const double best = *std::min_element(begin, end);
+      add(own > 0 ? best / own : 1.0, veridical, cue);
+    }
+  });
+}
+
+void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint64_t seed, const PairValue& value, CueDistribution& cue) {
+  if (judge.target_x.empty()) return;
+  const NearbyTargets nearby(judge.target_x, judge.target_y, image_height);
+  std::mt19937_64 random(seed);
+  for (std::size_t i = 0; i < judge.pools.paired.size(); ++i) {
+    if (judge.pools.paired[i] == 0) continue;
+    nearby.visit(judge.truth.x[i], judge.truth.y[i], judge.tolerance.place, [&](std::size_t target) { add(value(i, target), true, cue); });
+    for (int n = 0; n < kDrawnOthers; ++n) {
+      const std::size_t target = draw(random, judge.target_x.size());
+      if (is_veridical(judge.truth, i, judge.target_x[target], judge.target_y[target], judge.tolerance)) continue;
+      add(value(i, target), false, cue);
+    }
+  }
+}
+
+}  // namespace quadedge::evaluation

@@ -1,0 +1,130 @@
+#include "evaluation/cue_distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quadedge/error.hpp"
+#include "stages/filter_names.hpp"
+
+namespace quadedge::evaluation {
+namespace {
+
+constexpr double kSimilarityLow = -1, kSimilarityHigh = 1, kSiftHigh = 800;  // no two descriptors of norm 512 differ by more
+
+constexpr double kRounding = 1e-3;  // bins; an NCC of one comes out of single precision a little above
+
+/// What a filter keeps and how its cue is shown.
+struct Range {
+  double low, high;
+  int bins;
+};
+
+CueDistribution make_cue(CueTable table, int order, const std::string& cue, const std::string& unit, bool keeps_small,
+                         const std::vector<double>& thresholds, const Range& range, bool sampled = false) {
+  const Histogram empty(range.low, range.high, range.bins);
+  return {table, order, cue, unit, keeps_small, sampled, thresholds, empty, empty};
+}
+
+const Range kNcc{kSimilarityLow, kSimilarityHigh, 100}, kSift{0, kSiftHigh, 100}, kShare{0, 1, 100};
+
+void add_similarities(CueTable table, int ncc_order, int sift_order, double ncc_min, double sift_max, double ncc_nearly_best,
+                      double sift_nearly_best, std::vector<CueDistribution>& cues) {
+  const int nearly_best = std::max(ncc_order, sift_order) + 1;
+  const auto ncc = make_cue(table, ncc_order, "NCC", "", false, {ncc_min}, kNcc);
+  const auto sift = make_cue(table, sift_order, "SIFT distance", "", true, {sift_max}, kSift);
+  cues.push_back(ncc_order < sift_order ? ncc : sift);
+  cues.push_back(ncc_order < sift_order ? sift : ncc);
+  cues.push_back(make_cue(table, nearly_best, "NCC / best NCC of the list", "", false, {ncc_nearly_best}, kShare));
+  cues.push_back(make_cue(table, nearly_best + 1, "best SIFT distance of the list / SIFT distance", "", false, {sift_nearly_best}, kShare));
+}
+
+}  // namespace
+
+void Histogram::add(double value) {
+  if (std::isnan(value)) return;
+  const double place = (value - low) / width();
+  if (place < -kRounding) {
+    ++below;
+  } else if (place > static_cast<double>(bins.size()) + kRounding) {
+    ++above;
+  } else {
+    ++bins[std::min(static_cast<std::size_t>(std::max(place, 0.0)), bins.size() - 1)];
+  }
+}
+
+void Histogram::add(const Histogram& other) {
+  if (other.low != low || other.high != high || other.bins.size() != bins.size()) {
+    throw UsageError("histograms of different bins cannot be pooled");
+  }
+  for (std::size_t i = 0; i < bins.size(); ++i) bins[i] += other.bins[i];
+  below += other.below;
+  above += other.above;
+}
+
+std::int64_t Histogram::total() const {
+  std::int64_t sum = below + above;
+  for (const auto count : bins) sum += count;
+  return sum;
+}
+
+std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& config) {
+  std::vector<CueDistribution> cues;
+  const auto& stereo = config.stereo;
+  const bool rectified = rig.right_from_left.linear().isIdentity(1e-9) && rig.left.fx == rig.right.fx;
+  std::vector<double> disparity;
+  if (stereo.max_disparity > 0) {
+    disparity = {stereo.max_disparity};
+  } else if (stereo.min_depth > 0 && rectified) {
+    disparity = {rig.left.fx * rig.baseline() / stereo.min_depth};
+  }
+  const auto table = CueTable::stereo;
+  cues.push_back(make_cue(table, 1, "distance from the epipolar line", "px", true, {stereo.epipolar_distance}, {0, 5, 100}, true));
+  cues.push_back(make_cue(table, 2, "disparity", "px", true, disparity, {-20, 480, 500}));
+  cues.push_back(make_cue(table, 3, "difference of directions", "deg", true, {stereo.orientation}, {0, 90, 180}));
+  add_similarities(table, stages::kStereoNccOrder, stages::kStereoSiftOrder, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
+                   stereo.sift_nearly_best, cues);
+  cues.push_back(make_cue(table, 9, "NCC of representatives", "", false, {stereo.ncc_min}, kNcc));
+
+  const auto& temporal = config.temporal;
+  for (const auto side : {CueTable::temporal_left, CueTable::temporal_right}) {
+    cues.push_back(make_cue(side, 1, "distance from the expected place", "px", true, {temporal.radius}, {0, 50, 200}, true));
+    cues.push_back(make_cue(side, 2, "difference of directions", "deg", true, {temporal.orientation}, {0, 180, 360}));
+    add_similarities(side, stages::kTemporalNccOrder, stages::kTemporalSiftOrder, temporal.ncc_min, temporal.sift_max,
+                     temporal.ncc_nearly_best, temporal.sift_nearly_best, cues);
+  }
+
+  const auto& pose = config.pose;
+  const auto pairs = CueTable::constraints;
+  cues.push_back(make_cue(pairs, 1, "relative difference of |D|", "", true, {pose.length_difference}, {0, 1, 200}));
+  cues.push_back(make_cue(pairs, 2, "difference of cos(D, T1)", "", true, {pose.angle_difference}, {0, 2, 200}));
+  cues.push_back(make_cue(pairs, 3, "difference of cos(D, T2)", "", true, {pose.angle_difference}, {0, 2, 200}));
+  cues.push_back(make_cue(pairs, 4, "difference of T1 . T2", "", true, {pose.tangent_difference}, {0, 2, 200}));
+  cues.push_back(make_cue(pairs, 5, "angle between D and T1", "deg", false, {pose.min_angle}, {0, 90, 90}));
+  return cues;
+}
+
+void add(std::vector<CueDistribution>& sum, const std::vector<CueDistribution>& other) {
+  if (sum.empty()) {
+    sum = other;
+    return;
+  }
+  for (const auto& cue : other) {
+    CueDistribution* own = find_cue(sum, cue.table, cue.order);
+    if (own == nullptr) throw UsageError("cues of different filters cannot be pooled");
+    own->veridical.add(cue.veridical);
+    own->other.add(cue.other);
+    for (const double threshold : cue.thresholds) {
+      auto& known = own->thresholds;
+      if (std::find(known.begin(), known.end(), threshold) == known.end()) known.push_back(threshold);
+    }
+  }
+}
+
+CueDistribution* find_cue(std::vector<CueDistribution>& cues, CueTable table, int order) {
+  for (auto& cue : cues) {
+    if (cue.table == table && cue.order == order) return &cue;
+  }
+  return nullptr;
+}
+
+}  // namespace quadedge::evaluation

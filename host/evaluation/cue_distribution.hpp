@@ -1,0 +1,54 @@
+#pragma once
+/// \file cue_distribution.hpp  How the cues of the filters are distributed over veridical and other pairs (the paper's Figures 3,
+/// 5 and 6).
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::evaluation {
+
+/// Counts of values in bins of equal width.
+struct Histogram {
+  double low = 0, high = 1;
+  std::vector<std::int64_t> bins;
+  std::int64_t below = 0, above = 0;  ///< values outside low .. high
+
+  Histogram() = default;
+  Histogram(double from, double to, int count) : low(from), high(to), bins(static_cast<std::size_t>(count), 0) {}
+  /// NaN is left out.
+  void add(double value);
+  /// \throws UsageError for other bins.
+  void add(const Histogram& other);
+  std::int64_t total() const;  ///< all values, those outside included
+  double width() const { return (high - low) / static_cast<double>(bins.size()); }
+};
+
+/// Which cascade a filter belongs to.
+enum class CueTable { stereo, temporal_left, temporal_right, constraints };
+inline constexpr const char* kCueTableNames[] = {"stereo", "temporal_left", "temporal_right", "constraints"};
+
+/// The values of one cue over the pairs that reach the filter which judges it, before it does. Edges of the paired pool alone.
+struct CueDistribution {
+  CueTable table;
+  int order;                      ///< of the filter (Tables 1 and 2) or constraint (Table 3)
+  std::string cue, unit;          ///< the unit may be empty
+  bool keeps_small;               ///< the filter keeps values below its threshold
+  bool sampled;                   ///< the other pairs are a drawn sample: there are too many to look at
+  std::vector<double> thresholds; ///< of the configuration; several where pooled data have several, none where it depends on the edge
+  Histogram veridical, other;
+};
+
+/// All cues, without values. `config` is the effective one: with the limit of the disparity that the data set brings.
+std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& config);
+
+/// Adds histograms and unites thresholds. An empty `sum` becomes `other`.
+void add(std::vector<CueDistribution>& sum, const std::vector<CueDistribution>& other);
+
+/// The cue that filter `order` of a cascade judges; null for a filter without one.
+CueDistribution* find_cue(std::vector<CueDistribution>& cues, CueTable table, int order);
+
+}  // namespace quadedge::evaluation
