@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Compares QuadEdge's trajectory errors with those of evo (https://github.com/MichaelGrupp/evo, `pip install evo`).
 
-    compare_with_evo.py ESTIMATE TRUTH ERRORS.json [--from-frame N] [--tolerance 1e-6]
+    compare_with_evo.py ESTIMATE TRUTH ERRORS.json [--from-frame N] [--sequence NAME] [--tolerance 1e-6]
 
 ESTIMATE and TRUTH are TUM files, or both KITTI files with one pose per frame. ERRORS.json is what
-`quadedge evaluate trajectory ... --json` wrote, or a report.json with the same figures under "accuracy".
+`quadedge evaluate trajectory ... --json` wrote, a report.json with the same figures under "accuracy", or with --sequence the
+summary.json of a batch.
 All four errors are compared in mean, std, rmse and max, origin-aligned and SE(3)-aligned.
 Exit code: 0 they agree, 1 a difference above the tolerance, 2 the input cannot be compared.
 """
@@ -69,15 +70,18 @@ def main():
     parser.add_argument("truth")
     parser.add_argument("errors")
     parser.add_argument("--from-frame", type=int, default=0)
+    parser.add_argument("--sequence")
     parser.add_argument("--tolerance", type=float, default=1e-6)
     arguments = parser.parse_args()
     try:
         truth, estimate = read_pair(arguments.estimate, arguments.truth, arguments.from_frame)
         with open(arguments.errors, encoding="utf-8") as file:
             ours = json.load(file)
+        if arguments.sequence is not None:
+            ours = next(entry for entry in ours["sequences"] if entry["name"] == arguments.sequence)
         ours = ours.get("accuracy", ours)
         ours = {(a, e): ours[a][e] for a in ALIGNMENTS for e in ERRORS}
-    except (OSError, KeyError, ValueError, file_interface.FileInterfaceException, sync.SyncException) as problem:
+    except (OSError, KeyError, ValueError, StopIteration, file_interface.FileInterfaceException, sync.SyncException) as problem:
         print(f"cannot compare: {type(problem).__name__}: {problem}", file=sys.stderr)
         return 2
     worst = 0.0

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tracks the built-in sequence and compares the errors that QuadEdge reports with evo's.
+# Tracks rendered sequences, alone and in a batch, and compares the errors that QuadEdge reports with evo's.
 #   run_evo.sh QUADEDGE PYTHON_WITH_EVO COMPARE_SCRIPT
 set -euo pipefail
 quadedge="$1" python="$2" compare="$3"
@@ -18,4 +18,11 @@ compare "$folder/run/trajectory.txt" "$truth" "$folder/run/report.json"
 for from in 0 3; do
   "$quadedge" evaluate trajectory "$folder/run/trajectory.txt" "$truth" --from-frame $from --json "$folder/from$from.json" >/dev/null
   compare "$folder/run/trajectory.txt" "$truth" "$folder/from$from.json" --from-frame $from
+done
+# What the summary of a batch says of each of its sequences; the ground truth is the one that the run left behind.
+"$quadedge" synth "$folder/batch/cables" --scene cables --frames 6 --size 320x200 --quiet
+mv "$folder/room" "$folder/batch/room"
+"$quadedge" batch "$folder/batch" -o "$folder/out" --quiet >/dev/null
+for name in room cables; do
+  compare "$folder/out/sequences/$name/trajectory.txt" "$folder/out/sequences/$name/groundtruth.txt" "$folder/out/summary.json" --sequence $name
 done

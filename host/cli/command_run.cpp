@@ -41,6 +41,7 @@ class RunCommand : public Command {
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
     options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
     options.number("--draw", run_.draw_every, "pictures of the edges and quads of every N-th frame");
+    options.number("--thumbnails", run_.thumbnails, "so many small pictures of quads, spread over the sequence");
     options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");
     options.flag("--force", run_.force, "replace the results in OUT");
     options.flag("--quiet", run_.quiet, "no progress");
@@ -49,6 +50,7 @@ class RunCommand : public Command {
 
   int run() override {
     if (run_.draw_every < 0) throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 (none) or more");
+    if (run_.thumbnails < 0) throw UsageError("--thumbnails " + std::to_string(run_.thumbnails) + ": expected 0 (none) or more");
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
     method_.config();  // complain about options before reading data
     if (!frames_.empty()) {

@@ -1,5 +1,6 @@
 #include "cli/console.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cinttypes>
@@ -37,30 +38,69 @@ std::string milliseconds(double value) {
 
 }  // namespace
 
-Progress::Progress(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
+StatusLine::StatusLine(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), shown_(std::chrono::steady_clock::now()) {}
 
-Progress::~Progress() { end_line(); }
+StatusLine::~StatusLine() { end_line(); }
 
-void Progress::end_line() {
+void StatusLine::end_line() {
   if (line_open_) std::fputs("\n", stderr);
   line_open_ = false;
 }
 
-void Progress::update(const std::string& what, int done, int total, const std::string& note) {
+bool StatusLine::due(bool last) const {
+  if (quiet_) return false;
+  const auto interval = terminal_ ? kTerminalInterval : std::chrono::milliseconds(kPlainInterval);
+  return last || std::chrono::steady_clock::now() - shown_ >= interval;
+}
+
+void StatusLine::show(const std::string& text, bool last) {
   if (quiet_) return;
-  const auto now = std::chrono::steady_clock::now();
-  const bool last = done == total;
-  if (!last && now - last_ < (terminal_ ? kTerminalInterval : std::chrono::milliseconds(kPlainInterval))) return;
-  last_ = now;
-  const std::string line = what + " " + std::to_string(done) + "/" + std::to_string(total) + (note.empty() ? "" : "  " + note);
+  shown_ = std::chrono::steady_clock::now();
   if (!terminal_) {
-    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fprintf(stderr, "%s\n", text.c_str());
     return;
   }
-  std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
+  // A longer line would wrap, and only its end would be written over.
+  winsize window{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;
+  std::fprintf(stderr, "\r%s\x1b[K", known ? text.substr(0, window.ws_col - 1U).c_str() : text.c_str());
   line_open_ = true;
   if (last) end_line();
+}
+
+void StatusLine::say(const std::string& text) {
+  if (quiet_) return;
+  std::fprintf(stderr, line_open_ ? "\r%s\x1b[K\n" : "%s\n", text.c_str());
+  line_open_ = false;
+}
+
+void Progress::update(const std::string& what, int done, int total, const std::string& note) {
+  const bool last = done == total;
+  if (!status_.due(last)) return;
+  std::string line = what + " " + std::to_string(done) + "/" + std::to_string(total);
+  for (const auto& part : {rate_and_rest(done, total, std::chrono::steady_clock::now() - start_), note}) {
+    line += part.empty() ? "" : "  " + part;
+  }
+  status_.show(line, last);
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(std::lround(seconds));
+  char text[48];
+  if (whole < 60) std::snprintf(text, sizeof text, "%ld s", whole);
+  else if (whole < 3600) std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  else std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
+  return text;
+}
+
+std::string rate_and_rest(int done, int total, std::chrono::steady_clock::duration elapsed) {
+  const double seconds = std::chrono::duration<double>(elapsed).count();
+  if (done <= 0 || seconds <= 0) return {};
+  char text[96];
+  const double rate = done / seconds;
+  std::snprintf(text, sizeof text, "%.*f/s", rate < 10 ? 1 : 0, rate);
+  return done < total ? std::string(text) + ", " + duration_text((total - done) / rate) + " left" : text;
 }
 
 void note(bool quiet, const std::string& sentence) {

@@ -9,22 +9,44 @@
 
 namespace quadedge::cli {
 
-/// Progress of a long command: one updating line on a terminal, else a plain line every few seconds, or nothing.
-class Progress {
+/// What a long command is doing, on stderr: one updating line on a terminal, else a plain line every few seconds, or nothing.
+class StatusLine {
  public:
-  explicit Progress(bool quiet);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  /// `done` of `total` are finished; `note` is a short text behind the numbers.
-  void update(const std::string& what, int done, int total, const std::string& note = "");
+  explicit StatusLine(bool quiet);
+  ~StatusLine();
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+  /// Is it time for the next text? Always for the `last` one.
+  bool due(bool last = false) const;
+  /// The text of now; the next one takes its place on a terminal, unless it is the `last`.
+  void show(const std::string& text, bool last = false);
+  /// A line of its own that stays.
+  void say(const std::string& text);
 
  private:
   void end_line();
 
   bool quiet_, terminal_, line_open_ = false;
-  std::chrono::steady_clock::time_point last_;
+  std::chrono::steady_clock::time_point shown_;
 };
+
+/// Progress of a command that counts.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : status_(quiet), start_(std::chrono::steady_clock::now()) {}
+  /// `done` of `total` are finished, which also gives rate and remaining time; `note` is a short text behind the numbers.
+  void update(const std::string& what, int done, int total, const std::string& note = "");
+
+ private:
+  StatusLine status_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// "1.4/s, 2 min 05 s left" for `done` of `total` after a time; empty while nothing is done yet.
+std::string rate_and_rest(int done, int total, std::chrono::steady_clock::duration elapsed);
+
+/// "47 s", "2 min 05 s", "1 h 03 min".
+std::string duration_text(double seconds);
 
 /// A sentence on stderr that the user should see; nothing with `quiet`.
 void note(bool quiet, const std::string& sentence);

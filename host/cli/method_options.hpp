@@ -21,6 +21,8 @@ class MethodOptions {
   Device open_device(bool profiling = false) const { return Device(device_, kernels_, profiling); }
   /// What --device says.
   const std::string& device_choice() const { return device_; }
+  /// What --kernels says; empty for the built-in ones.
+  const std::string& kernel_folder() const { return kernels_; }
 
  private:
   Config config_;

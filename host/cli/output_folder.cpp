@@ -1,18 +1,20 @@
 #include "cli/output_folder.hpp"
 
-#include <cctype>
 #include <filesystem>
 
+#include "data/find_sequences.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kResultFiles[] = {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "report.json", "config.toml"};
+constexpr const char* kResultFiles[] = {"trajectory.txt", "trajectory_kitti.txt", "groundtruth.txt", "errors.csv",
+                                        "frames.csv",     "report.json",          "config.toml"};
 
 bool is_picture(const fs::path& file) {
   const std::string name = file.filename().string();
+  if (file.extension() == ".jpg") return name.rfind("thumbnail_", 0) == 0;
   return file.extension() == ".png" &&
          (name == "trajectory.png" || name.rfind("edges_", 0) == 0 || name.rfind("quads_", 0) == 0);
 }
@@ -44,12 +46,7 @@ void refuse_existing_file(const std::string& path, bool force) {
 }
 
 std::string default_output_folder(const std::string& sequence) {
-  std::string name = "quadedge_";
-  for (const char c : sequence) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
-    name += plain ? c : '_';
-  }
-  return name;
+  return "quadedge_" + data::plain_name(sequence);
 }
 
 }  // namespace quadedge::cli

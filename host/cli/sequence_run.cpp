@@ -17,6 +17,7 @@
 #include "report/append_file.hpp"
 #include "report/config_toml.hpp"
 #include "report/drawing.hpp"
+#include "report/errors_csv.hpp"
 #include "report/frames_csv.hpp"
 #include "report/json.hpp"
 
@@ -57,17 +58,28 @@ class GrowingFiles {
   report::FramesCsv frames_;
 };
 
-/// Draws edges and quads of the frame that was tracked last, if it is one of the chosen.
-void draw_frame(const FramePrefetcher::Frame& frame, const StereoRig& rig, const StereoOdometry& odometry,
+/// Is this frame one of `count` that lie evenly among the frames after the first?
+bool is_thumbnail(int frame, int frames, int count) {
+  for (int i = 1; i <= count; ++i) {
+    if (frame > 0 && frame == static_cast<int>(static_cast<std::int64_t>(frames) * i / (count + 1))) return true;
+  }
+  return false;
+}
+
+/// Draws edges and quads of the frame that was tracked last, if it is one of the chosen. `frames`: length of the sequence.
+void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig& rig, const StereoOdometry& odometry,
                 const SequenceRunOptions& options) {
-  const bool chosen = frame.number == options.draw_frame || (options.draw_every > 0 && frame.number % options.draw_every == 0);
-  if (!chosen) return;
+  const bool large = frame.number == options.draw_frame || (options.draw_every > 0 && frame.number % options.draw_every == 0);
+  const bool small = is_thumbnail(frame.number, frames, options.thumbnails);
+  if (!large && !small) return;
   const FrameDetails details = odometry.details();
   // Edges live in the pinhole image; a recorded image with distortion would not lie under them.
   const auto& table = rig.left_undistortion;
   const Image left = table.empty() ? frame.left : reference::undistort(frame.left.view(), table);
   char number[16];
   std::snprintf(number, sizeof number, "%06d", frame.number);
+  if (small) report::draw_quads_thumbnail(options.output + "/pictures/thumbnail_" + number + ".jpg", left.view(), details);
+  if (!large) return;
   report::draw_edges(options.output + "/pictures/edges_" + number + ".png", left.view(), details.left_edges);
   report::draw_quads(options.output + "/pictures/quads_" + number + ".png", left.view(), details);
 }
@@ -89,7 +101,6 @@ void complete(Config& config, const FrameSource& source) {
 
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options, report::RunRecord& run) {
-  Progress progress(options.quiet);
   const auto start = Clock::now();
   Device device = method.open_device();
   StereoOdometry odometry(source.rig(), device, run.config);
@@ -99,18 +110,19 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   run.variants = odometry.variants();
   data::write_atomically(options.output + "/config.toml", report::config_toml(run.config, method.device_choice()));
   GrowingFiles files(options.output);
+  Progress progress(options.quiet);
   int lost = 0;
   while (const auto frame = source.next()) {
     report::FrameRecord record;
     record.start_ms = milliseconds_since(start);
     record.result = odometry.track(view(*frame));
     files.add(record.result);
-    draw_frame(*frame, source.rig(), odometry, options);
+    draw_frame(*frame, run.input.frames, source.rig(), odometry, options);
     lost += is_tracked(record.result.status) ? 0 : 1;
     run.frames.push_back(std::move(record));
     char text[64];
     std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.latency_ms);
-    progress.update("frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+    progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
   }
   const std::size_t device_peak = device.is_reference() ? 0 : device.context()->peak_bytes();
   run.device_peak_mb = static_cast<double>(std::max(device_peak, odometry.device_bytes())) / (1024.0 * 1024.0);
@@ -126,7 +138,7 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
   StereoOdometry odometry(source.rig(), device, run.config);
   while (const auto frame = source.next()) {
     run.kernel_times.push_back(kernel_stages(odometry.track(view(*frame)).stages));
-    progress.update("profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
+    progress.update(run.input.name + " profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
   }
 }
 
@@ -138,12 +150,29 @@ Trajectory tracked_poses(const report::RunRecord& run) {
   return trajectory;
 }
 
+/// The poses of the ground truth that can be compared with the run: those of its duration.
+Trajectory truth_of_the_run(const Trajectory& truth, const report::RunRecord& run) {
+  constexpr std::int64_t kToleranceNs = 10'000'000;  // as evaluate_trajectory matches
+  Trajectory kept;
+  if (run.frames.empty()) return kept;
+  for (const auto& pose : truth) {
+    if (pose.stamp_ns >= run.frames.front().result.stamp_ns - kToleranceNs &&
+        pose.stamp_ns <= run.frames.back().result.stamp_ns + kToleranceNs) {
+      kept.push_back(pose);
+    }
+  }
+  return kept;
+}
+
 /// Compares with the ground truth, where there is one. Truth that misses most frames is no reason to fail a finished run.
-void evaluate(const FrameSource& source, bool quiet, report::RunRecord& run) {
+void evaluate(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
   if (source.truth().empty()) return;
   run.truth_file = source.truth_name();
+  write_tum(options.output + "/groundtruth.txt", truth_of_the_run(source.truth(), run));
+  const bool quiet = options.quiet;
   try {
     run.accuracy = evaluate_trajectory(tracked_poses(run), source.truth());
+    data::write_atomically(options.output + "/errors.csv", report::errors_csv(*run.accuracy));
     const int missing = run.accuracy->estimate_poses - run.accuracy->matched;
     if (missing > 0) {
       note(quiet, run.truth_file + ": ground truth covers " + std::to_string(run.accuracy->matched) + " of " +
@@ -169,7 +198,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
     throw DataError(std::string(error.what()) + "\n" + std::to_string(run.frames.size()) + " finished frames are in " + options.output);
   }
   if (options.profile) profile_frames(source, method, options, run);
-  evaluate(source, options.quiet, run);
+  evaluate(source, options, run);
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
   report::draw_trajectory(options.output + "/pictures/trajectory.png", tracked_poses(run), source.truth(),
                           run.input.name + ", left camera from above");

@@ -18,6 +18,7 @@ struct SequenceRunOptions {
   /// Pictures of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).
   int draw_every = 0;
   int draw_frame = -1;
+  int thumbnails = 0;  ///< number of small pictures of quads, spread evenly over the frames after the first
 };
 
 /// Tracks all frames, writing every finished one at once, then the report, the configuration and the pictures.

@@ -15,13 +15,9 @@ namespace {
 /// Semi-global matching finds 99.9 % of sequence 06 below 116 px.
 constexpr double kNearestDepth = 3.0;  // m
 
-bool is_sequence(const fs::path& folder) {
-  return fs::is_directory(folder / "image_0") || fs::is_directory(folder / "image_2");
-}
-
 /// The sequence's own folder: `folder` itself, or the one named by --sequence below the root or below sequences/.
 fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
-  if (is_sequence(folder)) {
+  if (is_kitti_recording(folder)) {
     if (!wanted.empty() && wanted != folder_name(folder)) {
       fail(folder.string(), "the sequence " + folder_name(folder), "the sequence " + wanted + " asked for");
     }
@@ -30,7 +26,7 @@ fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
   const fs::path parent = fs::is_directory(folder / "sequences") ? folder / "sequences" : folder;
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(parent)) {
-    if (is_sequence(entry.path())) names.push_back(entry.path().filename().string());
+    if (is_kitti_recording(entry.path())) names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
   std::string list;
@@ -110,10 +106,14 @@ void read_frames(Dataset& dataset, std::vector<std::size_t>& rows, const fs::pat
 
 }  // namespace
 
+bool is_kitti_recording(const fs::path& folder) {
+  return fs::is_directory(folder / "image_0") || fs::is_directory(folder / "image_2");
+}
+
 bool is_kitti(const fs::path& folder) {
-  if (is_sequence(folder) || fs::is_directory(folder / "sequences")) return true;
+  if (is_kitti_recording(folder) || fs::is_directory(folder / "sequences")) return true;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (is_sequence(entry.path()) && fs::exists(entry.path() / "calib.txt")) return true;
+    if (is_kitti_recording(entry.path()) && fs::exists(entry.path() / "calib.txt")) return true;
   }
   return false;
 }

@@ -29,9 +29,9 @@ void Findings::attempt(const std::function<void()>& part) {
 
 const std::vector<Layout>& layouts() {
   static const std::vector<Layout> all = {
-      {"kitti", is_kitti, read_kitti_odometry},
-      {"euroc", is_euroc, read_euroc},
-      {"eth3d-slam", is_eth3d_slam, read_eth3d_slam},
+      {"kitti", is_kitti, read_kitti_odometry, is_kitti_recording},
+      {"euroc", is_euroc, read_euroc, is_euroc},
+      {"eth3d-slam", is_eth3d_slam, read_eth3d_slam, is_eth3d_slam},
       {"viso2-quad", is_viso2_quad, read_viso2_quad},
       {"eth3d-two-view", is_eth3d_two_view, read_eth3d_two_view},
       {"middlebury-2014", is_middlebury_2014, read_middlebury_2014},

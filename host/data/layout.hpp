@@ -41,6 +41,8 @@ struct Layout {
   bool (*recognise)(const fs::path& folder);
   /// Fills everything but `format`. \throws DataError, UsageError.
   Dataset (*read)(const fs::path& folder, const DatasetOptions& options, Findings& findings);
+  /// Is the folder itself a recording of many frames (not a folder of such folders)? By names alone; null for still pairs.
+  bool (*is_recording)(const fs::path& folder) = nullptr;
 };
 
 /// All of them, in the order in which they are tried.
@@ -50,6 +52,7 @@ const std::vector<Layout>& layouts();
 Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings);
 
 bool is_kitti(const fs::path& folder);
+bool is_kitti_recording(const fs::path& folder);
 Dataset read_kitti_odometry(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 bool is_euroc(const fs::path& folder);
 Dataset read_euroc(const fs::path& folder, const DatasetOptions& options, Findings& findings);

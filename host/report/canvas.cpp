@@ -22,6 +22,12 @@ int scale_for(int width) {
   return scale;
 }
 
+void write_encoded(const std::string& path, const cv::Mat& picture, const std::string& extension, const std::vector<int>& options) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(extension, picture, bytes, options)) throw DataError(path + ": the picture cannot be encoded");
+  data::write_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
 }  // namespace
 
 Canvas::Canvas(const ImageView& image, double brightness, int legend_lines)
@@ -62,10 +68,10 @@ std::string fixed(double value, int decimals) {
   return text;
 }
 
-void write_png(const std::string& path, const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", picture, bytes)) throw DataError(path + ": the picture cannot be encoded as PNG");
-  data::write_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+void write_png(const std::string& path, const cv::Mat& picture) { write_encoded(path, picture, ".png", {}); }
+
+void write_jpeg(const std::string& path, const cv::Mat& picture) {
+  write_encoded(path, picture, ".jpg", {cv::IMWRITE_JPEG_QUALITY, 75});
 }
 
 }  // namespace quadedge::report

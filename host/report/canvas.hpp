@@ -44,5 +44,6 @@ std::string fixed(double value, int decimals);
 
 /// Encodes and writes atomically. \throws DataError.
 void write_png(const std::string& path, const cv::Mat& picture);
+void write_jpeg(const std::string& path, const cv::Mat& picture);
 
 }  // namespace quadedge::report

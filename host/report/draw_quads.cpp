@@ -12,6 +12,7 @@ namespace quadedge::report {
 namespace {
 
 constexpr double kBrightness = 0.45;
+constexpr int kThumbnailWidth = 480;  // px
 constexpr int kCell = 16;  // px of the image; one motion is drawn per cell
 const cv::Scalar kWhite(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
 
@@ -44,19 +45,18 @@ std::vector<std::size_t> one_per_cell(const TemporalMatches& quads) {
   return chosen;
 }
 
-}  // namespace
-
-void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details) {
-  Canvas canvas(left, kBrightness, 2);
-  const auto colours = colour_scale();
+/// The disparity that gets the brightest colour: a few wrong matches must not stretch the scale [px].
+double colour_range(const FrameDetails& details) {
   std::vector<double> disparities;
   for (std::size_t i = 0; i < details.stereo.size(); ++i) disparities.push_back(disparity(details.stereo, i));
-  // A few wrong matches must not stretch the scale.
-  const double largest = disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3);
+  return disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3);
+}
 
+/// Stereo edges and quads into the image part of the canvas.
+void paint(Canvas& canvas, const FrameDetails& details, const std::vector<cv::Scalar>& colours, double largest) {
   const int radius = std::max(1, canvas.scale() / 2) << kPlaceShift;
   for (std::size_t i = 0; i < details.stereo.size(); ++i) {
-    const auto level = static_cast<std::size_t>(std::clamp(disparities[i] / largest, 0.0, 1.0) * 255);
+    const auto level = static_cast<std::size_t>(std::clamp(disparity(details.stereo, i) / largest, 0.0, 1.0) * 255);
     cv::circle(canvas.picture(), canvas.place(details.stereo.left_x[i], details.stereo.left_y[i]), radius, colours[level], cv::FILLED,
                cv::LINE_AA, kPlaceShift);
   }
@@ -68,6 +68,25 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
     cv::line(canvas.picture(), start, end, colour, 1, cv::LINE_AA, kPlaceShift);
     cv::circle(canvas.picture(), end, 5 << (kPlaceShift - 1), colour, cv::FILLED, cv::LINE_AA, kPlaceShift);
   }
+}
+
+}  // namespace
+
+void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details) {
+  Canvas canvas(left, kBrightness, 0);
+  paint(canvas, details, colour_scale(), colour_range(details));
+  const cv::Mat image = canvas.picture()(cv::Rect(0, 0, left.width * canvas.scale(), left.height * canvas.scale()));
+  const double reduction = static_cast<double>(kThumbnailWidth) / image.cols;
+  cv::Mat small;
+  cv::resize(image, small, {kThumbnailWidth, std::max(1, static_cast<int>(std::lround(image.rows * reduction)))}, 0, 0, cv::INTER_AREA);
+  write_jpeg(path, small);
+}
+
+void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details) {
+  Canvas canvas(left, kBrightness, 2);
+  const auto colours = colour_scale();
+  const double largest = colour_range(details);
+  paint(canvas, details, colours, largest);
   const auto inliers = std::count_if(details.quad_inlier.begin(), details.quad_inlier.end(), [](auto flag) { return flag != 0; });
 
   cv::Mat& picture = canvas.picture();

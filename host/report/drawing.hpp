@@ -18,6 +18,9 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
 /// before to this one: inliers white, others red, one per cell of 16 px.
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details);
 
+/// The picture of draw_quads without its legend, reduced to a width of 480 px, as JPEG.
+void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details);
+
 /// A trajectory from above: x to the right, z forward, metres, one scale for both axes. `truth` may be empty and is moved so
 /// that it agrees with the estimate at the first pose of both (nearest stamp).
 void draw_trajectory(const std::string& path, const Trajectory& estimate, const Trajectory& truth, const std::string& title);

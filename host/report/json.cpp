@@ -1,41 +1,24 @@
-/// \file json.cpp  Results of runs and trajectories; with matching_json.cpp the only file that includes nlohmann-json.
+/// \file json.cpp  Results of runs and trajectories; written with json_values.hpp.
 #include "report/json.hpp"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include "report/json_values.hpp"
 
 namespace quadedge::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// JSON has no NaN: a value that does not exist is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json statistics(const ErrorStatistics& error) {
-  return {{"mean", number(error.mean)}, {"std", number(error.std)}, {"rmse", number(error.rmse)}, {"max", number(error.max)}};
-}
-
-Json pose_errors(const PoseErrors& errors) {
-  return {{"ape_rotation_deg", statistics(errors.ape_rotation_deg)},
-          {"ape_translation_m", statistics(errors.ape_translation_m)},
-          {"rpe_rotation_deg", statistics(errors.rpe_rotation_deg)},
-          {"rpe_translation_m", statistics(errors.rpe_translation_m)}};
-}
-
 Json accuracy(const TrajectoryEvaluation& evaluation) {
-  return {{"origin_aligned", pose_errors(evaluation.origin_aligned)},
-          {"se3_aligned", pose_errors(evaluation.se3_aligned)},
+  return {{"origin_aligned", to_json(evaluation.origin_aligned)},
+          {"se3_aligned", to_json(evaluation.se3_aligned)},
           {"matched_poses", evaluation.matched},
           {"estimate_poses", evaluation.estimate_poses},
           {"truth_poses", evaluation.truth_poses},
-          {"path_length_m", number(evaluation.path_length_m)},
-          {"end_drift_percent", number(evaluation.end_drift_percent)}};
+          {"path_length_m", to_json(evaluation.path_length_m)},
+          {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
 }
 
 Json stages(const std::vector<std::vector<StageTime>>& frames) {
   Json object = Json::object();
-  for (const auto& row : stage_summary(frames)) object[row.stage] = {{"median", number(row.median)}, {"p90", number(row.p90)}};
+  for (const auto& row : stage_summary(frames)) object[row.stage] = {{"median", to_json(row.median)}, {"p90", to_json(row.p90)}};
   return object;
 }
 
@@ -49,15 +32,9 @@ Json configuration(Config config) {
   return object;
 }
 
-std::string text(const Json& json) {
-  // Names of files may hold bytes that are no UTF-8; they are replaced instead of failing.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace
 
 std::string report_json(const RunRecord& run) {
-  const LatencySummary latency = latency_summary(run.frames);
   int key_rigs = 0, overflows = 0;
   for (const auto& frame : run.frames) {
     key_rigs += frame.result.new_key_rig ? 1 : 0;
@@ -75,20 +52,19 @@ std::string report_json(const RunRecord& run) {
   report["frames_lost"] = static_cast<int>(run.frames.size()) - run.tracked();
   report["frames_overflowed"] = overflows;
   report["key_rigs"] = key_rigs;
-  report["latency_ms"] = {{"median", number(latency.median)}, {"p90", number(latency.p90)}, {"p99", number(latency.p99)},
-                          {"max", number(latency.max)}, {"first", number(latency.first)}};
+  report["latency_ms"] = to_json(latency_summary(run.frames));
   report["stages_ms"] = stages(stage_times(run.frames));
   if (!run.kernel_times.empty()) report["kernels_ms"] = stages(run.kernel_times);
   report["start_ms"] = {{"total", run.start_ms}, {"kernel_build", run.kernel_build_ms}};
   report["memory_mb"] = {{"host_peak", run.host_peak_mb}, {"device_peak", run.device_peak_mb}};
   report["counts"] = Json::object();
-  for (const auto& [name, value] : count_medians(run.frames)) report["counts"][name] = number(value);
+  for (const auto& [name, value] : count_medians(run.frames)) report["counts"][name] = to_json(value);
   if (run.accuracy) {
     report["accuracy"] = accuracy(*run.accuracy);
     report["accuracy"]["truth_file"] = run.truth_file;
   }
   report["config"] = configuration(run.config);
-  return text(report);
+  return json_text(report);
 }
 
 std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate, const std::string& truth) {
@@ -101,12 +77,12 @@ std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::s
   json["per_pose"] = Json::array();
   for (const auto& pose : evaluation.per_pose) {
     json["per_pose"].push_back({{"stamp_ns", pose.stamp_ns},
-                                {"ape_rotation_deg", number(pose.ape_rotation_deg)},
-                                {"ape_translation_m", number(pose.ape_translation_m)},
-                                {"rpe_rotation_deg", number(pose.rpe_rotation_deg)},
-                                {"rpe_translation_m", number(pose.rpe_translation_m)}});
+                                {"ape_rotation_deg", to_json(pose.ape_rotation_deg)},
+                                {"ape_translation_m", to_json(pose.ape_translation_m)},
+                                {"rpe_rotation_deg", to_json(pose.rpe_rotation_deg)},
+                                {"rpe_translation_m", to_json(pose.rpe_translation_m)}});
   }
-  return text(json);
+  return json_text(json);
 }
 
 std::string trace_json(const RunRecord& run) {
@@ -137,7 +113,7 @@ std::string trace_json(const RunRecord& run) {
   trace["displayTimeUnit"] = "ms";
   trace["otherData"] = {{"version", QUADEDGE_VERSION}, {"device", run.device.name}, {"input", run.input.path}};
   trace["traceEvents"] = std::move(events);
-  return text(trace);
+  return json_text(trace);
 }
 
 }  // namespace quadedge::report

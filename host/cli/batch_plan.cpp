@@ -1,0 +1,91 @@
+#include "cli/batch_plan.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "cli/child_process.hpp"
+#include "cli/console.hpp"
+#include "data/content_hash.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/error.hpp"
+#include "report/batch_summary.hpp"
+#include "report/config_toml.hpp"
+
+namespace quadedge::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// Fingerprint of what all sequences of a batch share: program (version and file), configuration, kernels, device, and which
+/// pictures and measurements are made.
+std::string common_key(const MethodOptions& method, const DeviceInfo& device, const BatchOptions& options) {
+  data::ContentHash hash;
+  hash.add(std::string_view(QUADEDGE_VERSION));
+  hash.add(data::file_hash(kProgramFile));
+  hash.add(report::config_toml(method.config(), ""));
+  for (const auto& text : {device.platform, device.name, device.driver, device.opencl}) hash.add(text);
+  if (!method.kernel_folder().empty()) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(method.kernel_folder(), error), end; !error && entry != end; entry.increment(error)) {
+      if (entry->path().extension() == ".cl") files.push_back(entry->path());
+    }
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      hash.add(file.filename().string());
+      hash.add(data::file_hash(file.string()));
+    }
+  }
+  hash.add({static_cast<double>(options.draw_every), static_cast<double>(options.thumbnails), options.profile ? 1.0 : 0.0});
+  return hash.hex();
+}
+
+/// Does the folder hold the whole result of a run with this key?
+bool is_finished(const std::string& folder, const std::string& key, bool timing) {
+  const auto member = report::read_member(folder);
+  if (!member || member->exit_code != 0 || member->key != key || key.empty()) return false;
+  if (timing && member->jobs > 1) return false;
+  for (const char* name : {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "report.json", "config.toml"}) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(fs::path(folder) / name, ignored)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequences, const MethodOptions& method,
+                                    const DeviceInfo& device, const BatchOptions& options) {
+  const std::string common = common_key(method, device, options);
+  std::vector<BatchMember> plan;
+  StatusLine status(options.quiet);
+  for (const auto& sequence : sequences) {
+    if (status.due()) {
+      status.show("looking at " + sequence.name + "  " + std::to_string(plan.size()) + "/" + std::to_string(sequences.size()));
+    }
+    BatchMember& member = plan.emplace_back();
+    member.sequence = sequence;
+    try {
+      const Dataset dataset = open_dataset(sequence.path);
+      member.frames = static_cast<int>(dataset.frames.size());
+      member.pixels = static_cast<double>(member.frames) * dataset.rig.left.width * dataset.rig.left.height;
+      data::ContentHash hash;
+      hash.add(common);
+      hash.add(data::dataset_hash(dataset));
+      member.key = hash.hex();
+    } catch (const Error&) {
+      continue;  // its run will say what is wrong, and that is what the batch records
+    }
+    member.finished = !options.force && is_finished(report::member_folder(options.output, sequence.name), member.key, options.timing);
+  }
+  return plan;
+}
+
+int default_jobs(const DeviceInfo& device, const BatchOptions& options) {
+  constexpr int kMostOnGpu = 4;
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (options.timing || options.profile || device.type == "cpu") return 1;
+  return device.type == "reference" ? cores : std::clamp(cores / 2, 1, kMostOnGpu);
+}
+
+}  // namespace quadedge::cli

@@ -1,0 +1,43 @@
+#pragma once
+/// \file batch_plan.hpp  What a batch has to do: its sequences, and which of them are done already.
+
+#include <string>
+#include <vector>
+
+#include "cli/method_options.hpp"
+#include "data/find_sequences.hpp"
+#include "quadedge/device.hpp"
+
+namespace quadedge::cli {
+
+/// How to run a batch.
+struct BatchOptions {
+  std::string output;      ///< folder
+  int jobs = 0;            ///< sequences at the same time; 0: what suits the device
+  bool timing = false;     ///< latencies count: one sequence at a time, and no result that ran beside others
+  bool force = false, quiet = false, profile = false;
+  int draw_every = 0;      ///< as SequenceRunOptions
+  int thumbnails = 4;      ///< as SequenceRunOptions; the report shows them
+  double min_tracked = 50;  ///< fewer tracked frames count as too few [percent]
+};
+
+/// One sequence of a batch.
+struct BatchMember {
+  data::FoundSequence sequence;
+  int frames = 0;           ///< 0 where the recording cannot be opened
+  double pixels = 0;        ///< of all left images together; the measure of how long a run takes
+  std::string key;          ///< fingerprint of everything that decides the result; empty where the recording cannot be opened
+  bool finished = false;    ///< OUT holds its result, made with the same key
+};
+
+/// Opens all recordings, as far as possible, and looks which results are there. `device`: that the runs will use.
+/// \throws DataError when the results so far cannot be read.
+std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequences, const MethodOptions& method,
+                                    const DeviceInfo& device, const BatchOptions& options);
+
+/// Sequences at the same time where the user leaves it open. OpenCL on a CPU uses all cores for one sequence; the plain C++
+/// reference uses one core for each. A GPU carries as many sequences as there are pairs of host cores (each run also reads
+/// images and finds poses), at most four. One with --timing or --profile.
+int default_jobs(const DeviceInfo& device, const BatchOptions& options);
+
+}  // namespace quadedge::cli

@@ -1,0 +1,199 @@
+#include "cli/batch_run.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <list>
+#include <thread>
+
+#include "cli/batch_progress.hpp"
+#include "cli/child_process.hpp"
+#include "cli/folder_lock.hpp"
+#include "data/atomic_file.hpp"
+#include "quadedge/error.hpp"
+#include "report/batch_summary.hpp"
+
+namespace quadedge::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::chrono::milliseconds kPoll{30};
+constexpr std::chrono::seconds kGrace{5};  // for a child to end after it was asked to
+
+/// A member at work.
+struct RunningMember {
+  const BatchMember& member;
+  std::string folder;  ///< unfinished
+  FolderLock lock;
+  ChildProcess child;
+  FrameCounter counter;
+};
+
+void remove_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (error) throw DataError(folder.string() + ": cannot be removed: " + error.message());
+}
+
+/// The last complaint in a log, one line: "quadedge: WHAT". (What follows it names the folder of that time.)
+std::string complaint(const std::string& log) {
+  const std::string mark = "quadedge: ";
+  std::ifstream file(log);
+  std::string found;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind(mark, 0) == 0) found = line.substr(mark.size());
+  }
+  return found;
+}
+
+std::string failure(const ChildEnd& end, const std::string& log) {
+  if (end.signal != 0) {
+    std::string text = "ended by signal " + std::to_string(end.signal) + " (" + strsignal(end.signal) + ")";
+    if (end.signal == SIGKILL) text += "; perhaps the memory ran out";
+    return text;
+  }
+  const std::string text = complaint(log);
+  return text.empty() ? "ended with exit code " + std::to_string(end.exit_code) + " and no message" : text;
+}
+
+class BatchRunner {
+ public:
+  BatchRunner(const MethodOptions& method, const BatchOptions& options, int jobs, int to_run, int finished, double pixels)
+      : method_(method), options_(options), jobs_(jobs), progress_(options.quiet, to_run, finished, pixels) {}
+
+  void start(const BatchMember& member) {
+    const std::string& name = member.sequence.name;
+    const fs::path unfinished = fs::path(options_.output) / "unfinished";
+    const std::string folder = (unfinished / name).string();
+    std::error_code error;
+    fs::create_directories(unfinished, error);
+    if (error) throw DataError(unfinished.string() + ": cannot be made: " + error.message());
+    FolderLock lock((unfinished / (name + ".lock")).string(), false, folder);
+    remove_folder(folder);
+    fs::create_directories(folder, error);
+    if (error) throw DataError(folder + ": cannot be made: " + error.message());
+    running_.push_back({member, folder, std::move(lock), ChildProcess(arguments(member, folder), folder + "/log.txt"),
+                        FrameCounter(folder)});
+  }
+
+  /// Takes in the members that are over.
+  void reap() {
+    for (auto running = running_.begin(); running != running_.end();) {
+      const auto end = running->child.ended();
+      if (end) {
+        finish(*running, *end);
+        running = running_.erase(running);
+      } else {
+        ++running;
+      }
+    }
+  }
+
+  void show_progress() {
+    if (!progress_.due()) return;
+    std::vector<BatchProgress::Running> lines;
+    double pixels = 0;
+    for (auto& running : running_) {
+      const int done = running.counter.frames(), frames = running.member.frames;
+      lines.push_back({running.member.sequence.name, done, frames});
+      if (frames > 0) pixels += running.member.pixels * done / frames;
+    }
+    progress_.update(lines, pixels);
+  }
+
+  /// Ends all children and removes what they have begun.
+  void abandon() {
+    for (const auto& running : running_) running.child.terminate();
+    const auto deadline = std::chrono::steady_clock::now() + kGrace;
+    for (auto& running : running_) {
+      while (!running.child.ended() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(kPoll);
+    }
+    std::vector<std::string> folders;
+    for (const auto& running : running_) folders.push_back(running.folder);
+    running_.clear();  // kills the ones that are left
+    for (const auto& folder : folders) remove_folder(folder);
+  }
+
+  std::size_t running() const { return running_.size(); }
+
+ private:
+  std::vector<std::string> arguments(const BatchMember& member, const std::string& folder) const {
+    std::vector<std::string> arguments = {"run", member.sequence.path, "--output", folder, "--min-tracked", "0", "--config",
+                                          (fs::path(options_.output) / "config.toml").string(), "--device", method_.device_choice(),
+                                          "--thumbnails", std::to_string(options_.thumbnails), "--draw",
+                                          std::to_string(options_.draw_every)};
+    if (!method_.kernel_folder().empty()) arguments.insert(arguments.end(), {"--kernels", method_.kernel_folder()});
+    if (options_.profile) arguments.push_back("--profile");
+    return arguments;
+  }
+
+  void finish(RunningMember& running, const ChildEnd& end) {
+    const BatchMember& member = running.member;
+    report::MemberRecord record;
+    record.name = member.sequence.name;
+    record.path = member.sequence.path;
+    record.format = member.sequence.format;
+    record.key = member.key;
+    const bool known = end.exit_code <= static_cast<int>(ExitCode::too_few_tracked);
+    record.exit_code = known ? end.exit_code : static_cast<int>(ExitCode::internal);
+    record.jobs = jobs_;
+    if (record.exit_code != 0) record.message = failure(end, running.folder + "/log.txt");
+    data::write_atomically(running.folder + "/member.json", report::member_json(record));
+    const std::string folder = report::member_folder(options_.output, member.sequence.name);
+    remove_folder(folder);
+    std::error_code error;
+    fs::rename(running.folder, folder, error);
+    if (error) throw DataError(folder + ": the finished folder cannot be put here: " + error.message());
+    progress_.finished(member.sequence.name, member.frames, member.pixels, outcome(folder, record));
+  }
+
+  std::string outcome(const std::string& folder, const report::MemberRecord& record) const {
+    if (record.exit_code != 0) return "failed: " + record.message;
+    const auto row = report::read_summary_row(folder, record.name, options_.min_tracked);
+    std::string text = std::to_string(row.tracked) + " of " + std::to_string(row.frames) + " frames tracked";
+    if (row.accuracy) {
+      char errors[96];
+      std::snprintf(errors, sizeof errors, ", APE %.3f deg, %.4f m", row.accuracy->origin_aligned.ape_rotation_deg.mean,
+                    row.accuracy->origin_aligned.ape_translation_m.mean);
+      text += errors;
+    }
+    return text;
+  }
+
+  const MethodOptions& method_;
+  const BatchOptions& options_;
+  int jobs_;
+  BatchProgress progress_;
+  std::list<RunningMember> running_;
+};
+
+}  // namespace
+
+void run_batch(const std::vector<BatchMember>& plan, const MethodOptions& method, const BatchOptions& options,
+               const Interruption& interruption) {
+  std::vector<const BatchMember*> waiting;
+  double pixels = 0;
+  for (const auto& member : plan) {
+    if (member.finished) continue;
+    waiting.push_back(&member);
+    pixels += member.pixels;
+  }
+  const int to_run = static_cast<int>(waiting.size());
+  // As many as the whole batch has, not what is left of it: a batch that was interrupted ends with the same records.
+  const int jobs = std::min(options.jobs, static_cast<int>(plan.size()));
+  BatchRunner runner(method, options, jobs, to_run, static_cast<int>(plan.size()) - to_run, pixels);
+  std::size_t next = 0;
+  while (next < waiting.size() || runner.running() > 0) {
+    if (interruption.signal() != 0) {
+      runner.abandon();
+      return;
+    }
+    while (next < waiting.size() && runner.running() < static_cast<std::size_t>(jobs)) runner.start(*waiting[next++]);
+    std::this_thread::sleep_for(kPoll);
+    runner.reap();
+    runner.show_progress();
+  }
+}
+
+}  // namespace quadedge::cli

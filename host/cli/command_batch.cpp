@@ -1,0 +1,177 @@
+/// \file command_batch.cpp  quadedge batch: many sequences, their results and one summary.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/batch_plan.hpp"
+#include "cli/batch_run.hpp"
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/folder_lock.hpp"
+#include "data/atomic_file.hpp"
+#include "quadedge/error.hpp"
+#include "report/batch_summary.hpp"
+#include "report/config_toml.hpp"
+
+namespace quadedge::cli {
+namespace fs = std::filesystem;
+namespace {
+
+class BatchCommand : public Command {
+ public:
+  std::string name() const override { return "batch"; }
+  std::string about() const override { return "track many sequences, each in its own process, and summarise the results"; }
+  std::string examples() const override {
+    return "  quadedge batch eth3d/training -o results\n"
+           "  quadedge batch sequences.txt -o results --device gpu --jobs 2";
+  }
+
+  void declare(Options& options) override {
+    options.positional("ROOT|LIST", input_, "folder with sequences anywhere below it, or a file with one folder per line");
+    options.text("-o,--output", batch_.output, "folder for all results; default: quadedge_batch here", "OUT");
+    options.number("--jobs", batch_.jobs, "sequences at the same time; 0: as many as suit the device");
+    options.flag("--timing", batch_.timing, "latencies count: one sequence at a time, redoing those that ran beside others");
+    options.flag("--profile", batch_.profile, "measure kernel times in a second pass over every sequence");
+    options.number("--draw", batch_.draw_every, "pictures of the edges and quads of every N-th frame");
+    options.number("--min-tracked", batch_.min_tracked, "fewer tracked frames in a sequence give exit code 5 [percent]");
+    options.flag("--force", batch_.force, "repeat sequences that are finished already");
+    options.flag("--quiet", batch_.quiet, "no progress");
+    options.group("One step of a batch, for schedulers");
+    options.flag("--list", list_, "print name and folder of every sequence and run none");
+    options.text("--only", only_, "run this sequence of the batch alone, without summary; OUT may be shared with others", "NAME");
+    options.flag("--gather", gather_, "run nothing, summarise what is there");
+    method_.declare(options);
+  }
+
+  int run() override {
+    if (batch_.jobs < 0) throw UsageError("--jobs " + std::to_string(batch_.jobs) + ": expected 0 (chosen by device) or more");
+    if (batch_.timing && batch_.jobs > 1) throw UsageError("--timing and --jobs " + std::to_string(batch_.jobs) + " exclude one another");
+    if (batch_.draw_every < 0) throw UsageError("--draw " + std::to_string(batch_.draw_every) + ": expected 0 (none) or more");
+    if (!(batch_.min_tracked >= 0 && batch_.min_tracked <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
+    if (list_ + gather_ + !only_.empty() > 1) throw UsageError("--list, --only and --gather exclude one another");
+    method_.config();  // complain about options before reading data
+    const auto sequences = data::find_sequences(input_);
+    if (list_) return print_list(sequences);
+    if (!only_.empty()) return run_one(sequences);
+    return gather_ ? summarise(sequences) : run_all(sequences);
+  }
+
+ private:
+  static int print_list(const std::vector<data::FoundSequence>& sequences) {
+    for (const auto& sequence : sequences) std::printf("%s\t%s\n", sequence.name.c_str(), sequence.path.c_str());
+    return 0;
+  }
+
+  fs::path output() const { return batch_.output; }
+
+  void prepare() const {
+    std::error_code error;
+    fs::create_directories(output() / "sequences", error);
+    if (error) throw DataError(batch_.output + ": the output folder cannot be made: " + error.message());
+  }
+  /// The configuration that all runs read.
+  void write_config() const {
+    data::write_atomically((output() / "config.toml").string(), report::config_toml(method_.config(), method_.device_choice()));
+  }
+
+  /// The plan of some sequences, for the device that will run them.
+  std::vector<BatchMember> plan(const std::vector<data::FoundSequence>& sequences) {
+    const DeviceInfo device = method_.open_device().info();  // a missing device ends the batch here, not every run on its own
+    if (batch_.jobs == 0) batch_.jobs = default_jobs(device, batch_);
+    return plan_batch(sequences, method_, device, batch_);
+  }
+
+  int run_all(const std::vector<data::FoundSequence>& sequences) {
+    prepare();
+    const FolderLock lock((output() / ".lock").string(), false, batch_.output);
+    const Interruption interruption;
+    write_config();
+    const auto members = plan(sequences);
+    remove_unfinished();  // of a batch that was killed
+    note_progress(members);
+    const bool complete = std::all_of(members.begin(), members.end(), [](const auto& member) { return member.finished; });
+    if (!complete) remove_summary();  // it would not belong to what is there from now on
+    run_batch(members, method_, batch_, interruption);
+    remove_unfinished();
+    if (interruption.signal() != 0) {
+      note(batch_.quiet, "interrupted; the same command goes on where this one stopped");
+      interruption.end_process();
+    }
+    return summarise(sequences);
+  }
+
+  int run_one(const std::vector<data::FoundSequence>& sequences) {
+    const auto found = std::find_if(sequences.begin(), sequences.end(), [&](const auto& sequence) { return sequence.name == only_; });
+    if (found == sequences.end()) throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list shows all");
+    prepare();
+    const FolderLock lock((output() / ".lock").string(), true, batch_.output);
+    const Interruption interruption;
+    write_config();
+    run_batch(plan({*found}), method_, batch_, interruption);
+    if (interruption.signal() != 0) interruption.end_process();
+    const auto row = report::read_summary_row(report::member_folder(batch_.output, only_), only_, batch_.min_tracked);
+    if (row.member.exit_code != 0) std::fprintf(stderr, "quadedge: %s: %s\n", only_.c_str(), row.member.message.c_str());
+    return row.member.exit_code;
+  }
+
+  /// Only while the lock of OUT is held alone.
+  void remove_unfinished() const {
+    std::error_code error;
+    fs::remove_all(output() / "unfinished", error);
+    if (error) throw DataError((output() / "unfinished").string() + ": cannot be removed: " + error.message());
+  }
+
+  void remove_summary() const {
+    for (const char* name : {"summary.csv", "summary.json", "summary.md", "report.html"}) {
+      std::error_code error;
+      fs::remove(output() / name, error);
+      if (error) throw DataError((output() / name).string() + ": the old summary cannot be removed: " + error.message());
+    }
+  }
+
+  void note_progress(const std::vector<BatchMember>& members) const {
+    const auto finished = std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
+    std::string sentence = std::to_string(members.size()) + " sequences, " + std::to_string(finished) + " finished already";
+    if (static_cast<std::size_t>(finished) < members.size()) sentence += ", " + std::to_string(batch_.jobs) + " at the same time";
+    note(batch_.quiet, sentence);
+  }
+
+  /// Writes the summary of what is there; the worst exit code.
+  int summarise(const std::vector<data::FoundSequence>& sequences) const {
+    std::vector<std::string> names;
+    for (const auto& sequence : sequences) names.push_back(sequence.name);
+    const auto summary = report::summarise(batch_.output, names, batch_.min_tracked);
+    data::write_atomically((output() / "summary.csv").string(), report::summary_csv(summary));
+    data::write_atomically((output() / "summary.json").string(), report::summary_json(summary));
+    data::write_atomically((output() / "summary.md").string(), report::summary_markdown(summary));
+    print_summary(summary);
+    return summary.exit_code;
+  }
+
+  void print_summary(const report::BatchSummary& summary) const {
+    std::printf("%s", report::summary_markdown(summary).c_str());
+    std::printf("\nresults in %s\n", batch_.output.c_str());
+    std::fflush(stdout);  // before the complaints below
+    for (const auto& row : summary.rows) {
+      if (row.status == report::MemberStatus::done) continue;
+      std::fprintf(stderr, "quadedge: %s (%s): %s\n", row.member.name.c_str(), to_string(row.status), row.member.message.c_str());
+    }
+  }
+
+  std::string input_, only_;
+  BatchOptions batch_ = default_batch();
+  bool list_ = false, gather_ = false;
+  MethodOptions method_;
+
+  static BatchOptions default_batch() {
+    BatchOptions batch;
+    batch.output = "quadedge_batch";
+    return batch;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_batch_command() { return std::make_unique<BatchCommand>(); }
+
+}  // namespace quadedge::cli

@@ -1,0 +1,127 @@
+#include "data/find_sequences.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "data/layout.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// A recording before it has its name.
+struct Recording {
+  fs::path path;
+  std::string format;
+};
+
+/// Layout that the folder itself is a recording of; empty for none.
+std::string recording_format(const fs::path& folder) {
+  for (const auto& layout : layouts()) {
+    if (layout.is_recording != nullptr && layout.is_recording(folder)) return layout.name;
+  }
+  return {};
+}
+
+/// Adds the recordings in and below a folder. `seen` holds the true places of folders, so that circular links end.
+void search(const fs::path& folder, std::set<fs::path>& seen, std::vector<Recording>& found) {
+  std::error_code error;
+  const fs::path place = fs::canonical(folder, error);
+  if (error || !seen.insert(place).second) return;
+  if (const std::string format = recording_format(folder); !format.empty()) {
+    found.push_back({folder, format});
+    return;
+  }
+  std::vector<fs::path> folders;
+  for (fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_directory(ignored) && entry->path().filename().string()[0] != '.') folders.push_back(entry->path());
+  }
+  std::sort(folders.begin(), folders.end());
+  for (const auto& below : folders) search(below, seen, found);
+}
+
+std::vector<Recording> search_list(const std::string& list) {
+  std::set<fs::path> seen;
+  std::vector<Recording> found;
+  for (const auto& line : data_lines(list)) {
+    const auto last = line.text.find_last_not_of(" \t");
+    const fs::path entry = fs::path(list).parent_path() / line.text.substr(0, last + 1);
+    std::error_code error;
+    const fs::path place = fs::canonical(entry, error);
+    const bool known = !error && seen.count(place) > 0;
+    const std::size_t before = found.size();
+    if (fs::is_directory(entry, error)) search(entry, seen, found);
+    if (found.size() == before && !known) found.push_back({entry, ""});
+  }
+  return found;
+}
+
+/// The last `parts` names of a path, joined; KITTI's two digits say nothing without the layout's name before them.
+std::string name_of(const Recording& recording, int parts) {
+  fs::path rest = fs::absolute(recording.path).lexically_normal();
+  if (!rest.has_filename()) rest = rest.parent_path();
+  if (rest.filename() == "mav0") rest = rest.parent_path();
+  std::string name = (recording.format == "kitti" ? "kitti_" : "") + rest.filename().string();
+  for (int i = 1; i < parts && rest.parent_path().has_filename(); ++i) {
+    rest = rest.parent_path();
+    name = rest.filename().string() + "_" + name;
+  }
+  return plain_name(name);
+}
+
+/// Short names where they are unique, longer ones where they are not.
+std::vector<FoundSequence> named(const std::vector<Recording>& recordings) {
+  constexpr int kMostParts = 8;
+  std::vector<FoundSequence> sequences;
+  for (const auto& recording : recordings) sequences.push_back({name_of(recording, 1), recording.path.string(), recording.format});
+  for (int parts = 2; parts <= kMostParts; ++parts) {
+    std::map<std::string, int> uses;
+    for (const auto& sequence : sequences) ++uses[sequence.name];
+    for (std::size_t i = 0; i < sequences.size(); ++i) {
+      if (uses[sequences[i].name] > 1) sequences[i].name = name_of(recordings[i], parts);
+    }
+  }
+  std::set<std::string> taken;
+  for (auto& sequence : sequences) {
+    const std::string name = sequence.name;
+    for (int i = 2; !taken.insert(sequence.name).second; ++i) sequence.name = name + "_" + std::to_string(i);
+  }
+  return sequences;
+}
+
+}  // namespace
+
+std::string plain_name(const std::string& text) {
+  std::string name;
+  for (const char c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    name += plain ? c : '_';
+  }
+  return name.empty() || name == "." || name == ".." ? "sequence" : name;
+}
+
+std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
+  if (!fs::exists(root_or_list)) fail(root_or_list, "no such file or folder", "a folder of sequences, or a list of folders");
+  if (!fs::is_directory(root_or_list)) {
+    const auto recordings = search_list(root_or_list);
+    if (recordings.empty()) fail(root_or_list, "no line", "the folder of a sequence on every line");
+    return named(recordings);
+  }
+  std::set<fs::path> seen;
+  std::vector<Recording> recordings;
+  search(root_or_list, seen, recordings);
+  if (recordings.empty()) {
+    std::string names;
+    for (const auto& layout : layouts()) {
+      if (layout.is_recording != nullptr) names += (names.empty() ? "" : ", ") + layout.name;
+    }
+    fail(root_or_list, "no sequence in it or below", "recordings in the layouts " + names);
+  }
+  return named(recordings);
+}
+
+}  // namespace quadedge::data

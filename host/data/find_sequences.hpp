@@ -1,0 +1,26 @@
+#pragma once
+/// \file find_sequences.hpp  Which sequences lie below a folder, or are named by a list file.
+
+#include <string>
+#include <vector>
+
+namespace quadedge::data {
+
+/// A sequence that a batch works on.
+struct FoundSequence {
+  std::string name;    ///< unique in its batch, letters, digits and -_. alone: a folder can be called so
+  std::string path;    ///< the sequence's own folder
+  std::string format;  ///< layout by its looks; empty for a line of a list that is no recording (and whose run will say why)
+};
+
+/// A folder: every recording of any layout below it, links followed, sorted by path. Still pairs are no sequences. Damaged
+/// recordings are found, too, as long as their folders have the usual names.
+/// A file: one folder per line, relative to the file's folder, '#' starts a comment; each is searched in the same way, and a
+/// line that holds no recording stays in the result. Nothing is found twice.
+/// \throws DataError for a missing or empty root or list.
+std::vector<FoundSequence> find_sequences(const std::string& root_or_list);
+
+/// The text with everything but letters, digits and -_. replaced by '_'.
+std::string plain_name(const std::string& text);
+
+}  // namespace quadedge::data

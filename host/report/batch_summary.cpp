@@ -1,0 +1,151 @@
+#include "report/batch_summary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "quadedge/error.hpp"
+#include "report/frames_table.hpp"
+#include "report/statistics.hpp"
+
+namespace quadedge::report {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<ErrorStatistics PoseErrors::*, 4> kErrors = {&PoseErrors::ape_rotation_deg, &PoseErrors::ape_translation_m,
+                                                                  &PoseErrors::rpe_rotation_deg, &PoseErrors::rpe_translation_m};
+constexpr std::array<PoseErrors SummaryAccuracy::*, 2> kAlignments = {&SummaryAccuracy::origin_aligned,
+                                                                      &SummaryAccuracy::se3_aligned};
+
+/// Statistics of the values behind several statistics, from their means and mean squares.
+struct Pool {
+  double count = 0, sum = 0, squares = 0, max = 0;
+  void add(const ErrorStatistics& part, double values) {
+    count += values;
+    sum += values * part.mean;
+    squares += values * part.rmse * part.rmse;
+    max = std::max(max, part.max);
+  }
+  ErrorStatistics result() const {
+    if (count == 0) return {kNan, kNan, kNan, kNan};
+    const double mean = sum / count, mean_square = squares / count;
+    return {mean, std::sqrt(std::max(0.0, mean_square - mean * mean)), std::sqrt(mean_square), max};
+  }
+};
+
+std::vector<const SummaryAccuracy*> accuracies(const std::vector<SummaryRow>& rows) {
+  std::vector<const SummaryAccuracy*> found;
+  for (const auto& row : rows) {
+    if (row.accuracy) found.push_back(&*row.accuracy);
+  }
+  return found;
+}
+
+/// Path and drift over all: the summed path, the drifts weighted with it.
+void add_paths(SummaryAccuracy& total, const std::vector<const SummaryAccuracy*>& parts) {
+  double drift = 0;
+  for (const auto* part : parts) {
+    total.matched += part->matched;
+    total.path_length_m += part->path_length_m;
+    drift += part->end_drift_percent * part->path_length_m;
+  }
+  total.end_drift_percent = total.path_length_m > 0 ? drift / total.path_length_m : 0;
+}
+
+SummaryAccuracy pooled(const std::vector<const SummaryAccuracy*>& parts) {
+  SummaryAccuracy total;
+  for (const auto alignment : kAlignments) {
+    for (std::size_t error = 0; error < kErrors.size(); ++error) {
+      Pool pool;
+      for (const auto* part : parts) {
+        const ErrorStatistics& statistics = (part->*alignment).*kErrors[error];
+        const int steps = error < 2 ? part->matched : part->matched - 1;  // relative errors belong to pairs of poses
+        if (std::isfinite(statistics.mean)) pool.add(statistics, steps);
+      }
+      (total.*alignment).*kErrors[error] = pool.result();
+    }
+  }
+  add_paths(total, parts);
+  return total;
+}
+
+SummaryAccuracy average(const std::vector<const SummaryAccuracy*>& parts) {
+  SummaryAccuracy total;
+  for (const auto alignment : kAlignments) {
+    for (const auto error : kErrors) {
+      ErrorStatistics mean;
+      int count = 0;
+      for (const auto* part : parts) {
+        const ErrorStatistics& statistics = (part->*alignment).*error;
+        if (!std::isfinite(statistics.mean)) continue;
+        mean.mean += statistics.mean, mean.std += statistics.std, mean.rmse += statistics.rmse, mean.max += statistics.max;
+        ++count;
+      }
+      const double scale = count > 0 ? 1.0 / count : kNan;
+      (total.*alignment).*error = {mean.mean * scale, mean.std * scale, mean.rmse * scale, mean.max * scale};
+    }
+  }
+  add_paths(total, parts);
+  return total;
+}
+
+LatencySummary summary_of(const std::vector<double>& values, const std::vector<double>& firsts) {
+  return {median(values), percentile(values, 0.9), percentile(values, 0.99), percentile(values, 1.0), median(firsts)};
+}
+
+}  // namespace
+
+const char* to_string(MemberStatus status) {
+  switch (status) {
+    case MemberStatus::done: return "done";
+    case MemberStatus::too_few_tracked: return "too few tracked";
+    case MemberStatus::failed: return "failed";
+    case MemberStatus::missing: return "not run";
+  }
+  return "";
+}
+
+int worse_exit_code(int a, int b) {
+  constexpr std::array<ExitCode, 6> kFromBadToWorse = {ExitCode::done, ExitCode::too_few_tracked, ExitCode::usage,
+                                                       ExitCode::data, ExitCode::device, ExitCode::internal};
+  const auto rank = [&](int code) {
+    return std::find(kFromBadToWorse.begin(), kFromBadToWorse.end(), static_cast<ExitCode>(code)) - kFromBadToWorse.begin();
+  };
+  return rank(a) >= rank(b) ? a : b;
+}
+
+std::string member_folder(const std::string& output, const std::string& name) {
+  return (std::filesystem::path(output) / "sequences" / name).string();
+}
+
+BatchSummary summarise(const std::string& output, const std::vector<std::string>& names, double min_tracked) {
+  BatchSummary summary;
+  std::vector<double> latencies, firsts;
+  for (const auto& name : names) {
+    const std::string folder = member_folder(output, name);
+    const SummaryRow& row = summary.rows.emplace_back(read_summary_row(folder, name, min_tracked));
+    if (row.status == MemberStatus::failed || row.status == MemberStatus::missing) {
+      summary.exit_code = worse_exit_code(summary.exit_code, row.member.exit_code);
+      continue;
+    }
+    if (row.status == MemberStatus::too_few_tracked) {
+      summary.exit_code = worse_exit_code(summary.exit_code, static_cast<int>(ExitCode::too_few_tracked));
+    }
+    summary.frames += row.frames;
+    summary.tracked += row.tracked;
+    const auto table = read_frames_table(folder + "/frames.csv");
+    if (table.latency_ms.empty()) continue;
+    firsts.push_back(table.latency_ms.front());
+    latencies.insert(latencies.end(), table.latency_ms.begin() + 1, table.latency_ms.end());
+  }
+  summary.latency = summary_of(latencies, firsts);
+  if (const auto parts = accuracies(summary.rows); !parts.empty()) {
+    summary.pooled = pooled(parts);
+    summary.average = average(parts);
+  }
+  return summary;
+}
+
+}  // namespace quadedge::report

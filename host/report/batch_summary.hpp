@@ -1,0 +1,70 @@
+#pragma once
+/// \file batch_summary.hpp  The results of many sequences in one table, per sequence and over all.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadedge/evaluation.hpp"
+#include "report/member_record.hpp"
+#include "report/run_record.hpp"
+
+namespace quadedge::report {
+
+/// How a sequence of a batch ended.
+enum class MemberStatus { done, too_few_tracked, failed, missing };
+const char* to_string(MemberStatus status);
+
+/// The accuracy of a run, or of several together.
+struct SummaryAccuracy {
+  PoseErrors origin_aligned, se3_aligned;  ///< NaN where an alignment is not defined
+  int matched = 0;                         ///< poses compared
+  double path_length_m = 0, end_drift_percent = 0;
+};
+
+/// One sequence.
+struct SummaryRow {
+  MemberRecord member;
+  MemberStatus status = MemberStatus::missing;
+  int frames = 0, tracked = 0, key_rigs = 0;
+  std::string device;
+  LatencySummary latency;                   ///< [ms]; NaN where the run failed
+  std::optional<SummaryAccuracy> accuracy;  ///< only with ground truth
+};
+
+/// A batch.
+struct BatchSummary {
+  std::vector<SummaryRow> rows;
+  int frames = 0, tracked = 0;      ///< of the sequences that did not fail
+  LatencySummary latency;           ///< over all frames but the first one of each sequence [ms]; `first` is the median of those
+  /// Over all sequences with ground truth: every pose counts the same (the mean and standard deviation of all poses together).
+  std::optional<SummaryAccuracy> pooled;
+  /// The same figures averaged over the sequences: every sequence counts the same.
+  std::optional<SummaryAccuracy> average;
+  int exit_code = 0;                ///< the worst of all sequences
+};
+
+/// Reads the results of one sequence from its folder. A run that tracked fewer frames than `min_tracked` percent counts as
+/// too_few_tracked. \throws DataError for damaged results.
+SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked);
+
+/// Puts the results of OUT/sequences/NAME together. \throws DataError for damaged results.
+BatchSummary summarise(const std::string& output, const std::vector<std::string>& names, double min_tracked);
+
+/// Worst of two exit codes: a program error is worse than a device, that worse than data, usage and too few tracked frames.
+int worse_exit_code(int a, int b);
+
+/// summary.csv: one row per sequence, then the two over all; the column `kind` is sequence, pooled or average.
+std::string summary_csv(const BatchSummary& summary);
+/// summary.json.
+std::string summary_json(const BatchSummary& summary);
+/// summary.md: the paper's Table 4 (origin-aligned), the SE(3)-aligned errors, tracked frames and latencies, failures.
+std::string summary_markdown(const BatchSummary& summary);
+
+/// Names of the sequences in OUT/summary.json, in its order. \throws DataError for a missing or damaged file.
+std::vector<std::string> summarised_names(const std::string& output);
+
+/// Folder of a sequence's results within a batch.
+std::string member_folder(const std::string& output, const std::string& name);
+
+}  // namespace quadedge::report

@@ -1,0 +1,14 @@
+#pragma once
+/// \file errors_csv.hpp  errors.csv: the errors of every pose that has ground truth.
+
+#include <string>
+
+#include "quadedge/evaluation.hpp"
+
+namespace quadedge::report {
+
+/// Columns: stamp_s, ape_rotation_deg, ape_translation_m, rpe_rotation_deg, rpe_translation_m; origin-aligned. The first pose
+/// has no step before it: its RPE fields are empty.
+std::string errors_csv(const TrajectoryEvaluation& evaluation);
+
+}  // namespace quadedge::report

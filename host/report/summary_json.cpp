@@ -1,0 +1,117 @@
+/// \file summary_json.cpp  Results of a batch as JSON, and read from the report.json of its sequences.
+#include <filesystem>
+
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+#include "report/batch_summary.hpp"
+#include "report/json_values.hpp"
+
+namespace quadedge::report {
+namespace {
+
+constexpr int kSummarySchema = 1;  // grows when a key changes its meaning
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Json read_json(const std::string& file, const char* expected) {
+  try {
+    return Json::parse(data::read_bytes(file));
+  } catch (const Json::exception& problem) {
+    data::fail(file, std::string("no JSON (") + problem.what() + ")", expected);
+  }
+}
+
+Json accuracy_json(const SummaryAccuracy& accuracy) {
+  return {{"origin_aligned", to_json(accuracy.origin_aligned)}, {"se3_aligned", to_json(accuracy.se3_aligned)},
+          {"matched_poses", accuracy.matched},                  {"path_length_m", to_json(accuracy.path_length_m)},
+          {"end_drift_percent", to_json(accuracy.end_drift_percent)}};
+}
+
+/// Takes over what a run reported. \throws nlohmann::json::exception.
+void take_report(SummaryRow& row, const Json& report) {
+  row.frames = report.at("input").at("frames");
+  row.tracked = report.at("frames_tracked");
+  row.key_rigs = report.at("key_rigs");
+  row.device = report.at("device").at("name");
+  row.latency = to_latency(report.at("latency_ms"));
+  if (!report.contains("accuracy")) return;
+  const Json& accuracy = report.at("accuracy");
+  row.accuracy = SummaryAccuracy{to_pose_errors(accuracy.at("origin_aligned")), to_pose_errors(accuracy.at("se3_aligned")),
+                                 accuracy.at("matched_poses").get<int>(), to_number(accuracy.at("path_length_m")),
+                                 to_number(accuracy.at("end_drift_percent"))};
+}
+
+}  // namespace
+
+SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked) {
+  SummaryRow row;
+  row.latency = {kNan, kNan, kNan, kNan, kNan};
+  const auto member = read_member(folder);
+  if (!member) {
+    row.member.name = name;
+    row.member.exit_code = static_cast<int>(ExitCode::data);
+    row.member.message = "not run";
+    return row;
+  }
+  row.member = *member;
+  row.status = MemberStatus::failed;
+  if (member->exit_code != 0) return row;
+  const std::string file = folder + "/report.json";
+  const Json report = read_json(file, "the report of a run");
+  try {
+    take_report(row, report);
+  } catch (const Json::exception& problem) {
+    data::fail(file, problem.what(), "the report of a run");
+  }
+  const bool enough = 100.0 * row.tracked >= min_tracked * row.frames;
+  row.status = enough ? MemberStatus::done : MemberStatus::too_few_tracked;
+  if (!enough) {
+    row.member.exit_code = static_cast<int>(ExitCode::too_few_tracked);
+    row.member.message = "tracked " + std::to_string(row.tracked) + " of " + std::to_string(row.frames) + " frames";
+  }
+  return row;
+}
+
+std::string summary_json(const BatchSummary& summary) {
+  Json json;
+  json["schema"] = kSummarySchema;
+  json["version"] = QUADEDGE_VERSION;
+  json["exit_code"] = summary.exit_code;
+  json["sequences"] = Json::array();
+  for (const auto& row : summary.rows) {
+    Json entry = {{"name", row.member.name},           {"status", to_string(row.status)}, {"exit_code", row.member.exit_code},
+                  {"message", row.member.message},     {"path", row.member.path},         {"format", row.member.format},
+                  {"jobs", row.member.jobs}};
+    if (row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked) {
+      entry["device"] = row.device;
+      entry["frames"] = row.frames;
+      entry["frames_tracked"] = row.tracked;
+      entry["tracked_fraction"] = row.frames > 0 ? Json(static_cast<double>(row.tracked) / row.frames) : Json(nullptr);
+      entry["key_rigs"] = row.key_rigs;
+      if (row.accuracy) entry["accuracy"] = accuracy_json(*row.accuracy);
+      entry["latency_ms"] = to_json(row.latency);
+    }
+    json["sequences"].push_back(std::move(entry));
+  }
+  Json& all = json["all"];
+  all["frames"] = summary.frames;
+  all["frames_tracked"] = summary.tracked;
+  all["tracked_fraction"] = summary.frames > 0 ? Json(static_cast<double>(summary.tracked) / summary.frames) : Json(nullptr);
+  if (summary.pooled) all["pooled"] = accuracy_json(*summary.pooled);
+  if (summary.average) all["average"] = accuracy_json(*summary.average);
+  all["latency_ms"] = to_json(summary.latency);
+  return json_text(json);
+}
+
+std::vector<std::string> summarised_names(const std::string& output) {
+  const std::string file = (std::filesystem::path(output) / "summary.json").string();
+  const Json json = read_json(file, "the summary of a batch");
+  std::vector<std::string> names;
+  try {
+    for (const auto& entry : json.at("sequences")) names.push_back(entry.at("name"));
+  } catch (const Json::exception& problem) {
+    data::fail(file, problem.what(), "the summary of a batch");
+  }
+  return names;
+}
+
+}  // namespace quadedge::report

@@ -1,0 +1,93 @@
+/// \file summary_markdown.cpp  summary.md of a batch: tables to read and to paste.
+#include <cmath>
+#include <cstdio>
+
+#include "report/batch_summary.hpp"
+
+namespace quadedge::report {
+namespace {
+
+/// Four significant digits, never an exponent; a dash for a value that does not exist.
+std::string cell(double value) {
+  if (!std::isfinite(value)) return "-";
+  const int magnitude = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", std::max(0, std::min(9, 3 - magnitude)), value);
+  return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|' || c == '*' || c == '\\' || c == '`' || c == '<') result += '\\';
+    result += c == '\n' ? ' ' : c;
+  }
+  return result;
+}
+
+std::string errors(const PoseErrors& errors) {
+  std::string cells;
+  for (const auto* error : {&errors.ape_rotation_deg, &errors.ape_translation_m, &errors.rpe_rotation_deg, &errors.rpe_translation_m}) {
+    cells += " " + cell(error->mean) + " | " + cell(error->std) + " |";
+  }
+  return cells;
+}
+
+/// One table of errors with the columns of the paper's Table 4.
+std::string error_table(const BatchSummary& summary, PoseErrors SummaryAccuracy::* alignment) {
+  std::string text =
+      "| sequence | APE_R (deg) mean | std | APE_T (m) mean | std | RPE_R (deg) mean | std | RPE_T (m) mean | std |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& row : summary.rows) {
+    if (row.accuracy) text += "| " + escaped(row.member.name) + " |" + errors((*row.accuracy).*alignment) + "\n";
+  }
+  text += "| **all, every pose counts the same** |" + errors((*summary.pooled).*alignment) + "\n";
+  text += "| **all, every sequence counts the same** |" + errors((*summary.average).*alignment) + "\n";
+  return text;
+}
+
+std::string share(int tracked, int frames) {
+  if (frames == 0) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, "%d / %d (%.1f %%)", tracked, frames, 100.0 * tracked / frames);
+  return text;
+}
+
+std::string latency_cells(const LatencySummary& latency) {
+  std::string cells;
+  for (const double value : {latency.median, latency.p90, latency.p99, latency.max, latency.first}) cells += " " + cell(value) + " |";
+  return cells;
+}
+
+}  // namespace
+
+std::string summary_markdown(const BatchSummary& summary) {
+  std::string text = "# QuadEdge " QUADEDGE_VERSION ", " + std::to_string(summary.rows.size()) + " sequences\n";
+  std::string failures;
+  bool shared = false;
+  for (const auto& row : summary.rows) {
+    shared = shared || row.member.jobs > 1;
+    if (row.status == MemberStatus::done) continue;
+    failures += "| " + escaped(row.member.name) + " | " + to_string(row.status) + " | " + std::to_string(row.member.exit_code) + " | " +
+                escaped(row.member.message) + " |\n";
+  }
+  if (!failures.empty()) {
+    text += "\n## Sequences that did not end well\n\n| sequence | status | exit code | message |\n|---|---|---|---|\n" + failures;
+  }
+  if (summary.pooled) {
+    text += "\n## Errors, origin-aligned (the paper's Table 4)\n\nThe first compared poses are made equal.\n\n" +
+            error_table(summary, &SummaryAccuracy::origin_aligned);
+    text += "\n## Errors, SE(3)-aligned\n\nThe whole trajectory is moved onto the ground truth (least squares over all positions, no "
+            "scale), as other systems often quote.\n\n" + error_table(summary, &SummaryAccuracy::se3_aligned);
+  }
+  text += "\n## Tracked frames and latency\n\nLatency in milliseconds, from both images in host memory to the pose.";
+  if (shared) text += " Several sequences ran at the same time, so latencies are longer than those of a lone run.";
+  text += "\n\n| sequence | tracked | median | p90 | p99 | max | first frame |\n|---|---|---|---|---|---|---|\n";
+  for (const auto& row : summary.rows) {
+    text += "| " + escaped(row.member.name) + " | " + share(row.tracked, row.frames) + " |" + latency_cells(row.latency) + "\n";
+  }
+  text += "| **all** | " + share(summary.tracked, summary.frames) + " |" + latency_cells(summary.latency) + "\n";
+  return text;
+}
+
+}  // namespace quadedge::report

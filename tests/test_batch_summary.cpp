@@ -1,0 +1,186 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+
+#include "dataset_files.hpp"
+#include "report/batch_summary.hpp"
+#include "report/frames_csv.hpp"
+#include "report/frames_table.hpp"
+#include "report/json.hpp"
+#include "report/statistics.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using dataset_files::write_text;
+
+namespace {
+
+/// A made-up run of `frames` frames along a bent path whose estimate drifts by `drift` metres and as many radians per frame.
+report::RunRecord made_up_run(int frames, double drift) {
+  report::RunRecord run;
+  run.input = {"made/up", "eth3d-slam", "made_up", frames, 640, 480};
+  run.device.name = "abacus";
+  Trajectory estimate, truth;
+  for (int i = 0; i < frames; ++i) {
+    report::FrameRecord frame;
+    frame.result.stamp_ns = 100'000'000LL * i;
+    frame.result.status = i == 0 ? FrameStatus::first : FrameStatus::tracked;
+    frame.result.latency_ms = 10 + i * 7 % 5;
+    frame.result.stages = {{"stereo", 4}, {"temporal", 3}};
+    frame.result.counts.edges_left = 100 + i;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << std::sin(0.3 * i), 0.1 * i * i, i;
+    truth.push_back({frame.result.stamp_ns, pose});
+    pose.translation().x() += drift * i;
+    pose.rotate(Eigen::AngleAxisd(drift * i, Eigen::Vector3d(1, i, 2).normalized()));
+    frame.result.world_from_left = pose;
+    estimate.push_back({frame.result.stamp_ns, pose});
+    run.frames.push_back(frame);
+  }
+  run.truth_file = "truth.txt";
+  run.accuracy = evaluate_trajectory(estimate, truth);
+  return run;
+}
+
+void write_member(const std::string& output, const std::string& name, const report::RunRecord& run) {
+  const std::string folder = report::member_folder(output, name);
+  write_text(folder + "/report.json", report::report_json(run));
+  write_text(folder + "/member.json", report::member_json({name, run.input.path, "eth3d-slam", "key", 0, "", 1}));
+  report::FramesCsv frames(folder + "/frames.csv");
+  for (const auto& frame : run.frames) frames.add(frame.result);
+}
+
+/// Mean and standard deviation over N, straight from their definitions.
+void check_statistics(const ErrorStatistics& found, const std::vector<double>& values) {
+  const double count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double deviations = 0, squares = 0;
+  for (const double value : values) deviations += (value - mean) * (value - mean), squares += value * value;
+  CHECK(found.mean == Approx(mean).epsilon(1e-10));
+  CHECK(found.std == Approx(std::sqrt(deviations / count)).epsilon(1e-6));
+  CHECK(found.rmse == Approx(std::sqrt(squares / count)).epsilon(1e-10));
+  CHECK(found.max == *std::max_element(values.begin(), values.end()));
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(stream, line);) all.push_back(line);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("batch summary: pooled figures are those of all poses of all sequences together", "[report]") {
+  const TemporaryFolder folder;
+  const auto first = made_up_run(5, 0.01), second = made_up_run(9, 0.003);
+  write_member(folder.path(), "one", first);
+  write_member(folder.path(), "two", second);
+  const auto summary = report::summarise(folder.path(), {"one", "two"}, 50);
+  REQUIRE(summary.pooled);
+  CHECK(summary.exit_code == 0);
+  CHECK(summary.frames == 14);
+  CHECK(summary.pooled->matched == 14);
+  std::vector<double> ape_rotation, ape_translation, rpe_rotation, rpe_translation, latencies;
+  for (const auto* run : {&first, &second}) {
+    for (const auto& pose : run->accuracy->per_pose) {
+      ape_rotation.push_back(pose.ape_rotation_deg);
+      ape_translation.push_back(pose.ape_translation_m);
+      if (std::isfinite(pose.rpe_rotation_deg)) rpe_rotation.push_back(pose.rpe_rotation_deg);
+      if (std::isfinite(pose.rpe_translation_m)) rpe_translation.push_back(pose.rpe_translation_m);
+    }
+    for (std::size_t i = 1; i < run->frames.size(); ++i) latencies.push_back(run->frames[i].result.latency_ms);
+  }
+  REQUIRE(rpe_rotation.size() == 12);
+  check_statistics(summary.pooled->origin_aligned.ape_rotation_deg, ape_rotation);
+  check_statistics(summary.pooled->origin_aligned.ape_translation_m, ape_translation);
+  check_statistics(summary.pooled->origin_aligned.rpe_rotation_deg, rpe_rotation);
+  check_statistics(summary.pooled->origin_aligned.rpe_translation_m, rpe_translation);
+  CHECK(summary.latency.median == Approx(report::median(latencies)));
+  CHECK(summary.latency.first == Approx(10));
+  // The average gives both sequences the same weight, though one has nine poses and the other five.
+  CHECK(summary.average->se3_aligned.ape_translation_m.mean ==
+        Approx((first.accuracy->se3_aligned.ape_translation_m.mean + second.accuracy->se3_aligned.ape_translation_m.mean) / 2));
+}
+
+TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, also for failed and missing sequences", "[report]") {
+  const TemporaryFolder folder;
+  const auto run = made_up_run(6, 0.02);
+  write_member(folder.path(), "good", run);
+  write_text(report::member_folder(folder.path(), "bad") + "/member.json",
+             report::member_json({"bad", "a,\"b\"", "kitti", "", 3, "calib.txt:1: found \"x\", expected\ny", 1}));
+  const auto summary = report::summarise(folder.path(), {"bad", "good", "absent"}, 50);
+  CHECK(summary.exit_code == 3);
+  CHECK(summary.rows[0].status == report::MemberStatus::failed);
+  CHECK(summary.rows[2].status == report::MemberStatus::missing);
+
+  const auto rows = lines(report::summary_csv(summary));
+  REQUIRE(rows.size() == 6);  // heading, three sequences, pooled, average
+  const auto names = report::csv_fields(rows[0]);
+  std::map<std::string, std::string> good, bad;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto fields = report::csv_fields(rows[i]);
+    REQUIRE(fields.size() == names.size());
+    for (std::size_t column = 0; column < names.size(); ++column) {
+      if (fields[1] == "good") good[names[column]] = fields[column];
+      if (fields[1] == "bad") bad[names[column]] = fields[column];
+    }
+  }
+  const PoseErrors& truth = run.accuracy->origin_aligned;
+  CHECK(std::stod(good.at("origin_aligned_ape_rotation_deg_mean")) == truth.ape_rotation_deg.mean);
+  CHECK(std::stod(good.at("origin_aligned_rpe_translation_m_std")) == truth.rpe_translation_m.std);
+  CHECK(std::stod(good.at("se3_aligned_ape_translation_m_max")) == run.accuracy->se3_aligned.ape_translation_m.max);
+  CHECK(good.at("tracked_fraction") == "1");
+  CHECK(bad.at("path") == "a,\"b\"");
+  CHECK(bad.at("message") == "calib.txt:1: found \"x\", expected y");
+  CHECK(bad.at("origin_aligned_ape_rotation_deg_mean").empty());
+
+  const auto json = nlohmann::json::parse(report::summary_json(summary));
+  CHECK(json["sequences"][1]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"] == truth.ape_translation_m.mean);
+  CHECK(json["sequences"][0]["status"] == "failed");
+  CHECK(json["all"]["pooled"]["origin_aligned"]["ape_translation_m"]["mean"].get<double>() == Approx(truth.ape_translation_m.mean));
+  CHECK(json["exit_code"] == 3);
+  const std::string markdown = report::summary_markdown(summary);
+  CHECK_THAT(markdown, Catch::Matchers::Contains("| bad | failed | 3 | calib.txt:1") && Catch::Matchers::Contains("SE(3)-aligned") &&
+                           Catch::Matchers::Contains("APE_R (deg)"));
+}
+
+TEST_CASE("batch summary: too few tracked frames are worse than none lost and better than bad data", "[report]") {
+  const TemporaryFolder folder;
+  auto run = made_up_run(10, 0.01);
+  for (std::size_t i = 4; i < 10; ++i) run.frames[i].result.status = FrameStatus::lost_no_consensus;
+  write_member(folder.path(), "lost", run);
+  CHECK(report::summarise(folder.path(), {"lost"}, 40).exit_code == 0);
+  CHECK(report::summarise(folder.path(), {"lost"}, 41).exit_code == 5);
+  CHECK(report::worse_exit_code(5, 0) == 5);
+  CHECK(report::worse_exit_code(5, 3) == 3);
+  CHECK(report::worse_exit_code(4, 3) == 4);
+  CHECK(report::worse_exit_code(1, 4) == 1);
+}
+
+TEST_CASE("frames table: reads back what a run writes, messages with commas and quotes too", "[report]") {
+  const TemporaryFolder folder;
+  auto run = made_up_run(3, 0.01);
+  run.frames[1].result.message = "a \"quoted\", cut message";
+  run.frames[2].result.stages.push_back({"pose", 1.5});
+  run.frames[2].result.new_key_rig = true;
+  {
+    report::FramesCsv csv(folder / "frames.csv");
+    for (const auto& frame : run.frames) csv.add(frame.result);
+  }
+  const auto table = report::read_frames_table(folder / "frames.csv");
+  CHECK(table.stamp_s == std::vector<double>{0, 0.1, 0.2});
+  CHECK(table.status == std::vector<std::string>{"first", "tracked", "tracked"});
+  CHECK(table.new_key_rig == std::vector<bool>{false, false, true});
+  CHECK(table.counts[0].first == "edges_left");
+  CHECK(table.counts[0].second == std::vector<double>{100, 101, 102});
+  REQUIRE(table.stages_ms.size() == 3);
+  CHECK(table.stages_ms[2].first == "pose");
+  CHECK(std::isnan(table.stages_ms[2].second[0]));
+  CHECK(table.stages_ms[2].second[2] == 1.5);
+  write_text(folder / "other.csv", "a,b\n1,2\n");
+  CHECK_THROWS_WITH(report::read_frames_table(folder / "other.csv"), Catch::Matchers::Contains("other.csv"));
+}

@@ -1,0 +1,76 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "data/find_sequences.hpp"
+#include "dataset_files.hpp"
+#include "quadedge/error.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using namespace dataset_files;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<std::string> names(const std::vector<data::FoundSequence>& sequences) {
+  std::vector<std::string> found;
+  for (const auto& sequence : sequences) found.push_back(sequence.name + " " + sequence.format);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("find sequences: all layouts below a folder, and no still pairs", "[data]") {
+  const TemporaryFolder folder;
+  write_kitti(folder / "data/kitti");
+  write_euroc(folder / "data/flights/V1 01");
+  write_eth3d_slam(folder / "data/slam/training/cables_1");
+  write_image(folder / "data/two_view_training/forest/im0.png");
+  write_image(folder / "data/two_view_training/forest/im1.png");
+  write_image(folder / "data/.hidden/rgb2/1.png");
+  CHECK(names(data::find_sequences(folder / "data")) == std::vector<std::string>{"V1_01 euroc", "kitti_07 kitti", "cables_1 eth3d-slam"});
+  // The folder itself may be a sequence, also with a slash behind it and when it is EuRoC's inner folder.
+  CHECK(names(data::find_sequences(folder / "data/slam/training/cables_1/")) == std::vector<std::string>{"cables_1 eth3d-slam"});
+  CHECK(names(data::find_sequences(folder / "data/flights/V1 01/mav0")) == std::vector<std::string>{"V1_01 euroc"});
+}
+
+TEST_CASE("find sequences: equal names are made longer until they differ", "[data]") {
+  const TemporaryFolder folder;
+  for (const char* place : {"monday/room", "tuesday/room", "tuesday/hall"}) write_eth3d_slam(folder / place, 1);
+  CHECK(names(data::find_sequences(folder.path())) ==
+        std::vector<std::string>{"monday_room eth3d-slam", "hall eth3d-slam", "tuesday_room eth3d-slam"});
+}
+
+TEST_CASE("find sequences: links are followed, circles end, nothing is found twice", "[data]") {
+  const TemporaryFolder folder;
+  write_eth3d_slam(folder / "elsewhere/room", 1);
+  std::filesystem::create_directories(folder / "root/deep");
+  std::filesystem::create_directory_symlink(folder / "elsewhere/room", folder / "root/link");
+  std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "root/other_link");
+  std::filesystem::create_directory_symlink(folder / "root", folder / "root/deep/circle");
+  const auto found = data::find_sequences(folder / "root");
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].path == folder / "root/link");
+}
+
+TEST_CASE("find sequences: a list keeps its order and its bad lines", "[data]") {
+  const TemporaryFolder folder;
+  write_eth3d_slam(folder / "b", 1);
+  write_eth3d_slam(folder / "a", 1);
+  write_kitti(folder / "kitti", 1);
+  std::filesystem::create_directories(folder / "empty");
+  write_text(folder / "list.txt", "# comment\nb\n\nabsent/folder  \nempty\n" + (folder / "kitti") + "\na\nb\n");
+  const auto found = data::find_sequences(folder / "list.txt");
+  CHECK(names(found) == std::vector<std::string>{"b eth3d-slam", "folder ", "empty ", "kitti_07 kitti", "a eth3d-slam"});
+  CHECK(found[1].path == folder / "absent/folder");
+}
+
+TEST_CASE("find sequences: nothing to find is an error that names the place", "[data]") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "empty");
+  write_text(folder / "list.txt", "# nothing\n");
+  for (const char* place : {"absent", "empty", "list.txt"}) {
+    CHECK_THROWS_WITH(data::find_sequences(folder / place), Contains(folder / place));
+    CHECK_THROWS_AS(data::find_sequences(folder / place), DataError);
+  }
+}
