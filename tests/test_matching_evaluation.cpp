@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/matching_evaluation.hpp"
+#include "markup.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
 
@@ -127,11 +128,57 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
   CHECK(pooled["quads"]["precision"].get<double>() > 0.8);
   REQUIRE(pooled["constraints"].size() == 7);
   CHECK(pooled["constraints"][0]["recall"] == 1.0);
+  // The distributions count what the tables count: candidates of paired edges before a filter, after the one before it.
+  const auto& cues = pooled["distributions"];
+  for (const auto& cue : cues) {
+    const auto total = [&](const char* kind) {
+      long long sum = cue[kind]["below"].get<long long>() + cue[kind]["above"].get<long long>();
+      for (const auto& count : cue[kind]["bins"]) sum += count.get<long long>();
+      return sum;
+    };
+    const int order = cue["order"].get<int>();
+    if (cue["table"] != "stereo" || order < 2) continue;
+    INFO(cue["cue"]);
+    CHECK(total("veridical") + total("other") == pooled["stereo"][static_cast<std::size_t>(order - 1)]["kept"].get<long long>());
+  }
+  CHECK(cues.size() == 8 + 6 + 6 + 5);
+  CHECK(pooled["stereo_edges"]["correct"].get<int>() > 10 * pooled["stereo_edges"]["inaccurate"].get<int>());
+  CHECK(json["pairs"][0]["counts"][1]["status"] == "tracked");
+  CHECK(json["pairs"][0]["counts"][1]["rotation_error_deg"].get<double>() < 0.1);
   // Each filter reads the list of the one before it, so nothing that is true can come back before the refinement.
   for (std::size_t row = 1; row < 8; ++row) {
     CHECK(pooled["stereo"][row]["recall"].get<double>() <= pooled["stereo"][row - 1]["recall"].get<double>());
     CHECK(pooled["stereo"][row]["kept"].get<long long>() < pooled["stereo"][row - 1]["kept"].get<long long>());
   }
+}
+
+TEST_CASE("evaluate matching writes one page that needs nothing else, and drawings", "[matching][device][cli]") {
+  const TemporaryFolder folder;
+  const auto result = run_program({"evaluate", "matching", small_sequence(), "room", "--size", "320x200", "--frames", "2", "--html",
+                                   folder / "m.html", "--draw", folder / "drawn", "--stereo.ncc_min", "0.55", "--quiet"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const std::string page = read_text(folder / "m.html");
+  CHECK(page.size() < 5'000'000);
+  CHECK(is_well_formed(page));
+  CHECK(outside_references(page).empty());
+  for (const char* text : {"Table 1", "Table 2: in time, left", "Table 3", "pooled", "Tables of room4", "Figure 2", "Figure 3", "Figure 5",
+                           "Figure 6", "Figure 7", "Figures 8 and 9", "stereo.ncc_min = 0.55", "\u2265 0.55", "\u2264 0.5<", "[deg]"}) {
+    INFO(text);
+    CHECK(page.find(text) != std::string::npos);
+  }
+  CHECK(all_matches(page, "(src=\"data:image/jpeg;base64,)").size() >= 4);
+  CHECK(all_matches(page, "(<svg xmlns)").size() > 30);
+  // No number of a table or plot went wrong.
+  for (const char* broken : {">nan", ">inf", "\"nan", "\"-nan", "\"inf", " nan "}) CHECK(page.find(broken) == std::string::npos);
+  CHECK(std::filesystem::exists(folder / "drawn/room4_correct.png"));
+  CHECK(std::filesystem::exists(folder / "drawn/room_all.png"));
+
+  const auto again = run_program({"evaluate", "matching", "room", "--html", folder / "m.html"});
+  CHECK(again.code == 2);
+  CHECK(again.err.find("--force") != std::string::npos);
+  CHECK(run_program({"evaluate", "matching", "room", "--draw", folder / "drawn"}).code == 2);
+  CHECK(run_program({"evaluate", "matching", "room", "--html", folder / "n.html", "--sweep", "stereo.ncc_min=0.5:0.6:0.1"}).code == 2);
 }
 
 TEST_CASE("A sweep shows one line per value, and a stricter threshold keeps less", "[matching][device][cli]") {

@@ -33,7 +33,7 @@ TEST_CASE("Ticks are round numbers that can be told apart", "[report]") {
   using Labels = std::vector<std::string>;
   CHECK(labels(PlotAxis(0, 1, false).ticks(5)) == Labels{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
   CHECK(labels(PlotAxis(-1.2, 2.6, false).ticks(4)) == Labels{"-1", "0", "1", "2"});
-  CHECK(labels(PlotAxis(0, 52000, false).ticks(5)) == Labels{"0", "20k", "40k"});
+  CHECK(labels(PlotAxis(0, 52000, false).ticks(5)) == Labels{"0", "10k", "20k", "30k", "40k", "50k"});
   CHECK(labels(PlotAxis(0.003, 0.0042, false).ticks(3)) == Labels{"0.0030", "0.0035", "0.0040"});
   CHECK(labels(PlotAxis(0.01, 10, true).ticks(6)) == Labels{"0.01", "0.1", "1", "10"});
   CHECK(labels(PlotAxis(3, 60, true).ticks(6)) == Labels{"5", "10", "20", "50"});

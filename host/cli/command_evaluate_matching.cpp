@@ -1,6 +1,7 @@
 /// \file command_evaluate_matching.cpp  quadedge evaluate matching: what every filter keeps and loses.
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
@@ -12,6 +13,8 @@
 #include "data/atomic_file.hpp"
 #include "evaluation/matching_evaluation.hpp"
 #include "quadedge/error.hpp"
+#include "report/match_drawings.hpp"
+#include "report/matching_html.hpp"
 #include "report/matching_json.hpp"
 
 namespace quadedge::cli {
@@ -24,7 +27,7 @@ class EvaluateMatchingCommand : public Command {
   std::string name() const override { return "evaluate matching"; }
   std::string about() const override { return "recall, precision and ambiguity after every filter (Tables 1 to 3)"; }
   std::string examples() const override {
-    return "  quadedge evaluate matching two_view_training/terrace_2s --json terrace.json\n"
+    return "  quadedge evaluate matching two_view_training/terrace_2s --html terrace.html --json terrace.json\n"
            "  quadedge evaluate matching room --frames 5 --sweep stereo.ncc_min=0.4:0.9:0.05";
   }
   void declare(Options& options) override {
@@ -36,6 +39,8 @@ class EvaluateMatchingCommand : public Command {
     options.number("--tolerance", tolerance_.place, "a match this near to the true place is veridical [px]");
     options.text("--sweep", sweep_, "only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
     options.text("--json", json_, "also write the tables to a file", "FILE");
+    options.text("--html", html_, "also write a report with tables, plots and drawings to one file", "FILE");
+    options.text("--draw", draw_, "also write drawings of the last frame of each pair or sequence to a folder, as PNG", "DIR");
     options.flag("--force", force_, "replace files that exist");
     options.flag("--quiet", quiet_, "no progress");
     method_.declare(options);
@@ -44,8 +49,12 @@ class EvaluateMatchingCommand : public Command {
   int run() override {
     if (frames_ < 0) throw UsageError("--frames " + std::to_string(frames_) + ": expected 0 or more");
     if (!(tolerance_.place > 0 && tolerance_.place <= 100)) throw UsageError("--tolerance: expected more than 0 and at most 100 px");
-    if (!sweep_.empty() && !json_.empty()) throw UsageError("--sweep prints lines only; run without it for --json");
+    if (!sweep_.empty() && !(json_.empty() && html_.empty() && draw_.empty())) {
+      throw UsageError("--sweep prints lines only; run without it for --json, --html or --draw");
+    }
     refuse_existing_file(json_, force_);
+    refuse_existing_file(html_, force_);
+    refuse_full_folder(draw_, force_);
     const Config config = method_.config();
     open_sources();
     Device device = method_.open_device();
@@ -56,6 +65,8 @@ class EvaluateMatchingCommand : public Command {
     }
     print_matching(results.size() > 1 ? "all" : results[0].name, evaluation::summarise(results));
     if (!json_.empty()) data::write_atomically(json_, report::matching_json(results));
+    if (!html_.empty()) data::write_atomically(html_, report::matching_html(results, {device.info(), config, tolerance_}));
+    if (!draw_.empty()) report::write_match_drawings(draw_, results, tolerance_);
     return 0;
   }
 
@@ -86,6 +97,7 @@ class EvaluateMatchingCommand : public Command {
       options.frames = frames_;
       options.tolerance = tolerance_;
       options.distributions = with_figures;
+      if (!html_.empty() || !draw_.empty()) options.draw_frame = std::numeric_limits<int>::max();
       options.progress = [&](int done, int all) { progress.update(source->name(), done, all); };
       results.push_back(evaluation::evaluate_matching(*source, device, config, options));
     }
@@ -103,7 +115,7 @@ class EvaluateMatchingCommand : public Command {
   }
 
   std::vector<std::string> paths_;
-  std::string size_, sweep_, json_;
+  std::string size_, sweep_, json_, html_, draw_;
   int frames_ = 0;
   bool force_ = false, quiet_ = false;
   evaluation::MatchingTolerance tolerance_;

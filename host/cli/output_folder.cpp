@@ -45,6 +45,12 @@ void refuse_existing_file(const std::string& path, bool force) {
   }
 }
 
+void refuse_full_folder(const std::string& path, bool force) {
+  std::error_code error;
+  if (force || path.empty() || !std::filesystem::is_directory(path, error) || std::filesystem::is_empty(path, error)) return;
+  throw UsageError(path + ": the folder holds files; choose another one, or --force to replace those of the same names");
+}
+
 std::string default_output_folder(const std::string& sequence) {
   return "quadedge_" + data::plain_name(sequence);
 }

@@ -13,6 +13,9 @@ void prepare_output_folder(const std::string& path, bool force);
 /// Refuses a file that exists, unless `force`. \throws UsageError.
 void refuse_existing_file(const std::string& path, bool force);
 
+/// Refuses a folder that holds anything, unless `force`. \throws UsageError.
+void refuse_full_folder(const std::string& path, bool force);
+
 /// Name of the default output folder for a sequence: quadedge_NAME in the current directory.
 std::string default_output_folder(const std::string& sequence);
 

@@ -34,8 +34,8 @@ void add_similarities(CueTable table, int ncc_order, int sift_order, double ncc_
   const auto sift = make_cue(table, sift_order, "SIFT distance", "", true, {sift_max}, kSift);
   cues.push_back(ncc_order < sift_order ? ncc : sift);
   cues.push_back(ncc_order < sift_order ? sift : ncc);
-  cues.push_back(make_cue(table, nearly_best, "NCC / best NCC of the list", "", false, {ncc_nearly_best}, kShare));
-  cues.push_back(make_cue(table, nearly_best + 1, "best SIFT distance of the list / SIFT distance", "", false, {sift_nearly_best}, kShare));
+  cues.push_back(make_cue(table, nearly_best, "NCC / best NCC", "", false, {ncc_nearly_best}, kShare));
+  cues.push_back(make_cue(table, nearly_best + 1, "best SIFT / SIFT distance", "", false, {sift_nearly_best}, kShare));
 }
 
 }  // namespace

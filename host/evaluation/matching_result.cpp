@@ -7,7 +7,7 @@
 namespace quadedge::evaluation {
 namespace {
 
-/// Standard deviation of the finite values; NaN without any.
+/// Standard deviation of the finite values; NaN for fewer than two.
 double deviation(const std::vector<double>& values) {
   double count = 0, sum = 0, squares = 0;
   for (const double value : values) {
@@ -18,7 +18,7 @@ double deviation(const std::vector<double>& values) {
   for (const double value : values) {
     if (std::isfinite(value)) squares += (value - sum / count) * (value - sum / count);
   }
-  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+  return count > 1 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Quantile of values in any order; NaN without any.

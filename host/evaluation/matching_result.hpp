@@ -50,7 +50,7 @@ struct MatchingResult {
   std::optional<DrawnFrame> drawn;    ///< the frame that MatchingOptions asked for
 };
 
-/// Standard deviations over frames (N, not N - 1).
+/// Standard deviations over frames (N, not N - 1); NaN for fewer than two.
 struct FilterSpread {
   double recall = 0, precision = 0, ambiguity = 0;
 };

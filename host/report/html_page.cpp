@@ -21,9 +21,9 @@ p{max-width:860px;margin:8px 0}
 nav{margin:10px 0 0}
 nav a{display:inline-block;margin:0 18px 4px 0;color:#0a58a8;text-decoration:none}
 nav a:hover{text-decoration:underline}
-table{border-collapse:collapse;margin:12px 0 16px;font-size:13.5px;font-variant-numeric:tabular-nums}
-caption{caption-side:top;text-align:left;font-weight:600;padding:0 0 5px}
-th,td{padding:3px 10px;border-bottom:1px solid #e3e3e3;text-align:right;white-space:nowrap}
+table{border-collapse:collapse;margin:12px 0 16px;font-size:13px;font-variant-numeric:tabular-nums}
+caption{caption-side:top;text-align:left;font-weight:600;padding:0 0 5px;white-space:nowrap}
+th,td{padding:3px 9px;border-bottom:1px solid #e3e3e3;text-align:right;white-space:nowrap}
 th:first-child,td:first-child{text-align:left}
 thead th{background:#f4f5f7;border-bottom:1px solid #bbb}
 thead tr.groups th{text-align:center;border-left:1px solid #d5d5d5}

@@ -11,11 +11,11 @@ namespace {
 constexpr double kAir = 0.04;             // of the range, beyond the outermost values
 constexpr int kSmallestWrittenOut = -4;  // powers of ten below are written as "1e-5"
 
-/// The round number (1, 2 or 5 times a power of ten) nearest above `step`.
+/// The round number (1, 2 or 5 times a power of ten) near `step`: at most a quarter below it.
 double round_step(double step) {
   const double power = std::pow(10.0, std::floor(std::log10(step)));
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= step * (1 - 1e-9)) return factor * power;
+    if (factor * power >= 0.75 * step) return factor * power;
   }
   return 10 * power;
 }

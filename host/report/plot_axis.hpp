@@ -29,7 +29,7 @@ class PlotAxis {
   bool logarithmic() const { return logarithmic_; }
   /// 0 at `low`, 1 at `high`; NaN for a value that a logarithmic axis cannot show.
   double share(double value) const;
-  /// Round values within the range, about `wanted` of them, each with as many digits as it takes to tell them apart.
+  /// Round values within the range, about `wanted` of them (at most a third more), each with as many digits as it takes to tell them apart.
   std::vector<Tick> ticks(int wanted) const;
 
  private:

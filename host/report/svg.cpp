@@ -37,7 +37,7 @@ double text_width(const std::string& text, double font_size) {
   for (const char c : text) {
     if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) ++characters;  // continuation bytes of UTF-8 are no characters
   }
-  return 0.56 * font_size * characters;
+  return 0.53 * font_size * characters;
 }
 
 std::string text(double x, double y, const std::string& content, Anchor anchor, const std::string& attributes) {

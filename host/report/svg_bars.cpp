@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 22;  // characters
 constexpr double kGroup = 0.78;           // share of a category's width that its bars take
+constexpr double kWidestBar = 56;         // px
 constexpr double kSlantSine = 0.5735764, kSlantCosine = 0.8191520;  // of 35 degrees
 
 std::string shortened(const std::string& name) {
@@ -51,18 +52,19 @@ std::string BarChart::svg() const {
   const double left = slanted ? kSlantCosine * svg::text_width(shortened(categories[0]), 11) - about_one / 2 + 8 : 0;
 
   const PlotAxis axis = PlotAxis::around(values, false, {}, y_high);
-  const auto ticks = axis.ticks(std::max(2, static_cast<int>((height - bottom - 50) / 38)));
+  const auto ticks = axis.ticks(std::max(2, static_cast<int>((height - bottom - 50) / 34)));
   const PlotFrame frame(width, height, title, x_label, y_label, legend, ticks, bottom, left);
   const PlotArea& area = frame.area();
   std::string result =
       svg::open(width, height, title.empty() ? y_label : title) + frame.decorations() + frame.vertical_axis(axis, ticks);
 
   const double one = area.width() / static_cast<double>(std::max<std::size_t>(categories.size(), 1));
-  const double bar = kGroup * one / static_cast<double>(std::max<std::size_t>(series_.size(), 1));
+  const double series = static_cast<double>(std::max<std::size_t>(series_.size(), 1));
+  const double bar = std::min(kGroup * one / series, kWidestBar);
   const auto place_y = [&](double value) { return area.bottom - std::clamp(axis.share(value), 0.0, 1.0) * area.height(); };
   const std::size_t every = static_cast<std::size_t>(std::max(1.0, std::ceil((slanted ? 15 : widest + 6) / one)));
   for (std::size_t c = 0; c < categories.size(); ++c) {
-    const double from = area.left + (static_cast<double>(c) + 0.5 - kGroup / 2) * one;
+    const double from = area.left + (static_cast<double>(c) + 0.5) * one - 0.5 * series * bar;
     for (std::size_t s = 0; s < series_.size(); ++s) {
       const double value = series_[s].values[c];
       if (!std::isfinite(value)) continue;

@@ -10,7 +10,7 @@
 namespace quadedge::report {
 namespace {
 
-constexpr double kTickEvery = 56, kVerticalTickEvery = 38;  // px
+constexpr double kTickEvery = 56, kVerticalTickEvery = 34;  // px
 constexpr double kMarkerFont = 10.5, kMarkerLine = 13;      // px
 
 /// Ticks of a horizontal axis whose labels do not touch.
@@ -105,7 +105,9 @@ void Plot::add_points(const std::string& name, const std::vector<double>& xs, co
   add(name, xs, ys, Style::points);
 }
 
-void Plot::add_marker_line(double x, const std::string& label) { markers_.push_back({x, label}); }
+void Plot::add_marker_line(double x, const std::string& label, bool label_at_bottom) {
+  markers_.push_back({x, label, label_at_bottom});
+}
 
 std::string Plot::svg() const {
   std::vector<double> all_x, all_y;
@@ -153,15 +155,17 @@ std::string Plot::svg() const {
     result += "<path d=\"" + drawn.path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"1.8\" stroke-linejoin=\"round\"" +
               (series.style == Style::dashed ? " stroke-dasharray=\"5 3\"" : "") + "/>";
   }
-  double label_y = 12;
+  double top_label = 12, bottom_label = area.height() - 6;
   for (const auto& marker : markers_) {
     if (!std::isfinite(x_axis.share(marker.x))) continue;
     const double x = scale.place_x(marker.x);
     result += svg::line(x, 0, x, area.height(), "stroke=\"#111\" stroke-width=\"1.3\" stroke-dasharray=\"3 3\"");
     const bool to_the_left = x + 6 + svg::text_width(marker.label, kMarkerFont) > area.width();
-    result += svg::text(x + (to_the_left ? -4 : 4), label_y, marker.label, to_the_left ? svg::Anchor::end : svg::Anchor::start,
+    if (marker.label.empty()) continue;
+    const auto anchor = to_the_left ? svg::Anchor::end : svg::Anchor::start;
+    result += svg::text(x + (to_the_left ? -4 : 4), marker.label_at_bottom ? bottom_label : top_label, marker.label, anchor,
                         "font-size=\"10.5\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"");
-    label_y += kMarkerLine;
+    (marker.label_at_bottom ? bottom_label : top_label) += marker.label_at_bottom ? -kMarkerLine : kMarkerLine;
   }
   if (!anything) result += svg::text(area.width() / 2, area.height() / 2, "no data", svg::Anchor::middle, "fill=\"#888\"");
   return result + "</svg>" + frame.border() + "<g transform=\"translate(" + svg::number(area.left) + " " + svg::number(area.top) +

@@ -22,8 +22,8 @@ class Plot {
   void add_area(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys);
   /// Dots.
   void add_points(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys);
-  /// A vertical line across the plot with its label beside it: a threshold.
-  void add_marker_line(double x, const std::string& label);
+  /// A vertical line across the plot with its label beside it, at the top or at the bottom: a threshold.
+  void add_marker_line(double x, const std::string& label, bool label_at_bottom = false);
 
   /// The picture: one <svg> element without references, which stands alone in a file and inside a page.
   std::string svg() const;
@@ -38,6 +38,7 @@ class Plot {
   struct Marker {
     double x;
     std::string label;
+    bool label_at_bottom;
   };
   void add(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys, Style style);
 

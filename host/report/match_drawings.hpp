@@ -1,0 +1,16 @@
+#pragma once
+/// \file match_drawings.hpp  Drawings of final stereo edges as files.
+
+#include <string>
+#include <vector>
+
+#include "evaluation/matching_result.hpp"
+
+namespace quadedge::report {
+
+/// Writes FOLDER/NAME_all.png and FOLDER/NAME_CLASS.png for every class that occurs, of every result with a frame to draw; the
+/// second result of one name gets a "_2". Makes the folder. \throws DataError.
+void write_match_drawings(const std::string& folder, const std::vector<evaluation::MatchingResult>& results,
+                          const evaluation::MatchingTolerance& tolerance);
+
+}  // namespace quadedge::report
