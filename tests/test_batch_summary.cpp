@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "dataset_files.hpp"
+#include "made_up_run.hpp"
 #include "report/batch_summary.hpp"
 #include "report/frames_csv.hpp"
 #include "report/frames_table.hpp"
-#include "report/json.hpp"
 #include "report/statistics.hpp"
 #include "temporary_folder.hpp"
 
@@ -17,41 +17,6 @@ using namespace quadedge;
 using dataset_files::write_text;
 
 namespace {
-
-/// A made-up run of `frames` frames along a bent path whose estimate drifts by `drift` metres and as many radians per frame.
-report::RunRecord made_up_run(int frames, double drift) {
-  report::RunRecord run;
-  run.input = {"made/up", "eth3d-slam", "made_up", frames, 640, 480};
-  run.device.name = "abacus";
-  Trajectory estimate, truth;
-  for (int i = 0; i < frames; ++i) {
-    report::FrameRecord frame;
-    frame.result.stamp_ns = 100'000'000LL * i;
-    frame.result.status = i == 0 ? FrameStatus::first : FrameStatus::tracked;
-    frame.result.latency_ms = 10 + i * 7 % 5;
-    frame.result.stages = {{"stereo", 4}, {"temporal", 3}};
-    frame.result.counts.edges_left = 100 + i;
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() << std::sin(0.3 * i), 0.1 * i * i, i;
-    truth.push_back({frame.result.stamp_ns, pose});
-    pose.translation().x() += drift * i;
-    pose.rotate(Eigen::AngleAxisd(drift * i, Eigen::Vector3d(1, i, 2).normalized()));
-    frame.result.world_from_left = pose;
-    estimate.push_back({frame.result.stamp_ns, pose});
-    run.frames.push_back(frame);
-  }
-  run.truth_file = "truth.txt";
-  run.accuracy = evaluate_trajectory(estimate, truth);
-  return run;
-}
-
-void write_member(const std::string& output, const std::string& name, const report::RunRecord& run) {
-  const std::string folder = report::member_folder(output, name);
-  write_text(folder + "/report.json", report::report_json(run));
-  write_text(folder + "/member.json", report::member_json({name, run.input.path, "eth3d-slam", "key", 0, "", 1}));
-  report::FramesCsv frames(folder + "/frames.csv");
-  for (const auto& frame : run.frames) frames.add(frame.result);
-}
 
 /// Mean and standard deviation over N, straight from their definitions.
 void check_statistics(const ErrorStatistics& found, const std::vector<double>& values) {

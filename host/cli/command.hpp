@@ -54,6 +54,7 @@ std::unique_ptr<Command> make_demo_command();
 std::unique_ptr<Command> make_edges_command();
 std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_batch_command();
+std::unique_ptr<Command> make_report_command();
 std::unique_ptr<Command> make_devices_command();
 std::unique_ptr<Command> make_variants_command();
 std::unique_ptr<Command> make_synth_command();

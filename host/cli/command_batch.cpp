@@ -10,6 +10,7 @@
 #include "cli/folder_lock.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
+#include "report/batch_report.hpp"
 #include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
 
@@ -144,6 +145,7 @@ class BatchCommand : public Command {
     data::write_atomically((output() / "summary.csv").string(), report::summary_csv(summary));
     data::write_atomically((output() / "summary.json").string(), report::summary_json(summary));
     data::write_atomically((output() / "summary.md").string(), report::summary_markdown(summary));
+    data::write_atomically((output() / "report.html").string(), report::batch_report_html(batch_.output, "", {}));
     print_summary(summary);
     return summary.exit_code;
   }

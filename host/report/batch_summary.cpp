@@ -54,23 +54,6 @@ void add_paths(SummaryAccuracy& total, const std::vector<const SummaryAccuracy*>
   total.end_drift_percent = total.path_length_m > 0 ? drift / total.path_length_m : 0;
 }
 
-SummaryAccuracy pooled(const std::vector<const SummaryAccuracy*>& parts) {
-  SummaryAccuracy total;
-  for (const auto alignment : kAlignments) {
-    for (std::size_t error = 0; error < kErrors.size(); ++error) {
-      Pool pool;
-      for (const auto* part : parts) {
-        const ErrorStatistics& statistics = (part->*alignment).*kErrors[error];
-        const int steps = error < 2 ? part->matched : part->matched - 1;  // relative errors belong to pairs of poses
-        if (std::isfinite(statistics.mean)) pool.add(statistics, steps);
-      }
-      (total.*alignment).*kErrors[error] = pool.result();
-    }
-  }
-  add_paths(total, parts);
-  return total;
-}
-
 SummaryAccuracy average(const std::vector<const SummaryAccuracy*>& parts) {
   SummaryAccuracy total;
   for (const auto alignment : kAlignments) {
@@ -120,8 +103,27 @@ std::string member_folder(const std::string& output, const std::string& name) {
   return (std::filesystem::path(output) / "sequences" / name).string();
 }
 
+std::optional<SummaryAccuracy> pooled_accuracy(const std::vector<const SummaryAccuracy*>& parts) {
+  if (parts.empty()) return std::nullopt;
+  SummaryAccuracy total;
+  for (const auto alignment : kAlignments) {
+    for (std::size_t error = 0; error < kErrors.size(); ++error) {
+      Pool pool;
+      for (const auto* part : parts) {
+        const ErrorStatistics& statistics = (part->*alignment).*kErrors[error];
+        const int steps = error < 2 ? part->matched : part->matched - 1;  // relative errors belong to pairs of poses
+        if (std::isfinite(statistics.mean)) pool.add(statistics, steps);
+      }
+      (total.*alignment).*kErrors[error] = pool.result();
+    }
+  }
+  add_paths(total, parts);
+  return total;
+}
+
 BatchSummary summarise(const std::string& output, const std::vector<std::string>& names, double min_tracked) {
   BatchSummary summary;
+  summary.min_tracked = min_tracked;
   std::vector<double> latencies, firsts;
   for (const auto& name : names) {
     const std::string folder = member_folder(output, name);
@@ -142,7 +144,7 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
   }
   summary.latency = summary_of(latencies, firsts);
   if (const auto parts = accuracies(summary.rows); !parts.empty()) {
-    summary.pooled = pooled(parts);
+    summary.pooled = pooled_accuracy(parts);
     summary.average = average(parts);
   }
   return summary;

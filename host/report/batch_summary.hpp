@@ -42,6 +42,7 @@ struct BatchSummary {
   /// The same figures averaged over the sequences: every sequence counts the same.
   std::optional<SummaryAccuracy> average;
   int exit_code = 0;                ///< the worst of all sequences
+  double min_tracked = 0;           ///< fewer tracked frames are too few [percent]
 };
 
 /// Reads the results of one sequence from its folder. A run that tracked fewer frames than `min_tracked` percent counts as
@@ -61,8 +62,16 @@ std::string summary_json(const BatchSummary& summary);
 /// summary.md: the paper's Table 4 (origin-aligned), the SE(3)-aligned errors, tracked frames and latencies, failures.
 std::string summary_markdown(const BatchSummary& summary);
 
-/// Names of the sequences in OUT/summary.json, in its order. \throws DataError for a missing or damaged file.
-std::vector<std::string> summarised_names(const std::string& output);
+/// What OUT/summary.json says of the batch itself.
+struct SummarisedBatch {
+  std::vector<std::string> names;  ///< of the sequences, in the order of the batch
+  double min_tracked = 0;          ///< as summarise() got it [percent]
+};
+/// \throws DataError for a missing or damaged file.
+SummarisedBatch summarised_batch(const std::string& output);
+
+/// Figures over several sequences where every pose counts the same; nothing for none of them.
+std::optional<SummaryAccuracy> pooled_accuracy(const std::vector<const SummaryAccuracy*>& parts);
 
 /// Folder of a sequence's results within a batch.
 std::string member_folder(const std::string& output, const std::string& name);

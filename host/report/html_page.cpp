@@ -23,7 +23,7 @@ nav a{display:inline-block;margin:0 18px 4px 0;color:#0a58a8;text-decoration:non
 nav a:hover{text-decoration:underline}
 table{border-collapse:collapse;margin:12px 0 16px;font-size:13px;font-variant-numeric:tabular-nums}
 caption{caption-side:top;text-align:left;font-weight:600;padding:0 0 5px;white-space:nowrap}
-th,td{padding:3px 9px;border-bottom:1px solid #e3e3e3;text-align:right;white-space:nowrap}
+th,td{padding:3px 9px;border-bottom:1px solid #e3e3e3;text-align:right;white-space:pre}
 th:first-child,td:first-child{text-align:left}
 thead th{background:#f4f5f7;border-bottom:1px solid #bbb}
 thead tr.groups th{text-align:center;border-left:1px solid #d5d5d5}
@@ -35,6 +35,9 @@ figure{margin:14px 0 20px}
 figure.plots>div{display:flex;flex-wrap:wrap;gap:10px 14px}
 figure svg{background:#fff}
 figure img{max-width:100%;height:auto;display:block;border:1px solid #ccc}
+.pictures{display:flex;flex-wrap:wrap;gap:0 14px}
+.pictures figure{width:calc(25% - 11px);min-width:260px;margin:8px 0 4px}
+.pictures img{width:100%}
 figcaption{font-size:13px;color:#444;max-width:960px;margin-top:6px}
 details{margin:12px 0;border:1px solid #ddd;border-radius:4px;padding:0 14px}
 summary{cursor:pointer;font-weight:600;padding:9px 0}
@@ -111,6 +114,12 @@ void HtmlPage::plots(const std::vector<std::string>& svgs, const std::string& ca
 void HtmlPage::picture(const std::vector<std::uint8_t>& bytes, const std::string& type, const std::string& caption) {
   body_ += "<figure><img alt=\"" + escape(caption) + "\" src=\"data:" + escape(type) + ";base64," + base64(bytes) + "\"/>";
   body_ += (caption.empty() ? "" : "<figcaption>" + escape(caption) + "</figcaption>") + std::string("</figure>\n");
+}
+
+void HtmlPage::pictures(const std::vector<Picture>& pictures) {
+  body_ += "<div class=\"pictures\">\n";
+  for (const auto& one : pictures) picture(one.bytes, one.type, one.caption);
+  body_ += "</div>\n";
 }
 
 void HtmlPage::begin_fold(const std::string& summary, bool open) {

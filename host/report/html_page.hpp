@@ -7,7 +7,7 @@
 
 namespace quadedge::report {
 
-/// A table of texts. The first column is left-aligned, the others are numbers and right-aligned.
+/// A table of texts. The first column is left-aligned, the others are numbers and right-aligned. A cell may have several lines.
 struct HtmlTable {
   /// One cell of the heading; `span`: columns that it stands over.
   struct Heading {
@@ -37,6 +37,12 @@ class HtmlPage {
   void plots(const std::vector<std::string>& svgs, const std::string& caption);
   /// A picture in its encoded bytes; `type` is its media type, "image/png" or "image/jpeg".
   void picture(const std::vector<std::uint8_t>& bytes, const std::string& type, const std::string& caption);
+  /// Small pictures side by side, as many as fit, each with its own caption.
+  struct Picture {
+    std::vector<std::uint8_t> bytes;
+    std::string type, caption;
+  };
+  void pictures(const std::vector<Picture>& pictures);
   /// What follows until end_fold() is hidden behind a line that opens it with a click.
   void begin_fold(const std::string& summary, bool open);
   void end_fold();

@@ -76,6 +76,7 @@ std::string summary_json(const BatchSummary& summary) {
   json["schema"] = kSummarySchema;
   json["version"] = QUADEDGE_VERSION;
   json["exit_code"] = summary.exit_code;
+  json["min_tracked_percent"] = summary.min_tracked;
   json["sequences"] = Json::array();
   for (const auto& row : summary.rows) {
     Json entry = {{"name", row.member.name},           {"status", to_string(row.status)}, {"exit_code", row.member.exit_code},
@@ -102,16 +103,17 @@ std::string summary_json(const BatchSummary& summary) {
   return json_text(json);
 }
 
-std::vector<std::string> summarised_names(const std::string& output) {
+SummarisedBatch summarised_batch(const std::string& output) {
   const std::string file = (std::filesystem::path(output) / "summary.json").string();
   const Json json = read_json(file, "the summary of a batch");
-  std::vector<std::string> names;
+  SummarisedBatch batch;
   try {
-    for (const auto& entry : json.at("sequences")) names.push_back(entry.at("name"));
+    for (const auto& entry : json.at("sequences")) batch.names.push_back(entry.at("name"));
+    batch.min_tracked = json.at("min_tracked_percent");
   } catch (const Json::exception& problem) {
     data::fail(file, problem.what(), "the summary of a batch");
   }
-  return names;
+  return batch;
 }
 
 }  // namespace quadedge::report

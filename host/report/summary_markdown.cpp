@@ -1,20 +1,9 @@
 /// \file summary_markdown.cpp  summary.md of a batch: tables to read and to paste.
-#include <cmath>
-#include <cstdio>
-
 #include "report/batch_summary.hpp"
+#include "report/number_text.hpp"
 
 namespace quadedge::report {
 namespace {
-
-/// Four significant digits, never an exponent; a dash for a value that does not exist.
-std::string cell(double value) {
-  if (!std::isfinite(value)) return "-";
-  const int magnitude = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", std::max(0, std::min(9, 3 - magnitude)), value);
-  return text;
-}
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -28,7 +17,7 @@ std::string escaped(const std::string& text) {
 std::string errors(const PoseErrors& errors) {
   std::string cells;
   for (const auto* error : {&errors.ape_rotation_deg, &errors.ape_translation_m, &errors.rpe_rotation_deg, &errors.rpe_translation_m}) {
-    cells += " " + cell(error->mean) + " | " + cell(error->std) + " |";
+    cells += " " + significant(error->mean) + " | " + significant(error->std) + " |";
   }
   return cells;
 }
@@ -46,16 +35,9 @@ std::string error_table(const BatchSummary& summary, PoseErrors SummaryAccuracy:
   return text;
 }
 
-std::string share(int tracked, int frames) {
-  if (frames == 0) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%d / %d (%.1f %%)", tracked, frames, 100.0 * tracked / frames);
-  return text;
-}
-
 std::string latency_cells(const LatencySummary& latency) {
   std::string cells;
-  for (const double value : {latency.median, latency.p90, latency.p99, latency.max, latency.first}) cells += " " + cell(value) + " |";
+  for (const double value : {latency.median, latency.p90, latency.p99, latency.max, latency.first}) cells += " " + significant(value) + " |";
   return cells;
 }
 
@@ -84,9 +66,9 @@ std::string summary_markdown(const BatchSummary& summary) {
   if (shared) text += " Several sequences ran at the same time, so latencies are longer than those of a lone run.";
   text += "\n\n| sequence | tracked | median | p90 | p99 | max | first frame |\n|---|---|---|---|---|---|---|\n";
   for (const auto& row : summary.rows) {
-    text += "| " + escaped(row.member.name) + " | " + share(row.tracked, row.frames) + " |" + latency_cells(row.latency) + "\n";
+    text += "| " + escaped(row.member.name) + " | " + share_text(row.tracked, row.frames) + " |" + latency_cells(row.latency) + "\n";
   }
-  text += "| **all** | " + share(summary.tracked, summary.frames) + " |" + latency_cells(summary.latency) + "\n";
+  text += "| **all** | " + share_text(summary.tracked, summary.frames) + " |" + latency_cells(summary.latency) + "\n";
   return text;
 }
 

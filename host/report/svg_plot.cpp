@@ -83,6 +83,18 @@ Curve curve(const Scale& scale, const std::vector<double>& xs, const std::vector
   return result;
 }
 
+/// The outline of the space between two curves.
+std::string band(const Scale& scale, const std::vector<double>& xs, const std::vector<double>& lows, const std::vector<double>& highs) {
+  std::string there, back;
+  for (std::size_t k = 0; k < xs.size(); ++k) {
+    if (!scale.can_show(xs[k], lows[k]) || !scale.can_show(xs[k], highs[k])) continue;
+    const std::string x = svg::number(scale.place_x(xs[k])) + " ";
+    there += (there.empty() ? "M" : "L") + x + svg::number(scale.place_y(highs[k]));
+    back.insert(0, "L" + x + svg::number(scale.place_y(lows[k])));
+  }
+  return there.empty() ? there : there + back + "Z";
+}
+
 }  // namespace
 
 void Plot::add(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys, Style style) {
@@ -90,7 +102,7 @@ void Plot::add(const std::string& name, const std::vector<double>& xs, const std
     throw UsageError("plot '" + title + "': series '" + name + "' has " + std::to_string(xs.size()) + " x and " +
                      std::to_string(ys.size()) + " y");
   }
-  series_.push_back({name, xs, ys, style});
+  series_.push_back({name, xs, ys, style, {}});
 }
 
 void Plot::add_line(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys, bool dashed) {
@@ -99,6 +111,13 @@ void Plot::add_line(const std::string& name, const std::vector<double>& xs, cons
 
 void Plot::add_area(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys) {
   add(name, xs, ys, Style::area);
+}
+
+void Plot::add_band(const std::string& name, const std::vector<double>& xs, const std::vector<double>& lows,
+                    const std::vector<double>& highs) {
+  if (lows.size() != highs.size()) throw UsageError("plot '" + title + "': band '" + name + "' has two sides of different length");
+  add(name, xs, highs, Style::band);
+  series_.back().lows = lows;
 }
 
 void Plot::add_points(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys) {
@@ -116,6 +135,7 @@ std::string Plot::svg() const {
     const Series& series = series_[i];
     all_x.insert(all_x.end(), series.xs.begin(), series.xs.end());
     all_y.insert(all_y.end(), series.ys.begin(), series.ys.end());
+    all_y.insert(all_y.end(), series.lows.begin(), series.lows.end());
     if (series.style == Style::area) all_y.push_back(0);
     if (!series.name.empty()) {
       legend.push_back({series.name, svg::series_colour(i), series.style == Style::points, series.style == Style::dashed});
@@ -147,6 +167,12 @@ std::string Plot::svg() const {
       const std::string found = dots(scale, series.xs, series.ys);
       anything = anything || !found.empty();
       all_dots += "<g fill=\"" + colour + "\" fill-opacity=\"0.75\">" + found + "</g>";
+      continue;
+    }
+    if (series.style == Style::band) {
+      const std::string outline = band(scale, series.xs, series.lows, series.ys);
+      anything = anything || !outline.empty();
+      result += "<path d=\"" + outline + "\" fill=\"" + colour + "\" fill-opacity=\"0.8\"/>";
       continue;
     }
     const Curve drawn = curve(scale, series.xs, series.ys);

@@ -20,6 +20,9 @@ class Plot {
   void add_line(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys, bool dashed = false);
   /// A line with the space down to the axis filled.
   void add_area(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys);
+  /// The space between two curves, filled: one layer of a stack. Values that are not finite are left out.
+  void add_band(const std::string& name, const std::vector<double>& xs, const std::vector<double>& lows,
+                const std::vector<double>& highs);
   /// Dots.
   void add_points(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys);
   /// A vertical line across the plot with its label beside it, at the top or at the bottom: a threshold.
@@ -29,11 +32,12 @@ class Plot {
   std::string svg() const;
 
  private:
-  enum class Style { line, dashed, area, points };
+  enum class Style { line, dashed, area, band, points };
   struct Series {
     std::string name;
     std::vector<double> xs, ys;
     Style style;
+    std::vector<double> lows;  ///< of a band
   };
   struct Marker {
     double x;
