@@ -158,6 +158,7 @@ TEST_CASE("evaluate matching writes one page that needs nothing else, and drawin
                                    folder / "m.html", "--draw", folder / "drawn", "--stereo.ncc_min", "0.55", "--quiet"});
   INFO(result.err);
   REQUIRE(result.code == 0);
+  for (const char* title : {"=== room4:", "=== room:", "=== all:"}) CHECK(result.out.find(title) != std::string::npos);
   const std::string page = read_text(folder / "m.html");
   CHECK(page.size() < 5'000'000);
   CHECK(is_well_formed(page));

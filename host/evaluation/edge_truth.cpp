@@ -61,7 +61,8 @@ TruePlaces true_right_places(const StereoRig& rig, const FrameTruth& truth, cons
                       truth.depth_scale, surface->contour, places);
     } else {
       const double right_x = x - surface->nearness;
-      const bool marked = is_marked_hidden(truth, x, y);
+      // A contour belongs to the nearer surface, which is seen; the pixel under it may be of the farther one.
+      const bool marked = !surface->contour && is_marked_hidden(truth, x, y);
       places.push(right_x, y,
                   marked ? Visibility::hidden
                          : visibility_in(truth.right, truth.right_is_measured, right_x, y, surface->nearness),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "data/pfm.hpp"
 #include "data/text.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint8_t kMaskHidden = 128;  // of mask0nocc.png: 255 visible, 128 hidden in the other view, 0 unknown
+constexpr std::uint8_t kMaskHidden = 128, kMaskUnknown = 0;  // of mask0nocc.png, whose third value is 255: seen in both views
 
 /// Names of the right view's disparities and of the mask that belong to a left one, in the published layouts.
 struct Companions {
@@ -58,7 +59,10 @@ FrameTruth read_pair_truth(const Dataset& dataset) {
     if (*names.mask != '\0' && fs::exists(mask)) {
       const Image image = read_grey_image(mask.string());
       check_size({image.width, image.height, {}}, dataset.rig.left, mask.string());
-      for (const auto pixel : image.pixels) truth.hidden.push_back(pixel == kMaskHidden ? 1 : 0);
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        truth.hidden.push_back(image.pixels[i] == kMaskHidden ? 1 : 0);
+        if (image.pixels[i] == kMaskUnknown) truth.left.nearness[i] = std::numeric_limits<float>::quiet_NaN();
+      }
     }
   }
   if (!truth.right_is_measured) truth.right = right_from_left(truth.left, dataset.rig.right.width);

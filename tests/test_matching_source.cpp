@@ -1,0 +1,92 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+
+#include "data/pfm.hpp"
+#include "dataset_files.hpp"
+#include "evaluation/matching_source.hpp"
+#include "quadedge/error.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using namespace quadedge::evaluation;
+using namespace dataset_files;
+
+namespace {
+
+constexpr int kWidth = 48, kHeight = 24;
+constexpr float kVertical = 1.5707963F;
+
+/// An ETH3D pair before a wall of 6 px, with a board of 12 px in columns 30 to 39 of the left view.
+std::string write_pair(const std::string& root) {
+  const std::string folder = root + "/two_view_training/scene";
+  write_image(folder + "/im0.png", kWidth, kHeight);
+  write_image(folder + "/im1.png", kWidth, kHeight);
+  data::FloatImage disparity{kWidth, kHeight, {}};
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    const int x = i % kWidth;
+    disparity.values.push_back(x >= 30 && x < 40 ? 12.0F : 6.0F);
+  }
+  data::write_pfm(folder + "/disp0GT.pfm", disparity);
+  return folder;
+}
+
+void write_mask(const std::string& folder) {
+  cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
+  mask.col(20) = 128;
+  mask.col(12) = 0;
+  mask.col(29) = 128;  // the wall just beside the board, which hides it
+  REQUIRE(cv::imwrite(folder + "/mask0nocc.png", mask));
+}
+
+TruePlaces places(const MatchingSource& source, const std::vector<float>& x) {
+  const TrueFrame frame = source.load(0);
+  const std::vector<float> y(x.size(), 12), direction(x.size(), kVertical);
+  return true_right_places(source.rig(), frame.truth, {x, y, direction});
+}
+
+}  // namespace
+
+TEST_CASE("Without a mask the disparities themselves tell what is hidden", "[matching][io]") {
+  const TemporaryFolder folder;
+  const auto source = make_recorded_source(open_dataset(write_pair(folder.path())));
+  // Column 25 of the wall falls on column 19 of the right view, where the board stands (30 - 12 = 18 to 27).
+  const auto found = places(*source, {20, 25, 35, 12});
+  CHECK(found.state == std::vector<Visibility>{Visibility::visible, Visibility::hidden, Visibility::visible, Visibility::visible});
+  CHECK(found.x[0] == 14);
+  CHECK(found.x[2] == 23);
+}
+
+TEST_CASE("A mask marks hidden and unknown pixels, and leaves the contour of a nearer surface alone", "[matching][io]") {
+  const TemporaryFolder folder;
+  const std::string path = write_pair(folder.path());
+  write_mask(path);
+  const auto source = make_recorded_source(open_dataset(path));
+  // 12: unknown; 13: an unknown pixel lies beside it; 16: neither; 20: hidden; 29.4: the board's contour, though the pixel is marked.
+  const auto found = places(*source, {12, 13, 16, 20, 29.4F});
+  CHECK(found.state == std::vector<Visibility>{Visibility::unknown, Visibility::unknown, Visibility::visible, Visibility::hidden,
+                                               Visibility::visible});
+  CHECK(found.contour[4] == 1);
+  CHECK(found.x[4] == Approx(29.4 - 12));
+}
+
+TEST_CASE("A mask or a disparity map of another size is refused by name", "[matching][io]") {
+  const TemporaryFolder folder;
+  const std::string path = write_pair(folder.path());
+  REQUIRE(cv::imwrite(path + "/mask0nocc.png", cv::Mat(kHeight, kWidth - 1, CV_8UC1, cv::Scalar(255))));
+  const auto source = make_recorded_source(open_dataset(path));
+  CHECK_THROWS_WITH(source->load(0), Catch::Contains("mask0nocc.png"));
+  CHECK_THROWS_AS(source->load(0), DataError);
+}
+
+TEST_CASE("Measured disparities of the right view decide where both views disagree", "[matching][io]") {
+  const TemporaryFolder folder;
+  const std::string path = write_pair(folder.path());
+  // The right view sees something of 20 px everywhere: nothing of the left view's wall and board.
+  data::write_pfm(path + "/disp1GT.pfm", {kWidth, kHeight, std::vector<float>(kWidth * kHeight, 20.0F)});
+  const auto source = make_recorded_source(open_dataset(path));
+  CHECK(source->load(0).truth.right_is_measured);
+  const auto found = places(*source, {16, 35});
+  CHECK(found.state == std::vector<Visibility>{Visibility::hidden, Visibility::hidden});
+}
