@@ -175,6 +175,12 @@ TEST_CASE("evaluate matching writes one page that needs nothing else, and drawin
   CHECK(std::filesystem::exists(folder / "drawn/room4_correct.png"));
   CHECK(std::filesystem::exists(folder / "drawn/room_all.png"));
 
+  const auto cut = run_program({"evaluate", "matching", "room", "--size", "320x200", "--frames", "1", "--edges.max_edges", "5000", "--html",
+                                folder / "cut.html"});
+  CHECK(cut.code == 0);
+  CHECK(cut.err.find("max_edges") != std::string::npos);
+  CHECK(read_text(folder / "cut.html").find("max_edges were dropped") != std::string::npos);
+
   const auto again = run_program({"evaluate", "matching", "room", "--html", folder / "m.html"});
   CHECK(again.code == 2);
   CHECK(again.err.find("--force") != std::string::npos);

@@ -100,6 +100,10 @@ class EvaluateMatchingCommand : public Command {
       if (!html_.empty() || !draw_.empty()) options.draw_frame = std::numeric_limits<int>::max();
       options.progress = [&](int done, int all) { progress.update(source->name(), done, all); };
       results.push_back(evaluation::evaluate_matching(*source, device, config, options));
+      const auto& frames = results.back().frames;
+      for (std::size_t f = 0; f < frames.size(); ++f) {
+        if (!frames[f].message.empty()) note(quiet_, source->name() + ", frame " + std::to_string(f) + ": " + frames[f].message);
+      }
     }
     return results;
   }

@@ -62,6 +62,7 @@ void MatchingObserver::begin(FrameTruth truth) {
 FrameMatching MatchingObserver::end(const FrameResult& result) {
   measured_.counts = result.counts;
   measured_.status = result.status;
+  measured_.message = result.message;
   current_.world_from_left = result.world_from_left;
   if (result.status == FrameStatus::tracked && is_known_motion()) {
     measured_.motion = motion_error(current_.world_from_left.inverse() * base_->world_from_left,

@@ -27,6 +27,7 @@ struct EdgeCensus {
 struct FrameMatching {
   FrameCounts counts;                 ///< the pipeline's own
   FrameStatus status = FrameStatus::first;
+  std::string message;                ///< the pipeline's: why a frame was lost, or what overflowed
   FilterTable stereo;                 ///< Table 1
   FilterTable temporal_left, temporal_right;  ///< Table 2; empty for the first frame and single pairs
   FilterCounts quads_paired, quads_all;

@@ -54,6 +54,26 @@ void add_facts(HtmlPage& page, const MatchingReportFacts& facts) {
                     {"\u00b1", "standard deviation over frames; every pair is one"}});
 }
 
+/// What the pipeline complained about: lost frames, capacities that ran out.
+void add_messages(HtmlPage& page, const std::vector<MatchingResult>& results) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::pair<std::string, std::string>> messages;
+  for (const auto& result : results) {
+    for (std::size_t f = 0; f < result.frames.size(); ++f) {
+      if (result.frames[f].message.empty()) continue;
+      messages.emplace_back(result.name + ", frame " + std::to_string(f), result.frames[f].message);
+    }
+  }
+  if (messages.empty()) return;
+  if (messages.size() > kMost) {
+    const std::string more = std::to_string(messages.size() - kMost) + " more frames";
+    messages.resize(kMost);
+    messages.emplace_back("and", more);
+  }
+  page.paragraph("The pipeline says:");
+  page.definitions(messages);
+}
+
 void add_summary_tables(HtmlPage& page, const MatchingSummary& summary) {
   page.table(filter_table("Table 1: stereo", summary.stereo));
   page.table(disparity_table(summary));
@@ -139,6 +159,7 @@ std::string matching_html(const std::vector<MatchingResult>& results, const Matc
   add_facts(page, facts);
   page.heading(2, "Overview");
   page.table(overview_table(results, summary));
+  add_messages(page, results);
   page.heading(2, results.size() > 1 ? "Tables, pooled" : "Tables");
   add_summary_tables(page, summary);
   std::vector<std::string> plots = {filter_plot("Stereo, after every filter", summary.stereo)};

@@ -83,6 +83,7 @@ Json per_frame(const evaluation::MatchingResult& result) {
                   {"edges_right", frame.counts.edges_right},  {"stereo_edges", frame.counts.stereo_edges},
                   {"temporal_left", frame.counts.temporal_left}, {"temporal_right", frame.counts.temporal_right},
                   {"quads", frame.counts.quads},              {"inliers", frame.counts.inliers}};
+    if (!frame.message.empty()) entry["message"] = frame.message;
     if (frame.motion) {
       entry["rotation_error_deg"] = frame.motion->rotation_deg;
       entry["translation_error_m"] = frame.motion->translation_m;
