@@ -110,9 +110,18 @@ TEST_CASE("Counts have a bar per frame, or bins where there are many frames", "[
   CHECK(bars(few[1]) == 5);
   CHECK(bars(few[2]) == 8);   // the first frame has no matches in time
   CHECK(bars(few[3]) == 4);
+  // 60 frames: 1000 to 1059 left edges in bins of 5 from 1000 on, always 1100 right ones.
   const auto many = count_plots({sequence(60)});
-  CHECK(bars(many[1]) == 20);
-  CHECK(many[1].find("frames") != std::string::npos);
+  CHECK(is_well_formed(many[0]));
+  CHECK(many[0].find(">frames<") != std::string::npos);
+  CHECK(bars(many[0]) == 2 * 21);
+  const auto heights = all_matches(many[0], "height=\"([^\"]+)\" fill=\"#");
+  const double of_five = std::stod(heights[0]);
+  CHECK(of_five > 1);
+  for (std::size_t bin = 0; bin < 21; ++bin) {
+    CHECK(std::stod(heights[2 * bin]) == Approx(bin < 12 ? of_five : 0).margin(0.05));
+    CHECK(std::stod(heights[2 * bin + 1]) == Approx(bin == 20 ? 12 * of_five : 0).margin(0.1));
+  }
   MatchingResult pair = sequence(1);
   CHECK(count_plots({pair}).size() == 2);
 }

@@ -107,7 +107,7 @@ HtmlTable count_table(const std::vector<evaluation::MatchingResult>& results) {
                                       {"with a match in time, left", &FrameCounts::temporal_left, true},
                                       {"with a match in time, right", &FrameCounts::temporal_right, true},
                                       {"quads", &FrameCounts::quads, true},
-                                      {"quads that share the motion", &FrameCounts::inliers, true}};
+                                      {"inliers of the pose", &FrameCounts::inliers, true}};
   HtmlTable table;
   table.columns = {"per frame", "frames", "mean", "std", "min", "median", "max"};
   for (const auto& quantity : kQuantities) {

@@ -17,7 +17,7 @@ using evaluation::MatchingResult;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostBars = 24;   // frames that get a bar each
-constexpr int kCountBins = 20;
+constexpr int kCountBins = 16;          // about
 
 /// One chart of counts. `values[f]`: one entry per series, NaN: no value in this frame.
 std::string count_chart(const std::string& title, const std::vector<std::string>& series, const std::vector<std::string>& names,
@@ -27,11 +27,11 @@ std::string count_chart(const std::string& title, const std::vector<std::string>
   chart.width = 2 * kSmallPlotWidth;
   chart.height = 260;
   std::vector<std::size_t> frames;
-  double largest = 0;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (std::size_t f = 0; f < values.size(); ++f) {
     if (std::isnan(values[f][0])) continue;
     frames.push_back(f);
-    for (const double value : values[f]) largest = std::max(largest, value);
+    for (const double value : values[f]) smallest = std::min(smallest, value), largest = std::max(largest, value);
   }
   const auto column = [&](std::size_t s) {
     std::vector<double> result;
@@ -45,12 +45,14 @@ std::string count_chart(const std::string& title, const std::vector<std::string>
     return chart.svg();
   }
   chart.y_label = "frames";
-  chart.x_label = "count (lower end of a bin)";
-  const double width = std::max(1.0, std::ceil((largest + 1) / kCountBins));
-  for (int bin = 0; bin < kCountBins; ++bin) chart.categories.push_back(axis_number(bin * width, 0));
+  chart.x_label = "count (left end of a bin)";
+  const auto ticks = PlotAxis(smallest, largest, false).ticks(kCountBins);
+  const double width = std::max(1.0, ticks[1].value - ticks[0].value), first = std::floor(smallest / width) * width;
+  const auto count = static_cast<std::size_t>((largest - first) / width) + 1;
+  for (std::size_t bin = 0; bin < count; ++bin) chart.categories.push_back(axis_number(first + static_cast<double>(bin) * width, 0));
   for (std::size_t s = 0; s < series.size(); ++s) {
-    std::vector<double> bins(kCountBins, 0);
-    for (const double value : column(s)) ++bins[std::min<std::size_t>(static_cast<std::size_t>(value / width), kCountBins - 1)];
+    std::vector<double> bins(count, 0);
+    for (const double value : column(s)) ++bins[static_cast<std::size_t>((value - first) / width)];
     chart.add_series(series[s], bins);
   }
   return chart.svg();
