@@ -52,7 +52,7 @@ inline int visit_candidates(const float x, const float y, const float direction,
       const float s = dx * line.ex + dy * line.ey;
       const float distance = fabs(dx * nx + dy * ny);
       if (distance > tau || s < s_low || s > s_high) continue;
-      if (line_angle_between(right_direction[j], direction) > orientation) continue;
+      if (angle_between(right_direction[j], direction) > orientation) continue;
       if (count < room) target[count] = j;
       ++count;
     }

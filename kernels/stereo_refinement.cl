@@ -1,9 +1,12 @@
 // stereo_refinement.cl: filter 8a and 8b of the stereo cascade: epipolar shift, then photometric refinement along the line.
 //
-// Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, candidate lists with their side pairing.
-// Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity); rejected_by = REJECTED
-// where the refinement diverged. One work-item = one left edge.
+// Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, candidate lists.
+// Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity), how alike both places look,
+// and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge.
 // Reference: host/reference/stereo_refinement.cpp.
+
+// Largest difference of contrast that the alignment evens out. Twin: kGainMax in host/reference/stereo_refinement.cpp.
+#define GAIN_MAX 2.0f
 
 // Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its place s.
 inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
@@ -20,46 +23,107 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
   return fabs(shift) < max_shift ? s + shift * along : s;
 }
 
+// Norm of a mean-free patch.
+inline float patch_norm(const float8* rows) {
+  float8 squares = 0.0f;
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) squares += rows[i] * rows[i];
+  return sqrt(sum_used(squares));
+}
+
+// NCC of two mean-free patches; -1 where one of them is flat.
+inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
+  float8 product = 0.0f;
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) product += a[i] * b[i];
+  const float norms = norm_a * patch_norm(b);
+  return norms < 1e-10f ? -1.0f : sum_used(product) / norms;
+}
+
+// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`; `derivative` is
+// that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start. Returns 0 when it
+// left the clamp.
+inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
+                      const float ey, const float8* fixed, const float fixed_norm, const float8* derivative,
+                      const float stiffness, const RefinementSettings settings, float* move) {
+  float8 values[PATCH_SIDE];
+  float alpha = 0.0f;
+  for (int step = 0; step < settings.steps; ++step) {
+    cut_patch(corners, width, height, moving, alpha * ex, alpha * ey, values);
+    const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
+    float8 curvatures = 0.0f, slopes = 0.0f;
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) {
+      const float8 residual = fixed[i] - gain * values[i];
+      const float8 weighted = huber_weight(residual, settings.huber) * derivative[i];
+      curvatures += weighted * derivative[i];
+      slopes += weighted * residual;
+    }
+    const float curvature = stiffness + sum_used(curvatures);
+    if (curvature < 1e-6f) break;
+    const float change = (sum_used(slopes) - stiffness * alpha) / curvature;
+    alpha += change;
+    if (!(fabs(alpha) <= settings.clamp)) return 0;
+    if (fabs(change) < settings.tolerance) break;
+  }
+  *move = alpha;
+  return 1;
+}
+
 kernel void stereo_refinement(global const int* first, global const int* target, const int capacity, const int left_count,
                               global const uint* left_corners, const int left_width, const int left_height,
                               global const uint* right_corners, const int right_width, const int right_height,
                               global const float* left_x, global const float* left_y, global const float* left_direction,
                               global const float* right_x, global const float* right_y, global const float* right_direction,
-                              global const float* geometry, global const uchar* pairing, const float patch_offset,
-                              const float shift_min_sine, const float shift_max, const float stiffness, const int steps, const float tolerance,
-                              const float huber, const float clamp_px, const float rms_max, const int rejected_order,
-                              global uchar* rejected_by, global float* place) {
+                              global const float* geometry, const float patch_offset, const float shift_min_sine,
+                              const float shift_max, const float stiffness, const int steps, const float tolerance,
+                              const float huber, const float clamp_px, const int rejected_order, global uchar* rejected_by,
+                              global float* place, global float* likeness) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   const int begin = first[i], end = min(first[i + 1], capacity);
   if (begin >= end) return;
-  const RefinementSettings settings = {steps, tolerance, huber, clamp_px, rms_max};
-  const EpipolarLine line = epipolar_line(geometry, left_x[i], left_y[i]);
+  const RefinementSettings settings = {steps, tolerance, huber, clamp_px, 0.0f};
+  const float x = left_x[i], y = left_y[i];
+  const EpipolarLine line = epipolar_line(geometry, x, y);
+  // A place known across the edge is known the worse along the line the flatter the edge lies to it.
+  const float line_sine = left_epipolar_sine(geometry, x, y, left_direction[i]);
+  const float edge_stiffness = stiffness * line_sine * line_sine;
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
-  float8 fixed[2][PATCH_SIDE], derivative[2][PATCH_SIDE];
-  int ready[2] = {0, 0};
+  float8 fixed[3][PATCH_SIDE], derivative[PATCH_SIDE], values[PATCH_SIDE];
+  float norms[3];
+  int ready = 0;
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
-    const int j = target[c];
-    const float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
-    // Pairings: 0 dark-dark, 1 bright-bright, 2 dark-bright, 3 bright-dark.
-    const int left_side = pairing[c] & 1;
-    const int right_side = pairing[c] == 1 || pairing[c] == 2;
-    if (!ready[left_side]) {
-      const PatchFrame frame = patch_frame(left_x[i], left_y[i], cosine, sine, left_side ? -1.0f : 1.0f, patch_offset);
-      cut_patch(left_corners, left_width, left_height, frame, 0.0f, 0.0f, fixed[left_side]);
-      patch_derivative(left_corners, left_width, left_height, frame, line.ex, line.ey, derivative[left_side]);
-      ready[left_side] = 1;
+    if (!ready) {
+      for (int side = 0; side < 3; ++side) {
+        cut_patch(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, (float)(side - 1), patch_offset), 0.0f, 0.0f,
+                  fixed[side]);
+        norms[side] = patch_norm(fixed[side]);
+      }
+      patch_derivative(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), line.ex, line.ey,
+                       derivative);
+      ready = 1;
     }
-    // Both patches are cut with the left direction, turned by half a turn where the right edge has the other polarity.
-    const float turn = angle_between(right_direction[j], left_direction[i]) > 0.5f * PI_F ? -1.0f : 1.0f;
-    const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, turn * cosine, turn * sine,
-                                          right_side ? -1.0f : 1.0f, patch_offset);
-    float alpha = 0.0f;
-    const int good = align_along_line(right_corners, right_width, right_height, moving, turn * line.ex, turn * line.ey,
-                                      fixed[left_side], derivative[left_side], stiffness, settings, &alpha);
-    place[c] = s + turn * alpha;
-    if (!good) rejected_by[c] = (uchar)rejected_order;
+    const int j = target[c];
+    float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+    // Patches are cut with the left direction in both images.
+    const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
+    float move = 0.0f;
+    if (!align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed[1], norms[1], derivative,
+                    edge_stiffness, settings, &move)) {
+      rejected_by[c] = (uchar)rejected_order;
+    }
+    s += move;
+    place[c] = s;
+    float similarity[3];
+    for (int side = 0; side < 3; ++side) {
+      const PatchFrame frame =
+          patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, (float)(side - 1), patch_offset);
+      cut_patch(right_corners, right_width, right_height, frame, 0.0f, 0.0f, values);
+      similarity[side] = rows_ncc(fixed[side], norms[side], values);
+    }
+    likeness[c] = 0.5f * (similarity[1] + fmax(similarity[0], similarity[2]));
   }
 }

@@ -42,8 +42,7 @@ double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& l
   const Vector2d far = at_infinity(rig, p), growing = (in_right(rig, p, 1e2) - far).normalized();
   const double s = (q - far).dot(growing);
   const double s_max = config.max_disparity > 0 ? config.max_disparity : (in_right(rig, p, config.min_depth) - far).norm();
-  double turn = std::abs(std::remainder(static_cast<double>(left.direction[i]) - static_cast<double>(right.direction[j]), kPi));
-  turn = std::min(turn, kPi - turn);
+  const double turn = std::abs(std::remainder(static_cast<double>(left.direction[i]) - static_cast<double>(right.direction[j]), 2 * kPi));
   return std::min({(config.epipolar_distance - distance) / kPixels, (s + kTolerance) / kPixels, (s_max + kTolerance - s) / kPixels,
                    (config.orientation * kDegree - turn) / kRadians,
                    (epipolar_sine(rig, p, left.direction[i]) - std::sin(config.min_epipolar_angle * kDegree)) / kRadians});
@@ -163,7 +162,7 @@ TEST_CASE("stereo candidates: the lists hold what the definition says", "[stereo
   config.max_disparity = 7;  // wins over min_depth
   config.epipolar_distance = 3;
   config.orientation = 60;
-  const auto [left, right] = random_scene(crooked_rig(), 300, 0.7, 23);
+  const auto [left, right] = random_scene(crooked_rig(), 400, 0.7, 23);
   CHECK(check_everywhere(crooked_rig(), config, left, right) > 200);
 }
 

@@ -8,32 +8,31 @@ using namespace matching;
 
 namespace {
 
-constexpr double kOffset = 5;
-
-/// Candidates of left edges on a rectified rig: place on the line [px] and direction [degrees] of each.
+/// Candidates of left edges on a rectified rig: place on the line [px], direction [degrees] and likeness of each.
 struct Lists {
   reference::Candidates candidates;
   reference::CandidateScores scores;
-  std::vector<double> places;
+  reference::RefinedCandidates refined;
   EdgeSet right;
 
   struct Member {
-    double place, degrees;
+    double place, degrees, likeness;
   };
   explicit Lists(const std::vector<std::vector<Member>>& rows) {
     candidates.first = {0};
     for (const auto& row : rows) {
       for (const Member& member : row) {
         candidates.target.push_back(static_cast<std::int32_t>(right.direction.size()));
-        places.push_back(member.place);
+        refined.place.push_back(member.place);
+        refined.likeness.push_back(member.likeness);
         right.direction.push_back(static_cast<float>(member.degrees * kDegree));
       }
       candidates.first.push_back(static_cast<std::int32_t>(candidates.target.size()));
     }
-    scores = fresh_scores(places.size());
+    scores = fresh_scores(refined.place.size());
   }
   reference::StereoClusters clusters(const StereoConfig& config = {}) const {
-    return reference::stereo_clusters(candidates, scores, places, right, config);
+    return reference::stereo_clusters(candidates, scores, refined, right, config);
   }
 };
 
@@ -48,27 +47,30 @@ struct Scene {
   EdgeSet left, right;
   reference::Candidates candidates;
   reference::CandidateScores scores;
-  std::vector<double> places;
+  reference::RefinedCandidates refined;
 
   Scene() {
     config.max_disparity = 20;
     geometry = stages::make_epipolar_geometry(rig, config);
     candidates.first = {0};
   }
-  /// Candidates of the next left edge: right edge and place on the line.
-  void add(const std::vector<std::pair<int, double>>& row) {
-    for (const auto& [target, place] : row) {
+  struct Member {
+    int target;
+    double place, likeness;
+  };
+  /// Candidates of the next left edge: right edge, place on the line and likeness.
+  void add(const std::vector<Member>& row) {
+    for (const auto& [target, place, likeness] : row) {
       candidates.target.push_back(target);
-      places.push_back(place);
+      refined.place.push_back(place);
+      refined.likeness.push_back(likeness);
     }
     candidates.first.push_back(static_cast<std::int32_t>(candidates.target.size()));
-    scores = fresh_scores(places.size());
+    scores = fresh_scores(refined.place.size());
   }
   StereoEdges match() const {
-    auto clusters = reference::stereo_clusters(candidates, scores, places, right, config);
-    const auto patches = reference::side_patches(left_image.view(), left.x, left.y, left.direction, all.patches);
-    const auto best = reference::stereo_best(clusters, left, patches, right_image.view(), geometry, config, kOffset);
-    return reference::stereo_mutual(clusters, best, left, geometry, config);
+    const auto clusters = reference::stereo_clusters(candidates, scores, refined, right, config);
+    return reference::stereo_mutual(clusters, reference::stereo_best(clusters, config), left, geometry, config);
   }
   /// Every device and variant finds the same stereo edges. Single precision may turn a decision that lies within 1e-5 of a limit
   /// or of a tie: `band` rows at most.
@@ -76,7 +78,7 @@ struct Scene {
     const StereoEdges truth = match();
     for_each_variant("stereo_clusters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
       INFO(name);
-      stages::StereoClusters stage(context, config, kOffset, variants);
+      stages::StereoClusters stage(context, config, variants);
       stages::EdgeDescription describe_left(context, 97, 71, all.patches, all.sift, {}), describe_right(context, 97, 71, all.patches, all.sift, {});
       const auto image = upload(context, right_image);
       const auto device_left = upload(context, left), device_right = upload(context, right);
@@ -87,14 +89,15 @@ struct Scene {
       describe_right.describe(device_right, right_descriptions);
       auto lists = upload(context, candidates);
       upload(context, scores, lists);
-      opencl::Buffer<cl_float> packed, place;
+      opencl::Buffer<cl_float> packed;
       packed.write(context, geometry.packed());
-      place.write(context, {places.begin(), places.end()});
-      place.ensure(context, static_cast<std::size_t>(lists.capacity));
+      stages::DeviceRefined device_refined;
+      device_refined.place.write(context, {refined.place.begin(), refined.place.end()});
+      device_refined.likeness.write(context, {refined.likeness.begin(), refined.likeness.end()});
       stages::DeviceClusters clusters;
       stages::DeviceStereoEdges result;
-      stage.run(device_left, device_right, left_descriptions, right_descriptions, describe_right, image, packed, lists, place, clusters,
-                result);
+      stage.run(device_left, device_right, left_descriptions, right_descriptions, describe_right, packed, lists, device_refined,
+                clusters, result);
       const StereoEdges found = result.read();
       std::size_t same = 0, j = 0;
       for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -137,72 +140,81 @@ Scene small_scene() {
   Scene scene;
   scene.left = make_edges({{40, 30, 1.2}, {60, 30, -1.0}, {50, 40, 1.6}}, 71);
   scene.right = make_edges({{33.7, 30, 1.2}, {34.1, 30, 1.25}, {53.7, 30, -1.0}, {38, 40, 1.6}, {43.7, 40, 1.6}}, 71);
-  scene.add({{0, 6.3}, {1, 5.9}});
-  scene.add({{2, 6.3}, {1, 14}});
-  scene.add({{3, 12.0}, {4, 6.35}});
+  scene.add({{0, 6.3, 0.97}, {1, 5.9, 0.95}});
+  scene.add({{2, 6.3, 0.99}, {1, 14, 0.8}});
+  scene.add({{3, 12.0, 0.9}, {4, 6.35, 0.96}});
   return scene;
 }
 
 }  // namespace
 
-TEST_CASE("stereo clusters: cut at gaps, represented by centroid and nearest member", "[stereo][matching]") {
-  const Lists lists({{{5.5, 10}, {3, 10}, {3.9, 12}, {4.5, 8}}, {}, {{7, 0}, {8, 0}}});
+TEST_CASE("stereo clusters: cut at gaps, represented by the most alike member", "[stereo][matching]") {
+  const Lists lists({{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}, {4.5, 8, 0.85}}, {}, {{7, 0, 0.9}, {8, 0, 0.95}}});
   const auto clusters = lists.clusters();
   // 3, 3.9, 4.5 chain up (gaps 0.9, 0.6), 5.5 is a gap of exactly 1 away; 7 and 8 as well.
   CHECK(clusters.first == std::vector<std::int32_t>{0, 2, 2, 4});
-  CHECK(clusters.place[0] == Approx(3.8));
-  CHECK(clusters.place[1] == Approx(5.5));
+  CHECK(clusters.place == std::vector<double>{3.9, 5.5, 7, 8});
   CHECK(clusters.anchor == std::vector<std::int32_t>{2, 0, 4, 5});
-  // Weights exp(-d^2 / 8) of 10, 12, 8 degrees at distances 0.8, 0.1, 0.7.
-  const double a = std::exp(-0.08), b = std::exp(-0.00125), c = std::exp(-0.06125);
-  CHECK(clusters.direction[0] / kDegree == Approx((10 * a + 12 * b + 8 * c) / (a + b + c)).margin(1e-3));
+  CHECK(clusters.likeness == std::vector<double>{0.9, 0.8, 0.9, 0.95});
+  // Weights exp(-d^2 / 8) of 10, 12, 8 degrees at distances 0.9, 0, 0.6.
+  const double a = std::exp(-0.81 / 8), c = std::exp(-0.36 / 8);
+  CHECK(clusters.direction[0] / kDegree == Approx((10 * a + 12 + 8 * c) / (a + 1 + c)).margin(1e-3));
 }
 
-TEST_CASE("stereo clusters: directions are lines, and the mean keeps the nearest member's polarity", "[stereo][matching]") {
-  // 178 and -179 degrees are 3 apart as directions, 178 and -1 as lines; 30 and 55 are 25 apart, over the limit of 20.
-  const auto clusters = Lists({{{1, 178}, {1.5, -179}}, {{1, 178}, {1.2, 178}, {1.9, -1}}, {{1, 30}, {1.5, 55}}}).clusters();
-  CHECK(clusters.first == std::vector<std::int32_t>{0, 1, 2, 4});
-  CHECK(std::abs(std::remainder(clusters.direction[0] - 179.5 * kDegree, 2 * kPi)) < 1e-5);
-  CHECK(std::abs(std::remainder(clusters.direction[1] - 178.3 * kDegree, 2 * kPi)) < 0.2 * kDegree);
-  CHECK(clusters.direction[3] == Approx(55 * kDegree));
+TEST_CASE("stereo clusters: directions are compared and averaged around the full turn", "[stereo][matching]") {
+  // 178 and -179 degrees are 3 apart; 30 and 55 are 25 apart, over the limit of 20; 10 and -170 are opposite.
+  const auto clusters =
+      Lists({{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}}).clusters();
+  CHECK(clusters.first == std::vector<std::int32_t>{0, 1, 3, 5});
+  // 178 with weight 1, 181 with weight exp(-0.25 / 8).
+  const double w = std::exp(-0.25 / 8);
+  CHECK(std::abs(std::remainder(clusters.direction[0] - (178 + 181 * w) / (1 + w) * kDegree, 2 * kPi)) < 1e-4);
+  CHECK(clusters.direction[2] == Approx(55 * kDegree));
 }
 
-TEST_CASE("stereo clusters: of equally near members the first by number stands for the cluster", "[stereo][matching]") {
-  // A pair, and three that met at one place but for the refinement's last digits.
-  const auto clusters = Lists({{{1.5, 20}, {1, 20}}, {{4.0003, 20}, {4.0001, 20}, {4, 20}}, {{3.4, 20}, {3.1, 20}, {2.9, 20}}}).clusters();
+TEST_CASE("stereo clusters: of equally alike members the first by number stands for the cluster", "[stereo][matching]") {
+  const auto clusters =
+      Lists({{{1.5, 20, 0.9}, {1, 20, 0.9}}, {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}}, {{3.4, 20, 0.9}, {3.1, 20, 0.9003}}}).clusters();
   CHECK(clusters.anchor == std::vector<std::int32_t>{0, 2, 6});
+}
+
+TEST_CASE("stereo best: only clusters that are alike enough", "[stereo][matching]") {
+  const Lists lists({{{1, 20, 0.76}, {5, 20, 0.9}}, {{1, 20, 0.74}}, {{1, 20, 0.74}, {5, 20, 0.75}}, {}});
+  StereoConfig config;
+  config.refined_ncc_min = 0.75;
+  CHECK(reference::stereo_best(lists.clusters(), config) == std::vector<std::int32_t>{1, -1, 4, -1});
 }
 
 TEST_CASE("stereo clusters: no more members than allowed, and none that a filter rejected", "[stereo][matching]") {
   std::vector<Lists::Member> row;
-  for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20});
+  for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20, 0.8 + 0.01 * k});
   Lists lists({row});
   CHECK(lists.clusters().first == std::vector<std::int32_t>{0, 2});  // 10 and 2
-  CHECK(lists.clusters().place[0] == Approx(2.25));
+  CHECK(lists.clusters().place == std::vector<double>{4.5, 5.5});
   for (const std::size_t dead : {5, 6, 7}) lists.scores.rejected_by[dead] = 7;  // a gap of 2 px in the middle
   const auto clusters = lists.clusters();
   CHECK(clusters.first == std::vector<std::int32_t>{0, 2});
-  CHECK(clusters.place[0] == Approx(1));
-  CHECK(clusters.place[1] == Approx(4.75));
+  CHECK(clusters.place == std::vector<double>{2, 5.5});
 }
 
 TEST_CASE("stereo best: the cluster that looks alike wins and is placed on the line", "[stereo][matching]") {
   const auto edges = small_scene().match();
   CHECK(edges.left_index == std::vector<std::int32_t>{0, 1, 2});
-  CHECK(edges.right_index == std::vector<std::int32_t>{0, 2, 4});  // both of the pair are equally near: the first by number
-  CHECK(edges.right_x[0] == Approx(40 - 6.1));
+  CHECK(edges.right_index == std::vector<std::int32_t>{0, 2, 4});
+  CHECK(edges.right_x[0] == Approx(40 - 6.3));
   CHECK(edges.right_x[1] == Approx(60 - 6.3));
   CHECK(edges.right_x[2] == Approx(50 - 6.35));
-  for (const float ncc : edges.ncc) CHECK(ncc > 0.99f);
+  CHECK(edges.ncc == std::vector<float>{0.97f, 0.99f, 0.96f});
 }
 
 TEST_CASE("stereo best: one right edge serves only neighbours of its best left edge", "[stereo][matching][device]") {
   Scene scene;
   scene.left = make_edges({{40, 30, 1.2}, {41, 30, 1.2}, {43, 30, 1.2}}, 71);
   scene.right = make_edges({{33.7, 30, 1.2}}, 71);
-  scene.add({{0, 6.3}});  // exact: the best
-  scene.add({{0, 6.8}});  // 1 px beside the best one, within mutual_radius
-  scene.add({{0, 6.8}});  // 3 px beside
+  scene.config.mutual_radius = 1.5;
+  scene.add({{0, 6.3, 0.99}});  // the best
+  scene.add({{0, 6.8, 0.9}});   // 1 px beside the best one, within mutual_radius
+  scene.add({{0, 6.8, 0.9}});   // 3 px beside
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1});
   scene.compare_devices(0);
   scene.config.mutual_radius = 0.5;
@@ -211,7 +223,8 @@ TEST_CASE("stereo best: one right edge serves only neighbours of its best left e
   // A tie: the same left edge twice. The first one owns the right edge; both are at its place.
   scene.config.mutual_radius = 0;
   scene.left.x = {40, 40, 40};
-  scene.places = {6.3, 6.3, 6.3};
+  scene.refined.place = {6.3, 6.3, 6.3};
+  scene.refined.likeness = {0.9, 0.9, 0.9};
   scene.left.y = {30, 30, 30};
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1, 2});
   scene.compare_devices(0);
@@ -226,11 +239,11 @@ TEST_CASE("stereo clusters: devices agree with the reference on random lists", "
   scene.left = make_edges(left, 71);
   scene.right = make_edges(right, 71);
   for (int i = 0; i < 250; ++i) {
-    std::vector<std::pair<int, double>> row;
-    for (int k = 0; k < i % 14; ++k) row.emplace_back(static_cast<int>(random(0, 300)), random(4, 9));
+    std::vector<Scene::Member> row;
+    for (int k = 0; k < i % 14; ++k) row.push_back({static_cast<int>(random(0, 300)), random(4, 9), random(0.5, 1)});
     scene.add(row);
   }
-  for (std::size_t c = 0; c < scene.places.size(); c += 7) scene.scores.rejected_by[c] = 8;
+  for (std::size_t c = 0; c < scene.refined.place.size(); c += 7) scene.scores.rejected_by[c] = 8;
   CHECK(scene.match().size() > 30);
   scene.compare_devices(3);
 }

@@ -47,7 +47,7 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.epipolar_distance", &stereo.epipolar_distance, "largest distance to the epipolar line [px]", 0, 20);
   visit("stereo.min_depth", &stereo.min_depth, "nearest depth; 0: from max_disparity [m]", 0, kUnlimited);
   visit("stereo.max_disparity", &stereo.max_disparity, "largest disparity; 0: from min_depth or the data's reader [px]", 0, 10000);
-  visit("stereo.orientation", &stereo.orientation, "largest difference of directions, modulo 180 [deg]", 0, 90);
+  visit("stereo.orientation", &stereo.orientation, "largest difference of directions, modulo 360 [deg]", 0, 90);
   visit("stereo.sift_max", &stereo.sift_max, "largest SIFT distance", 0, kUnlimited);
   visit("stereo.ncc_min", &stereo.ncc_min, "smallest NCC", 0.01, 1);
   visit("stereo.ncc_nearly_best", &stereo.ncc_nearly_best, "share of the best NCC that is kept", 0, 1);
@@ -61,9 +61,9 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.refine_tolerance", &stereo.refine_tolerance, "step that ends the refinement [px]", 0, 1);
   visit("stereo.refine_huber", &stereo.refine_huber, "Huber threshold of the refinement [grey levels]", 0.01, 255);
   visit("stereo.refine_clamp", &stereo.refine_clamp, "longest move of the refinement along the line [px]", 0, 100);
-  visit("stereo.refine_rms_max", &stereo.refine_rms_max, "largest residual after the refinement [grey levels]", 0, 255);
-  visit("stereo.refine_prior", &stereo.refine_prior, "spread of the shifted edge around its true place [px]", 0.01, 100);
-  visit("stereo.refine_noise", &stereo.refine_noise, "camera noise that the prior is weighed against [grey levels]", 0, 255);
+  visit("stereo.refine_prior", &stereo.refine_prior, "spread of a detected edge across itself [px]", 0.001, 100);
+  visit("stereo.refine_noise", &stereo.refine_noise, "difference of true patches that the prior is weighed against [grey levels]", 0, 255);
+  visit("stereo.refined_ncc_min", &stereo.refined_ncc_min, "smallest likeness (NCC of centre and a side) of the refined places", 0.01, 1);
   visit("stereo.cluster_gap", &stereo.cluster_gap, "gap that separates two clusters [px]", 0, 100);
   visit("stereo.cluster_orientation", &stereo.cluster_orientation, "change of direction that separates two clusters [deg]", 0, 90);
   visit("stereo.cluster_size_max", &stereo.cluster_size_max, "most members of a cluster", 1, 1000);

@@ -72,7 +72,7 @@ Candidates stereo_candidates(const EdgeSet& left, const EdgeSet& right, const st
         const float s = dx * line.ex + dy * line.ey;
         const float distance = std::fabs(dx * -line.ey + dy * line.ex);
         if (distance > geometry.epipolar_distance || s < s_low || s > s_high) continue;
-        if (line_angle_between(right.direction[j], left.direction[i]) > geometry.orientation) continue;
+        if (angle_between(right.direction[j], left.direction[i]) > geometry.orientation) continue;
         candidates.target.push_back(static_cast<std::int32_t>(j));
       }
     }

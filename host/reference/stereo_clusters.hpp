@@ -10,19 +10,20 @@ namespace quadedge::reference {
 struct StereoClusters {
   std::vector<std::int32_t> first;
   std::vector<double> place;          ///< on the left edge's epipolar line [px from the point at infinity]
-  std::vector<double> direction;      ///< [rad], with the anchor's polarity
-  std::vector<std::int32_t> anchor;   ///< the right edge nearest to the centroid, of equally near ones the first in scan order
-  std::vector<double> ncc;            ///< of the freshly cut patches; filled by stereo_best()
+  std::vector<double> direction;      ///< [rad], weighted mean of the members
+  std::vector<std::int32_t> anchor;   ///< right edge of the most alike member, of equally alike ones the first in scan order
+  std::vector<double> likeness;       ///< of that member
 };
 
 /// Clusters the living candidates along their epipolar line (SPEC 8c).
-StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores, const std::vector<double>& places,
+///
+/// The most alike member stands for its cluster: SPEC's centroid lies beside every member where two curves run within a pixel
+/// (terrace_2s: 96.3 % recall and precision instead of 98.2 %).
+StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores, const RefinedCandidates& refined,
                                const EdgeSet& right, const StereoConfig& config);
 
-/// Computes `clusters.ncc` and returns the best cluster of every left edge, -1 for none (SPEC filters 9 and 10).
-std::vector<std::int32_t> stereo_best(StereoClusters& clusters, const EdgeSet& left, const std::vector<float>& left_patches,
-                                      const ImageView& right_image, const stages::EpipolarGeometry& geometry,
-                                      const StereoConfig& config, double patch_offset);
+/// The most alike cluster of every left edge that reaches refined_ncc_min, -1 for none (SPEC filters 9 and 10).
+std::vector<std::int32_t> stereo_best(const StereoClusters& clusters, const StereoConfig& config);
 
 /// Keeps a left edge if the best left edge of its right edge is itself or lies within `mutual_radius` on the same curve, and
 /// collects the survivors in the order of their left edges.

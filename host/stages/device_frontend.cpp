@@ -40,7 +40,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
       refinement_(context, config.stereo, config.patches.offset, config.variants),
-      clustering_(context, config.stereo, config.patches.offset, config.variants),
+      clustering_(context, config.stereo, config.variants),
       temporal_candidates_(context, config.variants),
       temporal_refinement_(context, config.temporal, config.patches.offset, config.variants) {
   geometry_.write(context, epipolar_.packed());
@@ -76,9 +76,9 @@ void DeviceFrontend::process(const StereoFrame& frame) {
   context_.begin_stage("stereo_filters");
   filters_.run(left_.descriptions.patches, left_.descriptions.sift, right_.descriptions.patches, right_.descriptions.sift,
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
-  refinement_.run(rig.left, rig.right, left_.edges, right_.edges, geometry_, candidates_, place_);
-  clustering_.run(left_.edges, right_.edges, left_.descriptions, right_.descriptions, right_.description, rig.right, geometry_,
-                  candidates_, place_, clusters_, rig.edges);
+  refinement_.run(rig.left, rig.right, left_.edges, right_.edges, geometry_, candidates_, refined_);
+  clustering_.run(left_.edges, right_.edges, left_.descriptions, right_.descriptions, right_.description, geometry_,
+                  candidates_, refined_, clusters_, rig.edges);
   current_ = rig.edges.read();
   if (tap_ != nullptr) tap_stereo();
 }

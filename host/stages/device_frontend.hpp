@@ -56,7 +56,7 @@ class DeviceFrontend : public Frontend {
   TemporalRefinement temporal_refinement_;
 
   DeviceCandidates candidates_, temporal_left_, temporal_right_;
-  opencl::Buffer<cl_float> place_;
+  DeviceRefined refined_;
   DeviceClusters clusters_;
   DevicePlaces predicted_;
   DevicePointIndex left_index_, right_index_;

@@ -42,7 +42,7 @@ void DeviceFrontend::tap_stereo() {
   const auto rows = static_cast<std::size_t>(candidates_.rows), size = static_cast<std::size_t>(candidates_.capacity);
   const auto first = candidates_.first.read(rows + 1);
   const auto count = clusters_.count.read(rows);
-  const auto place = clusters_.place.read(size), ncc = clusters_.ncc.read(size);
+  const auto place = clusters_.place.read(size), likeness = clusters_.likeness.read(size);
   const auto anchor = clusters_.anchor.read(size);
   const auto x = left_.edges.x.read(rows), y = left_.edges.y.read(rows);
   for (const bool only_similar : {false, true}) {
@@ -51,11 +51,11 @@ void DeviceFrontend::tap_stereo() {
     for (std::size_t i = 0; i < rows; ++i) {
       const auto line = reference::epipolar_line(epipolar_, x[i], y[i]);
       for (auto k = static_cast<std::size_t>(first[i]); k < static_cast<std::size_t>(first[i] + count[i]); ++k) {
-        if (only_similar && ncc[k] < static_cast<float>(config_.stereo.ncc_min)) continue;
+        if (only_similar && likeness[k] < static_cast<float>(config_.stereo.refined_ncc_min)) continue;
         lists.target.push_back(anchor[k]);
         lists.x.push_back(line.x + place[k] * line.ex);
         lists.y.push_back(line.y + place[k] * line.ey);
-        lists.cue.push_back(ncc[k]);
+        lists.cue.push_back(likeness[k]);
       }
       lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
     }

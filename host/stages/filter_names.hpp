@@ -8,7 +8,7 @@ namespace quadedge::stages {
 /// Stereo cascade; the index is the order of the paper's Table 1 (SPEC section 3).
 inline constexpr std::array<const char*, 11> kStereoFilters = {
     "baseline", "epipolar proximity", "limited disparity", "orientation", "SIFT", "NCC", "nearly best NCC",
-    "nearly best SIFT", "refinement and clustering", "NCC of representatives", "best"};
+    "nearly best SIFT", "refinement and clustering", "likeness of representatives", "best"};
 inline constexpr int kStereoSiftOrder = 4, kStereoNccOrder = 5;
 
 /// Temporal cascade; the index is the order (SPEC section 4). The circle is closed before the refinement, so that a refined

@@ -82,12 +82,11 @@ void ReferenceFrontend::process(const StereoFrame& frame) {
 
   const auto candidates = reference::stereo_candidates(left_edges_, right_edges_, epipolar_);
   auto scores = reference::candidate_filters(candidates, left, right, filter_limits(config_.stereo, kStereoNccOrder, kStereoSiftOrder));
-  const auto places = reference::stereo_refinement(now_.left.view(), now_.right.view(), left_edges_, right_edges_, epipolar_,
-                                                   candidates, config_.stereo, config_.patches.offset, scores);
-  auto clusters = reference::stereo_clusters(candidates, scores, places, right_edges_, config_.stereo);
-  const auto best = reference::stereo_best(clusters, left_edges_, left.patches, now_.right.view(), epipolar_, config_.stereo,
-                                           config_.patches.offset);
-  current_ = reference::stereo_mutual(clusters, best, left_edges_, epipolar_, config_.stereo);
+  const auto refined = reference::stereo_refinement(now_.left.view(), now_.right.view(), left_edges_, right_edges_, epipolar_,
+                                                    candidates, config_.stereo, config_.patches.offset, scores);
+  const auto clusters = reference::stereo_clusters(candidates, scores, refined, right_edges_, config_.stereo);
+  current_ = reference::stereo_mutual(clusters, reference::stereo_best(clusters, config_.stereo), left_edges_, epipolar_,
+                                      config_.stereo);
 
   now_.left_descriptions = {rows_of(left.patches, current_.left_index, reference::kEdgePatchFloats),
                             rows_of(left.sift, current_.left_index, reference::kEdgeSiftBytes)};

@@ -11,15 +11,14 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 }  // namespace
 
-StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& config, double patch_offset,
+StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& config,
                                const std::map<std::string, std::string>& variants)
-    : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)), scan_(context, variants) {
+    : context_(context), config_(config), scan_(context, variants) {
   const auto& variant = opencl::choose_variant("stereo_clusters", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto program =
-      context.program({"direction.cl", "epipolar.cl", "photometric.cl", "stereo_clusters.cl"}, variant.defines);
+      context.program({"direction.cl", "epipolar.cl", "stereo_clusters.cl"}, variant.defines);
   cluster_ = {context, program, "stereo_clusters"};
-  best_ = {context, program, "stereo_best"};
   claim_ = {context, program, "stereo_claim"};
   owner_ = {context, program, "stereo_owner"};
   mutual_ = {context, program, "stereo_mutual"};
@@ -29,9 +28,8 @@ StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& con
 
 void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, const DeviceDescriptions& left_descriptions,
                          const DeviceDescriptions& right_descriptions, EdgeDescription& right_description,
-                         const DeviceImage& right_image, const opencl::Buffer<cl_float>& geometry,
-                         const DeviceCandidates& candidates, const opencl::Buffer<cl_float>& place, DeviceClusters& clusters,
-                         DeviceStereoEdges& result) {
+                         const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates,
+                         const DeviceRefined& refined, DeviceClusters& clusters, DeviceStereoEdges& result) {
   context_.begin_stage("stereo_clusters");
   const int n = left.host_count;
   const auto edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
@@ -40,25 +38,23 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, cons
   clusters.place.ensure(context_, capacity);
   clusters.direction.ensure(context_, capacity);
   clusters.anchor.ensure(context_, capacity);
-  clusters.ncc.ensure(context_, capacity);
+  clusters.likeness.ensure(context_, capacity);
   clusters.count.ensure(context_, edges);
   clusters.best.ensure(context_, edges);
   clusters.keep.ensure(context_, edges);
-  clusters.claimed_ncc.ensure(context_, right_edges);
+  clusters.claimed.ensure(context_, right_edges);
   clusters.owner.ensure(context_, right_edges);
-  clusters.claimed_ncc.fill(0, right_edges);
+  clusters.claimed.fill(0, right_edges);
   clusters.owner.fill(std::numeric_limits<cl_int>::max(), right_edges);
 
   const opencl::Range range(edges, local_size_);
-  cluster_(range, candidates.first, candidates.target, candidates.capacity, n, right.direction, candidates.rejected_by, place,
-           static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree),
-           config_.cluster_size_max, static_cast<float>(config_.cluster_sigma), clusters.order, clusters.count, clusters.place,
-           clusters.direction, clusters.anchor);
-  best_(range, candidates.first, n, left.x, left.y, left_descriptions.patches, right_description.corners().values(),
-        right_image.width, right_image.height, geometry, patch_offset_, static_cast<float>(config_.ncc_min), clusters.count, clusters.place,
-        clusters.direction, clusters.ncc, clusters.best);
-  claim_(range, clusters.best, clusters.anchor, clusters.ncc, n, clusters.claimed_ncc);
-  owner_(range, clusters.best, clusters.anchor, clusters.ncc, n, clusters.claimed_ncc, clusters.owner);
+  cluster_(range, candidates.first, candidates.target, candidates.capacity, n, right.direction, candidates.rejected_by,
+           refined.place, refined.likeness, static_cast<float>(config_.cluster_gap),
+           static_cast<float>(config_.cluster_orientation * kDegree), config_.cluster_size_max,
+           static_cast<float>(config_.cluster_sigma), static_cast<float>(config_.refined_ncc_min), clusters.order, clusters.count,
+           clusters.place, clusters.direction, clusters.anchor, clusters.likeness, clusters.best);
+  claim_(range, clusters.best, clusters.anchor, clusters.likeness, n, clusters.claimed);
+  owner_(range, clusters.best, clusters.anchor, clusters.likeness, n, clusters.claimed, clusters.owner);
   mutual_(range, clusters.best, clusters.anchor, n, left.x, left.y, static_cast<float>(config_.mutual_radius), clusters.owner,
           clusters.keep);
   scan_.run(clusters.keep, n, n, clusters.keep_first, clusters.total);
@@ -72,7 +68,7 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, cons
   result.right_direction.ensure(context_, edges);
   result.ncc.ensure(context_, edges);
   collect_(range, clusters.keep_first, n, clusters.best, left.x, left.y, left.direction, geometry, clusters.place,
-           clusters.direction, clusters.anchor, clusters.ncc, result.stride, result.left_index, result.right_index,
+           clusters.direction, clusters.anchor, clusters.likeness, result.stride, result.left_index, result.right_index,
            result.packed, result.right_x, result.right_y, result.right_direction, result.ncc);
   cl_int total[2];
   clusters.total.read(total, 2);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file stereo_clusters.hpp  Stage 5b: clusters, NCC of their representatives, best and mutual; the stereo edges of a rig.
+/// \file stereo_clusters.hpp  Stage 5b: clusters and their representatives, best and mutual; the stereo edges of a rig.
 
 #include <map>
 #include <string>
@@ -20,25 +20,24 @@ struct DeviceClusters {
   opencl::Buffer<cl_int> count;      ///< clusters per left edge
   opencl::Buffer<cl_float> place;    ///< on the epipolar line [px from the point at infinity]
   opencl::Buffer<cl_float> direction;
-  opencl::Buffer<cl_int> anchor;     ///< right edge nearest to the centroid
-  opencl::Buffer<cl_float> ncc;
+  opencl::Buffer<cl_int> anchor;     ///< right edge of the representative
+  opencl::Buffer<cl_float> likeness;
   opencl::Buffer<cl_int> best;       ///< best cluster per left edge, -1: none
-  opencl::Buffer<cl_int> claimed_ncc, owner;  ///< per right edge
+  opencl::Buffer<cl_int> claimed, owner;  ///< per right edge
   opencl::Buffer<cl_int> keep, keep_first, total;
 };
 
 /// SPEC 8c to 10. Variants of the stage "stereo_clusters".
 class StereoClusters {
  public:
-  StereoClusters(opencl::Context& context, const StereoConfig& config, double patch_offset,
-                 const std::map<std::string, std::string>& variants);
+  StereoClusters(opencl::Context& context, const StereoConfig& config, const std::map<std::string, std::string>& variants);
 
   /// Clusters, best and mutual; waits for the number of stereo edges and fills rows and descriptions of `result`.
   /// `right_description` has the right image prepared.
   void run(const DeviceEdges& left, const DeviceEdges& right, const DeviceDescriptions& left_descriptions,
-           const DeviceDescriptions& right_descriptions, EdgeDescription& right_description, const DeviceImage& right_image,
-           const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates,
-           const opencl::Buffer<cl_float>& place, DeviceClusters& clusters, DeviceStereoEdges& result);
+           const DeviceDescriptions& right_descriptions, EdgeDescription& right_description,
+           const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates, const DeviceRefined& refined,
+           DeviceClusters& clusters, DeviceStereoEdges& result);
 
  private:
   template <class T>
@@ -48,15 +47,12 @@ class StereoClusters {
 
   opencl::Context& context_;
   StereoConfig config_;
-  float patch_offset_;
   std::size_t local_size_;
   Scan scan_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, cl_float, cl_float, cl_int,
-                 cl_float, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>, Out<cl_int>>
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_float>, cl_float, cl_float,
+                 cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>, Out<cl_int>, Out<cl_float>,
+                 Out<cl_int>>
       cluster_;
-  opencl::Kernel<In<cl_int>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_uint>, cl_int, cl_int, In<cl_float>,
-                 cl_float, cl_float, In<cl_int>, In<cl_float>, In<cl_float>, Out<cl_float>, Out<cl_int>>
-      best_;
   opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, Out<cl_int>> claim_;
   opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, In<cl_int>, Out<cl_int>> owner_;
   opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, In<cl_float>, cl_float, In<cl_int>, Out<cl_int>> mutual_;

@@ -28,18 +28,20 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
 
 void StereoRefinement::run(const DeviceImage& left_image, const DeviceImage& right_image, const DeviceEdges& left,
                            const DeviceEdges& right, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates,
-                           opencl::Buffer<cl_float>& place) {
+                           DeviceRefined& refined) {
   context_.begin_stage("stereo_refinement");
-  place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
+  refined.place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
+  refined.likeness.ensure(context_, static_cast<std::size_t>(candidates.capacity));
   left_corners_.prepare(left_image.pixels, left_image.width, left_image.height);
   right_corners_.prepare(right_image.pixels, right_image.width, right_image.height);
   kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.capacity,
           candidates.rows, left_corners_.values(), left_image.width, left_image.height, right_corners_.values(), right_image.width,
-          right_image.height, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, candidates.pairing,
-          patch_offset_, static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max), static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2)),
-          config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
-          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refine_rms_max),
-          reference::kStereoRefinementOrder, candidates.rejected_by, place);
+          right_image.height, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
+          static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
+          static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2)), config_.refine_steps,
+          static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
+          static_cast<float>(config_.refine_clamp), reference::kStereoRefinementOrder, candidates.rejected_by, refined.place,
+          refined.likeness);
 }
 
 }  // namespace quadedge::stages

@@ -18,15 +18,21 @@ struct DeviceImage {
   int width = 0, height = 0;
 };
 
+/// What the refinement finds for every candidate.
+struct DeviceRefined {
+  opencl::Buffer<cl_float> place;     ///< on the left edge's epipolar line [px from the point at infinity]
+  opencl::Buffer<cl_float> likeness;  ///< of the refined places: mean of the NCC of the edges' own patches and of the better side
+};
+
 /// SPEC 8a and 8b. Variants of the stage "stereo_refinement".
 class StereoRefinement {
  public:
   StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
                    const std::map<std::string, std::string>& variants);
 
-  /// `place` receives one place per candidate on its left edge's epipolar line [px from the point at infinity].
+  /// Living candidates get a place and a likeness; those that diverge are rejected.
   void run(const DeviceImage& left_image, const DeviceImage& right_image, const DeviceEdges& left, const DeviceEdges& right,
-           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, opencl::Buffer<cl_float>& place);
+           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
 
  private:
   template <class T>
@@ -40,8 +46,8 @@ class StereoRefinement {
   std::size_t local_size_;
   PixelCorners left_corners_, right_corners_;
   opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
-                 In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_uchar>,
-                 cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>,
+                 In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, cl_float,
+                 cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>,
                  Out<cl_float>>
       kernel_;
 };

@@ -37,7 +37,7 @@ struct StereoConfig {
   double epipolar_distance = 0.5;   ///< [px]
   double min_depth = 0.0;           ///< nearest depth [m]; 0: from max_disparity, or else from the data set's reader
   double max_disparity = 0.0;       ///< largest disparity [px]; 0: from min_depth, or else from the data set's reader
-  double orientation = 10.0;        ///< [deg], modulo 180
+  double orientation = 10.0;        ///< [deg], modulo 360: contrast keeps its sign
   double sift_max = 500.0;          ///< largest SIFT distance
   double ncc_min = 0.6;             ///< smallest NCC
   double ncc_nearly_best = 0.9;     ///< share of the best NCC that is kept
@@ -49,14 +49,14 @@ struct StereoConfig {
   double refine_tolerance = 1e-3;   ///< [px]
   double refine_huber = 3.0;        ///< [grey levels]
   double refine_clamp = 2.0;        ///< longest move along the line [px]
-  double refine_rms_max = 20.0;     ///< [grey levels]
-  double refine_prior = 0.5;        ///< spread of the shifted edge around its true place [px]
-  double refine_noise = 2.0;        ///< camera noise that the prior is weighed against [grey levels]
+  double refine_prior = 0.1;        ///< spread of a detected edge across itself [px], more along a line that it is flat to
+  double refine_noise = 5.0;        ///< difference of two true patches that the prior is weighed against [grey levels]
+  double refined_ncc_min = 0.75;    ///< smallest likeness of the refined places: mean of the centre's and a side's NCC
   double cluster_gap = 1.0;         ///< [px]
   double cluster_orientation = 20.0;  ///< [deg]
   int cluster_size_max = 10;        ///< members
   double cluster_sigma = 2.0;       ///< of the weights in the mean direction of a cluster [px]
-  double mutual_radius = 1.5;       ///< left edges nearer than this share one right edge [px]
+  double mutual_radius = 4.0;       ///< left edges nearer than this share one right edge [px]
 };
 
 /// Temporal cascade, SPEC section 4.
