@@ -4,6 +4,7 @@
 // Out per candidate: NCC, SIFT distance, side pairing, and `rejected_by`, the order of the filter that rejected it (0: alive);
 // per row the number of survivors.
 // One work-item = one row. Row r belongs to edge r * row_step of the first set.
+// sift_max = 0: SIFT takes no part.
 // Orders: FIRST_ORDER + 0 SIFT or NCC (the cascade's own order), + 1 the other, + 2 nearly best NCC, + 3 nearly best SIFT.
 // Reference: host/reference/candidate_filters.cpp.
 
@@ -28,9 +29,9 @@ kernel void candidate_filters(global const int* first, global const int* target,
     const int ncc_fails = similarity < ncc_min;
     int sift_fails = 0;
     float distance = 0.0f;
-    if (!ncc_fails || all_scores) {
+    if (all_scores || (!ncc_fails && sift_max > 0.0f)) {
       distance = sqrt((float)sift_distance2(descriptor, sift_b + 256 * (size_t)j));
-      sift_fails = distance > sift_max;
+      sift_fails = sift_max > 0.0f && distance > sift_max;
     }
     ncc[c] = similarity;
     sift[c] = distance;
@@ -51,7 +52,7 @@ kernel void candidate_filters(global const int* first, global const int* target,
   }
   int survivors = 0;
   for (int c = begin; c < end; ++c) {
-    if (rejected_by[c] == 0 && sift_nearly_best * sift[c] > best_sift) rejected_by[c] = (uchar)(nearly_best_order + 1);
+    if (rejected_by[c] == 0 && sift_max > 0.0f && sift_nearly_best * sift[c] > best_sift) rejected_by[c] = (uchar)(nearly_best_order + 1);
     if (rejected_by[c] == 0) ++survivors;
   }
   alive[row] = survivors;

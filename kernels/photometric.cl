@@ -1,4 +1,4 @@
-// photometric.cl: photometric alignment of side patches, shared by stereo and temporal refinement. Functions only.
+// photometric.cl: patches on and beside an edge, and their photometric alignment. Functions only.
 // Needs direction.cl. Images come as the corners of corners.cl.
 //
 // A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the bright side. The
@@ -21,13 +21,13 @@ inline float sum_used(const float8 v) {
   return two.x + two.y;
 }
 
-// Where a side patch lies: its centre and the steps along the tangent.
+// Where a patch lies: its centre and the steps along the tangent.
 typedef struct {
   float x, y;
   float cosine, sine;
 } PatchFrame;
 
-// `side`: +1 dark, -1 bright.
+// `side`: +1 dark, -1 bright, 0 on the edge itself.
 inline PatchFrame patch_frame(const float x, const float y, const float cosine, const float sine, const float side,
                               const float offset) {
   PatchFrame frame;
@@ -98,46 +98,62 @@ inline void patch_derivative(global const uint* corners, const int width, const 
   for (int i = 0; i < PATCH_SIDE; ++i) rows[i] = ahead[i] - rows[i];
 }
 
-// Settings of the Gauss-Newton loops.
+// Largest difference of contrast that the alignment evens out. Twin: kGainMax in host/reference/photometric.cpp.
+#define GAIN_MAX 2.0f
+
+// Settings of the Gauss-Newton loop.
 typedef struct {
   int steps;
   float tolerance;  // px
   float huber;      // grey levels
   float clamp;      // px
-  float rms_max;    // grey levels
 } RefinementSettings;
 
 inline float8 huber_weight(const float8 residual, const float limit) { return limit / max(fabs(residual), limit); }
 
-inline float root_mean_square(const float8 squares) { return sqrt(sum_used(squares) / (float)PATCH_SAMPLES); }
+// Norm of a mean-free patch.
+inline float patch_norm(const float8* rows) {
+  float8 squares = 0.0f;
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) squares += rows[i] * rows[i];
+  return sqrt(sum_used(squares));
+}
 
-// Gauss-Newton on the move `alpha` along (ex, ey) that makes the patch at `moving` look like `fixed`; `derivative` is the
-// derivative of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start.
-// Returns 0 when it diverged or the residual stayed large.
-inline int align_along_line(global const uint* corners, const int width, const int height, const PatchFrame moving,
-                            const float ex, const float ey, const float8* fixed, const float8* derivative,
-                            const float stiffness, const RefinementSettings settings, float* alpha) {
+// NCC of two mean-free patches; -1 where one of them is flat.
+inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
+  float8 product = 0.0f;
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) product += a[i] * b[i];
+  const float norms = norm_a * patch_norm(b);
+  return norms < 1e-10f ? -1.0f : sum_used(product) / norms;
+}
+
+// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`; `derivative` is
+// that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start. Returns 0 when it
+// left the clamp.
+inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
+                      const float ey, const float8* fixed, const float fixed_norm, const float8* derivative,
+                      const float stiffness, const RefinementSettings settings, float* move) {
   float8 values[PATCH_SIDE];
-  float move = 0.0f, rms = 0.0f;
+  float alpha = 0.0f;
   for (int step = 0; step < settings.steps; ++step) {
-    cut_patch(corners, width, height, moving, move * ex, move * ey, values);
-    float8 curvatures = 0.0f, slopes = 0.0f, squares = 0.0f;
+    cut_patch(corners, width, height, moving, alpha * ex, alpha * ey, values);
+    const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
+    float8 curvatures = 0.0f, slopes = 0.0f;
 #pragma unroll
     for (int i = 0; i < PATCH_SIDE; ++i) {
-      const float8 residual = fixed[i] - values[i];
+      const float8 residual = fixed[i] - gain * values[i];
       const float8 weighted = huber_weight(residual, settings.huber) * derivative[i];
       curvatures += weighted * derivative[i];
       slopes += weighted * residual;
-      squares += residual * residual;
     }
-    rms = root_mean_square(squares);
     const float curvature = stiffness + sum_used(curvatures);
     if (curvature < 1e-6f) break;
-    const float change = (sum_used(slopes) - stiffness * move) / curvature;
-    move += change;
-    if (!(fabs(move) <= settings.clamp)) return 0;
+    const float change = (sum_used(slopes) - stiffness * alpha) / curvature;
+    alpha += change;
+    if (!(fabs(alpha) <= settings.clamp)) return 0;
     if (fabs(change) < settings.tolerance) break;
   }
-  *alpha = move;
-  return rms <= settings.rms_max;
+  *move = alpha;
+  return 1;
 }

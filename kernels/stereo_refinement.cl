@@ -5,9 +5,6 @@
 // and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
-// Largest difference of contrast that the alignment evens out. Twin: kGainMax in host/reference/stereo_refinement.cpp.
-#define GAIN_MAX 2.0f
-
 // Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its place s.
 inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
                             const float min_sine, const float max_shift) {
@@ -23,53 +20,6 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
   return fabs(shift) < max_shift ? s + shift * along : s;
 }
 
-// Norm of a mean-free patch.
-inline float patch_norm(const float8* rows) {
-  float8 squares = 0.0f;
-#pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) squares += rows[i] * rows[i];
-  return sqrt(sum_used(squares));
-}
-
-// NCC of two mean-free patches; -1 where one of them is flat.
-inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
-  float8 product = 0.0f;
-#pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) product += a[i] * b[i];
-  const float norms = norm_a * patch_norm(b);
-  return norms < 1e-10f ? -1.0f : sum_used(product) / norms;
-}
-
-// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`; `derivative` is
-// that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start. Returns 0 when it
-// left the clamp.
-inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
-                      const float ey, const float8* fixed, const float fixed_norm, const float8* derivative,
-                      const float stiffness, const RefinementSettings settings, float* move) {
-  float8 values[PATCH_SIDE];
-  float alpha = 0.0f;
-  for (int step = 0; step < settings.steps; ++step) {
-    cut_patch(corners, width, height, moving, alpha * ex, alpha * ey, values);
-    const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
-    float8 curvatures = 0.0f, slopes = 0.0f;
-#pragma unroll
-    for (int i = 0; i < PATCH_SIDE; ++i) {
-      const float8 residual = fixed[i] - gain * values[i];
-      const float8 weighted = huber_weight(residual, settings.huber) * derivative[i];
-      curvatures += weighted * derivative[i];
-      slopes += weighted * residual;
-    }
-    const float curvature = stiffness + sum_used(curvatures);
-    if (curvature < 1e-6f) break;
-    const float change = (sum_used(slopes) - stiffness * alpha) / curvature;
-    alpha += change;
-    if (!(fabs(alpha) <= settings.clamp)) return 0;
-    if (fabs(change) < settings.tolerance) break;
-  }
-  *move = alpha;
-  return 1;
-}
-
 kernel void stereo_refinement(global const int* first, global const int* target, const int capacity, const int left_count,
                               global const uint* left_corners, const int left_width, const int left_height,
                               global const uint* right_corners, const int right_width, const int right_height,
@@ -83,7 +33,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   if (i >= left_count) return;
   const int begin = first[i], end = min(first[i + 1], capacity);
   if (begin >= end) return;
-  const RefinementSettings settings = {steps, tolerance, huber, clamp_px, 0.0f};
+  const RefinementSettings settings = {steps, tolerance, huber, clamp_px};
   const float x = left_x[i], y = left_y[i];
   const EpipolarLine line = epipolar_line(geometry, x, y);
   // A place known across the edge is known the worse along the line the flatter the edge lies to it.

@@ -59,13 +59,13 @@ inline FrontendResult run_frontend(const RenderedScene& scene, const std::string
   const auto frontend = stages::make_frontend(scene.rig, device, config);
   frontend->set_tap(tap);
   frontend->process(scene.frame(0));
-  frontend->keep();
+  frontend->keep(true);
   frontend->process(scene.frame(1));
   FrontendResult result;
-  result.quads = frontend->match(search_around(frontend->previous(), radius, step));
+  result.quads = frontend->match(stages::Base::previous, search_around(frontend->base(stages::Base::previous), radius, step));
   result.left_edges = frontend->edges(false);
   result.right_edges = frontend->edges(true);
-  result.previous = frontend->previous();
+  result.previous = frontend->base(stages::Base::previous);
   result.current = frontend->current();
   return result;
 }

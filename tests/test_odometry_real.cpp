@@ -104,6 +104,6 @@ TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other var
                                         {"stereo_refinement", "group16"},
                                         {"stereo_clusters", "group16"},
                                         {"temporal_candidates", "group16"},
-                                        {"temporal_refinement", "group16"}})));
+                                        {"temporal_quads", "group16"}})));
   CHECK(same_bytes(run, track(dataset, {{"edges", "tile64"}, {"scan", "group256"}, {"patches", "lanes"}, {"sift", "cells"}})));
 }

@@ -13,17 +13,18 @@ using reference::patch_frame;
 
 namespace {
 
-constexpr reference::RefinementSettings kSettings{8, 1e-3, 3, 2, 6};
+constexpr reference::RefinementSettings kSettings{20, 1e-3, 3, 2};
 
 /// The texture moved so that what the first image shows at p lies at p + (dx, dy).
 Image moved(double dx, double dy) {
   return image_of(64, 60, [=](double x, double y) { return smooth_grey(x - dx, y - dy); });
 }
 
-reference::Alignment align(const Image& fixed, const Image& image, double x, double y, double angle, double ex, double ey) {
-  const auto frame = patch_frame(x, y, std::cos(angle), std::sin(angle), 1, 5);
-  return reference::align_along_line(image.view(), frame, ex, ey, cut_patch(fixed.view(), frame, 0, 0),
-                                     patch_derivative(fixed.view(), frame, ex, ey), kSettings);
+std::optional<double> align(const Image& fixed, const Image& image, double x, double y, double angle, double ex, double ey,
+                            double stiffness = 0) {
+  const auto frame = patch_frame(x, y, std::cos(angle), std::sin(angle), 0, 5);
+  return reference::align_edge(image.view(), frame, ex, ey, cut_patch(fixed.view(), frame, 0, 0),
+                               patch_derivative(fixed.view(), frame, ex, ey), stiffness, kSettings);
 }
 
 }  // namespace
@@ -53,30 +54,48 @@ TEST_CASE("photometric: patches hold the mean-free texture where their frame say
 TEST_CASE("photometric: a known move along a line is found to 0.02 px", "[photometric][matching]") {
   const Image fixed = moved(0, 0);
   Random random(7);
-  int found = 0;
+  int tried = 0, found = 0;
   std::vector<double> errors;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 100; ++k) {
     const double heading = random(-kPi, kPi), move = random(-1.4, 1.4), ex = std::cos(heading), ey = std::sin(heading);
-    const auto result = align(fixed, moved(move * ex, move * ey), random(20, 44), random(20, 40), random(-kPi, kPi), ex, ey);
-    if (!result.good) continue;
+    const double x = random(20, 44), y = random(20, 40), angle = random(-kPi, kPi);
+    // Flat spots, where rounding to 8 bits counts more, are left out: less than 4 grey levels per px along the line.
+    const auto slopes = patch_derivative(fixed.view(), patch_frame(x, y, std::cos(angle), std::sin(angle), 0, 5), ex, ey);
+    if (reference::patch_norm(slopes) / 7 < 4) continue;
+    ++tried;
+    const auto result = align(fixed, moved(move * ex, move * ey), x, y, angle, ex, ey);
+    if (!result) continue;
     ++found;
-    errors.push_back(result.alpha - move);
+    errors.push_back(*result - move);
   }
-  CHECK(found >= 58);
+  CHECK(tried > 40);
+  CHECK(found >= tried - 1);
   check_subpixel(errors);
 }
 
-TEST_CASE("photometric: what is too far, or not alike, is rejected", "[photometric][matching]") {
+TEST_CASE("photometric: what is too far is rejected, and a flat patch stays", "[photometric][matching]") {
   const Image fixed = moved(0, 0);
-  CHECK(align(fixed, moved(1, 0), 30, 30, 0.3, 1, 0).good);
-  CHECK_FALSE(align(fixed, moved(2.6, 0), 30, 30, 0.3, 1, 0).good);  // beyond the clamp of 2 px
-  const Image other = image_of(64, 60, [](double x, double y) { return 128 + 60 * std::sin(1.1 * x) * std::cos(0.9 * y); });
-  CHECK_FALSE(align(fixed, other, 30, 30, 0.3, 1, 0).good);
-  // Nothing to hold on to: no move, and nothing that speaks against it.
+  CHECK(align(fixed, moved(1, 0), 30, 30, 0.3, 1, 0));
+  CHECK_FALSE(align(fixed, moved(2.6, 0), 30, 30, 0.3, 1, 0));  // beyond the clamp of 2 px
   const Image flat(64, 60);
-  const auto still = align(flat, flat, 30, 30, 0.3, 1, 0);
-  CHECK(still.good);
-  CHECK(still.alpha == 0);
+  CHECK(align(flat, flat, 30, 30, 0.3, 1, 0) == 0.0);
+}
+
+TEST_CASE("photometric: contrast is evened out, and a prior holds the start", "[photometric][matching]") {
+  const Image fixed = moved(0, 0);
+  const Image darker = image_of(64, 60, [](double x, double y) { return 25 + 0.8 * smooth_grey(x - 0.6, y); });
+  CHECK(*align(fixed, darker, 30, 30, 0.3, 1, 0) == Approx(0.6).margin(0.03));
+  CHECK(std::abs(*align(fixed, darker, 30, 30, 0.3, 1, 0, 1e7)) < 0.01);
+}
+
+TEST_CASE("photometric: NCC of patches", "[photometric][matching]") {
+  reference::PatchValues a{}, b{};
+  for (std::size_t k = 0; k < 49; ++k) a[k] = static_cast<double>(k) - 24;
+  CHECK(reference::patch_norm(a) == Approx(std::sqrt(2 * 4900.0)));  // 2 (1 + 4 + ... + 24^2)
+  for (std::size_t k = 0; k < 49; ++k) b[k] = -2 * a[k];
+  CHECK(reference::patch_ncc(a, a) == Approx(1));
+  CHECK(reference::patch_ncc(a, b) == Approx(-1));
+  CHECK(reference::patch_ncc(a, {}) == -1);  // flat
 }
 
 TEST_CASE("photometric: the Huber weight falls from 1 beyond its limit", "[photometric][matching]") {

@@ -31,11 +31,13 @@ void add_similarities(CueTable table, int ncc_order, int sift_order, double ncc_
                       double sift_nearly_best, std::vector<CueDistribution>& cues) {
   const int nearly_best = std::max(ncc_order, sift_order) + 1;
   const auto ncc = make_cue(table, ncc_order, "NCC", "", false, {ncc_min}, kNcc);
-  const auto sift = make_cue(table, sift_order, "SIFT distance", "", true, {sift_max}, kSift);
+  const bool uses_sift = sift_max > 0;  // 0: without SIFT
+  const auto sift = make_cue(table, sift_order, "SIFT distance", "", true, uses_sift ? std::vector<double>{sift_max} : std::vector<double>{}, kSift);
   cues.push_back(ncc_order < sift_order ? ncc : sift);
   cues.push_back(ncc_order < sift_order ? sift : ncc);
   cues.push_back(make_cue(table, nearly_best, "NCC / best NCC", "", false, {ncc_nearly_best}, kShare));
-  cues.push_back(make_cue(table, nearly_best + 1, "best SIFT / SIFT distance", "", false, {sift_nearly_best}, kShare));
+  cues.push_back(make_cue(table, nearly_best + 1, "best SIFT / SIFT distance", "", false,
+                          uses_sift ? std::vector<double>{sift_nearly_best} : std::vector<double>{}, kShare));
 }
 
 }  // namespace
@@ -83,7 +85,7 @@ std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& confi
   cues.push_back(make_cue(table, 3, "difference of directions", "deg", true, {stereo.orientation}, {0, 90, 180}));
   add_similarities(table, stages::kStereoNccOrder, stages::kStereoSiftOrder, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
                    stereo.sift_nearly_best, cues);
-  cues.push_back(make_cue(table, 9, "NCC of representatives", "", false, {stereo.ncc_min}, kNcc));
+  cues.push_back(make_cue(table, 9, "likeness of representatives", "", false, {stereo.refined_ncc_min}, kNcc));
 
   const auto& temporal = config.temporal;
   for (const auto side : {CueTable::temporal_left, CueTable::temporal_right}) {

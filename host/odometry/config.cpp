@@ -71,25 +71,24 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.mutual_radius", &stereo.mutual_radius, "left edges nearer than this may share one right edge [px]", 0, 100);
 
   auto& temporal = config.temporal;
-  visit("temporal.radius", &temporal.radius, "search radius around the predicted place [px]", 0, 1000);
-  visit("temporal.radius_wide", &temporal.radius_wide,
-        "search radius at the first pair and after a loss [share of the image width]", 0, 1);
-  visit("temporal.radius_widest", &temporal.radius_widest,
-        "search radius where radius_wide finds no motion [share of the image width]", 0, 1);
-  visit("temporal.wide_edges", &temporal.wide_edges, "the wide search looks for about this many stereo edges", 100, 1000000);
-  visit("temporal.wide_min_inlier_share", &temporal.wide_min_inlier_share, "smallest inlier share of the wide search", 0, 1);
+  visit("temporal.radius", &temporal.radius, "search radius around the place that the scouted motion predicts [px]", 0.1, 1000);
+  visit("temporal.distance_weight", &temporal.distance_weight, "NCC that a candidate at the end of the radius has to be better", 0, 1);
+  visit("temporal.scout_radius", &temporal.scout_radius, "scout's radius around the place that constant velocity predicts [px]", 0.1, 1000);
+  visit("temporal.scout_radius_wide", &temporal.scout_radius_wide,
+        "scout's radius where there is no prediction, or it fails [share of the image width]", 0.001, 1);
+  visit("temporal.scout_radius_widest", &temporal.scout_radius_widest,
+        "scout's radius where scout_radius_wide finds no motion [share of the image width]", 0.001, 1);
+  visit("temporal.scout_edges", &temporal.scout_edges, "the scout looks for about this many stereo edges", 100, 1000000);
+  visit("temporal.scout_min_inlier_share", &temporal.scout_min_inlier_share, "smallest inlier share of the scout's quads", 0, 1);
+  visit("temporal.scout_ncc_min", &temporal.scout_ncc_min, "scout's smallest NCC", 0.01, 1);
+  visit("temporal.scout_sift_max", &temporal.scout_sift_max, "scout's largest SIFT distance; 0: without SIFT", 0, kUnlimited);
+  visit("temporal.scout_ncc_nearly_best", &temporal.scout_ncc_nearly_best, "scout's share of the best NCC that is kept", 0, 1);
+  visit("temporal.scout_sift_nearly_best", &temporal.scout_sift_nearly_best, "scout's ratio of best SIFT distance to distance that is kept", 0, 1);
   visit("temporal.orientation", &temporal.orientation, "largest difference of directions, modulo 360 [deg]", 0, 180);
   visit("temporal.ncc_min", &temporal.ncc_min, "smallest NCC", 0.01, 1);
-  visit("temporal.sift_max", &temporal.sift_max, "largest SIFT distance", 0, kUnlimited);
+  visit("temporal.sift_max", &temporal.sift_max, "largest SIFT distance; 0: without SIFT", 0, kUnlimited);
   visit("temporal.ncc_nearly_best", &temporal.ncc_nearly_best, "share of the best NCC that is kept", 0, 1);
   visit("temporal.sift_nearly_best", &temporal.sift_nearly_best, "ratio of best SIFT distance to distance that is kept", 0, 1);
-  visit("temporal.refine_steps", &temporal.refine_steps, "Gauss-Newton steps of the refinement", 0, 100);
-  visit("temporal.refine_tolerance", &temporal.refine_tolerance, "step that ends the refinement [px]", 0, 1);
-  visit("temporal.refine_huber", &temporal.refine_huber, "Huber threshold of the refinement [grey levels]", 0.01, 255);
-  visit("temporal.refine_clamp", &temporal.refine_clamp, "longest move of the refinement [px]", 0, 100);
-  visit("temporal.refine_rms_max", &temporal.refine_rms_max, "largest residual after the refinement [grey levels]", 0, 255);
-  visit("temporal.refine_prior", &temporal.refine_prior, "spread of the matched place around the true one [px]", 0.01, 100);
-  visit("temporal.refine_noise", &temporal.refine_noise, "camera noise that the prior is weighed against [grey levels]", 0, 255);
   visit("temporal.cluster_gap", &temporal.cluster_gap, "gap that separates two clusters [px]", 0, 100);
   visit("temporal.cluster_orientation", &temporal.cluster_orientation,
         "change of direction that separates two clusters [deg]", 0, 180);
@@ -126,8 +125,8 @@ void visit_config(Config& config, const std::function<void(const std::string& na
 
   auto& odometry = config.odometry;
   visit("odometry.key_rig", &odometry.key_rig, "track against a key stereo rig; false: frame to frame only", 0, 1);
-  visit("odometry.key_min_share", &odometry.key_min_share, "new key rig below this share of chained quads", 0, 1);
-  visit("odometry.key_min_quads", &odometry.key_min_quads, "new key rig below this number of chained quads", 0, kLargestInt);
+  visit("odometry.key_min_share", &odometry.key_min_share, "new key rig below this share of quads", 0, 1);
+  visit("odometry.key_min_quads", &odometry.key_min_quads, "new key rig below this number of quads", 0, kLargestInt);
   visit("odometry.key_min_inlier_share", &odometry.key_min_inlier_share, "new key rig below this share of inliers", 0, 1);
   visit("odometry.key_max_parallax", &odometry.key_max_parallax, "new key rig above this median parallax [px]", 0, 10000);
   visit("odometry.key_max_rotation", &odometry.key_max_rotation, "new key rig above this rotation [deg]", 0, 180);

@@ -92,14 +92,18 @@ class StereoOdometry::Implementation {
   const Config& config() const { return config_; }
 
  private:
-  /// Quads between the base and the current frame, and the motion they agree on.
+  /// Quads between a base and the current frame, and the motion they agree on.
   struct Step {
+    stages::Base base = stages::Base::previous;
     TemporalMatches matches;
     pose::QuadObservations quads;
     pose::MotionEstimate motion;
   };
 
-  Step match_and_estimate(const std::optional<Eigen::Isometry3d>& prediction, double radius, int step, const PoseConfig& limits);
+  Step scout(const std::optional<Eigen::Isometry3d>& prediction, double radius);
+  Step match(stages::Base base, const Eigen::Isometry3d& prediction);
+  Step estimate(stages::Base base, stages::TemporalSearch search, const std::optional<Eigen::Isometry3d>& prediction,
+                const PoseConfig& limits);
   Step find_step();
   void locate(const Step& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
@@ -116,6 +120,8 @@ class StereoOdometry::Implementation {
   int frame_ = -1;                 ///< number of the current frame
   bool has_base_ = false;          ///< a frame that the next one is matched with
   bool keep_pending_ = false;      ///< the current frame is the next one's base
+  bool key_pending_ = false;       ///< and its key rig
+  stages::Base last_base_ = stages::Base::previous;  ///< of the last matches
   int base_frame_ = 0;
   Eigen::Isometry3d base_from_key_ = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 6> base_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
@@ -137,7 +143,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   FrameResult result;
   result.stamp_ns = frame.stamp_ns;
 
-  if (keep_pending_) frontend_->keep();
+  if (keep_pending_) frontend_->keep(key_pending_);
   keep_pending_ = false;
   frontend_->process(frame);
   result.stages.push_back({"stereo", clock.lap()});
@@ -156,7 +162,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     result.world_from_left = world_from_last_;
     result.new_key_rig = true;
     result.reference_frame = frame_;
-    key_rig_.start(frame_, result.world_from_left, frontend_->current());
+    key_rig_.start(frame_, result.world_from_left);
     become_base(result);
   } else {
     Step step = find_step();
@@ -173,6 +179,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     for (std::size_t q = 0; q < step.quads.size(); ++q) {
       last_inlier_[static_cast<std::size_t>(step.quads.match[q])] = step.motion.inlier.empty() ? 0 : step.motion.inlier[q];
     }
+    last_base_ = step.base;
     last_matches_ = std::move(step.matches);
     result.stages.push_back({"pose", clock.lap()});
   }
@@ -192,68 +199,74 @@ std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motio
   return motion;
 }
 
-StereoOdometry::Implementation::Step StereoOdometry::Implementation::match_and_estimate(
-    const std::optional<Eigen::Isometry3d>& prediction, double radius, int step, const PoseConfig& limits) {
-  Step result;
-  result.matches = frontend_->match(
-      odometry::predict_places(rig_, frontend_->previous(), prediction, radius, step, min_epipolar_angle()));
-  result.quads = pose::build_quads(rig_, frontend_->previous(), frontend_->current(), result.matches, pose::QuadLimits(config_));
-  result.motion = pose::estimate_motion(rig_, result.quads, limits, config_.seed + static_cast<std::uint64_t>(frame_), prediction);
-  return result;
+StereoOdometry::Implementation::Step StereoOdometry::Implementation::estimate(stages::Base base, stages::TemporalSearch search,
+                                                                              const std::optional<Eigen::Isometry3d>& prediction,
+                                                                              const PoseConfig& limits) {
+  Step step;
+  step.base = base;
+  step.matches = frontend_->match(base, search);
+  step.quads = pose::build_quads(rig_, frontend_->base(base), frontend_->current(), step.matches, pose::QuadLimits(config_));
+  step.motion = pose::estimate_motion(rig_, step.quads, limits, config_.seed + static_cast<std::uint64_t>(frame_), prediction);
+  return step;
 }
 
-/// With a trusted prediction the search is narrow. Otherwise a wide search over a part of the edges makes the prediction, in two
-/// sizes.
+/// Looks for the motion since the previous rig with a part of the edges. What it suggests need not convince.
+StereoOdometry::Implementation::Step StereoOdometry::Implementation::scout(const std::optional<Eigen::Isometry3d>& prediction,
+                                                                           double radius) {
+  PoseConfig lenient = config_.pose;
+  lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
+  lenient.min_spread = 0;
+  const StereoEdges& previous = frontend_->base(stages::Base::previous);
+  const int every = std::max(1, static_cast<int>(previous.size()) / config_.temporal.scout_edges);
+  auto search = odometry::predict_places(rig_, previous, prediction, radius, every, min_epipolar_angle());
+  search.scout = true;
+  return estimate(stages::Base::previous, std::move(search), prediction, lenient);
+}
+
+/// Matches all edges of a base within a few pixels of where a motion predicts them.
+StereoOdometry::Implementation::Step StereoOdometry::Implementation::match(stages::Base base, const Eigen::Isometry3d& prediction) {
+  return estimate(base, odometry::predict_places(rig_, frontend_->base(base), prediction, config_.temporal.radius, 1, min_epipolar_angle()),
+                  prediction, config_.pose);
+}
+
+/// A scout finds the motion since the previous rig, in growing circles; it guides the matching with the key rig or, where that one is
+/// out of sight, with the previous rig, and that matching has to convince.
 StereoOdometry::Implementation::Step StereoOdometry::Implementation::find_step() {
   const auto prediction = predicted_motion();
-  if (prediction) {
-    Step step = match_and_estimate(prediction, config_.temporal.radius, 1, config_.pose);
-    if (step.motion.status == pose::MotionStatus::ok) return step;
-  }
-  // What the wide search suggests need not convince: the narrow one around it has to.
-  PoseConfig lenient = config_.pose;
-  lenient.min_inlier_share = config_.temporal.wide_min_inlier_share;
-  lenient.min_spread = 0;
-  const int every = std::max(1, static_cast<int>(frontend_->previous().size()) / config_.temporal.wide_edges);
+  std::vector<double> radii = {config_.temporal.scout_radius_wide * rig_.left.width,
+                               config_.temporal.scout_radius_widest * rig_.left.width};
+  if (prediction) radii.insert(radii.begin(), config_.temporal.scout_radius);
   Step step;
-  for (const double share : {config_.temporal.radius_wide, config_.temporal.radius_widest}) {
-    step = match_and_estimate(prediction, share * rig_.left.width, every, lenient);
+  for (const double radius : radii) {
+    step = scout(prediction, radius);
     if (step.motion.status != pose::MotionStatus::ok) continue;
-    step = match_and_estimate(step.motion.current_from_previous, config_.temporal.radius, 1, config_.pose);
+    const Eigen::Isometry3d motion = step.motion.current_from_previous;
+    step = match(stages::Base::key, motion * base_from_key_);
+    if (step.motion.status == pose::MotionStatus::ok) break;
+    if (base_frame_ == key_rig_.frame()) continue;
+    step = match(stages::Base::previous, motion);
     if (step.motion.status == pose::MotionStatus::ok) break;
   }
   return step;
 }
 
-/// Pose against the key rig, from the chained quads; where they do not suffice, from frame to frame.
+/// Pose against the key rig, or against the previous frame where the key rig is out of sight: then this frame is the next key rig.
 void StereoOdometry::Implementation::locate(const Step& step, FrameResult& result) {
-  const Eigen::Isometry3d current_from_base = step.motion.current_from_previous;
-  Eigen::Isometry3d current_from_key = current_from_base * base_from_key_;
-  Eigen::Matrix<double, 6, 6> covariance = composed_covariance(step.motion.covariance, current_from_base, base_covariance_);
-  int inliers = step.motion.inliers;
-  odometry::KeyRigState state;
-  state.inlier_share = step.motion.share;
-  state.frames = frame_ - key_rig_.frame();
-  if (config_.odometry.key_rig) {
-    key_rig_.extend(step.matches);
-    const TemporalMatches chained = key_rig_.chained(frontend_->current());
-    state.chained_quads = static_cast<int>(chained.size());
-    state.median_parallax = key_rig_.median_parallax(chained);
-    if (base_frame_ != key_rig_.frame()) {
-      const auto quads = pose::build_quads(rig_, key_rig_.edges(), frontend_->current(), chained, pose::QuadLimits(config_));
-      const auto motion = pose::estimate_motion(rig_, quads, config_.pose, config_.seed + static_cast<std::uint64_t>(frame_), current_from_key);
-      if (motion.status == pose::MotionStatus::ok) {
-        current_from_key = motion.current_from_previous;
-        covariance = motion.covariance;
-        inliers = motion.inliers;
-        state.inlier_share = motion.share;
-      }
-    }
+  const bool by_key = step.base == stages::Base::key;
+  Eigen::Isometry3d current_from_key = step.motion.current_from_previous;
+  Eigen::Matrix<double, 6, 6> covariance = step.motion.covariance;
+  if (!by_key) {
+    covariance = composed_covariance(covariance, current_from_key, base_covariance_);
+    current_from_key = current_from_key * base_from_key_;
   }
+  odometry::KeyRigState state;
+  state.quads = static_cast<int>(step.matches.size());
+  state.inlier_share = step.motion.share;
+  state.median_parallax = odometry::median_parallax(frontend_->base(step.base), step.matches);
   state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();
+  state.frames = frame_ - key_rig_.frame();
   result.status = FrameStatus::tracked;
-  result.counts.chained_quads = state.chained_quads;
-  result.counts.inliers = inliers;
+  result.counts.inliers = step.motion.inliers;
   result.reference_frame = key_rig_.frame();
   result.current_from_reference = current_from_key;
   result.covariance = covariance;
@@ -261,10 +274,10 @@ void StereoOdometry::Implementation::locate(const Step& step, FrameResult& resul
 
   velocity_ = one_interval(current_from_key * base_from_key_.inverse(), frame_ - base_frame_);
   lost_with_edges_ = 0;
-  result.new_key_rig = !config_.odometry.key_rig || key_rig_.is_worn(state, config_.odometry);
+  result.new_key_rig = !config_.odometry.key_rig || !by_key || key_rig_.is_worn(state, config_.odometry);
   base_from_key_ = current_from_key;
   base_covariance_ = covariance;
-  if (result.new_key_rig) key_rig_.start(frame_, result.world_from_left, frontend_->current());
+  if (result.new_key_rig) key_rig_.start(frame_, result.world_from_left);
   become_base(result);
 }
 
@@ -278,13 +291,14 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   lost_with_edges_ = 0;
   velocity_ = std::nullopt;
   result.new_key_rig = true;
-  key_rig_.start(frame_, result.world_from_left, frontend_->current());
+  key_rig_.start(frame_, result.world_from_left);
   become_base(result);
 }
 
 /// The current frame is what the next one is matched with. The frontend keeps it when that one comes, so that details() sees both.
 void StereoOdometry::Implementation::become_base(const FrameResult& result) {
   keep_pending_ = true;
+  key_pending_ = result.new_key_rig;
   has_base_ = true;
   base_frame_ = frame_;
   if (result.new_key_rig) {
@@ -297,7 +311,7 @@ FrameDetails StereoOdometry::Implementation::details() const {
   FrameDetails details;
   details.left_edges = frontend_->edges(false);
   details.right_edges = frontend_->edges(true);
-  details.previous_stereo = frontend_->previous();
+  details.previous_stereo = frontend_->base(last_base_);
   details.stereo = frontend_->current();
   details.quads = last_matches_;
   details.quad_inlier = last_inlier_;

@@ -32,8 +32,8 @@ const std::vector<Variant>& all_variants() {
       {"stereo_clusters", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
       {"temporal_candidates", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
       {"temporal_candidates", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
-      {"temporal_refinement", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
-      {"temporal_refinement", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
+      {"temporal_quads", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
+      {"temporal_quads", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
   };
   return table;
 }

@@ -32,7 +32,7 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
       scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
       int rejected = 0;
       if (similarity.ncc < limits.ncc_min) rejected = limits.ncc_order;
-      if (scores.sift[c] > limits.sift_max) rejected = rejected == 0 ? limits.sift_order : std::min(rejected, limits.sift_order);
+      if (limits.sift_max > 0 && scores.sift[c] > limits.sift_max) rejected = rejected == 0 ? limits.sift_order : std::min(rejected, limits.sift_order);
       scores.rejected_by[c] = static_cast<std::uint8_t>(rejected);
       if (rejected == 0) best_ncc = std::max(best_ncc, similarity.ncc);
     }
@@ -46,7 +46,7 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
       }
     }
     for (std::size_t c = begin; c < end; ++c) {
-      if (scores.rejected_by[c] == 0 && limits.sift_nearly_best * scores.sift[c] > best_sift) {
+      if (scores.rejected_by[c] == 0 && limits.sift_max > 0 && limits.sift_nearly_best * scores.sift[c] > best_sift) {
         scores.rejected_by[c] = static_cast<std::uint8_t>(nearly_best_order + 1);
       }
     }

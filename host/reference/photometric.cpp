@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace quadedge::reference {
+namespace {
+
+constexpr double kGainMax = 2;  ///< largest difference of contrast that the alignment evens out
+
+}  // namespace
 
 PatchFrame patch_frame(double x, double y, double cosine, double sine, double side, double offset) {
   return {x + side * offset * sine - 3 * cosine + 3 * sine, y - side * offset * cosine - 3 * sine - 3 * cosine, cosine, sine};
@@ -45,28 +51,37 @@ double huber_weight(double residual, double limit) {
   return std::abs(residual) <= limit ? 1.0 : limit / std::abs(residual);
 }
 
-Alignment align_along_line(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
-                           const PatchValues& derivative, const RefinementSettings& settings) {
-  Alignment result;
+double patch_norm(const PatchValues& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares);
+}
+
+double patch_ncc(const PatchValues& a, const PatchValues& b) {
+  const double norms = patch_norm(a) * patch_norm(b);
+  return norms < 1e-10 ? -1 : std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / norms;
+}
+
+std::optional<double> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
+                                 const PatchValues& derivative, double stiffness, const RefinementSettings& settings) {
+  double move = 0;
   for (int step = 0; step < settings.steps; ++step) {
-    const PatchValues values = cut_patch(image, moving, result.alpha * ex, result.alpha * ey);
-    double curvature = settings.stiffness, slope = -settings.stiffness * result.alpha, squares = 0;
+    const PatchValues values = cut_patch(image, moving, move * ex, move * ey);
+    const double gain = std::clamp(patch_norm(fixed) / std::max(patch_norm(values), 1e-3), 1 / kGainMax, kGainMax);
+    double curvature = stiffness, slope = -stiffness * move;
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const double residual = fixed[k] - values[k];
+      const double residual = fixed[k] - gain * values[k];
       const double weight = huber_weight(residual, settings.huber);
       curvature += weight * derivative[k] * derivative[k];
       slope += weight * derivative[k] * residual;
-      squares += residual * residual;
     }
-    result.rms = std::sqrt(squares / 49);
     if (curvature < 1e-6) break;
     const double change = slope / curvature;
-    result.alpha += change;
-    if (!(std::abs(result.alpha) <= settings.clamp)) return result;
+    move += change;
+    if (!(std::abs(move) <= settings.clamp)) return std::nullopt;
     if (std::abs(change) < settings.tolerance) break;
   }
-  result.good = result.rms <= settings.rms_max;
-  return result;
+  return move;
 }
 
 }  // namespace quadedge::reference

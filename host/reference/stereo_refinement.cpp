@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
 
 #include "reference/photometric.hpp"
 
@@ -11,44 +9,6 @@ namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kGainMax = 2;  ///< largest difference of contrast that the alignment evens out
-
-double norm(const PatchValues& values) {
-  double squares = 0;
-  for (const double value : values) squares += value * value;
-  return std::sqrt(squares);
-}
-
-/// NCC of two mean-free patches; -1 where one of them is flat.
-double ncc(const PatchValues& a, const PatchValues& b) {
-  const double norms = norm(a) * norm(b);
-  return norms < 1e-10 ? -1 : std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / norms;
-}
-
-/// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`, whose derivative
-/// along the move is `derivative`; a prior of `stiffness` [grey levels^2 / px^2] holds it around the start. Nothing when it left
-/// the clamp.
-std::optional<double> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
-                                 const PatchValues& derivative, double stiffness, const StereoConfig& config) {
-  double move = 0;
-  for (int step = 0; step < config.refine_steps; ++step) {
-    const PatchValues values = cut_patch(image, moving, move * ex, move * ey);
-    const double gain = std::clamp(norm(fixed) / std::max(norm(values), 1e-3), 1 / kGainMax, kGainMax);
-    double curvature = stiffness, slope = -stiffness * move;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const double residual = fixed[k] - gain * values[k];
-      const double weight = huber_weight(residual, config.refine_huber);
-      curvature += weight * derivative[k] * derivative[k];
-      slope += weight * derivative[k] * residual;
-    }
-    if (curvature < 1e-6) break;
-    const double change = slope / curvature;
-    move += change;
-    if (!(std::abs(move) <= config.refine_clamp)) return std::nullopt;
-    if (std::abs(change) < config.refine_tolerance) break;
-  }
-  return move;
-}
 
 }  // namespace
 
@@ -68,6 +28,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
                                     const Candidates& candidates, const StereoConfig& config, double patch_offset,
                                     CandidateScores& scores) {
   RefinedCandidates refined{std::vector<double>(candidates.target.size(), 0.0), std::vector<double>(candidates.target.size(), 0.0)};
+  const RefinementSettings settings{config.refine_steps, config.refine_tolerance, config.refine_huber, config.refine_clamp};
   for (std::size_t i = 0; i < left.size(); ++i) {
     const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
     const double cosine = std::cos(left.direction[i]), sine = std::sin(left.direction[i]);
@@ -83,11 +44,11 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
         return patch_frame(line.x + place * line.ex, line.y + place * line.ey, cosine, sine, side, patch_offset);
       };
       const auto move = align_edge(right_image, right_frame(s, 0), line.ex, line.ey, cut_patch(left_image, left_frame(0), 0, 0),
-                                   patch_derivative(left_image, left_frame(0), line.ex, line.ey), stiffness, config);
+                                   patch_derivative(left_image, left_frame(0), line.ex, line.ey), stiffness, settings);
       if (!move) scores.rejected_by[c] = kStereoRefinementOrder;
       refined.place[c] = s + move.value_or(0);
       const auto similarity = [&](double side) {
-        return ncc(cut_patch(left_image, left_frame(side), 0, 0), cut_patch(right_image, right_frame(refined.place[c], side), 0, 0));
+        return patch_ncc(cut_patch(left_image, left_frame(side), 0, 0), cut_patch(right_image, right_frame(refined.place[c], side), 0, 0));
       };
       refined.likeness[c] = 0.5 * (similarity(0) + std::max(similarity(-1), similarity(1)));
     }

@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts)
   return {{"edges_left", counts.edges_left},       {"edges_right", counts.edges_right},
           {"stereo_edges", counts.stereo_edges},   {"temporal_left", counts.temporal_left},
           {"temporal_right", counts.temporal_right}, {"quads", counts.quads},
-          {"chained_quads", counts.chained_quads}, {"inliers", counts.inliers}};
+          {"inliers", counts.inliers}};
 }
 
 std::vector<std::pair<std::string, double>> count_medians(const std::vector<FrameRecord>& frames) {

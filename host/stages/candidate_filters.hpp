@@ -9,7 +9,7 @@
 
 namespace quadedge::stages {
 
-/// Thresholds and places of the four filters in their cascade (reference::FilterLimits on the device).
+/// Thresholds and places of the four filters in their cascade (reference::FilterLimits on the device). sift_max = 0: without SIFT.
 struct CandidateLimits {
   float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
   int ncc_order, sift_order;

@@ -10,19 +10,19 @@
 #include "stages/stereo_clusters.hpp"
 #include "stages/stereo_refinement.hpp"
 #include "stages/temporal_candidates.hpp"
-#include "stages/temporal_refinement.hpp"
+#include "stages/temporal_quads.hpp"
 #include "stages/undistortion.hpp"
 
 namespace quadedge::stages {
 
-/// Owns every stage and the memory of two rigs.
+/// Owns every stage and the memory of three rigs.
 class DeviceFrontend : public Frontend {
  public:
   DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config);
 
   void process(const StereoFrame& frame) override;
-  void keep() override;
-  TemporalMatches match(const TemporalSearch& search) override;
+  void keep(bool as_key) override;
+  TemporalMatches match(Base base, const TemporalSearch& search) override;
   EdgeSet edges(bool right) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
@@ -37,7 +37,7 @@ class DeviceFrontend : public Frontend {
     Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table, const Config& config);
   };
 
-  void match_side(int side, const PlacedEdges& predicted, const TemporalSearch& search, DeviceCandidates& candidates);
+  void match_side(int side, Base base, const TemporalSearch& search, DeviceCandidates& candidates);
   void tap_stereo();
   void tap_candidates_without_limits();
   void tap_temporal(int side, const TemporalSearch& search);
@@ -53,15 +53,16 @@ class DeviceFrontend : public Frontend {
   StereoRefinement refinement_;
   StereoClusters clustering_;
   TemporalCandidates temporal_candidates_;
-  TemporalRefinement temporal_refinement_;
+  TemporalQuads temporal_quads_;
 
   DeviceCandidates candidates_, temporal_left_, temporal_right_;
   DeviceRefined refined_;
   DeviceClusters clusters_;
-  DevicePlaces predicted_;
+  DevicePlaces predicted_[2];  ///< left, right
   DevicePointIndex left_index_, right_index_;
-  DeviceRig rigs_[2];
-  int now_ = 0;  ///< rigs_[now_] is the current one
+  DeviceImage left_image_, right_image_;
+  DeviceStereoEdges rigs_[3];
+  int now_ = 0, previous_rig_ = 1, key_rig_ = 1;  ///< places in rigs_
 };
 
 }  // namespace quadedge::stages

@@ -1,7 +1,7 @@
 /// \file device_frontend_taps.cpp  What the device frontend shows a tap after each filter; nothing here runs without one.
 #include <algorithm>
 
-#include "reference/temporal_refinement.hpp"
+#include "reference/temporal_quads.hpp"
 #include "stages/device_frontend.hpp"
 #include "stages/filter_names.hpp"
 
@@ -67,7 +67,7 @@ void DeviceFrontend::tap_stereo() {
 
 void DeviceFrontend::tap_temporal(int side, const TemporalSearch& search) {
   DeviceCandidates near;
-  temporal_candidates_.run(predicted_, search.step, rigs_[now_].edges, side, side == 0 ? left_index_ : right_index_,
+  temporal_candidates_.run(predicted_[side], search.step, rigs_[now_], side, side == 0 ? left_index_ : right_index_,
                            side == 0 ? left_height_ : right_height_, search.radius, kAllDirections, near);
   near.rejected_by.fill(0, static_cast<std::size_t>(near.host_total));
   tap_->temporal_filter(1, temporal_name(1), side, near.alive_after(1, nullptr));

@@ -11,11 +11,11 @@ inline constexpr std::array<const char*, 11> kStereoFilters = {
     "nearly best SIFT", "refinement and clustering", "likeness of representatives", "best"};
 inline constexpr int kStereoSiftOrder = 4, kStereoNccOrder = 5;
 
-/// Temporal cascade; the index is the order (SPEC section 4). The circle is closed before the refinement, so that a refined
-/// candidate is always one stereo pair.
+/// Temporal cascade; the index is the order (SPEC section 4). SIFT takes part in a scout's search only, unless temporal.sift_max is
+/// set.
 inline constexpr std::array<const char*, 9> kTemporalFilters = {
     "baseline", "displacement", "orientation", "NCC", "SIFT", "nearly best NCC", "nearly best SIFT", "quad agreement",
-    "refinement and clustering"};
+    "best"};
 inline constexpr int kTemporalNccOrder = 3, kTemporalSiftOrder = 4;
 
 }  // namespace quadedge::stages

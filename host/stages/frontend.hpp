@@ -20,20 +20,21 @@ struct FrontendCounts {
   int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() that keep a candidate before the agreement
 };
 
-/// Two implementations: the OpenCL stages, and the plain C++ reference. Holds two rigs: the current one and the previous one.
+/// Two implementations: the OpenCL stages, and the plain C++ reference. Holds three rigs: the current one,
+/// the previous one and the key rig (which may be the previous one).
 class Frontend {
  public:
   virtual ~Frontend() = default;
 
   /// Stages 1 to 5 of SPEC: images to stereo edges. Overwrites the current rig.
   virtual void process(const StereoFrame& frame) = 0;
-  /// The current rig becomes the previous one.
-  virtual void keep() = 0;
-  /// Stage 6: quads between the previous and the current rig. `search` has one entry per previous stereo edge.
-  virtual TemporalMatches match(const TemporalSearch& search) = 0;
+  /// The current rig becomes the previous one, and the key rig too if `as_key`.
+  virtual void keep(bool as_key) = 0;
+  /// Stage 6: quads between a base and the current rig. `search` has one entry per stereo edge of the base.
+  virtual TemporalMatches match(Base base, const TemporalSearch& search) = 0;
 
   const StereoEdges& current() const { return current_; }
-  const StereoEdges& previous() const { return previous_; }
+  const StereoEdges& base(Base base) const { return base == Base::key ? key_ : previous_; }
   const FrontendCounts& counts() const { return counts_; }
 
   /// Edges of the current left or right image.
@@ -44,7 +45,7 @@ class Frontend {
   void set_tap(Tap* tap) { tap_ = tap; }
 
  protected:
-  StereoEdges current_, previous_;
+  StereoEdges current_, previous_, key_;
   FrontendCounts counts_;
   Tap* tap_ = nullptr;
 };

@@ -4,7 +4,7 @@
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
 #include "reference/stereo_clusters.hpp"
-#include "reference/temporal_refinement.hpp"
+#include "reference/temporal_quads.hpp"
 #include "reference/undistortion.hpp"
 #include "stages/filter_names.hpp"
 
@@ -50,10 +50,19 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
           reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction, config.sift)};
 }
 
-template <class Section>
-reference::FilterLimits filter_limits(const Section& config, int ncc_order, int sift_order) {
+reference::FilterLimits stereo_limits(const StereoConfig& config) {
   return {static_cast<float>(config.ncc_min), static_cast<float>(config.sift_max), static_cast<float>(config.ncc_nearly_best),
-          static_cast<float>(config.sift_nearly_best), ncc_order, sift_order};
+          static_cast<float>(config.sift_nearly_best), kStereoNccOrder, kStereoSiftOrder};
+}
+
+reference::FilterLimits temporal_limits(const TemporalConfig& config, bool scout) {
+  if (scout) {
+    return {static_cast<float>(config.scout_ncc_min), static_cast<float>(config.scout_sift_max),
+            static_cast<float>(config.scout_ncc_nearly_best), static_cast<float>(config.scout_sift_nearly_best),
+            kTemporalNccOrder, kTemporalSiftOrder};
+  }
+  return {static_cast<float>(config.ncc_min), static_cast<float>(config.sift_max), static_cast<float>(config.ncc_nearly_best),
+          static_cast<float>(config.sift_nearly_best), kTemporalNccOrder, kTemporalSiftOrder};
 }
 
 int living_rows(const reference::Candidates& candidates, const reference::CandidateScores& scores) {
@@ -81,7 +90,7 @@ void ReferenceFrontend::process(const StereoFrame& frame) {
   const auto left = describe(now_.left, left_edges_, config_), right = describe(now_.right, right_edges_, config_);
 
   const auto candidates = reference::stereo_candidates(left_edges_, right_edges_, epipolar_);
-  auto scores = reference::candidate_filters(candidates, left, right, filter_limits(config_.stereo, kStereoNccOrder, kStereoSiftOrder));
+  auto scores = reference::candidate_filters(candidates, left, right, stereo_limits(config_.stereo));
   const auto refined = reference::stereo_refinement(now_.left.view(), now_.right.view(), left_edges_, right_edges_, epipolar_,
                                                     candidates, config_.stereo, config_.patches.offset, scores);
   const auto clusters = reference::stereo_clusters(candidates, scores, refined, right_edges_, config_.stereo);
@@ -95,7 +104,11 @@ void ReferenceFrontend::process(const StereoFrame& frame) {
                              rows_of(right.sift, current_.right_index, reference::kEdgeSiftBytes)};
 }
 
-void ReferenceFrontend::keep() {
+void ReferenceFrontend::keep(bool as_key) {
+  if (as_key) {
+    key_memory_ = now_;
+    key_ = current_;
+  }
   before_ = std::move(now_);
   now_ = {};
   previous_ = current_;
@@ -109,18 +122,16 @@ reference::Candidates ReferenceFrontend::side_candidates(int side, const Tempora
                                         search.radius, static_cast<float>(config_.temporal.orientation * kDegree), search.step);
 }
 
-TemporalMatches ReferenceFrontend::match(const TemporalSearch& search) {
-  const auto limits = filter_limits(config_.temporal, kTemporalNccOrder, kTemporalSiftOrder);
+TemporalMatches ReferenceFrontend::match(Base base, const TemporalSearch& search) {
+  const RigMemory& before = base == Base::key ? key_memory_ : before_;
+  const auto limits = temporal_limits(config_.temporal, search.scout);
   const auto left = side_candidates(0, search), right = side_candidates(1, search);
-  auto left_scores = reference::candidate_filters(left, before_.left_descriptions, now_.left_descriptions, limits, search.step);
-  const auto right_scores = reference::candidate_filters(right, before_.right_descriptions, now_.right_descriptions, limits, search.step);
+  auto left_scores = reference::candidate_filters(left, before.left_descriptions, now_.left_descriptions, limits, search.step);
+  const auto right_scores = reference::candidate_filters(right, before.right_descriptions, now_.right_descriptions, limits, search.step);
   counts_.temporal_left = living_rows(left, left_scores);
   counts_.temporal_right = living_rows(right, right_scores);
   const auto agreement = reference::temporal_agreement(left, left_scores, right, right_scores);
-  const auto places = reference::temporal_refinement({before_.left.view(), before_.right.view()}, {now_.left.view(), now_.right.view()},
-                                                     previous_, current_, epipolar_, left, agreement, config_.temporal,
-                                                     config_.patches.offset, left_scores, search.step);
-  return reference::temporal_clusters(left, left_scores, agreement, places, current_, config_.temporal, search.step);
+  return reference::temporal_best(left, left_scores, agreement, current_, config_.temporal, search);
 }
 
 }  // namespace quadedge::stages

@@ -13,8 +13,8 @@ class ReferenceFrontend : public Frontend {
   ReferenceFrontend(const StereoRig& rig, const Config& config);
 
   void process(const StereoFrame& frame) override;
-  void keep() override;
-  TemporalMatches match(const TemporalSearch& search) override;
+  void keep(bool as_key) override;
+  TemporalMatches match(Base base, const TemporalSearch& search) override;
   EdgeSet edges(bool right) override { return right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
 
@@ -31,7 +31,7 @@ class ReferenceFrontend : public Frontend {
   Config config_;
   EpipolarGeometry epipolar_;
   EdgeSet left_edges_, right_edges_;
-  RigMemory now_, before_;
+  RigMemory now_, before_, key_memory_;
 };
 
 }  // namespace quadedge::stages

@@ -61,23 +61,22 @@ struct StereoConfig {
 
 /// Temporal cascade, SPEC section 4.
 struct TemporalConfig {
-  double radius = 10.0;             ///< around the predicted place [px]
-  double radius_wide = 0.1;         ///< around the same place, where no prediction is trusted [share of the image width]
-  double radius_widest = 0.3;       ///< where that finds no motion [share of the image width]
-  int wide_edges = 4000;            ///< the wide search looks for about this many stereo edges; its motion then predicts for all
-  double wide_min_inlier_share = 0.03;  ///< of the wide search's quads; the narrow search that follows has to convince
+  double radius = 3.0;              ///< around the place that the scouted motion predicts [px]
+  double distance_weight = 0.2;     ///< NCC that a candidate at the end of the radius has to be better than one at the predicted place
+  double scout_radius = 10.0;       ///< around the place that constant velocity predicts [px]
+  double scout_radius_wide = 0.1;   ///< where there is no prediction, or it fails [share of the image width]
+  double scout_radius_widest = 0.3; ///< where that finds no motion [share of the image width]
+  int scout_edges = 4000;           ///< the scout looks for about this many stereo edges; its motion then predicts for all
+  double scout_min_inlier_share = 0.03;  ///< of the scout's quads; the search that follows has to convince
+  double scout_ncc_min = 0.8;
+  double scout_sift_max = 200.0;
+  double scout_ncc_nearly_best = 0.9;
+  double scout_sift_nearly_best = 0.6;
   double orientation = 10.0;        ///< [deg], modulo 360
-  double ncc_min = 0.8;
-  double sift_max = 200.0;
-  double ncc_nearly_best = 0.9;
-  double sift_nearly_best = 0.6;
-  int refine_steps = 8;
-  double refine_tolerance = 1e-3;   ///< [px]
-  double refine_huber = 3.0;        ///< [grey levels]
-  double refine_clamp = 2.0;        ///< longest move [px]
-  double refine_rms_max = 6.0;      ///< [grey levels]
-  double refine_prior = 0.5;        ///< spread of the matched place around the true one [px]: holds points on straight edges
-  double refine_noise = 2.0;        ///< camera noise that the prior is weighed against [grey levels]
+  double ncc_min = 0.6;
+  double sift_max = 0.0;            ///< 0: without SIFT, which tells nothing more within a few pixels
+  double ncc_nearly_best = 0.8;
+  double sift_nearly_best = 0.4;
   double cluster_gap = 1.0;         ///< [px]
   double cluster_orientation = 20.0;  ///< [deg]
 };
@@ -117,7 +116,7 @@ struct PoseConfig {
 /// Key stereo rig, SPEC section 7.
 struct OdometryConfig {
   bool key_rig = true;               ///< false: frame to frame only
-  double key_min_share = 0.3;        ///< chained quads, share of those at the key rig's first frame
+  double key_min_share = 0.3;        ///< quads with the key rig, share of those at its first frame
   int key_min_quads = 300;
   double key_min_inlier_share = 0.4;
   double key_max_parallax = 40.0;    ///< median [px]

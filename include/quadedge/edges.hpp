@@ -24,13 +24,13 @@ struct EdgeSet {
   std::size_t size() const { return x.size(); }
 };
 
-/// Stereo edges in the scan order of their left edges, one-to-one in both directions. SPEC section 3.
+/// Stereo edges in the scan order of their left edges, mutually best. SPEC section 3.
 struct StereoEdges {
   std::vector<std::int32_t> left_index;   ///< the left edge
-  std::vector<std::int32_t> right_index;  ///< the right edge nearest to the refined place, each at most once
+  std::vector<std::int32_t> right_index;  ///< the right edge that was refined; neighbours on one left curve may share it
   std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge, pixels and radians
   std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
-  std::vector<float> ncc;                 ///< similarity of the pair, highest of the four side pairings
+  std::vector<float> ncc;                 ///< likeness of the refined pair: mean NCC of the edges' own patches and of the better side
 
   std::size_t size() const { return left_index.size(); }
 };
@@ -39,12 +39,24 @@ struct StereoEdges {
 struct TemporalMatches {
   std::vector<std::int32_t> previous;  ///< index into the previous rig's stereo edges
   std::vector<std::int32_t> current;   ///< index into the current rig's stereo edges
-  std::vector<float> left_x, left_y;   ///< refined place in the current left image, pixels
-  std::vector<float> right_x, right_y; ///< refined place in the current right image, on the epipolar line of the left one
+  std::vector<float> left_x, left_y;   ///< detected place in the current left image, pixels
+  std::vector<float> right_x, right_y; ///< its refined right point
   std::vector<float> ncc;              ///< mean of the left and the right similarity
   std::vector<std::int32_t> rivals;    ///< how many other clusters the previous edge has (0: unambiguous)
 
   std::size_t size() const { return previous.size(); }
+  /// Adds a match with stereo edge `current_edge` of `edges`, at its places.
+  void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity, std::int32_t rival_count) {
+    const auto j = static_cast<std::size_t>(current_edge);
+    previous.push_back(previous_edge);
+    current.push_back(current_edge);
+    left_x.push_back(edges.left_x[j]);
+    left_y.push_back(edges.left_y[j]);
+    right_x.push_back(edges.right_x[j]);
+    right_y.push_back(edges.right_y[j]);
+    ncc.push_back(similarity);
+    rivals.push_back(rival_count);
+  }
 };
 
 }  // namespace quadedge

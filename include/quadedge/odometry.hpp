@@ -38,8 +38,7 @@ struct FrameCounts {
   int edges_left = 0, edges_right = 0;
   int stereo_edges = 0;
   int temporal_left = 0, temporal_right = 0;  ///< previous stereo edges that keep a candidate in the left / right images
-  int quads = 0;           ///< with the frame before
-  int chained_quads = 0;   ///< with the key stereo rig
+  int quads = 0;           ///< with the key stereo rig, or with the frame before where that one is out of sight
   int inliers = 0;
 };
 

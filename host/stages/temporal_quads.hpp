@@ -1,0 +1,48 @@
+#pragma once
+/// \file temporal_quads.hpp  Stage 6b: agreement of left and right, and the best of what remains: quads.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/edges.hpp"
+#include "stages/device_candidates.hpp"
+#include "stages/device_stereo_edges.hpp"
+#include "stages/temporal_candidates.hpp"
+#include "stages/temporal_search.hpp"
+
+namespace quadedge::stages {
+
+/// The closing of the circle and the choice of the best (SPEC section 4). Variants of the stage "temporal_quads".
+class TemporalQuads {
+ public:
+  TemporalQuads(opencl::Context& context, const TemporalConfig& config, const std::map<std::string, std::string>& variants);
+
+  /// Enqueues the agreement: marks left candidates that the right list does not hold alive.
+  void agree(DeviceCandidates& left, const DeviceCandidates& right);
+  /// Chooses, reads the rows back and returns the quads of the stereo edges `current`, which `edges` holds on the host.
+  /// \param predicted in the left image
+  TemporalMatches collect(const DeviceStereoEdges& current, const StereoEdges& edges, const TemporalSearch& search,
+                          const DevicePlaces& predicted, const DeviceCandidates& left);
+
+ private:
+  template <class T>
+  using In = opencl::In<T>;
+  template <class T>
+  using Out = opencl::Out<T>;
+
+  opencl::Context& context_;
+  TemporalConfig config_;
+  std::size_t local_size_;
+  opencl::Buffer<cl_float> score_, best_score_;
+  opencl::Buffer<cl_int> label_, best_, rivals_;
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, Out<cl_uchar>, In<cl_int>, In<cl_int>, cl_int, In<cl_float>,
+                 In<cl_uchar>, cl_int, cl_int, Out<cl_float>>
+      agree_;
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_float>, cl_int, In<cl_uchar>, In<cl_float>, In<cl_float>,
+                 In<cl_float>, cl_float, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_int>, Out<cl_float>>
+      best_kernel_;
+};
+
+}  // namespace quadedge::stages
