@@ -1,7 +1,10 @@
 /// \file command_check.cpp  quadedge check: what is there, what is missing or wrong, before a long run.
 #include <cstdio>
+#include <filesystem>
 
 #include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "data/check_tree.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 
@@ -11,13 +14,13 @@ namespace {
 class CheckCommand : public Command {
  public:
   std::string name() const override { return "check"; }
-  std::string about() const override { return "read all of a sequence and say what is there, missing or wrong"; }
+  std::string about() const override { return "read all of a sequence, or of a folder of them, and say what is there, missing or wrong"; }
   std::string examples() const override {
     return "  quadedge check kitti/sequences/06\n"
-           "  quadedge check kitti --sequence 01";
+           "  quadedge check eth3d";
   }
   void declare(Options& options) override {
-    options.positional("PATH", path_, "folder of the sequence");
+    options.positional("PATH", path_, "folder of a sequence, or of many");
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
     options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
@@ -25,6 +28,7 @@ class CheckCommand : public Command {
     options.flag("--quiet", quiet_, "errors only");
   }
   int run() override {
+    if (is_tree()) return check_tree();
     const DatasetCheck check = check_dataset(path_, options_);
     if (!quiet_) {
       for (const auto& fact : check.facts) std::printf("%s\n", fact.c_str());
@@ -36,6 +40,40 @@ class CheckCommand : public Command {
   }
 
  private:
+  /// Is PATH a folder of recordings instead of one? (KITTI's folder with a single sequence stands for that sequence.)
+  bool is_tree() {
+    if (options_.format != "auto" || !options_.sequence.empty() || !std::filesystem::is_directory(path_)) return false;
+    if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList)) return true;
+    const auto members = data::find_members(path_);
+    return members.size() > 1 || (members.size() == 1 && members[0].path != "." && members[0].format != "kitti");
+  }
+
+  /// Checks every recording and pair below PATH, and that all published ones are there.
+  int check_tree() {
+    int damaged = 0;
+    StatusLine status(quiet_);
+    const auto members = data::find_members(path_);
+    const auto missing = data::missing_members(path_);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const auto& member = members[i];
+      if (status.due()) status.show("reading " + member.path + "  " + std::to_string(i) + "/" + std::to_string(members.size()));
+      const DatasetCheck check = check_dataset((std::filesystem::path(path_) / member.path).string());
+      damaged += check.errors.empty() ? 0 : 1;
+      if (!quiet_) {
+        std::printf("%-8s %s: %s\n", check.errors.empty() ? "there" : "DAMAGED", member.path.c_str(), data::one_line(check).c_str());
+      }
+      for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
+    }
+    if (quiet_) return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
+    for (const auto& name : missing) std::printf("missing  %s\n", name.c_str());
+    std::printf("%zu there, %d of them damaged", members.size(), damaged);
+    if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList)) {
+      std::printf(", %zu published ones missing", missing.size());
+    }
+    std::printf("\n");
+    return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
+  }
+
   std::string path_;
   DatasetOptions options_;
   bool quiet_ = false;

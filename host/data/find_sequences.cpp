@@ -11,27 +11,22 @@
 namespace quadedge::data {
 namespace {
 
-/// A recording before it has its name.
-struct Recording {
-  fs::path path;
-  std::string format;
-};
-
 /// Layout that the folder itself is a recording of; empty for none.
-std::string recording_format(const fs::path& folder) {
+std::string recording_format(const fs::path& folder, bool with_pairs) {
   for (const auto& layout : layouts()) {
-    if (layout.is_recording != nullptr && layout.is_recording(folder)) return layout.name;
+    const bool pair = layout.is_recording == nullptr;
+    if (pair ? with_pairs && layout.recognise(folder) : layout.is_recording(folder)) return layout.name;
   }
   return {};
 }
 
 /// Adds the recordings in and below a folder. `seen` holds the true places of folders, so that circular links end.
-void search(const fs::path& folder, std::set<fs::path>& seen, std::vector<Recording>& found) {
+void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, std::vector<FoundRecording>& found) {
   std::error_code error;
   const fs::path place = fs::canonical(folder, error);
   if (error || !seen.insert(place).second) return;
-  if (const std::string format = recording_format(folder); !format.empty()) {
-    found.push_back({folder, format});
+  if (const std::string format = recording_format(folder, with_pairs); !format.empty()) {
+    found.push_back({folder.string(), format});
     return;
   }
   std::vector<fs::path> folders;
@@ -41,12 +36,12 @@ void search(const fs::path& folder, std::set<fs::path>& seen, std::vector<Record
     if (entry->is_directory(ignored) && entry->path().filename().string()[0] != '.') folders.push_back(entry->path());
   }
   std::sort(folders.begin(), folders.end());
-  for (const auto& below : folders) search(below, seen, found);
+  for (const auto& below : folders) search(below, with_pairs, seen, found);
 }
 
-std::vector<Recording> search_list(const std::string& list) {
+std::vector<FoundRecording> search_list(const std::string& list) {
   std::set<fs::path> seen;
-  std::vector<Recording> found;
+  std::vector<FoundRecording> found;
   for (const auto& line : data_lines(list)) {
     const auto last = line.text.find_last_not_of(" \t");
     const fs::path entry = fs::path(list).parent_path() / line.text.substr(0, last + 1);
@@ -54,14 +49,14 @@ std::vector<Recording> search_list(const std::string& list) {
     const fs::path place = fs::canonical(entry, error);
     const bool known = !error && seen.count(place) > 0;
     const std::size_t before = found.size();
-    if (fs::is_directory(entry, error)) search(entry, seen, found);
-    if (found.size() == before && !known) found.push_back({entry, ""});
+    if (fs::is_directory(entry, error)) search(entry, false, seen, found);
+    if (found.size() == before && !known) found.push_back({entry.string(), ""});
   }
   return found;
 }
 
 /// The last `parts` names of a path, joined; KITTI's two digits say nothing without the layout's name before them.
-std::string name_of(const Recording& recording, int parts) {
+std::string name_of(const FoundRecording& recording, int parts) {
   fs::path rest = fs::absolute(recording.path).lexically_normal();
   if (!rest.has_filename()) rest = rest.parent_path();
   if (rest.filename() == "mav0") rest = rest.parent_path();
@@ -74,10 +69,10 @@ std::string name_of(const Recording& recording, int parts) {
 }
 
 /// Short names where they are unique, longer ones where they are not.
-std::vector<FoundSequence> named(const std::vector<Recording>& recordings) {
+std::vector<FoundSequence> named(const std::vector<FoundRecording>& recordings) {
   constexpr int kMostParts = 8;
   std::vector<FoundSequence> sequences;
-  for (const auto& recording : recordings) sequences.push_back({name_of(recording, 1), recording.path.string(), recording.format});
+  for (const auto& recording : recordings) sequences.push_back({name_of(recording, 1), recording.path, recording.format});
   for (int parts = 2; parts <= kMostParts; ++parts) {
     std::map<std::string, int> uses;
     for (const auto& sequence : sequences) ++uses[sequence.name];
@@ -95,6 +90,13 @@ std::vector<FoundSequence> named(const std::vector<Recording>& recordings) {
 
 }  // namespace
 
+std::vector<FoundRecording> find_recordings(const std::string& root, bool with_pairs) {
+  std::set<fs::path> seen;
+  std::vector<FoundRecording> found;
+  search(root, with_pairs, seen, found);
+  return found;
+}
+
 std::string plain_name(const std::string& text) {
   std::string name;
   for (const char c : text) {
@@ -111,9 +113,7 @@ std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
     if (recordings.empty()) fail(root_or_list, "no line", "the folder of a sequence on every line");
     return named(recordings);
   }
-  std::set<fs::path> seen;
-  std::vector<Recording> recordings;
-  search(root_or_list, seen, recordings);
+  const auto recordings = find_recordings(root_or_list, false);
   if (recordings.empty()) {
     std::string names;
     for (const auto& layout : layouts()) {

@@ -20,6 +20,14 @@ struct FoundSequence {
 /// \throws DataError for a missing or empty root or list.
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list);
 
+/// A folder that holds recorded data.
+struct FoundRecording {
+  std::string path, format;
+};
+
+/// The recordings in and below a folder, sorted by path, links followed; with the still pairs on request.
+std::vector<FoundRecording> find_recordings(const std::string& root, bool with_pairs);
+
 /// The text with everything but letters, digits and -_. replaced by '_'.
 std::string plain_name(const std::string& text);
 

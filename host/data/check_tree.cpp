@@ -1,0 +1,50 @@
+#include "data/check_tree.hpp"
+
+#include <set>
+
+#include "data/find_sequences.hpp"
+#include "data/layout.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+
+std::vector<TreeMember> find_members(const std::string& root) {
+  std::vector<TreeMember> members;
+  for (const auto& found : find_recordings(root, true)) {
+    members.push_back({fs::path(found.path).lexically_relative(fs::path(root)).string(), found.format});
+  }
+  return members;
+}
+
+std::vector<std::string> missing_members(const std::string& root) {
+  const fs::path list = fs::path(root) / kPublishedList;
+  std::vector<std::string> missing;
+  if (!fs::exists(list)) return missing;
+  for (const auto& line : data_lines(list.string())) {
+    if (!fs::is_directory(fs::path(root) / line.text)) missing.push_back(line.text);
+  }
+  return missing;
+}
+
+std::string one_line(const DatasetCheck& check) {
+  std::string line;
+  const auto add = [&](const std::string& text) { line += (line.empty() ? "" : ", ") + text; };
+  // What follows a fact's name; of the left camera the size alone, of files no path.
+  const auto value_of = [&](const std::string& name) {
+    for (const auto& fact : check.facts) {
+      if (fact.rfind(name + ": ", 0) == 0) return fact.substr(name.size() + 2);
+    }
+    return std::string();
+  };
+  add(value_of("format"));
+  if (const auto frames = value_of("frames"); !frames.empty()) add(frames + (frames == "1" ? " frame" : " frames"));
+  if (const auto camera = value_of("left camera"); !camera.empty()) add(camera.substr(0, camera.find(',')) + " px");
+  if (const auto truth = value_of("ground truth"); truth.rfind(", ") != std::string::npos) {
+    add("ground truth of " + truth.substr(truth.rfind(", ") + 2));
+  }
+  if (!value_of("disparity of the left view").empty()) add("ground-truth disparity");
+  if (!check.warnings.empty()) add(std::to_string(check.warnings.size()) + " warnings");
+  return line;
+}
+
+}  // namespace quadedge::data

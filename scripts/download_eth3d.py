@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+"""Downloads the published training data of ETH3D (https://www.eth3d.net): the SLAM sequences in stereo, and the two-view pairs.
+
+    download_eth3d.py TARGET                         everything; the sequences take tens of gigabytes
+    download_eth3d.py TARGET cables_1 cables_2       these sequences
+    download_eth3d.py TARGET --two-view              the pairs alone
+    download_eth3d.py TARGET --list                  what there is, and what TARGET has of it
+
+TARGET/slam/training/NAME, TARGET/two_view_training/NAME and TARGET/two_view_training_gt/NAME appear when they are complete; what is there
+is not loaded again. A transfer that breaks off goes on where it stopped, at once or when the script is started again. Every archive is
+checked: its size, the checksums inside it, and its SHA-256 where one is known, from --checksums or from an earlier download
+(TARGET/SHA256SUMS). `quadedge check TARGET` says what is there and what is missing, by the list in TARGET/eth3d_published.txt.
+Needs Python alone, and for the pairs the program 7z (Debian: p7zip-full).
+Exit code: 0 all is there, 1 something could not be loaded, 2 wrong usage.
+"""
+
+import argparse
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+from transfer import BLOCK, Problem, fetch
+
+ADDRESS = "https://www.eth3d.net/data"
+SLAM_LIST = "slam/dataset_list_training.txt"
+SLAM_PARTS = ("mono", "stereo")  # rgb/ with its calibration and ground truth, then what the second camera adds
+TWO_VIEW = ("two_view_training", "two_view_training_gt")
+
+
+def sha256(path):
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        while block := file.read(BLOCK):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def read_checksums(path):
+    """NAME -> SHA-256 from a file as sha256sum writes it."""
+    known = {}
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        words = line.split()
+        if not words:
+            continue
+        if len(words) != 2 or len(words[0]) != 64:
+            raise Problem(f"{path}:{number}: expected a SHA-256 and a file name")
+        known[Path(words[1].lstrip("*")).name] = words[0].lower()
+    return known
+
+
+def damage(archive, known):
+    """What is wrong with an archive, or nothing."""
+    if archive.name in known and (found := sha256(archive)) != known[archive.name]:
+        return f"wrong checksum: SHA-256 {found}, expected {known[archive.name]}"
+    if archive.suffix == ".zip":
+        try:
+            with zipfile.ZipFile(archive) as file:
+                bad = file.testzip()
+                return f"wrong checksum of {bad} inside it" if bad else None
+        except (zipfile.BadZipFile, OSError, ValueError, EOFError, NotImplementedError) as error:
+            return f"damaged archive: {error}"
+    test = subprocess.run(["7z", "t", "-bso0", "-bsp0", archive], capture_output=True, text=True)
+    return None if test.returncode == 0 else f"damaged archive: {' '.join(test.stderr.split())}"
+
+
+class Downloader:
+    def __init__(self, arguments):
+        self.target, self.address = arguments.target, arguments.address.rstrip("/")
+        self.attempts, self.wait, self.keep = arguments.attempts, arguments.wait, arguments.keep_archives
+        self.archives = self.target / "archives"
+        self.sums = self.target / "SHA256SUMS"
+        self.known = read_checksums(self.sums) if self.sums.exists() else {}
+        if arguments.checksums:
+            self.known.update(read_checksums(arguments.checksums))
+
+    def published_sequences(self):
+        with tempfile.TemporaryDirectory() as folder:
+            list_file = Path(folder) / Path(SLAM_LIST).name
+            fetch(f"{self.address}/{SLAM_LIST}", list_file, self.attempts, self.wait)
+            names = [line.strip() for line in list_file.read_text().splitlines() if line.strip()]
+        if not names or any("/" in name or name.startswith(".") for name in names):
+            raise Problem(f"{self.address}/{SLAM_LIST}: not a list of sequences")
+        return names
+
+    def archive(self, place):
+        """A checked archive; loaded a second time where the first one is damaged."""
+        archive = self.archives / Path(place).name
+        self.archives.mkdir(parents=True, exist_ok=True)
+        for _ in range(2):
+            if not archive.exists():
+                fetch(f"{self.address}/{place}", archive, self.attempts, self.wait)
+            problem = damage(archive, self.known)
+            if problem is None:
+                self.note_checksum(archive)
+                return archive
+            print(f"{archive.name}: {problem}; it is thrown away", file=sys.stderr)
+            archive.unlink()
+        raise Problem(f"{self.address}/{place}: {problem}")
+
+    def note_checksum(self, archive):
+        if archive.name not in self.known:
+            self.known[archive.name] = sha256(archive)
+        recorded = read_checksums(self.sums) if self.sums.exists() else {}
+        recorded[archive.name] = self.known[archive.name]
+        spare = self.sums.with_name("SHA256SUMS.part")
+        spare.write_text("".join(f"{value}  {name}\n" for name, value in sorted(recorded.items())))
+        spare.rename(self.sums)
+
+    def unpack(self, archives, name, place):
+        """Puts the archives together in a folder that appears when it is complete. A folder `name` inside them is left out of the path."""
+        spare = place.with_name("." + place.name + ".part")
+        shutil.rmtree(spare, ignore_errors=True)
+        spare.mkdir(parents=True)
+        for archive in archives:
+            if archive.suffix == ".zip":
+                with zipfile.ZipFile(archive) as file:
+                    file.extractall(spare)
+            else:
+                subprocess.run(["7z", "x", "-y", "-bso0", "-bsp0", f"-o{spare}", archive], check=True)
+        inner = spare / name
+        (inner if [entry.name for entry in spare.iterdir()] == [name] else spare).rename(place)
+        shutil.rmtree(spare, ignore_errors=True)
+        if not self.keep:
+            for archive in archives:
+                archive.unlink()
+
+    def sequence(self, name):
+        place = self.target / "slam" / "training" / name
+        if place.is_dir():
+            return
+        archives = [self.archive(f"slam/datasets/{name}_{part}.zip") for part in SLAM_PARTS]
+        self.unpack(archives, name, place)
+
+    def pairs(self, name):
+        place = self.target / name
+        if not place.is_dir():
+            self.unpack([self.archive(f"{name}.7z")], name, place)
+        return sorted(f"{name}/{entry.name}" for entry in place.iterdir() if entry.is_dir())
+
+
+def write_published(target, sequences, pairs):
+    """What `quadedge check` looks for. Pairs are known once their archive is unpacked, and stay known."""
+    path = target / "eth3d_published.txt"
+    before = path.read_text().splitlines() if path.exists() else []
+    pairs = set(pairs) | {line for line in before if line.startswith(TWO_VIEW)}
+    lines = ["# Folders that ETH3D publishes; `quadedge check` compares them with what is here."]
+    lines += [f"slam/training/{name}" for name in sequences] + sorted(pairs)
+    spare = path.with_name(path.name + ".part")
+    spare.write_text("\n".join(lines) + "\n")
+    spare.rename(path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("target", type=Path, metavar="TARGET")
+    parser.add_argument("sequences", nargs="*", metavar="SEQUENCE", help="names of SLAM sequences; default: all of them")
+    parser.add_argument("--slam", action="store_true", help="the SLAM sequences alone")
+    parser.add_argument("--two-view", action="store_true", help="the two-view pairs alone")
+    parser.add_argument("--list", action="store_true", help="print what there is, and load nothing")
+    parser.add_argument("--checksums", type=Path, metavar="FILE", help="SHA-256 of archives, as sha256sum writes them")
+    parser.add_argument("--keep-archives", action="store_true", help="keep TARGET/archives after unpacking")
+    parser.add_argument("--attempts", type=int, default=5, help="in a row without a byte before giving up (%(default)s)")
+    parser.add_argument("--wait", type=float, default=5, help="seconds between attempts (%(default)s)")
+    parser.add_argument("--address", default=ADDRESS, help="of the data (%(default)s)")
+    arguments = parser.parse_intermixed_args()  # options may stand between names
+    if arguments.slam and arguments.two_view or arguments.sequences and arguments.two_view:
+        parser.error("--two-view loads no sequence")
+    with_slam = not arguments.two_view
+    with_pairs = not arguments.slam and not arguments.sequences
+    if with_pairs and not arguments.list and shutil.which("7z") is None:
+        parser.error("the two-view pairs need the program 7z (Debian: p7zip-full); --slam loads the sequences without it")
+    problems = []
+
+    def attempt(work, *values):
+        try:
+            return work(*values)
+        except (Problem, OSError, subprocess.CalledProcessError) as problem:
+            print(f"error: {problem}", file=sys.stderr)
+            problems.append(problem)
+            return []
+
+    try:
+        downloader = Downloader(arguments)
+        published = downloader.published_sequences() if with_slam or arguments.list else []
+    except (Problem, OSError) as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        return 1
+    if arguments.list:
+        for place in [f"slam/training/{name}" for name in published] + list(TWO_VIEW):
+            print(f"{'there  ' if (arguments.target / place).is_dir() else 'missing'}  {place}")
+        return 0
+    unknown = [name for name in arguments.sequences if name not in published]
+    if unknown:
+        parser.error(f"no such sequence: {', '.join(unknown)}; --list shows all")
+    try:
+        os.makedirs(arguments.target, exist_ok=True)
+    except OSError as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        return 1
+    if with_slam:
+        write_published(arguments.target, published, [])
+    for name in (arguments.sequences or published) if with_slam else []:
+        attempt(downloader.sequence, name)
+    pairs = [pair for name in TWO_VIEW for pair in attempt(downloader.pairs, name)] if with_pairs else []
+    if not with_slam:
+        path = arguments.target / "eth3d_published.txt"
+        prefix = "slam/training/"
+        published = [line[len(prefix) :] for line in path.read_text().splitlines() if line.startswith(prefix)] if path.exists() else []
+    write_published(arguments.target, published, pairs)
+    if not any(downloader.archives.iterdir() if downloader.archives.is_dir() else []):
+        shutil.rmtree(downloader.archives, ignore_errors=True)
+    print(f"{'complete' if not problems else f'{len(problems)} problems'}: {arguments.target}")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        print("interrupted; the same command goes on where this one stopped", file=sys.stderr)
+        sys.exit(130)
