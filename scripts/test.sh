@@ -10,12 +10,13 @@ install_missing $build_packages $test_packages
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON
 cmake --build "$repository/build"
 
-# One virtual environment with evo, the reference for trajectory errors; made once.
-venv="$repository/build/venv"
-if ! "$venv/bin/python" -c 'import evo' 2>/dev/null; then
-  echo "Installing evo into $venv"
-  python3 -m venv "$venv"
-  "$venv/bin/pip" install --quiet --disable-pip-version-check evo==1.38.1
+# One virtual environment with evo, the reference for trajectory errors, Snakemake and pandas; made anew when the list changes.
+venv="$repository/build/venv" requirements="$repository/tests/requirements.txt"
+if ! cmp -s "$requirements" "$venv/requirements.txt"; then
+  echo "Installing the Python packages of $requirements into $venv"
+  python3 -m venv --clear "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements"
+  cp "$requirements" "$venv/requirements.txt"
 fi
 
 exec ctest --test-dir "$repository/build" --output-on-failure "$@"
