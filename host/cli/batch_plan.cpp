@@ -82,10 +82,8 @@ std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequ
 }
 
 int default_jobs(const DeviceInfo& device, const BatchOptions& options) {
-  constexpr int kMostOnGpu = 4;
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  if (options.timing || options.profile || device.type == "cpu") return 1;
-  return device.type == "reference" ? cores : std::clamp(cores / 2, 1, kMostOnGpu);
+  if (device.type != "reference" || options.timing || options.profile) return 1;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace quadedge::cli

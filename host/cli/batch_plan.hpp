@@ -35,9 +35,9 @@ struct BatchMember {
 std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequences, const MethodOptions& method,
                                     const DeviceInfo& device, const BatchOptions& options);
 
-/// Sequences at the same time where the user leaves it open. OpenCL on a CPU uses all cores for one sequence; the plain C++
-/// reference uses one core for each. A GPU carries as many sequences as there are pairs of host cores (each run also reads
-/// images and finds poses), at most four. One with --timing or --profile.
+/// Sequences at the same time where the user leaves it open: as many as do not disturb one another. An OpenCL device carries one (a
+/// CPU gives it all cores, and on a GPU the kernels of others delay it), the plain C++ reference one per core. One with --timing or
+/// --profile.
 int default_jobs(const DeviceInfo& device, const BatchOptions& options);
 
 }  // namespace quadedge::cli

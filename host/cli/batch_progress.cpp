@@ -34,7 +34,8 @@ void BatchProgress::update(const std::vector<Running>& running, double pixels) {
   int frames = frames_;
   const char* separator = " ";
   for (const auto& sequence : running) {
-    text += separator + sequence.name + " frame " + std::to_string(sequence.done) + "/" + std::to_string(sequence.frames);
+    text += separator + sequence.name;
+    if (sequence.frames > 0) text += " frame " + std::to_string(sequence.done) + "/" + std::to_string(sequence.frames);
     separator = ", ";
     frames += sequence.done;
   }
