@@ -110,8 +110,8 @@ void add_sequence(HtmlPage& page, const SequenceResults& sequence, const Detail&
   std::vector<HtmlPage::Picture> pictures;
   for (const auto& file : sequence.thumbnails) pictures.push_back({reduced(file, detail), "image/jpeg", frame_of(file)});
   page.pictures(pictures);
-  page.paragraph("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame before, white "
-                 "for inliers, red for others, one per cell of 16 px.");
+  page.paragraph("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame that they were "
+                 "matched with, white for inliers, red for others, one per cell of 16 px.");
 }
 
 }  // namespace

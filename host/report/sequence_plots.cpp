@@ -150,7 +150,7 @@ std::string edge_plot(const SequenceResults& results, int points) {
 
 std::string quad_plot(const SequenceResults& results, int points) {
   Plot plot = count_plot(results, points, {{"quads", "quads"}, {"inliers", "inliers"}});
-  plot.title = "Quads with the frame before, and inliers of the pose";
+  plot.title = "Quads, and the inliers of the pose";
   plot.y_label = "quads per frame";
   const auto all = times(results);
   Curve inliers{all, std::vector<double>(all.size(), 0.0)}, lost;
