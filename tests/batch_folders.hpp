@@ -21,7 +21,8 @@ inline const std::string& batch_root() {
   static const TemporaryFolder folder;
   static const std::string root = [] {
     for (const auto& [name, seed] : {std::pair<std::string, std::string>{"a/first", "1"}, {"a/second", "2"}}) {
-      const auto result = run_program({"synth", folder / ("root/" + name), "--frames", "4", "--size", "240x150", "--seed", seed, "--quiet"});
+      const std::string place = folder / ("root/" + name);
+      const auto result = run_program({"synth", place, "--frames", "4", "--size", "240x150", "--seed", seed, "--quiet"});
       if (result.code != 0) throw std::runtime_error("synth failed: " + result.err);
     }
     std::filesystem::copy(folder / "root/a/first", folder / "root/broken", std::filesystem::copy_options::recursive);
@@ -54,7 +55,10 @@ class BackgroundProgram {
   BackgroundProgram& operator=(const BackgroundProgram&) = delete;
 
   pid_t process() const { return process_; }
-  bool running() const { return waitid(P_PID, static_cast<id_t>(process_), &unused_, WEXITED | WNOHANG | WNOWAIT) == 0 && unused_.si_pid == 0; }
+  bool running() const {
+    siginfo_t ended{};
+    return waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
+  }
   /// Sends a signal and waits; what waitpid reports.
   int end_by(int signal) {
     kill(process_, signal);
@@ -74,5 +78,4 @@ class BackgroundProgram {
 
  private:
   pid_t process_ = -1;
-  mutable siginfo_t unused_{};
 };

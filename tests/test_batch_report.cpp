@@ -95,7 +95,8 @@ TEST_CASE("batch report: shows every sequence, compares with baseline and peers,
   CHECK(count(plain, "src=") == count(plain, "src=\"data:"));
   CHECK(count(plain, "href=") == count(plain, "href=\"#"));
   // Half the drift of yesterday: every error became smaller, and says by how much.
-  const auto summary = report::summarise(folder / "today", {"street"}, 50), before = report::summarise(folder / "yesterday", {"street"}, 50);
+  const auto summary = report::summarise(folder / "today", {"street"}, 50);
+  const auto before = report::summarise(folder / "yesterday", {"street"}, 50);
   const double now = summary.rows[0].accuracy->origin_aligned.ape_translation_m.mean;
   const double then = before.rows[0].accuracy->origin_aligned.ape_translation_m.mean;
   CHECK(now < then);

@@ -33,7 +33,8 @@ class ReportCommand : public Command {
     for (const auto& text : peers_) peers.push_back(peer(text));
     for (std::size_t i = 0; i < peers.size(); ++i) {
       const auto same = [&](const report::Peer& other) { return other.name == peers[i].name; };
-      if (same({"QuadEdge", ""}) || same({"baseline", ""}) || std::any_of(peers.begin(), peers.begin() + static_cast<std::ptrdiff_t>(i), same)) {
+      const auto before = peers.begin() + static_cast<std::ptrdiff_t>(i);
+      if (same({"QuadEdge", ""}) || same({"baseline", ""}) || std::any_of(peers.begin(), before, same)) {
         throw UsageError("--peer " + peers_[i] + ": the name is taken");
       }
     }

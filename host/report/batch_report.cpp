@@ -64,7 +64,7 @@ void add_overview(HtmlPage& page, const std::vector<SequenceResults>& sequences,
       {"Device", device.empty() ? "-" : device},
       {"Sequences", std::to_string(ran) + " of " + std::to_string(sequences.size()) + " finished"},
       {"Frames tracked", share_text(tracked, frames)}};
-  if (!baseline.empty()) facts.emplace_back("Baseline", baseline + "; differences to it stand in brackets, '=' is none in the digits shown");
+  if (!baseline.empty()) facts.emplace_back("Baseline", baseline + "; differences to it stand in brackets, '=' is none in these digits");
   for (const auto& peer : peers) facts.emplace_back("Compared with", peer.name + " (" + peer.folder + ")");
   page.definitions(facts);
   std::vector<std::pair<std::string, std::string>> failures;

@@ -52,9 +52,15 @@ Curve at_times(const Curve& curve, const std::vector<double>& curve_times, const
   return found;
 }
 
+/// The k for which every k-th of `count` things are at most `limit`.
+std::size_t step_for(std::size_t count, int limit) {
+  const auto most = static_cast<std::size_t>(limit);
+  return std::max<std::size_t>(1, (count + most - 1) / most);
+}
+
 /// Every k-th point, and the last one.
 Curve every_kth(const Curve& curve, int limit) {
-  const std::size_t step = std::max<std::size_t>(1, (curve.xs.size() + static_cast<std::size_t>(limit) - 1) / static_cast<std::size_t>(limit));
+  const std::size_t step = step_for(curve.xs.size(), limit);
   Curve kept;
   for (std::size_t i = 0; i < curve.xs.size(); ++i) {
     if (i % step != 0 && i + 1 != curve.xs.size()) continue;
@@ -93,7 +99,8 @@ std::string trajectory_plot(const SequenceResults& results, int points, bool abo
   }
   std::vector<double> own_times;
   for (const auto& pose : results.trajectories.front().poses) own_times.push_back(seconds(pose.stamp_ns, start_of(results)));
-  const Curve changes = every_kth(at_times(projected(results.trajectories.front().poses, above), own_times, key_rig_times(results)), points);
+  const Curve own = projected(results.trajectories.front().poses, above);
+  const Curve changes = every_kth(at_times(own, own_times, key_rig_times(results)), points);
   if (!changes.xs.empty()) plot.add_points(kKeyRig, changes.xs, changes.ys);
   return plot.svg();
 }
@@ -186,7 +193,7 @@ std::string latency_plot(const SequenceResults& results, int points) {
   }
   const auto all = times(results);
   // All layers are cut from the same frames, so that they lie on one another.
-  const std::size_t step = std::max<std::size_t>(1, (all.size() + static_cast<std::size_t>(points) - 1) / static_cast<std::size_t>(points));
+  const std::size_t step = step_for(all.size(), points);
   std::vector<double> xs, floor, total;
   for (std::size_t i = 0; i < all.size(); i += step) {
     xs.push_back(all[i]);

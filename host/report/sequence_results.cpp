@@ -56,7 +56,8 @@ void add_trajectory(SequenceResults& results, const std::string& name, Trajector
 
 /// The file of a peer's trajectory; empty where there is none.
 std::string peer_file(const Peer& peer, const std::string& name) {
-  for (const fs::path& file : {fs::path(name + ".txt"), fs::path(name) / "trajectory.txt", fs::path("sequences") / name / "trajectory.txt"}) {
+  const fs::path folder(name), of_batch = fs::path("sequences") / name;
+  for (const fs::path& file : {fs::path(name + ".txt"), folder / "trajectory.txt", of_batch / "trajectory.txt"}) {
     std::error_code ignored;
     if (fs::is_regular_file(fs::path(peer.folder) / file, ignored)) return (fs::path(peer.folder) / file).string();
   }

@@ -71,8 +71,9 @@ std::string summary_csv(const BatchSummary& summary) {
             field(row.member.message) + "\n";
   }
   const std::string all = tracked(summary.tracked, summary.frames) + ",";
-  text += "pooled,all,," + std::to_string(summary.exit_code) + ",,," + all + accuracy(summary.pooled) + latency(summary.latency) + ",,,\n";
-  text += "average,all,," + std::to_string(summary.exit_code) + ",,," + all + accuracy(summary.average) + latency(summary.latency) + ",,,\n";
+  const std::string code = ",all,," + std::to_string(summary.exit_code) + ",,,", end = latency(summary.latency) + ",,,\n";
+  text += "pooled" + code + all + accuracy(summary.pooled) + end;
+  text += "average" + code + all + accuracy(summary.average) + end;
   return text;
 }
 

@@ -37,7 +37,9 @@ std::string error_table(const BatchSummary& summary, PoseErrors SummaryAccuracy:
 
 std::string latency_cells(const LatencySummary& latency) {
   std::string cells;
-  for (const double value : {latency.median, latency.p90, latency.p99, latency.max, latency.first}) cells += " " + significant(value) + " |";
+  for (const double value : {latency.median, latency.p90, latency.p99, latency.max, latency.first}) {
+    cells += " " + significant(value) + " |";
+  }
   return cells;
 }
 
