@@ -52,6 +52,7 @@ TEST_CASE("key rig: remembers its frame and place", "[odometry][key_rig]") {
 TEST_CASE("key rig: each criterion alone wears it out", "[odometry][key_rig]") {
   OdometryConfig config;
   config.key_min_quads = 2;
+  config.key_max_parallax = 40;
   const auto fit = [] {
     KeyRigState state;
     state.quads = 3;

@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include <limits>
+
 #include "generated_quads.hpp"
 #include "odometry/prediction.hpp"
 
@@ -82,4 +84,13 @@ TEST_CASE("prediction: no place for what has no depth or falls behind the camera
     CHECK(std::isnan(search.left.x[i]));
     CHECK(std::isnan(search.right.x[i]));
   }
+}
+
+TEST_CASE("prediction: what is in view is counted, and moves are measured where both places hold", "[odometry][prediction]") {
+  const float nowhere = std::numeric_limits<float>::quiet_NaN();
+  const stages::PlacedEdges a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}}, b{{3, 10, 4, nowhere, 50}, {4, 11, 5, 49, 20}, {}};
+  CHECK(odometry::count_in_view({80, 80, 50, 25, 100, 50}, a) == 4);
+  CHECK(odometry::count_in_view({80, 80, 50, 25, 60, 50}, a) == 3);
+  CHECK(odometry::mean_distance(a, b) == Approx((5 + 1 + 0) / 3.0));
+  CHECK(odometry::mean_distance({}, {}) == 0);
 }

@@ -36,6 +36,14 @@ TEST_CASE("The analytic Jacobians are the residuals' derivatives", "[pose][resid
       REQUIRE(linearise(term, rig.left, pose, 0.7 + h, plus));
       REQUIRE(linearise(term, rig.left, pose, 0.7 - h, minus));
       CHECK(((plus.place - minus.place) / (2 * h) - at.place_by_depth).norm() < 1e-5 * (1 + at.place_by_depth.norm()));
+      FitTerm nearer = term, farther = term;
+      nearer.inverse_depth += h * term.inverse_depth_per_pixel;
+      nearer.inverse_depth_bar += h * term.inverse_depth_bar_per_pixel;
+      farther.inverse_depth -= h * term.inverse_depth_per_pixel;
+      farther.inverse_depth_bar -= h * term.inverse_depth_bar_per_pixel;
+      REQUIRE(linearise(nearer, rig.left, pose, 0.7, plus));
+      REQUIRE(linearise(farther, rig.left, pose, 0.7, minus));
+      CHECK(((plus.place - minus.place) / (2 * h) - at.place_by_offset).norm() < 1e-5 * (1 + at.place_by_offset.norm()));
       FitTerm sloped = term;
       sloped.tangent += h * term.slope_sigma * term.ray;
       REQUIRE(linearise(sloped, rig.left, pose, 0.7, plus));

@@ -73,6 +73,8 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   auto& temporal = config.temporal;
   visit("temporal.radius", &temporal.radius, "search radius around the place that the scouted motion predicts [px]", 0.1, 1000);
   visit("temporal.distance_weight", &temporal.distance_weight, "NCC that a candidate at the end of the radius has to be better", 0, 1);
+  visit("temporal.min_support", &temporal.min_support, "smallest share of inliers among the base's edges in view", 0, 1);
+  visit("temporal.rounds", &temporal.rounds, "searches at most, each around what the last one found", 1, 10);
   visit("temporal.scout_radius", &temporal.scout_radius, "scout's radius around the place that constant velocity predicts [px]", 0.1, 1000);
   visit("temporal.scout_radius_wide", &temporal.scout_radius_wide,
         "scout's radius where there is no prediction, or it fails [share of the image width]", 0.001, 1);
@@ -119,6 +121,8 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("pose.fit_tolerance", &pose.fit_tolerance, "step that ends a fit [share of the standard deviation]", 0, 1);
   visit("pose.student_dof", &pose.student_dof, "degrees of freedom of the residuals' Student-t distribution", 1, 1000000);
   visit("pose.vote_cell", &pose.vote_cell, "side of the cells whose edges may share their error [px]", 1, 1000);
+  visit("pose.offset_sigma", &pose.offset_sigma, "spread of an offset that all disparities share; 0: there is none [px]", 0, 10);
+  visit("pose.offset_drift", &pose.offset_drift, "growth of that spread per frame [px]", 0, 10);
   visit("pose.min_inliers", &pose.min_inliers, "fewer give no pose", 2, kLargestInt);
   visit("pose.min_inlier_share", &pose.min_inlier_share, "a smaller share gives no pose", 0, 1);
   visit("pose.min_spread", &pose.min_spread, "smallest spread of the inliers [share of the image diagonal]", 0, 1);

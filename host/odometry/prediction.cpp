@@ -40,4 +40,26 @@ stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& p
   return search;
 }
 
+int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places) {
+  int count = 0;
+  for (std::size_t i = 0; i < places.x.size(); ++i) {
+    const bool inside = places.x[i] >= 0 && places.x[i] <= static_cast<float>(camera.width - 1) && places.y[i] >= 0 &&
+                        places.y[i] <= static_cast<float>(camera.height - 1);  // false for NaN
+    count += inside ? 1 : 0;
+  }
+  return count;
+}
+
+double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.x.size(); ++i) {
+    const double distance = std::hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]);
+    if (!std::isfinite(distance)) continue;
+    sum += distance;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
 }  // namespace quadedge::odometry

@@ -18,4 +18,10 @@ stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& p
                                       const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
                                       double min_epipolar_angle);
 
+/// Places inside a camera's image.
+int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places);
+
+/// Mean distance of places that both hold [px]; 0 where there is none.
+double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b);
+
 }  // namespace quadedge::odometry

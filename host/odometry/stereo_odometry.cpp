@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "odometry/disparity_offset.hpp"
 #include "odometry/key_rig.hpp"
 #include "odometry/prediction.hpp"
 #include "opencl/context.hpp"
@@ -16,6 +17,7 @@ namespace quadedge {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kSettled = 0.3;  ///< mean distance of predicted places that calls for no further search [px]
 constexpr int kLostBeforeRestart = 2;  // frames with edges but without a motion, until tracking restarts from the newest one
 
 /// Milliseconds since the last lap, steady clock.
@@ -82,7 +84,7 @@ const char* to_string(FrameStatus status) {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoRig& rig, Device& device, const Config& config)
-      : rig_(rig), device_(device), config_(config), frontend_(stages::make_frontend(rig, device, config)) {}
+      : rig_(rig), device_(device), config_(config), frontend_(stages::make_frontend(rig, device, config)), offset_(rig, config.pose) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
@@ -101,7 +103,7 @@ class StereoOdometry::Implementation {
   };
 
   Step scout(const std::optional<Eigen::Isometry3d>& prediction, double radius);
-  Step match(stages::Base base, const Eigen::Isometry3d& prediction);
+  Step match(stages::Base base, Eigen::Isometry3d prediction);
   Step estimate(stages::Base base, stages::TemporalSearch search, const std::optional<Eigen::Isometry3d>& prediction,
                 const PoseConfig& limits);
   Step find_step();
@@ -115,6 +117,7 @@ class StereoOdometry::Implementation {
   Device& device_;
   Config config_;
   std::unique_ptr<stages::Frontend> frontend_;
+  odometry::DisparityOffset offset_;
   odometry::KeyRig key_rig_;
 
   int frame_ = -1;                 ///< number of the current frame
@@ -202,11 +205,13 @@ std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motio
 StereoOdometry::Implementation::Step StereoOdometry::Implementation::estimate(stages::Base base, stages::TemporalSearch search,
                                                                               const std::optional<Eigen::Isometry3d>& prediction,
                                                                               const PoseConfig& limits) {
+  const StereoRig& rig = offset_.rig();
   Step step;
   step.base = base;
   step.matches = frontend_->match(base, search);
-  step.quads = pose::build_quads(rig_, frontend_->base(base), frontend_->current(), step.matches, pose::QuadLimits(config_));
-  step.motion = pose::estimate_motion(rig_, step.quads, limits, config_.seed + static_cast<std::uint64_t>(frame_), prediction);
+  step.quads = pose::build_quads(rig, frontend_->base(base), frontend_->current(), step.matches, pose::QuadLimits(config_));
+  step.motion = pose::estimate_motion(rig, step.quads, limits, config_.seed + static_cast<std::uint64_t>(frame_), prediction,
+                                      offset_.variance());
   return step;
 }
 
@@ -218,15 +223,33 @@ StereoOdometry::Implementation::Step StereoOdometry::Implementation::scout(const
   lenient.min_spread = 0;
   const StereoEdges& previous = frontend_->base(stages::Base::previous);
   const int every = std::max(1, static_cast<int>(previous.size()) / config_.temporal.scout_edges);
-  auto search = odometry::predict_places(rig_, previous, prediction, radius, every, min_epipolar_angle());
+  auto search = odometry::predict_places(offset_.rig(), previous, prediction, radius, every, min_epipolar_angle());
   search.scout = true;
   return estimate(stages::Base::previous, std::move(search), prediction, lenient);
 }
 
-/// Matches all edges of a base within a few pixels of where a motion predicts them.
-StereoOdometry::Implementation::Step StereoOdometry::Implementation::match(stages::Base base, const Eigen::Isometry3d& prediction) {
-  return estimate(base, odometry::predict_places(rig_, frontend_->base(base), prediction, config_.temporal.radius, 1, min_epipolar_angle()),
-                  prediction, config_.pose);
+/// Matches all edges of a base within a few pixels of where a motion predicts them, again around what that finds until the places
+/// stay. Within so few pixels a wrong motion finds some support too: a true one has to find more.
+StereoOdometry::Implementation::Step StereoOdometry::Implementation::match(stages::Base base, Eigen::Isometry3d prediction) {
+  const auto places = [&](const Eigen::Isometry3d& motion) {
+    return odometry::predict_places(offset_.rig(), frontend_->base(base), motion, config_.temporal.radius, 1, min_epipolar_angle());
+  };
+  auto search = places(prediction);
+  Step step;
+  for (int round = 0; round < config_.temporal.rounds; ++round) {
+    step = estimate(base, search, prediction, config_.pose);
+    if (step.motion.status != pose::MotionStatus::ok) break;
+    const int in_view = odometry::count_in_view(rig_.left, search.left);
+    if (step.motion.inliers < config_.temporal.min_support * in_view) {
+      step.motion.status = pose::MotionStatus::no_consensus;
+      break;
+    }
+    prediction = step.motion.current_from_previous;
+    auto next = places(prediction);
+    if (odometry::mean_distance(search.left, next.left) < kSettled) break;
+    search = std::move(next);
+  }
+  return step;
 }
 
 /// A scout finds the motion since the previous rig, in growing circles; it guides the matching with the key rig or, where that one is
@@ -265,6 +288,8 @@ void StereoOdometry::Implementation::locate(const Step& step, FrameResult& resul
   state.median_parallax = odometry::median_parallax(frontend_->base(step.base), step.matches);
   state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();
   state.frames = frame_ - key_rig_.frame();
+  offset_.update(step.motion.offset, step.motion.offset_variance);
+  result.disparity_offset = offset_.value();
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
   result.reference_frame = key_rig_.frame();

@@ -39,7 +39,7 @@ const char* to_string(MotionStatus status) {
 }
 
 MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
-                               const std::optional<Eigen::Isometry3d>& initial) {
+                               const std::optional<Eigen::Isometry3d>& initial, double offset_variance) {
   MotionEstimate estimate;
   estimate.inlier.assign(quads.size(), 0);
   if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return estimate;
@@ -55,10 +55,12 @@ MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& qua
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   bool solved = true;
   if (config.refine) {
-    Refined refined = refine(terms, quads, rig, config, pose);
+    Refined refined = refine(terms, quads, rig, config, pose, offset_variance);
     pose = refined.current_from_previous;
     covariance = refined.covariance;
     solved = refined.solved;
+    estimate.offset = refined.offset;
+    estimate.offset_variance = refined.offset_variance;
     estimate.inlier = std::move(refined.inlier);
     estimate.inliers = refined.inliers;
   } else {

@@ -32,14 +32,16 @@ struct MotionEstimate {
   std::vector<std::uint8_t> inlier;  ///< one byte per quad, at the pose found (whatever the status)
   int inliers = 0;
   double share = 0;                  ///< inliers / quads
+  double offset = 0, offset_variance = 0;  ///< what the disparities lack, see fit_offset() [px, px^2]
   int hypotheses = 0, draws = 0;     ///< of the search (see Consensus)
 };
 
 /// Finds the motion: consensus of two-quad samples, then least squares over all its inliers.
 /// With config.refine off the pose is the best of the paper's two-quad samples and their local optimisations over at most
 /// config.preview quads, whichever explains more of all quads; there is no fit over all inliers and no covariance.
+/// \param offset_variance of the disparities' offset [px^2], 0: taken as exact
 /// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to frame.
 MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
-                               const std::optional<Eigen::Isometry3d>& initial = std::nullopt);
+                               const std::optional<Eigen::Isometry3d>& initial = std::nullopt, double offset_variance = 0);
 
 }  // namespace quadedge::pose

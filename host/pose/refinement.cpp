@@ -42,15 +42,19 @@ void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matr
   result.by_pose = by_pose - by_unknown * projected;
 }
 
+/// Columns of `place`: pose, then the offset of all disparities.
 struct QuadTerms {
-  Eliminated<3, 6> place;
+  Eliminated<3, 7> place;
   Eliminated<2, 3> direction;
 };
 
-bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth, QuadTerms& result) {
+bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double offset, double depth,
+              QuadTerms& result) {
   Linearisation linear;
   if (!linearise(term, left, pose, depth, linear)) return false;
-  eliminate<3, 6>(linear.place, linear.place_by_pose, linear.place_by_depth, depth, result.place);
+  Eigen::Matrix<double, 3, 7> by_all;
+  by_all << linear.place_by_pose, linear.place_by_offset;
+  eliminate<3, 7>(linear.place + linear.place_by_offset * offset, by_all, linear.place_by_depth, depth, result.place);
   eliminate<2, 3>(linear.direction, linear.direction_by_rotation, linear.direction_by_slope, 0.0, result.direction);
   return true;
 }
@@ -68,19 +72,21 @@ double measured_scale(const std::vector<double>& errors, double median_of_one, s
 /// Evaluates all rows, storing errors and the quads' own unknowns; `each(k, terms)` sees those in front of the camera.
 template <typename Each>
 void sweep(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const PinholeCamera& left,
-           const Eigen::Isometry3d& pose, const std::vector<double>& depth, Each&& each) {
+           const Eigen::Isometry3d& pose, double offset, const std::vector<double>& depth, Each&& each) {
   QuadTerms quad;
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (evaluate(terms[static_cast<std::size_t>(rows[k])], left, pose, depth[k], quad)) each(k, quad);
+    if (evaluate(terms[static_cast<std::size_t>(rows[k])], left, pose, offset, depth[k], quad)) each(k, quad);
 }
 
 /// Solves A x = -g; false where A is singular.
-bool solve(const Matrix6d& a, const Vector6d& gradient, Vector6d& step) {
-  const Vector6d diagonal = a.diagonal();
+template <int Size>
+bool solve(const Eigen::Matrix<double, Size, Size>& a, const Eigen::Matrix<double, Size, 1>& gradient,
+           Eigen::Matrix<double, Size, 1>& step) {
+  const Eigen::Matrix<double, Size, 1> diagonal = a.diagonal();
   if (!(diagonal.minCoeff() > 0)) return false;
-  const Vector6d scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Matrix6d scaled = scale.asDiagonal() * a * scale.asDiagonal();
-  const Eigen::LDLT<Matrix6d> factors(scaled);
+  const Eigen::Matrix<double, Size, 1> scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix<double, Size, Size> scaled = scale.asDiagonal() * a * scale.asDiagonal();
+  const Eigen::LDLT<Eigen::Matrix<double, Size, Size>> factors(scaled);
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kSmallestPivot)) return false;
   step = scale.asDiagonal() * factors.solve(-(scale.asDiagonal() * gradient));
   return step.allFinite();
@@ -121,28 +127,28 @@ bool fit(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& row
     workspace.place_scale = measured_scale(workspace.place_error, kPlaceMedian, workspace.sorted);
     workspace.direction_scale = measured_scale(workspace.direction_error, kDirectionMedian, workspace.sorted);
   };
-  sweep(terms, rows, rig.left, current_from_previous, workspace.depth, store);
+  sweep(terms, rows, rig.left, current_from_previous, 0, workspace.depth, store);
   measure_scales();
 
   for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
     Matrix6d normal = Matrix6d::Zero();
     Vector6d gradient = Vector6d::Zero();
-    sweep(terms, rows, rig.left, current_from_previous, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
+    sweep(terms, rows, rig.left, current_from_previous, 0, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
       store(k, quad);
       const double place_weight =
           student_weight(workspace.place_error[k], workspace.place_scale, kPlaceSize, config.student_dof) / workspace.place_scale;
       const double direction_weight =
           student_weight(workspace.direction_error[k], workspace.direction_scale, kDirectionSize, config.student_dof) /
           workspace.direction_scale;
-      const Eigen::Matrix<double, 3, 6> weighted = place_weight * quad.place.by_pose;
-      normal.noalias() += weighted.transpose().lazyProduct(quad.place.by_pose);
+      const Eigen::Matrix<double, 3, 6> by_pose = quad.place.by_pose.leftCols<6>(), weighted = place_weight * by_pose;
+      normal.noalias() += weighted.transpose().lazyProduct(by_pose);
       gradient.noalias() += weighted.transpose().lazyProduct(quad.place.error);
       const Eigen::Matrix<double, 2, 3> turned = direction_weight * quad.direction.by_pose;
       normal.topLeftCorner<3, 3>().noalias() += turned.transpose().lazyProduct(quad.direction.by_pose);
       gradient.head<3>().noalias() += turned.transpose().lazyProduct(quad.direction.error);
     });
     Vector6d step;
-    if (!solve(normal, gradient, step)) return false;
+    if (!solve<6>(normal, gradient, step)) return false;
     current_from_previous = perturb(step, current_from_previous);
     if (-gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
     measure_scales();
@@ -159,14 +165,15 @@ Matrix6d fit_covariance(const std::vector<FitTerm>& terms, const std::vector<std
 
   Matrix6d normal = Matrix6d::Zero(), scatter = Matrix6d::Zero();
   double weights = 0, curvature = 0, used = 0;
-  sweep(terms, rows, rig.left, current_from_previous, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
+  sweep(terms, rows, rig.left, current_from_previous, 0, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
     const double error = quad.place.error.squaredNorm();
     const double weight = student_weight(error, workspace.place_scale, kPlaceSize, config.student_dof);
     const double direction_weight =
         student_weight(quad.direction.error.squaredNorm(), workspace.direction_scale, kDirectionSize, config.student_dof) /
         workspace.direction_scale;
-    Matrix6d part = (weight / workspace.place_scale) * (quad.place.by_pose.transpose() * quad.place.by_pose);
-    Vector6d gradient = (weight / workspace.place_scale) * (quad.place.by_pose.transpose() * quad.place.error);
+    const Eigen::Matrix<double, 3, 6> by_pose = quad.place.by_pose.leftCols<6>();
+    Matrix6d part = (weight / workspace.place_scale) * (by_pose.transpose() * by_pose);
+    Vector6d gradient = (weight / workspace.place_scale) * (by_pose.transpose() * quad.place.error);
     part.topLeftCorner<3, 3>() += direction_weight * (quad.direction.by_pose.transpose() * quad.direction.by_pose);
     gradient.head<3>() += direction_weight * (quad.direction.by_pose.transpose() * quad.direction.error);
     normal += part;
@@ -192,8 +199,50 @@ Matrix6d fit_covariance(const std::vector<FitTerm>& terms, const std::vector<std
   return 0.5 * (covariance + covariance.transpose());
 }
 
+bool fit_offset(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,
+                const Matrix6d& covariance, double variance, FitWorkspace& workspace, OffsetFit& result) {
+  using Matrix7d = Eigen::Matrix<double, 7, 7>;
+  using Vector7d = Eigen::Matrix<double, 7, 1>;
+  Eigen::Isometry3d pose = result.current_from_previous;
+  double offset = 0;
+  for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
+    Matrix7d normal = Matrix7d::Zero();
+    Vector7d gradient = Vector7d::Zero();
+    sweep(terms, rows, rig.left, pose, offset, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
+      const double place_error = quad.place.error.squaredNorm();
+      const double place_weight = student_weight(place_error, workspace.place_scale, kPlaceSize, config.student_dof) / workspace.place_scale;
+      const double direction_weight =
+          student_weight(quad.direction.error.squaredNorm(), workspace.direction_scale, kDirectionSize, config.student_dof) /
+          workspace.direction_scale;
+      const Eigen::Matrix<double, 3, 7> weighted = place_weight * quad.place.by_pose;
+      normal.noalias() += weighted.transpose().lazyProduct(quad.place.by_pose);
+      gradient.noalias() += weighted.transpose().lazyProduct(quad.place.error);
+      const Eigen::Matrix<double, 2, 3> turned = direction_weight * quad.direction.by_pose;
+      normal.topLeftCorner<3, 3>().noalias() += turned.transpose().lazyProduct(quad.direction.by_pose);
+      gradient.head<3>().noalias() += turned.transpose().lazyProduct(quad.direction.error);
+      workspace.depth[k] = quad.place.unknown;
+    });
+    // What the quads tell counts less where their errors are alike, by the same factor as in the pose's covariance.
+    const double factor = std::max((covariance * normal.topLeftCorner<6, 6>()).trace() / 6.0, 1.0);
+    normal /= factor;
+    gradient /= factor;
+    normal(6, 6) += 1.0 / variance;
+    gradient(6) += offset / variance;
+    Vector7d step;
+    if (!solve<7>(normal, gradient, step)) return false;
+    pose = perturb(step.head<6>(), pose);
+    offset += step(6);
+    result.covariance = normal.ldlt().solve(Matrix7d::Identity());
+    if (-gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
+  }
+  result.covariance = (0.5 * (result.covariance + result.covariance.transpose())).eval();
+  result.current_from_previous = pose;
+  result.offset = offset;
+  return true;
+}
+
 Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
-               const Eigen::Isometry3d& initial) {
+               const Eigen::Isometry3d& initial, double offset_variance) {
   Refined result;
   result.current_from_previous = initial;
   FitWorkspace workspace;
@@ -210,7 +259,17 @@ Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads,
     std::swap(rows, last_rows);
   }
   if (result.solved)
+  {
     result.covariance = fit_covariance(terms, last_rows, quads, rig, config, result.current_from_previous, workspace);
+    OffsetFit both;
+    both.current_from_previous = result.current_from_previous;
+    if (offset_variance > 0 && fit_offset(terms, last_rows, rig, config, result.covariance, offset_variance, workspace, both)) {
+      result.current_from_previous = both.current_from_previous;
+      result.covariance = both.covariance.topLeftCorner<6, 6>();
+      result.offset = both.offset;
+      result.offset_variance = both.covariance(6, 6);
+    }
+  }
   result.inliers =
       select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
   return result;

@@ -47,6 +47,22 @@ Matrix6d fit_covariance(const std::vector<FitTerm>& terms, const std::vector<std
                         const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& current_from_previous,
                         const FitWorkspace& workspace);
 
+/// A pose and an offset that all disparities share.
+struct OffsetFit {
+  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< in: the start; out: the pose with the offset
+  double offset = 0;  ///< px, added to every right point along its epipolar line, away from the point at infinity
+  Eigen::Matrix<double, 7, 7> covariance = Eigen::Matrix<double, 7, 7>::Zero();  ///< of (pose, offset), with the prior on the offset
+};
+
+/// Continues a fit with one more unknown: the offset of all disparities that a rectification leaves, with a prior of variance
+/// `variance` [px^2] around zero. Motion along the optical axis scales with depth, and the offset changes the depths of far points
+/// more than those of near ones; thousands of edges at all depths tell the two apart, and over a standing camera the prior
+/// stays. KITTI 06: the motion comes out 1.2 % too long without it, since disparities are 0.2 px too small.
+/// \param covariance what fit_covariance() says of the pose in `result`: measures how far the quads' errors are alike
+/// \returns false, with `result` unchanged, when the equations have no solution.
+bool fit_offset(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,
+                const Matrix6d& covariance, double variance, FitWorkspace& workspace, OffsetFit& result);
+
 /// What refine() leaves.
 struct Refined {
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
@@ -54,12 +70,13 @@ struct Refined {
   int inliers = 0;
   Matrix6d covariance = Matrix6d::Zero();  ///< see fit_covariance()
   bool solved = false;                ///< false: no fit was possible, the pose is the initial one, covariance zero
+  double offset = 0, offset_variance = 0;  ///< of all disparities, see fit_offset() [px, px^2]
 };
 
 /// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and fit(), config.refine_rounds times or until the selection
-/// stays the same.
+/// stays the same; then fit_offset() with a prior of `offset_variance` [px^2], 0: without it.
 Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
-               const Eigen::Isometry3d& initial);
+               const Eigen::Isometry3d& initial, double offset_variance = 0);
 
 /// Indices of the non-zero bytes, ascending.
 void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_t>& rows);

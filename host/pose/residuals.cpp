@@ -24,6 +24,8 @@ std::vector<FitTerm> build_terms(const QuadObservations& quads, const NoiseModel
     term.ray = before.ray;
     term.inverse_depth = before.inverse_depth;
     term.inverse_depth_sigma = before.inverse_depth_per_pixel * noise.on_epipolar_line(before.epipolar_sine);
+    term.inverse_depth_per_pixel = before.inverse_depth_per_pixel;
+    term.inverse_depth_bar_per_pixel = after.inverse_depth_per_pixel;
     const double cosine = quads.scoring.left_cos[i], sine = quads.scoring.left_sin[i];
     term.across = Eigen::Vector2d(-sine, cosine) / noise.across;
     term.along = Eigen::Vector2d(cosine, sine) / noise.along;
@@ -64,6 +66,8 @@ bool linearise(const FitTerm& term, const PinholeCamera& left, const Eigen::Isom
 
   result.place_by_depth = by_point * translation;
   result.place_by_depth(2) += inverse * weight;
+  result.place_by_offset = result.place_by_depth * term.inverse_depth_per_pixel;
+  result.place_by_offset(2) -= weight * term.inverse_depth_bar_per_pixel;
   result.place_by_depth *= term.inverse_depth_sigma;
   for (int row = 0; row < 3; ++row) {
     const Eigen::Vector3d g = by_point.row(row);

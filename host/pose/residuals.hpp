@@ -31,6 +31,7 @@ struct FitTerm {
   Eigen::Vector3d ray;              ///< of the previous left pixel, previous left frame
   double inverse_depth = 0;         ///< measured before [1/m]
   double inverse_depth_sigma = 0;   ///< [1/m]
+  double inverse_depth_per_pixel = 0, inverse_depth_bar_per_pixel = 0;  ///< change along the right epipolar lines [1/(m px)]
   Eigen::Vector2d place;            ///< current left pixel as a ray (x, y, 1)
   Eigen::Vector2d across, along;    ///< unit vectors in the current left image over their sigmas [1/px]
   double inverse_depth_bar = 0;     ///< measured after [1/m]
@@ -47,6 +48,7 @@ std::vector<FitTerm> build_terms(const QuadObservations& quads, const NoiseModel
 struct Linearisation {
   Eigen::Vector3d place;                       ///< across, along, inverse depth after; in standard deviations
   Eigen::Matrix<double, 3, 6> place_by_pose;
+  Eigen::Vector3d place_by_offset;             ///< by an offset of both right points along their epipolar lines [1/px]
   Eigen::Vector3d place_by_depth;              ///< by the depth unknown, in standard deviations of the depth before
   Eigen::Vector2d direction;                   ///< tangent out of the left and the right viewing plane after; in standard deviations
   Eigen::Matrix<double, 2, 3> direction_by_rotation;

@@ -67,6 +67,8 @@ struct TemporalConfig {
   double scout_radius_wide = 0.1;   ///< where there is no prediction, or it fails [share of the image width]
   double scout_radius_widest = 0.3; ///< where that finds no motion [share of the image width]
   int scout_edges = 4000;           ///< the scout looks for about this many stereo edges; its motion then predicts for all
+  double min_support = 0.06;        ///< inliers, share of the base's edges that the motion brings into view: a wrong one finds about 0.03
+  int rounds = 3;                   ///< searches at most, each around what the last one found, until the places stay
   double scout_min_inlier_share = 0.03;  ///< of the scout's quads; the search that follows has to convince
   double scout_ncc_min = 0.8;
   double scout_sift_max = 200.0;
@@ -108,6 +110,8 @@ struct PoseConfig {
   double fit_tolerance = 1e-5;       ///< a step shorter than this share of the pose's standard deviation ends a fit
   double student_dof = 5.0;          ///< degrees of freedom of the residuals' Student-t distribution; small: robust
   double vote_cell = 16.0;           ///< edges of one square cell of this side may share their error [px]
+  double offset_sigma = 0.3;         ///< of an unknown offset that all disparities share, at the start [px]; 0: there is none
+  double offset_drift = 0.003;       ///< growth of its standard deviation per frame [px]
   int min_inliers = 12;
   double min_inlier_share = 0.15;
   double min_spread = 0.1;           ///< standard deviation of the inliers' place, share of the image diagonal
@@ -119,7 +123,7 @@ struct OdometryConfig {
   double key_min_share = 0.3;        ///< quads with the key rig, share of those at its first frame
   int key_min_quads = 300;
   double key_min_inlier_share = 0.4;
-  double key_max_parallax = 40.0;    ///< median [px]
+  double key_max_parallax = 16.0;    ///< median [px]
   double key_max_rotation = 10.0;    ///< [deg]
   int key_max_frames = 10;
 };

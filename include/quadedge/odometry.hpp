@@ -58,6 +58,7 @@ struct FrameResult {
   Eigen::Isometry3d current_from_reference = Eigen::Isometry3d::Identity();
   /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current left frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double disparity_offset = 0;  ///< found so far, added to every disparity [px]
   int reference_frame = 0;      ///< number of the frame that was the key stereo rig
   bool new_key_rig = false;     ///< this frame becomes the key stereo rig of the following ones
   bool overflow = false;        ///< a capacity ran out (edges or candidates); the message says which

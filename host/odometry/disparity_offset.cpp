@@ -1,0 +1,22 @@
+#include "odometry/disparity_offset.hpp"
+
+namespace quadedge::odometry {
+
+DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
+    : rig_(rig), cx_(rig.right.cx), cy_(rig.right.cy), drift_(config.offset_drift), variance_(config.offset_sigma * config.offset_sigma) {
+  rig_.left_undistortion = rig_.right_undistortion = {};
+  // At the image's middle, from a hundred base lines to fifty.
+  const Eigen::Vector3d ray = rig.left.ray({0.5 * (rig.left.width - 1), 0.5 * (rig.left.height - 1)});
+  const Eigen::Vector2d far = rig.right.project(rig.right_from_left * Eigen::Vector3d(100 * rig.baseline() * ray));
+  nearer_ = (rig.right.project(rig.right_from_left * Eigen::Vector3d(50 * rig.baseline() * ray)) - far).normalized();
+}
+
+void DisparityOffset::update(double correction, double variance) {
+  if (!(variance_ > 0) || !(variance > 0)) return;
+  value_ += correction;
+  variance_ = variance + drift_ * drift_;
+  rig_.right.cx = cx_ - value_ * nearer_.x();
+  rig_.right.cy = cy_ - value_ * nearer_.y();
+}
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,32 @@
+#pragma once
+/// \file disparity_offset.hpp  The offset of all disparities that a rectification leaves, learned along the way.
+
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::odometry {
+
+/// A rig's disparities may all be wrong by the same part of a pixel (KITTI: 0.2 px and more), which shows in the quads of a moving
+/// camera (pose::fit_offset()). This is the scalar Kalman filter over what the frames say of it.
+class DisparityOffset {
+ public:
+  DisparityOffset(const StereoRig& rig, const PoseConfig& config);
+
+  /// Takes in what one frame found beyond the offset known before, and its variance with the prior [px, px^2].
+  void update(double correction, double variance);
+
+  /// The rig with its right principal point moved by the offset, so that right points mean what they should. Without undistortion
+  /// tables.
+  const StereoRig& rig() const { return rig_; }
+  double value() const { return value_; }        ///< px, added to a disparity
+  double variance() const { return variance_; }  ///< px^2, of the next frame; 0: disparities are taken as exact
+
+ private:
+  StereoRig rig_;
+  double cx_, cy_;                               ///< right principal point of the calibration
+  Eigen::Vector2d nearer_;                       ///< unit vector along which a right point moves when its depth shrinks
+  double drift_;
+  double value_ = 0, variance_;
+};
+
+}  // namespace quadedge::odometry
