@@ -17,7 +17,7 @@ while read -r files; do
   echo "common.cl $files"
   clang -x cl -cl-std=CL1.2 -target spir64 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Wno-unused-function -Werror \
     "${arguments[@]}" "kernels/$last" || status=1
-done < <(grep -rhoE 'program\(\{[^}]*\}' host/stages | grep -oE '"[^{}]*"' | tr -d '",' | sort -u)
+done < <(grep -rhoE 'program\(\{[^}]*\}' host | grep -oE '"[^{}]*"' | tr -d '",' | sort -u)
 for file in kernels/*.cl; do
   case " $used " in
     *" $(basename "$file") "*) ;;

@@ -25,10 +25,10 @@ inline std::string read_text(const std::string& path) {
 }
 
 /// Runs `quadedge ARGUMENTS` through the shell; `environment` is put in front, for example "QUADEDGE_DEVICE=gpu".
-/// Arguments are quoted here. The user's own QUADEDGE_DEVICE does not reach the program.
+/// Arguments are quoted here. The user's own QUADEDGE_DEVICE and saved kernel variants do not reach the program.
 inline ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
   const TemporaryFolder folder;
-  std::string command = "cd '" + folder.path() + "' && env -u QUADEDGE_DEVICE " + environment + " '" QUADEDGE_PROGRAM "'";
+  std::string command = "cd '" + folder.path() + "' && env -u QUADEDGE_DEVICE XDG_CONFIG_HOME='" + (folder / "configuration") + "' " + environment + " '" QUADEDGE_PROGRAM "'";
   for (const auto& argument : arguments) command += " '" + argument + "'";
   command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
   const int status = std::system(command.c_str());

@@ -55,6 +55,8 @@ std::unique_ptr<Command> make_edges_command();
 std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_batch_command();
 std::unique_ptr<Command> make_report_command();
+std::unique_ptr<Command> make_bench_command();
+std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_devices_command();
 std::unique_ptr<Command> make_variants_command();
 std::unique_ptr<Command> make_synth_command();

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
     commands.push_back(cli::make_edges_command());
     commands.push_back(cli::make_evaluate_trajectory_command());
     commands.push_back(cli::make_evaluate_matching_command());
+    commands.push_back(cli::make_bench_command());
+    commands.push_back(cli::make_compare_command());
     commands.push_back(cli::make_synth_command());
     commands.push_back(cli::make_check_command());
     commands.push_back(cli::make_devices_command());

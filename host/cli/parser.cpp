@@ -142,7 +142,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   program.require_subcommand(1);
   program.footer("Each command has its own --help with examples, for example: quadedge run --help\n"
                  "Exit codes: 0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build,\n"
-                 "5 finished but tracked too few frames");
+                 "5 finished but tracked too few frames, 6 regression found by bench --compare");
   std::map<std::string, CLI::App*> groups;
   std::vector<CLI::App*> apps;
   std::vector<std::unique_ptr<ParserOptions>> options;

@@ -8,6 +8,7 @@
 
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/saved_variants.hpp"
 #include "data/atomic_file.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencl/context.hpp"
@@ -103,6 +104,7 @@ void complete(Config& config, const FrameSource& source) {
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options, report::RunRecord& run) {
   const auto start = Clock::now();
   Device device = method.open_device();
+  add_saved_variants(device, run.config);
   StereoOdometry odometry(source.rig(), device, run.config);
   run.start_ms = milliseconds_since(start);
   run.kernel_build_ms = odometry.kernel_build_ms();

@@ -46,6 +46,7 @@ class Buffer {
   /// Copies from the host. Returns after the host memory may be reused.
   void write(const T* values, std::size_t count) {
     if (count == 0) return;
+    context_->count_to_device(count * sizeof(T));
     call("writing a buffer", [&] { context_->queue().enqueueWriteBuffer(memory_, CL_TRUE, 0, count * sizeof(T), values); });
   }
   void write(Context& context, const std::vector<T>& values) {
@@ -55,6 +56,7 @@ class Buffer {
   /// Copies to the host, after everything enqueued before.
   void read(T* values, std::size_t count, std::size_t offset = 0) const {
     if (count == 0) return;
+    context_->count_to_host(count * sizeof(T));
     call("reading a buffer", [&] {
       context_->queue().enqueueReadBuffer(memory_, CL_TRUE, offset * sizeof(T), count * sizeof(T), values);
     });

@@ -42,6 +42,14 @@ class Context {
   std::size_t peak_bytes() const { return peak_bytes_; }
   void account(std::ptrdiff_t bytes);
 
+  /// Bytes copied between host and device so far.
+  struct Moved {
+    std::size_t to_device = 0, to_host = 0;
+  };
+  const Moved& moved() const { return moved_; }
+  void count_to_device(std::size_t bytes) { moved_.to_device += bytes; }
+  void count_to_host(std::size_t bytes) { moved_.to_host += bytes; }
+
   /// The stage that the following launches belong to (profiling).
   void begin_stage(const std::string& stage) { stage_ = stage; }
   void record(const cl::Event& event);
@@ -61,6 +69,7 @@ class Context {
   double build_ms_ = 0;
   std::map<std::string, cl::Program> programs_;
   std::size_t bytes_ = 0, peak_bytes_ = 0;
+  Moved moved_;
   std::string stage_ = "other";
   std::vector<std::pair<std::string, cl::Event>> events_;
 };

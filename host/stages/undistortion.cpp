@@ -18,6 +18,7 @@ Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& ta
 void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target) {
   const auto width = static_cast<std::size_t>(recorded.width), height = static_cast<std::size_t>(recorded.height);
   target.ensure(context_, width * height);
+  context_.count_to_device(width * height);
   try {
     context_.queue().enqueueWriteBufferRect(target.memory(), CL_TRUE, {0, 0, 0}, {0, 0, 0}, {width, height, 1}, width, 0,
                                             static_cast<std::size_t>(recorded.stride), 0, recorded.pixels);

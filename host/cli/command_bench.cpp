@@ -1,0 +1,145 @@
+/// \file command_bench.cpp  quadedge bench: latency, kernel times and memory, and comparing two such results.
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/latency.hpp"
+#include "bench/yardsticks.hpp"
+#include "cli/bench_options.hpp"
+#include "cli/bench_tables.hpp"
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/frame_source.hpp"
+#include "cli/method_options.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/saved_variants.hpp"
+#include "data/atomic_file.hpp"
+#include "quadedge/error.hpp"
+#include "report/json.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+constexpr int kYardstickRepetitions = 7;
+
+class BenchCommand : public Command {
+ public:
+  std::string name() const override { return "bench"; }
+  std::string about() const override { return "measure the latency of every frame, kernel times and memory, or compare two results"; }
+  std::string examples() const override {
+    return "  quadedge bench --baseline --json now.json\n"
+           "  quadedge bench --compare before.json now.json";
+  }
+
+  void declare(Options& options) override {
+    options.positional("PATH", path_, "recorded sequence; without it the built-in one. With --compare also a result to compare", false);
+    options.text("--size", size_, "images of the built-in sequence [px]; default 942x489", "WxH");
+    options.number("--edges", edges_, "choose edges.threshold for so many edges per image; 0: as configured; -1: 50000 for the built-in "
+                   "sequence, as configured for a recorded one");
+    options.number("--frames", frames_, "frames to measure");
+    options.number("--warm-up", warm_up_, "frames before them, after the first one");
+    options.flag("--baseline", baseline_, "measure two yardsticks with OpenCV as well: SIFT on both images, nine filters of 35 taps");
+    options.text("--json", json_, "write all figures", "FILE");
+    options.text("--trace", trace_, "write the stages of every frame in Chrome's trace format", "FILE");
+    options.text("--compare", compare_, "print the differences to an older result; exit code 6 for a regression", "OLD.json");
+    options.number("--noise", noise_, "so much more counts as equal in a comparison [percent]");
+    options.flag("--force", force_, "replace files that exist");
+    options.flag("--quiet", quiet_, "no progress");
+    method_.declare(options);
+  }
+
+  int run() override {
+    check_options();
+    const bool compare_files = !compare_.empty() && std::filesystem::is_regular_file(path_);
+    if (compare_files) return compare(path_);
+    refuse_existing_file(json_, force_);
+    refuse_existing_file(trace_, force_);
+    const bench::BenchRecord record = measure();
+    print_benchmark(record);
+    const std::string text = bench::bench_json(record);
+    if (!json_.empty()) data::write_atomically(json_, text);
+    if (!trace_.empty()) data::write_atomically(trace_, report::trace_json(record.run));
+    if (compare_.empty()) return static_cast<int>(ExitCode::done);
+    std::printf("\n");
+    return compare(json_);
+  }
+
+ private:
+  void check_options() const {
+    if (frames_ < 1) throw UsageError("--frames " + std::to_string(frames_) + ": expected 1 or more");
+    if (warm_up_ < 0) throw UsageError("--warm-up " + std::to_string(warm_up_) + ": expected 0 or more");
+    if (edges_ < -1) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more, or -1");
+    if (!(noise_ >= 0)) throw UsageError("--noise: expected 0 percent or more");
+    if (!path_.empty() && !size_.empty()) throw UsageError("--size is for the built-in sequence; a recorded one has its own");
+    if (!compare_.empty() && !std::filesystem::is_regular_file(path_) && json_.empty()) {
+      throw UsageError("--compare: name a second result, or --json FILE for what is measured now");
+    }
+    method_.config();
+  }
+
+  int compare(const std::string& newer) const {
+    const auto comparison = bench::compare_benchmarks(compare_, newer, noise_);
+    print_comparison(comparison, noise_);
+    return comparison.regressed() ? bench::kRegressionExitCode : static_cast<int>(ExitCode::done);
+  }
+
+  std::unique_ptr<FrameSource> open_source() const {
+    if (!path_.empty()) return make_recorded_source(open_dataset(path_));
+    SyntheticOptions scene;
+    scene.frames = 1 + warm_up_ + frames_;
+    set_size(scene, size_);
+    return make_synthetic_source(scene);
+  }
+
+  bench::BenchRecord measure() {
+    bench::BenchRecord record;
+    auto& run = record.run;
+    const auto source = open_source();
+    run.input = source->facts();
+    run.config = method_.config();
+    if (run.config.stereo.max_disparity == 0 && run.config.stereo.min_depth == 0) run.config.stereo.max_disparity = source->max_disparity();
+    record.command = command_line();
+    record.warm_up = warm_up_;
+    Progress progress(quiet_);
+    if (run.input.frames < warm_up_ + 2) {
+      throw DataError(run.input.path + ": has " + std::to_string(run.input.frames) + " frames; expected at least " +
+                      std::to_string(warm_up_ + 2) + ": the first, " + std::to_string(warm_up_) + " to get warm, one to measure");
+    }
+    bench::measure_start(source->rig(), [&] { return method_.open_device(); }, add_saved_variants, record);
+    std::vector<FramePrefetcher::Frame> frames;
+    const int wanted = std::min(1 + warm_up_ + frames_, run.input.frames);
+    while (static_cast<int>(frames.size()) < wanted) {
+      auto frame = source->next();
+      record.frames_mb += static_cast<double>(frame->left.pixels.size() + frame->right.pixels.size()) / (1024.0 * 1024.0);
+      frames.push_back(std::move(*frame));
+      progress.update("reading frame", static_cast<int>(frames.size()), wanted);
+    }
+    run.input.frames = wanted;
+    record.edges_wanted = edges_ >= 0 ? edges_ : path_.empty() ? kBenchEdges : 0;
+    if (record.edges_wanted > 0) {
+      Device device = method_.open_device();
+      run.config.edges.threshold = bench::threshold_for_edges(frames.front(), record.edges_wanted, device, run.config);
+    }
+    const bench::Subject subject{source->rig(), frames, run.config, [&](bool profiling) { return method_.open_device(profiling); },
+                                 [&](const char* pass, int done, int total) { progress.update(pass, done, total); }};
+    bench::measure_latency(subject, record);
+    bench::measure_edge_detection(subject, std::max(frames_, 10), record);
+    if (baseline_) {
+      record.yardsticks = bench::measure_yardsticks(frames.front(), record.threads, kYardstickRepetitions,
+                                                    [&](int done, int total) { progress.update("yardsticks", done, total); });
+    }
+    bench::measure_kernels(subject, record);
+    return record;
+  }
+
+  std::string path_, size_, json_, trace_, compare_;
+  int edges_ = -1, frames_ = 30, warm_up_ = 3;
+  double noise_ = 10;
+  bool baseline_ = false, force_ = false, quiet_ = false;
+  MethodOptions method_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_bench_command() { return std::make_unique<BenchCommand>(); }
+
+}  // namespace quadedge::cli

@@ -1,0 +1,150 @@
+/// \file command_compare.cpp  quadedge compare: every kernel variant on the same input, and the best ones kept for this device.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "bench/latency.hpp"
+#include "bench/variant_comparison.hpp"
+#include "bench/variants_file.hpp"
+#include "cli/bench_options.hpp"
+#include "cli/command.hpp"
+#include "cli/console.hpp"
+#include "cli/frame_source.hpp"
+#include "cli/method_options.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/saved_variants.hpp"
+#include "data/atomic_file.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+void print_number(double value, const char* format, const char* missing) {
+  if (std::isfinite(value)) {
+    std::printf(format, value);
+  } else {
+    std::printf("%s", missing);
+  }
+}
+
+void print_stage(const bench::StageResult& stage) {
+  for (const auto& variant : stage.variants) {
+    std::printf("%-20s %-10s %-8s", stage.stage.c_str(), variant.name.c_str(), variant.is_default ? "default" : "");
+    print_number(variant.median_ms, " %9.3f ms", "         -   ");
+    print_number(variant.ratio_to_default, " %7.2f", "       -");
+    print_number(100 * variant.bandwidth_share, " %8.1f %%", "        -  ");
+    print_number(100 * variant.arithmetic_share, " %8.1f %%", "        -  ");
+    const char* mark = !variant.runs ? "  CANNOT RUN: " : !variant.agrees ? "  REFUSED: " : variant.why.empty() ? "" : "  ";
+    std::printf("%s%s\n", mark, variant.why.c_str());
+  }
+  std::fflush(stdout);
+}
+
+class CompareCommand : public Command {
+ public:
+  std::string name() const override { return "compare"; }
+  std::string about() const override { return "check and measure every kernel variant of every stage on the same input"; }
+  std::string examples() const override {
+    return "  quadedge compare --stage edges\n"
+           "  quadedge compare --save";
+  }
+
+  void declare(Options& options) override {
+    options.text("--stage", stage_, "only this stage (`quadedge variants`)", "STAGE");
+    options.text("--size", size_, "images of the built-in sequence that is measured on [px]; default 942x489", "WxH");
+    options.number("--edges", edges_, "choose edges.threshold for so many edges per image; 0: as configured");
+    options.number("--repetitions", repetitions_, "measurements of each variant; the median counts");
+    options.flag("--save", save_, "keep the fastest variants for this device; `run`, `demo` and `bench` then use them");
+    options.text("--json", json_, "write all figures", "FILE");
+    options.flag("--force", force_, "replace a file that exists");
+    options.flag("--quiet", quiet_, "no progress");
+    method_.declare(options);
+  }
+
+  int run() override {
+    const auto stages = chosen_stages();
+    if (edges_ < 0) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more");
+    if (repetitions_ < 1) throw UsageError("--repetitions " + std::to_string(repetitions_) + ": expected 1 or more");
+    Config config = method_.config();
+    refuse_existing_file(json_, force_);
+    Device device = method_.open_device(true);
+    if (device.is_reference()) throw UsageError("the reference device has no kernel variants");
+    const DeviceInfo info = device.info();
+    const std::string file = saved_variants_path(info);
+    if (save_ && file.empty()) throw UsageError("--save: neither XDG_CONFIG_HOME nor HOME says where");
+
+    SyntheticOptions scene;
+    scene.frames = 2;
+    set_size(scene, size_);
+    const auto source = make_synthetic_source(scene);
+    const auto first = source->next(), second = source->next();
+    if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0) config.stereo.max_disparity = source->max_disparity();
+    const bench::ReferenceCheck check(config);
+    if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, device, config);
+    const bench::Ceilings ceilings = bench::measure_ceilings(*device.context());
+    std::printf("%s\n%.1f GB/s, %.1f GFLOP/s: the ceilings, measured by a copy and by multiply-adds\n", info.name.c_str(),
+                ceilings.bandwidth_gb_s, ceilings.arithmetic_gflop_s);
+    std::printf("\n%-20s %-10s %-8s %12s %7s %10s %10s\n", "stage", "variant", "", "time", "ratio", "bandwidth", "arithmetic");
+
+    const bench::VariantInput input{source->rig(), *first, *second, config, [&] { return method_.open_device(true); }, repetitions_};
+    StatusLine status(quiet_);
+    std::vector<bench::StageResult> results;
+    for (const auto& stage : stages) {
+      results.push_back(bench::compare_variants(stage, input, check, ceilings, [&](const std::string& what) {
+        if (status.due()) status.show(what);
+      }));
+      print_stage(results.back());
+    }
+    if (!json_.empty()) data::write_atomically(json_, bench::comparison_json(info, ceilings, results, command_line()));
+    if (save_) save(file, info, results);
+    return exit_code(results);
+  }
+
+ private:
+  std::vector<std::string> chosen_stages() const {
+    auto stages = bench::stages_with_variants();
+    if (stage_.empty()) return stages;
+    if (std::find(stages.begin(), stages.end(), stage_) == stages.end()) {
+      std::string names;
+      for (const auto& name : stages) names += " " + name;
+      throw UsageError("--stage " + stage_ + ": there is no such stage with variants; stages:" + names);
+    }
+    return {stage_};
+  }
+
+  /// What was saved for other stages stays, unless that file is not fit: then it is replaced, as its message advises.
+  void save(const std::string& file, const DeviceInfo& info, const std::vector<bench::StageResult>& results) const {
+    std::map<std::string, std::string> variants;
+    try {
+      variants = bench::read_variants_file(file, info);
+    } catch (const UsageError& error) {
+      note(quiet_, std::string("replacing ") + error.what());
+    }
+    for (const auto& stage : results) {
+      if (!stage.best().empty()) variants[stage.stage] = stage.best();
+    }
+    bench::write_variants_file(file, info, variants);
+    std::printf("\nsaved in %s\n", file.c_str());
+  }
+
+  /// A variant with another result is a mistake of the program.
+  static int exit_code(const std::vector<bench::StageResult>& results) {
+    for (const auto& stage : results) {
+      for (const auto& variant : stage.variants) {
+        if (variant.runs && !variant.agrees) return static_cast<int>(ExitCode::internal);
+      }
+    }
+    return static_cast<int>(ExitCode::done);
+  }
+
+  std::string stage_, size_, json_;
+  int edges_ = kBenchEdges, repetitions_ = 9;
+  bool save_ = false, force_ = false, quiet_ = false;
+  MethodOptions method_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_compare_command() { return std::make_unique<CompareCommand>(); }
+
+}  // namespace quadedge::cli

@@ -1,0 +1,173 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/bench_comparison.hpp"
+#include "bench/latency.hpp"
+#include "frontends.hpp"
+#include "program.hpp"
+#include "quadedge/error.hpp"
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+using namespace quadedge;
+
+namespace {
+
+/// One small benchmark, shared by the tests that look at its files.
+struct SharedBench {
+  TemporaryFolder folder;
+  ProgramResult result = run_program({"bench", "--size", "160x100", "--edges", "1500", "--frames", "2", "--warm-up", "1", "--baseline",
+                                      "--json", folder / "bench.json", "--trace", folder / "trace.json", "--quiet"});
+  json parsed() const { return json::parse(read_text(folder / "bench.json")); }
+};
+const SharedBench& shared_bench() {
+  static const SharedBench bench;
+  return bench;
+}
+
+void write(const std::string& path, const json& value) { std::ofstream(path) << value; }
+
+/// Exit code and output of a comparison of the shared result with a changed copy of itself.
+ProgramResult compare_with(const json& changed, const std::vector<std::string>& more = {}) {
+  const TemporaryFolder folder;
+  write(folder / "new.json", changed);
+  std::vector<std::string> arguments = {"bench", "--compare", shared_bench().folder / "bench.json", folder / "new.json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program(arguments);
+}
+
+}  // namespace
+
+TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
+  const auto& bench = shared_bench();
+  INFO(bench.result.err);
+  REQUIRE(bench.result.code == 0);
+  const json result = bench.parsed();
+  for (const char* pointer :
+       {"/schema", "/bench_schema", "/version", "/commit", "/command", "/device/name", "/device/driver", "/device/platform",
+        "/device/opencl", "/variants/edges",
+        "/input/width", "/frames_measured", "/frames_tracked", "/frames_lost", "/warm_up", "/threads", "/edges_wanted",
+        "/latency_ms/median", "/latency_ms/p90", "/latency_ms/p99", "/latency_ms/max", "/latency_ms/first", "/edge_detection_ms/median",
+        "/edge_detection_ms/p90", "/stages_ms/stereo/median", "/kernels_ms/edges/median", "/kernels_ms/sift/p90", "/start_ms/total",
+        "/start_ms/kernel_build", "/memory_mb/host_peak", "/memory_mb/device_peak", "/memory_mb/frames", "/moved_mb_per_frame/to_device",
+        "/moved_mb_per_frame/to_host", "/counts/edges_left", "/config/edges/threshold", "/baseline/opencv_sift_both_ms",
+        "/baseline/opencv_sepfilter_nine_ms", "/baseline/threads", "/baseline/frame_ratio", "/baseline/edges_ratio"}) {
+    INFO(pointer);
+    CHECK(result.contains(json::json_pointer(pointer)));
+  }
+  CHECK(result["frames_measured"] == 2);
+  CHECK(result["warm_up"] == 1);
+  CHECK(result["input"]["frames"] == 4);
+  CHECK(result["frames_tracked"] == 3);
+  CHECK(result["edges_wanted"] == 1500);
+  CHECK(result["counts"]["edges_left"].get<double>() == Approx(1500).epsilon(0.05));  // chosen on the first frame, both images together
+  CHECK_THAT(result["command"].get<std::string>(), Contains("quadedge bench --size 160x100"));
+  // At least both images go up, and a pixel is a byte.
+  CHECK(result["moved_mb_per_frame"]["to_device"].get<double>() > 2 * 160 * 100 / (1024.0 * 1024.0));
+  CHECK(result["memory_mb"]["frames"].get<double>() == Approx(4 * 2 * 160 * 100 / (1024.0 * 1024.0)));
+  CHECK(result["baseline"]["frame_ratio"].get<double>() ==
+        Approx(result["latency_ms"]["median"].get<double>() / result["baseline"]["opencv_sift_both_ms"].get<double>()));
+  CHECK(result["baseline"]["edges_ratio"].get<double>() ==
+        Approx(result["edge_detection_ms"]["median"].get<double>() / result["baseline"]["opencv_sepfilter_nine_ms"].get<double>()));
+  CHECK_THAT(bench.result.out, Contains("kernel build") && Contains("frame / S") && Contains("(chosen)"));
+  const json trace = json::parse(read_text(bench.folder / "trace.json"));
+  CHECK(trace["traceEvents"].size() > 6);
+}
+
+TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise band, with 6 beyond it", "[cli][bench][device]") {
+  const json before = shared_bench().parsed();
+  const auto same = compare_with(before);
+  INFO(same.err);
+  CHECK(same.code == 0);
+  CHECK_THAT(same.out, Contains("no regression"));
+
+  json slower = before;
+  slower["latency_ms"]["median"] = 1.2 * before["latency_ms"]["median"].get<double>();
+  const auto beyond = compare_with(slower);
+  CHECK(beyond.code == bench::kRegressionExitCode);
+  CHECK(beyond.code == 6);
+  CHECK_THAT(beyond.out, Contains("WORSE") && Contains("REGRESSION") && Contains("+20.0 %"));
+  CHECK(compare_with(slower, {"--noise", "25"}).code == 0);
+
+  json faster = before;
+  faster["latency_ms"]["median"] = 0.5 * before["latency_ms"]["median"].get<double>();
+  CHECK(compare_with(faster).code == 0);
+
+  // All times 1.5 times as long, the yardsticks too: the machine was slower, not the program.
+  json slow_machine = before;
+  for (const char* table : {"latency_ms", "edge_detection_ms"}) {
+    for (auto& value : slow_machine[table]) value = 1.5 * value.get<double>();
+  }
+  for (const char* table : {"stages_ms", "kernels_ms"}) {
+    for (auto& stage : slow_machine[table]) stage["median"] = 1.5 * stage["median"].get<double>();
+  }
+  CHECK(compare_with(slow_machine).code == 6);
+  slow_machine["baseline"]["opencv_sift_both_ms"] = 1.5 * before["baseline"]["opencv_sift_both_ms"].get<double>();
+  CHECK(compare_with(slow_machine).code == 0);
+
+  json memory = before;
+  memory["memory_mb"]["device_peak"] = 1.2 * before["memory_mb"]["device_peak"].get<double>();
+  CHECK(compare_with(memory).code == 6);
+
+  json lost = before;
+  lost["frames_lost"] = before["frames_lost"].get<int>() + 1;
+  CHECK(compare_with(lost).code == 6);
+
+  json changed = before;
+  changed["variants"]["edges"] = "another";
+  const auto noted = compare_with(changed);
+  CHECK(noted.code == 0);
+  CHECK_THAT(noted.out, Contains("variants/edges") && Contains("another"));
+}
+
+TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][bench][device]") {
+  json other_device = shared_bench().parsed();
+  other_device["device"]["name"] = "another device";
+  auto result = compare_with(other_device);
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("new.json") && Contains("device/name") && Contains("another device"));
+
+  json incomplete = shared_bench().parsed();
+  incomplete.erase("latency_ms");
+  CHECK(compare_with(incomplete).code == 3);
+  CHECK(compare_with(json{{"schema", 1}}).code == 3);
+
+  const TemporaryFolder folder;
+  std::ofstream(folder / "text.json") << "no JSON";
+  result = run_program({"bench", "--compare", folder / "text.json", folder / "text.json"});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("text.json"));
+}
+
+TEST_CASE("bench: wrong options end with code 2", "[cli][bench]") {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"--frames", "0"}, {"--warm-up", "-1"}, {"--edges", "-2"}, {"--noise", "-1"}, {"--compare", "old.json"},
+           {"somewhere", "--size", "64x48"}}) {
+    std::vector<std::string> all = {"bench"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    INFO(arguments[0]);
+    CHECK(run_program(all).code == 2);
+  }
+}
+
+TEST_CASE("bench: the chosen threshold gives the wanted number of edges", "[bench][device]") {
+  const matching::RenderedScene scene("room", 160, 100, 1);
+  FramePrefetcher::Frame frame;
+  frame.left = scene.left.front();
+  frame.right = scene.right.front();
+  for (const auto& name : all_devices()) {
+    Device device(name);
+    for (const int wanted : {800, 3000}) {
+      Config config = scene.config;
+      config.edges.threshold = bench::threshold_for_edges(frame, wanted, device, config);
+      const auto frontend = stages::make_frontend(scene.rig, device, config);
+      frontend->process(scene.frame(0));
+      CHECK((frontend->counts().edges_left + frontend->counts().edges_right) / 2 == Approx(wanted).epsilon(0.02));
+    }
+    Config few = scene.config;
+    few.edges.max_edges = 100;
+    CHECK_THROWS_AS(bench::threshold_for_edges(frame, 101, device, few), UsageError);
+    CHECK(bench::threshold_for_edges(frame, 200000, device, scene.config) == 0);  // more than there are
+  }
+}

@@ -1,0 +1,227 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bench/ceilings.hpp"
+#include "bench/frontend_agreement.hpp"
+#include "bench/variant_comparison.hpp"
+#include "bench/variants_file.hpp"
+#include "devices.hpp"
+#include "program.hpp"
+#include "quadedge/error.hpp"
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+using namespace quadedge;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> kSmall = {"--size", "160x100", "--edges", "0", "--repetitions", "1", "--quiet",
+                                         "--edges.max_edges", "20000"};  // tiles start work-items for every edge that may be
+
+std::vector<std::string> compare_arguments(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"compare"};
+  arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+DeviceInfo made_up_device() {
+  DeviceInfo device;
+  device.name = "Device (R) 1";
+  device.platform = "Platform";
+  device.driver = "1.0";
+  return device;
+}
+
+/// A run of the small sequence with a folder of saved variants.
+ProgramResult run_with_saved(const std::string& configuration, const std::string& out, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"run", small_sequence(), "-o", out, "--frames", "0:2", "--quiet", "--edges.max_edges", "20000"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program(arguments, "XDG_CONFIG_HOME='" + configuration + "'");
+}
+
+}  // namespace
+
+TEST_CASE("compare: all variants of a stage are measured, agree, and the best are saved for run", "[cli][bench][device]") {
+  const TemporaryFolder folder;
+  const auto result = run_program(compare_arguments({"--stage", "edges", "--save", "--json", folder / "compare.json"}),
+                                  "XDG_CONFIG_HOME='" + folder.path() + "'");
+  INFO(result.err << result.out);
+  REQUIRE(result.code == 0);
+  const json comparison = json::parse(read_text(folder / "compare.json"));
+  CHECK(comparison["ceilings"]["bandwidth_gb_s"].get<double>() > 0);
+  CHECK(comparison["ceilings"]["arithmetic_gflop_s"].get<double>() > 0);
+  REQUIRE(comparison["stages"].size() == 1);
+  const auto& stage = comparison["stages"][0];
+  CHECK(stage["stage"] == "edges");
+  REQUIRE(stage["variants"].size() == 3);
+  int defaults = 0;
+  for (const auto& variant : stage["variants"]) {
+    for (const char* key : {"name", "default", "agrees", "median_ms", "ratio_to_default", "bandwidth_share", "arithmetic_share"}) {
+      INFO(key);
+      CHECK(variant.contains(key));
+    }
+    CHECK(variant["agrees"] == true);
+    CHECK(variant["median_ms"].get<double>() > 0);
+    CHECK(variant["arithmetic_share"].get<double>() > 0);
+    if (variant["default"] == true) {
+      ++defaults;
+      CHECK(variant["ratio_to_default"] == 1);
+    }
+  }
+  CHECK(defaults == 1);
+
+  const Device device;
+  const std::string file = folder / ("quadedge/" + bench::variants_file_name(device.info()));
+  REQUIRE(fs::exists(file));
+  CHECK(json::parse(read_text(file))["variants"]["edges"] == stage["best"]);
+  CHECK_THAT(result.out, Contains(file));
+  const auto run = run_with_saved(folder.path(), folder / "out");
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(json::parse(read_text(folder / "out/report.json"))["variants"]["edges"] == stage["best"]);
+}
+
+TEST_CASE("compare: run takes saved variants, and the command line and --config win over them", "[cli][bench][device]") {
+  const TemporaryFolder folder;
+  const Device device;
+  bench::write_variants_file(folder / ("quadedge/" + bench::variants_file_name(device.info())), device.info(),
+                             {{"edges", "tile64"}, {"sift", "cells"}, {"patches", "lanes"}});
+  std::ofstream(folder / "config.toml") << "variant = [\"sift=edge\"]\n";
+  const auto variants = [&](const std::string& name, const std::vector<std::string>& more) {
+    const auto run = run_with_saved(folder.path(), folder / name, more);
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    return json::parse(read_text(folder / (name + "/report.json")))["variants"];
+  };
+  auto found = variants("saved", {});
+  CHECK(found["edges"] == "tile64");
+  CHECK(found["sift"] == "cells");
+  CHECK(found["patches"] == "lanes");
+  CHECK(variants("typed", {"--variant", "edges=strip"})["edges"] == "strip");
+  found = variants("configured", {"--config", folder / "config.toml"});
+  CHECK(found["sift"] == "edge");
+  CHECK(found["edges"] == "tile64");
+}
+
+TEST_CASE("compare: run refuses a wrong or foreign file of variants by name", "[cli][bench][device]") {
+  const Device device;
+  const auto refused = [&](const std::string& text, const std::string& reason) {
+    const TemporaryFolder folder;
+    const std::string file = folder / ("quadedge/" + bench::variants_file_name(device.info()));
+    fs::create_directories(fs::path(file).parent_path());
+    std::ofstream(file) << text;
+    const auto run = run_with_saved(folder.path(), folder / "out");
+    INFO(run.err);
+    CHECK(run.code == 2);
+    CHECK_THAT(run.err, Contains(file) && Contains(reason) && Contains("compare --save"));
+  };
+  refused("no JSON", "no file of kernel variants");
+  json good = {{"content", "quadedge kernel variants"},
+               {"schema", 1},
+               {"device", {{"name", device.info().name}, {"platform", device.info().platform}, {"driver", device.info().driver}}},
+               {"variants", {{"edges", "tile64"}}}};
+  json changed = good;
+  changed["device"]["name"] = "another device";
+  refused(changed.dump(), "another device");
+  changed = good;
+  changed["variants"]["edges"] = "no such variant";
+  refused(changed.dump(), "no such variant");
+  changed = good;
+  changed["content"] = "something else";
+  refused(changed.dump(), "something else than kernel variants");
+  changed = good;
+  changed["schema"] = 99;
+  refused(changed.dump(), "99");
+}
+
+TEST_CASE("compare: files of variants come back as they were written, and a missing one says nothing", "[bench]") {
+  const TemporaryFolder folder;
+  const DeviceInfo device = made_up_device();
+  const std::string path = folder / ("new/" + bench::variants_file_name(device));
+  CHECK(bench::variants_file_name(device) == "variants-Device-R-1.json");
+  CHECK(bench::read_variants_file(path, device).empty());
+  const std::map<std::string, std::string> variants = {{"edges", "tile64"}, {"sift", "edge"}};
+  bench::write_variants_file(path, device, variants);
+  CHECK(bench::read_variants_file(path, device) == variants);
+  DeviceInfo other = device;
+  other.platform = "another";
+  CHECK_THROWS_AS(bench::read_variants_file(path, other), UsageError);
+}
+
+TEST_CASE("compare: a variant with another result is refused, and never saved as the best", "[cli][bench][device]") {
+  const TemporaryFolder folder;
+  fs::copy(QUADEDGE_KERNELS, folder / "kernels");
+  // Patches of one form alone count as flat: their likeness is gone.
+  std::string text = read_text(folder / "kernels/patches.cl");
+  const std::string flat = "#define FLAT_SQUARES 1e-10f\n";
+  const auto at = text.find(flat);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, flat.size(), "#if ITEMS_PER_EDGE == 1\n" + flat + "#else\n#define FLAT_SQUARES 1e30f\n#endif\n");
+  std::ofstream(folder / "kernels/patches.cl") << text;
+  const auto result = run_program(
+      compare_arguments({"--stage", "patches", "--json", folder / "compare.json", "--kernels", folder / "kernels"}));
+  INFO(result.err << result.out);
+  CHECK(result.code == 1);
+  CHECK_THAT(result.out, Contains("REFUSED: differs from the reference"));
+  const json stage = json::parse(read_text(folder / "compare.json"))["stages"][0];
+  for (const auto& variant : stage["variants"]) {
+    CHECK(variant["agrees"] == (variant["name"] == "edge"));
+    CHECK(variant["median_ms"].is_null() == (variant["name"] != "edge"));
+  }
+  CHECK(stage["best"] != "lanes");
+}
+
+TEST_CASE("compare: the best variant agrees and is clearly faster than the default", "[bench]") {
+  const auto variant = [](const std::string& name, bool by_default, bool agrees, double ratio) {
+    bench::VariantResult result;
+    result.name = name;
+    result.is_default = by_default;
+    result.agrees = agrees;
+    result.median_ms = result.ratio_to_default = ratio;
+    return result;
+  };
+  bench::StageResult stage;
+  stage.variants = {variant("default", true, true, 1), variant("same", false, true, 0.98), variant("wrong", false, false, 0.1)};
+  CHECK(stage.best() == "default");
+  stage.variants.push_back(variant("fast", false, true, 0.8));
+  stage.variants.push_back(variant("faster", false, true, 0.7));
+  CHECK(stage.best() == "faster");
+}
+
+TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {
+  CHECK(run_program({"compare", "--stage", "none"}).code == 2);
+  CHECK(run_program({"compare", "--repetitions", "0"}).code == 2);
+  CHECK(run_program({"compare", "--edges", "-1"}).code == 2);
+  CHECK(run_program({"compare", "--device", "reference"}).code == 2);
+}
+
+TEST_CASE("ceilings: both kernels run and give rates above zero", "[bench][device][oclgrind]") {
+  for (const auto& name : all_devices()) {
+    Device device(name, "", true);
+    const auto ceilings = bench::measure_ceilings(*device.context(), 1, 1);
+    CHECK(ceilings.bandwidth_gb_s > 0);
+    CHECK(ceilings.arithmetic_gflop_s > 0);
+    Device plain(name);
+    CHECK_THROWS_AS(bench::measure_ceilings(*plain.context(), 1, 1), UsageError);
+  }
+}
+
+TEST_CASE("agreement: equal, shifted and missing rows are told apart", "[bench]") {
+  bench::FrontendOutput a;
+  for (int i = 0; i < 1000; ++i) {
+    a.current.left_x.push_back(static_cast<float>(i));
+    a.current.left_y.push_back(5);
+    a.current.right_x.push_back(static_cast<float>(i) - 3);
+    a.current.left_index.push_back(i);
+  }
+  CHECK(bench::agreement(a, a).good());
+  auto b = a;
+  b.current.right_x[10] += 0.5f;
+  CHECK(bench::agreement(a, b).stereo == Approx(0.999));
+  CHECK(bench::agreement(a, b).good());
+  for (int i = 20; i < 26; ++i) b.current.left_x[static_cast<std::size_t>(i)] += 0.1f;
+  CHECK_FALSE(bench::agreement(a, b).good());
+}
