@@ -112,7 +112,7 @@ TEST_CASE("batch report: shows every sequence, compares with baseline and peers,
 TEST_CASE("batch report: stays below five megabytes for a whole benchmark", "[report]") {
   const TemporaryFolder folder;
   std::vector<std::pair<std::string, report::RunRecord>> runs;
-  const auto run = made_up_run(700, 0.0001);
+  const auto run = made_up_run(300, 0.0001);
   for (int i = 0; i < 61; ++i) runs.emplace_back("sequence_" + std::to_string(i), run);
   write_batch(folder / "out", runs);
   for (int i = 0; i < 61; ++i) {
