@@ -95,7 +95,7 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   for (int i = 0; i < 256; ++i, ++x) cv::line(picture, {x, y - 12}, {x, y + 2}, colours[static_cast<std::size_t>(i)]);
   put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)", x + 6, y, kWhite);
   y = canvas.legend_y(1);
-  x = put_text(picture, "motion of quads since the frame before, one per cell of 16 px (dot: now):", 10, y, kWhite) + 10;
+  x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kWhite) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
