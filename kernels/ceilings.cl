@@ -2,7 +2,8 @@
 //
 // ceiling_copy   In: `count` vectors of 16 floats. Out: the same elsewhere. Each work-item takes its share of neighbouring vectors
 //                where CHUNK is above 1 (CPUs), or every get_global_size(0)-th one (GPUs), so that loads are contiguous for both.
-// ceiling_fma    Out: one sum per work-item, of ROUNDS * 8 * 16 fused multiply-adds in eight chains of float16, which wait for nobody.
+// ceiling_fma    Out: one sum per work-item, of ROUNDS * 8 * 16 fused multiply-adds in eight chains of float16, which wait for nobody and
+//                stay in registers once the loops over them are unrolled.
 
 #ifndef CHUNK
 #define CHUNK 1
@@ -21,12 +22,12 @@ kernel void ceiling_copy(global const float* source, const int count, global flo
 
 kernel void ceiling_fma(const float factor, global float* sums) {
   float16 chain[8];
-  for (int k = 0; k < 8; ++k) chain[k] = (float16)((float)(k + (int)get_global_id(0)));
+  _Pragma("unroll") for (int k = 0; k < 8; ++k) chain[k] = (float16)((float)(k + (int)get_global_id(0)));
   for (int round = 0; round < ROUNDS; ++round) {
-    for (int k = 0; k < 8; ++k) chain[k] = fma(chain[k], (float16)(factor), (float16)(0.5f));
+    _Pragma("unroll") for (int k = 0; k < 8; ++k) chain[k] = fma(chain[k], (float16)(factor), (float16)(0.5f));
   }
   float16 sum = 0.0f;
-  for (int k = 0; k < 8; ++k) sum += chain[k];
+  _Pragma("unroll") for (int k = 0; k < 8; ++k) sum += chain[k];
   const float8 eight = sum.lo + sum.hi;
   const float4 four = eight.lo + eight.hi;
   sums[get_global_id(0)] = (four.x + four.y) + (four.z + four.w);
