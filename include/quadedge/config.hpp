@@ -39,7 +39,7 @@ struct StereoConfig {
   double max_disparity = 0.0;       ///< largest disparity [px]; 0: from min_depth, or else from the data set's reader
   double orientation = 10.0;        ///< [deg], modulo 360: contrast keeps its sign
   double sift_max = 500.0;          ///< largest SIFT distance
-  double ncc_min = 0.6;             ///< smallest NCC
+  double ncc_min = 0.4;             ///< smallest NCC; the refined places are judged more strictly
   double ncc_nearly_best = 0.9;     ///< share of the best NCC that is kept
   double sift_nearly_best = 0.4;    ///< best distance / distance that is kept
   double min_epipolar_angle = 4.0;  ///< edges nearer to their epipolar line take no part [deg]
