@@ -4,7 +4,7 @@
 #   run_sanitizers.sh REPOSITORY BUILD_FOLDER
 set -euo pipefail
 repository="$1" build="$2/sanitize"
-cmake -S "$repository" -B "$build" -G Ninja -DQUADEDGE_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1"
+cmake -S "$repository" -B "$build" -G Ninja -DQUADEDGE_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1"
 cmake --build "$build" --target quadedge_tests
 printf 'leak:libpocl\nleak:libLLVM\nleak:libOpenCL\n' >"$build/leaks_of_drivers"
 export ASAN_OPTIONS=detect_leaks=1:abort_on_error=0:exitcode=99 LSAN_OPTIONS="suppressions=$build/leaks_of_drivers" UBSAN_OPTIONS=print_stacktrace=1
