@@ -18,11 +18,10 @@ constexpr Belongs kStereo[] = {{"stereo.epipolar_distance", 1}, {"stereo.min_dep
                                {"stereo.max_disparity", 2},     {"stereo.orientation", 3},
                                {"stereo.sift_max", 4},          {"stereo.ncc_min", 5},
                                {"stereo.ncc_nearly_best", 6},   {"stereo.sift_nearly_best", 7},
-                               {"stereo.shift", 8},             {"stereo.refine", 8},
-                               {"stereo.cluster", 8},           {"stereo.ncc_min", 9}};
+                               {"stereo.shift", 8},             {"stereo.refine_", 8},
+                               {"stereo.cluster", 8},           {"stereo.refined_ncc_min", 9}};
 constexpr Belongs kTemporal[] = {{"temporal.radius", 1},   {"temporal.orientation", 2},     {"temporal.ncc_min", 3},
-                                 {"temporal.sift_max", 4}, {"temporal.ncc_nearly_best", 5}, {"temporal.sift_nearly_best", 6},
-                                 {"temporal.refine", 8},   {"temporal.cluster", 8}};
+                                 {"temporal.sift_max", 4}, {"temporal.ncc_nearly_best", 5}, {"temporal.sift_nearly_best", 6}};
 
 template <class Table>
 std::vector<int> rows_of(const std::string& key, const Table& table, int last) {
