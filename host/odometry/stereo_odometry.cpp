@@ -4,10 +4,9 @@
 
 #include "odometry/disparity_offset.hpp"
 #include "odometry/key_rig.hpp"
-#include "odometry/prediction.hpp"
+#include "odometry/motion_search.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
-#include "pose/motion.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
@@ -16,8 +15,6 @@
 namespace quadedge {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kSettled = 0.3;  ///< mean distance of predicted places that calls for no further search [px]
 constexpr int kLostBeforeRestart = 2;  // frames with edges but without a motion, until tracking restarts from the newest one
 
 /// Milliseconds since the last lap, steady clock.
@@ -84,7 +81,8 @@ const char* to_string(FrameStatus status) {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoRig& rig, Device& device, const Config& config)
-      : rig_(rig), device_(device), config_(config), frontend_(stages::make_frontend(rig, device, config)), offset_(rig, config.pose) {}
+      : rig_(rig), device_(device), config_(config), frontend_(stages::make_frontend(rig, device, config)), offset_(rig, config.pose),
+        search_(rig, config, *frontend_, offset_) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
@@ -94,30 +92,17 @@ class StereoOdometry::Implementation {
   const Config& config() const { return config_; }
 
  private:
-  /// Quads between a base and the current frame, and the motion they agree on.
-  struct Step {
-    stages::Base base = stages::Base::previous;
-    TemporalMatches matches;
-    pose::QuadObservations quads;
-    pose::MotionEstimate motion;
-  };
-
-  Step scout(const std::optional<Eigen::Isometry3d>& prediction, double radius);
-  Step match(stages::Base base, Eigen::Isometry3d prediction);
-  Step estimate(stages::Base base, stages::TemporalSearch search, const std::optional<Eigen::Isometry3d>& prediction,
-                const PoseConfig& limits);
-  Step find_step();
-  void locate(const Step& step, FrameResult& result);
+  void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
   void become_base(const FrameResult& result);
   std::optional<Eigen::Isometry3d> predicted_motion() const;
-  double min_epipolar_angle() const { return config_.stereo.min_epipolar_angle * kDegree; }
 
   StereoRig rig_;
   Device& device_;
   Config config_;
   std::unique_ptr<stages::Frontend> frontend_;
   odometry::DisparityOffset offset_;
+  odometry::MotionSearch search_;
   odometry::KeyRig key_rig_;
 
   int frame_ = -1;                 ///< number of the current frame
@@ -168,7 +153,8 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     key_rig_.start(frame_, result.world_from_left);
     become_base(result);
   } else {
-    Step step = find_step();
+    odometry::MotionStep step =
+        search_.find({predicted_motion(), base_from_key_, base_frame_ == key_rig_.frame(), config_.seed + static_cast<std::uint64_t>(frame_)});
     result.counts.temporal_left = frontend_->counts().temporal_left;
     result.counts.temporal_right = frontend_->counts().temporal_right;
     result.counts.quads = static_cast<int>(step.matches.size());
@@ -202,79 +188,8 @@ std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motio
   return motion;
 }
 
-StereoOdometry::Implementation::Step StereoOdometry::Implementation::estimate(stages::Base base, stages::TemporalSearch search,
-                                                                              const std::optional<Eigen::Isometry3d>& prediction,
-                                                                              const PoseConfig& limits) {
-  const StereoRig& rig = offset_.rig();
-  Step step;
-  step.base = base;
-  step.matches = frontend_->match(base, search);
-  step.quads = pose::build_quads(rig, frontend_->base(base), frontend_->current(), step.matches, pose::QuadLimits(config_));
-  step.motion = pose::estimate_motion(rig, step.quads, limits, config_.seed + static_cast<std::uint64_t>(frame_), prediction,
-                                      offset_.variance());
-  return step;
-}
-
-/// Looks for the motion since the previous rig with a part of the edges. What it suggests need not convince.
-StereoOdometry::Implementation::Step StereoOdometry::Implementation::scout(const std::optional<Eigen::Isometry3d>& prediction,
-                                                                           double radius) {
-  PoseConfig lenient = config_.pose;
-  lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
-  lenient.min_spread = 0;
-  const StereoEdges& previous = frontend_->base(stages::Base::previous);
-  const int every = std::max(1, static_cast<int>(previous.size()) / config_.temporal.scout_edges);
-  auto search = odometry::predict_places(offset_.rig(), previous, prediction, radius, every, min_epipolar_angle());
-  search.scout = true;
-  return estimate(stages::Base::previous, std::move(search), prediction, lenient);
-}
-
-/// Matches all edges of a base within a few pixels of where a motion predicts them, again around what that finds until the places
-/// stay. Within so few pixels a wrong motion finds some support too: a true one has to find more.
-StereoOdometry::Implementation::Step StereoOdometry::Implementation::match(stages::Base base, Eigen::Isometry3d prediction) {
-  const auto places = [&](const Eigen::Isometry3d& motion) {
-    return odometry::predict_places(offset_.rig(), frontend_->base(base), motion, config_.temporal.radius, 1, min_epipolar_angle());
-  };
-  auto search = places(prediction);
-  Step step;
-  for (int round = 0; round < config_.temporal.rounds; ++round) {
-    step = estimate(base, search, prediction, config_.pose);
-    if (step.motion.status != pose::MotionStatus::ok) break;
-    const int in_view = odometry::count_in_view(rig_.left, search.left);
-    if (step.motion.inliers < config_.temporal.min_support * in_view) {
-      step.motion.status = pose::MotionStatus::no_consensus;
-      break;
-    }
-    prediction = step.motion.current_from_previous;
-    auto next = places(prediction);
-    if (odometry::mean_distance(search.left, next.left) < kSettled) break;
-    search = std::move(next);
-  }
-  return step;
-}
-
-/// A scout finds the motion since the previous rig, in growing circles; it guides the matching with the key rig or, where that one is
-/// out of sight, with the previous rig, and that matching has to convince.
-StereoOdometry::Implementation::Step StereoOdometry::Implementation::find_step() {
-  const auto prediction = predicted_motion();
-  std::vector<double> radii = {config_.temporal.scout_radius_wide * rig_.left.width,
-                               config_.temporal.scout_radius_widest * rig_.left.width};
-  if (prediction) radii.insert(radii.begin(), config_.temporal.scout_radius);
-  Step step;
-  for (const double radius : radii) {
-    step = scout(prediction, radius);
-    if (step.motion.status != pose::MotionStatus::ok) continue;
-    const Eigen::Isometry3d motion = step.motion.current_from_previous;
-    step = match(stages::Base::key, motion * base_from_key_);
-    if (step.motion.status == pose::MotionStatus::ok) break;
-    if (base_frame_ == key_rig_.frame()) continue;
-    step = match(stages::Base::previous, motion);
-    if (step.motion.status == pose::MotionStatus::ok) break;
-  }
-  return step;
-}
-
 /// Pose against the key rig, or against the previous frame where the key rig is out of sight: then this frame is the next key rig.
-void StereoOdometry::Implementation::locate(const Step& step, FrameResult& result) {
+void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == stages::Base::key;
   Eigen::Isometry3d current_from_key = step.motion.current_from_previous;
   Eigen::Matrix<double, 6, 6> covariance = step.motion.covariance;
