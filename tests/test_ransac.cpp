@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
+#include "pose/constraints.hpp"
 #include "pose/ransac.hpp"
+#include "pose/two_quads.hpp"
 
 using namespace quadedge::pose;
 
@@ -93,4 +95,34 @@ TEST_CASE("The search stops early when most quads agree, and the same seed gives
   CHECK(a.draws == b.draws);
   const Consensus other = search(problem, good, config, 8);
   CHECK(other.draws != a.draws);
+}
+
+TEST_CASE("Without local optimisation the motion is the one of two quads as they were measured", "[pose][ransac]") {
+  quadedge::PoseConfig config;
+  config.local_rounds = 0;
+  config.local_widening = 1;
+  generated::Problem problem = drive();
+  problem.quads = 300;
+  const auto exact = generated::generate(problem, 44);
+  const Consensus found = search(problem, exact, config);
+  REQUIRE(found.found);
+  CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1e-6);
+  // Of noisy quads it is one of the pairs' own motions, and so farther off than the polished one.
+  problem.noise = generated::Noise{0.12, 0.4, 0.02};
+  const auto noisy = generated::generate(problem, 44);
+  const Consensus plain = search(problem, noisy, config);
+  REQUIRE(plain.found);
+  bool of_a_pair = false;
+  const double max_cosine = ConstraintLimits(config).max_cosine;
+  for (std::size_t a = 0; a < noisy.quads.size() && !of_a_pair; ++a) {
+    for (std::size_t b = 0; b < noisy.quads.size() && !of_a_pair; ++b) {
+      if (a == b) continue;
+      const auto motion = solve_two_quads({noisy.quads.previous_points[a], noisy.quads.previous_points[b]},
+                                          {noisy.quads.current_points[a], noisy.quads.current_points[b]}, max_cosine);
+      of_a_pair = motion && motion->matrix() == plain.current_from_previous.matrix();
+    }
+  }
+  CHECK(of_a_pair);
+  CHECK(generated::translation_error(plain.current_from_previous, problem.motion) >
+        generated::translation_error(search(problem, noisy, {}).current_from_previous, problem.motion));
 }

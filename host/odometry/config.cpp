@@ -110,7 +110,7 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("pose.min_pair_distance", &pose.min_pair_distance, "between a sample's quads [share of the image diagonal]", 0, 1);
   visit("pose.preview", &pose.preview, "quads on which hypotheses are compared", 2, kLargestInt);
   visit("pose.local_widening", &pose.local_widening, "first inlier distance of the local optimisation, times inlier_distance", 1, 100);
-  visit("pose.local_rounds", &pose.local_rounds, "rounds of the local optimisation", 1, 100);
+  visit("pose.local_rounds", &pose.local_rounds, "rounds of the local optimisation; 0: samples are not polished at all", 0, 100);
   visit("pose.refine", &pose.refine, "least squares over the inliers at the end", 0, 1);
   visit("pose.refine_rounds", &pose.refine_rounds, "selections of inliers, each followed by a fit", 1, 100);
   visit("pose.fit_steps", &pose.fit_steps, "Gauss-Newton steps of one fit", 1, 100);

@@ -95,7 +95,7 @@ class Search {
       std::swap(after.first, after.second);
     }
     auto motion = solve_two_quads(before, after, limits_.max_cosine);
-    if (!motion) return std::nullopt;
+    if (!motion || config_.local_rounds == 0) return motion;
     pair_rows_[0] = static_cast<std::int32_t>(a);
     pair_rows_[1] = static_cast<std::int32_t>(b);
     Eigen::Isometry3d polished = *motion;
@@ -108,6 +108,7 @@ class Search {
     if (best_.found && raw >= best_raw_) return;
     best_raw_ = raw;
     accept(motion);
+    if (config_.local_rounds == 0) return;
     if (const auto better = optimise(motion)) accept(*better);
   }
 

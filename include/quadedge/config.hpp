@@ -99,7 +99,7 @@ struct PoseConfig {
   double min_pair_distance = 0.05;   ///< of a sample's two quads in the image, share of the image diagonal
   int preview = 512;                 ///< quads on which hypotheses are compared; promising ones see all
   double local_widening = 4.0;       ///< inlier distance of raw samples and of the local optimisation's start, times inlier_distance
-  int local_rounds = 3;              ///< rounds of the local optimisation, narrowing to inlier_distance
+  int local_rounds = 3;              ///< rounds of the local optimisation, narrowing to inlier_distance; 0: samples are not polished at all
   bool refine = true;                ///< least squares over the inliers at the end
   int refine_rounds = 4;             ///< selections of inliers, each followed by a fit
   int fit_steps = 5;                 ///< Gauss-Newton steps of one fit
