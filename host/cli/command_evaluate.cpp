@@ -1,12 +1,15 @@
 /// \file command_evaluate.cpp  quadedge evaluate trajectory: APE and RPE of a trajectory file.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
+#include "evaluation/step_judgement.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
@@ -14,6 +17,8 @@
 
 namespace quadedge::cli {
 namespace {
+
+constexpr std::int64_t kToleranceNs = 10'000'000;  // as evaluate_trajectory matches
 
 /// A trajectory and whether its stamps are times (TUM, data sets) or row numbers (KITTI).
 struct Loaded {
@@ -49,13 +54,14 @@ class EvaluateTrajectoryCommand : public Command {
   std::string about() const override { return "absolute and relative pose errors (APE, RPE) of a trajectory"; }
   std::string examples() const override {
     return "  quadedge evaluate trajectory results_06/trajectory_kitti.txt kitti/poses/06.txt --from-frame 10\n"
-           "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --json errors.json";
+           "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --steps --json errors.json";
   }
   void declare(Options& options) override {
     options.positional("ESTIMATE", estimate_, "TUM or KITTI file");
     options.positional("TRUTH", truth_, "TUM or KITTI file, or the folder of a sequence with ground truth");
     options.number("--from-frame", from_frame_, "leave out the poses before this one of the estimate");
     options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when TRUTH is a folder with several", "NAME");
+    options.flag("--steps", steps_, "also judge each step by itself: right below 5 cm + 10 % of the motion and 2 degrees");
     options.text("--json", json_, "also write the errors, per pose too, to a file", "FILE");
     options.flag("--force", force_, "replace the --json file");
   }
@@ -65,42 +71,48 @@ class EvaluateTrajectoryCommand : public Command {
     refuse_existing_file(json_, force_);
     Loaded estimate = load_file(estimate_);
     Trajectory truth;
+    std::vector<std::int64_t> frames;
     bool row_numbers = false;
     if (std::filesystem::is_directory(truth_)) {
-      truth = folder_truth(estimate);
+      truth = folder_truth(estimate, frames);
     } else {
       Loaded file = load_file(truth_);
       row_numbers = !estimate.timed && !file.timed;
       if (estimate.timed && !file.timed) give_stamps(file.poses, stamps_of(estimate.poses), truth_, estimate_);
       if (!estimate.timed && file.timed) give_stamps(estimate.poses, stamps_of(file.poses), estimate_, truth_);
       truth = std::move(file.poses);
+      frames = stamps_of(truth);
     }
     // Row numbers are one "nanosecond" apart: only equal ones belong together.
     const TrajectoryEvaluation result = row_numbers ? evaluate_trajectory(estimate.poses, truth, from_frame_, 0)
                                                     : evaluate_trajectory(estimate.poses, truth, from_frame_);
     std::printf("estimate   %s\ntruth      %s\n", estimate_.c_str(), truth_.c_str());
     print_evaluation(result);
-    if (!json_.empty()) data::write_atomically(json_, report::evaluation_json(result, estimate_, truth_));
+    std::optional<evaluation::StepJudgement> steps;
+    if (steps_) {
+      const std::int64_t tolerance = row_numbers ? 0 : kToleranceNs, first = result.per_pose.front().stamp_ns - tolerance;
+      if (from_frame_ > 0) frames.erase(frames.begin(), std::lower_bound(frames.begin(), frames.end(), first));
+      steps = evaluation::judge_steps(estimate.poses, truth, frames, {}, tolerance);
+      std::printf("\nsteps      %d right, %d wrong, %d lost of %d\n", steps->right, steps->wrong, steps->lost, steps->steps());
+    }
+    if (!json_.empty()) data::write_atomically(json_, report::evaluation_json(result, estimate_, truth_, steps));
     return 0;
   }
 
  private:
-  /// Ground truth of a sequence's folder; gives the estimate the stamps of its frames if it has none.
-  Trajectory folder_truth(Loaded& estimate) const {
+  /// Ground truth of a sequence's folder and the stamps of its frames; gives these to the estimate if it has none.
+  Trajectory folder_truth(Loaded& estimate, std::vector<std::int64_t>& frames) const {
     const Dataset dataset = open_dataset(truth_, dataset_);
     if (dataset.truth.empty()) throw DataError(truth_ + ": the sequence has no ground truth");
-    if (!estimate.timed) {
-      std::vector<std::int64_t> stamps;
-      for (const auto& frame : dataset.frames) stamps.push_back(frame.stamp_ns);
-      give_stamps(estimate.poses, stamps, estimate_, truth_);
-    }
+    for (const auto& frame : dataset.frames) frames.push_back(frame.stamp_ns);
+    if (!estimate.timed) give_stamps(estimate.poses, frames, estimate_, truth_);
     return dataset.truth;
   }
 
   std::string estimate_, truth_, json_;
   DatasetOptions dataset_;
   int from_frame_ = 0;
-  bool force_ = false;
+  bool force_ = false, steps_ = false;
 };
 
 }  // namespace

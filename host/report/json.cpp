@@ -67,13 +67,17 @@ std::string report_json(const RunRecord& run) {
   return json_text(report);
 }
 
-std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate, const std::string& truth) {
+std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate, const std::string& truth,
+                            const std::optional<evaluation::StepJudgement>& steps) {
   Json json;
   json["schema"] = kReportSchema;
   json["version"] = QUADEDGE_VERSION;
   json["estimate"] = estimate;
   json["truth"] = truth;
   json["accuracy"] = accuracy(evaluation);
+  if (steps) {
+    json["steps"] = {{"right", steps->right}, {"wrong", steps->wrong}, {"lost", steps->lost}, {"wrong_stamps_ns", steps->wrong_stamps_ns}};
+  }
   json["per_pose"] = Json::array();
   for (const auto& pose : evaluation.per_pose) {
     json["per_pose"].push_back({{"stamp_ns", pose.stamp_ns},

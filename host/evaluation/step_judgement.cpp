@@ -1,0 +1,49 @@
+#include "evaluation/step_judgement.hpp"
+
+#include <algorithm>
+
+namespace quadedge::evaluation {
+namespace {
+
+constexpr double kDegreesPerRadian = 57.295779513082320876798;
+
+/// The pose nearest in time; null where none is near enough.
+const Eigen::Isometry3d* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
+  const auto later = std::lower_bound(poses.begin(), poses.end(), stamp_ns,
+                                      [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
+  const auto distance = [&](Trajectory::const_iterator pose) { return std::abs(pose->stamp_ns - stamp_ns); };
+  auto nearest = later;
+  if (later != poses.begin() && (later == poses.end() || distance(std::prev(later)) < distance(later))) nearest = std::prev(later);
+  return nearest != poses.end() && distance(nearest) <= tolerance_ns ? &nearest->world_from_left : nullptr;
+}
+
+}  // namespace
+
+StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth, const std::vector<std::int64_t>& frames_ns,
+                          const StepLimits& limits, std::int64_t max_stamp_difference_ns) {
+  StepJudgement result;
+  for (std::size_t i = 1; i < frames_ns.size(); ++i) {
+    const auto* true_before = pose_at(truth, frames_ns[i - 1], max_stamp_difference_ns);
+    const auto* true_after = pose_at(truth, frames_ns[i], max_stamp_difference_ns);
+    if (true_before == nullptr || true_after == nullptr) continue;
+    const auto* before = pose_at(estimate, frames_ns[i - 1], max_stamp_difference_ns);
+    const auto* after = pose_at(estimate, frames_ns[i], max_stamp_difference_ns);
+    if (before == nullptr || after == nullptr) {
+      ++result.lost;
+      continue;
+    }
+    const Eigen::Isometry3d true_step = true_before->inverse() * *true_after;
+    const Eigen::Isometry3d error = true_step.inverse() * (before->inverse() * *after);
+    const double degrees = Eigen::AngleAxisd(error.linear()).angle() * kDegreesPerRadian;
+    const double allowed = limits.translation_m + limits.translation_share * true_step.translation().norm();
+    if (error.translation().norm() < allowed && degrees < limits.rotation_deg) {
+      ++result.right;
+    } else {
+      ++result.wrong;
+      result.wrong_stamps_ns.push_back(frames_ns[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace quadedge::evaluation
