@@ -1,6 +1,7 @@
 /// \file command_demo.cpp  quadedge demo: the built-in sequence, run and evaluated.
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/scene_options.hpp"
 #include "cli/sequence_run.hpp"
 #include "quadedge/error.hpp"
 
@@ -18,15 +19,14 @@ class DemoCommand : public Command {
 
   void declare(Options& options) override {
     options.text("-o,--output", run_.output, "folder for the results", "OUT");
-    options.choice("--scene", scene_.scene, {"room", "cables"}, "room, or cables: thin curves before a plain wall");
-    options.number("--frames", scene_.frames, "length of the sequence");
-    options.text("--size", size_, "size of the images [px]; default 942x489", "WxH");
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
     options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
     options.number("--draw", run_.draw_every, "pictures of the edges and quads of every N-th frame; 0: of the middle frame");
     options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");
     options.flag("--force", run_.force, "replace the results in OUT");
     options.flag("--quiet", run_.quiet, "no progress");
+    options.number("--scene-seed", scene_.seed, "of textures, cable shapes and camera noise");
+    declare_scene(options, scene_, size_);
     method_.declare(options);
   }
 

@@ -61,13 +61,18 @@ class EvaluateTrajectoryCommand : public Command {
     options.positional("TRUTH", truth_, "TUM or KITTI file, or the folder of a sequence with ground truth");
     options.number("--from-frame", from_frame_, "leave out the poses before this one of the estimate");
     options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when TRUTH is a folder with several", "NAME");
-    options.flag("--steps", steps_, "also judge each step by itself: right below 5 cm + 10 % of the motion and 2 degrees");
+    options.flag("--steps", steps_, "also judge each step by itself: right below a limit + 10 % of the motion, and below an angle");
+    options.number("--step-metres", step_limits_.translation_m, "that limit [m]");
+    options.number("--step-degrees", step_limits_.rotation_deg, "and that angle [deg]");
     options.text("--json", json_, "also write the errors, per pose too, to a file", "FILE");
     options.flag("--force", force_, "replace the --json file");
   }
 
   int run() override {
     if (from_frame_ < 0) throw UsageError("--from-frame " + std::to_string(from_frame_) + ": expected 0 or more");
+    if (!(step_limits_.translation_m >= 0 && step_limits_.rotation_deg > 0)) {
+      throw UsageError("--step-metres, --step-degrees: expected at least 0 m and more than 0 degrees");
+    }
     refuse_existing_file(json_, force_);
     Loaded estimate = load_file(estimate_);
     Trajectory truth;
@@ -92,7 +97,7 @@ class EvaluateTrajectoryCommand : public Command {
     if (steps_) {
       const std::int64_t tolerance = row_numbers ? 0 : kToleranceNs, first = result.per_pose.front().stamp_ns - tolerance;
       if (from_frame_ > 0) frames.erase(frames.begin(), std::lower_bound(frames.begin(), frames.end(), first));
-      steps = evaluation::judge_steps(estimate.poses, truth, frames, {}, tolerance);
+      steps = evaluation::judge_steps(estimate.poses, truth, frames, step_limits_, tolerance);
       std::printf("\nsteps      %d right, %d wrong, %d lost of %d\n", steps->right, steps->wrong, steps->lost, steps->steps());
     }
     if (!json_.empty()) data::write_atomically(json_, report::evaluation_json(result, estimate_, truth_, steps));
@@ -113,6 +118,7 @@ class EvaluateTrajectoryCommand : public Command {
   DatasetOptions dataset_;
   int from_frame_ = 0;
   bool force_ = false, steps_ = false;
+  evaluation::StepLimits step_limits_;
 };
 
 }  // namespace

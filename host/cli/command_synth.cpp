@@ -5,6 +5,7 @@
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
+#include "cli/scene_options.hpp"
 #include "data/eth3d_slam_writer.hpp"
 #include "quadedge/error.hpp"
 
@@ -17,16 +18,14 @@ class SynthCommand : public Command {
   std::string about() const override { return "write the rendered sequence to disk (ETH3D SLAM layout, with depth and poses)"; }
   std::string examples() const override {
     return "  quadedge synth room60 --scene room --frames 60\n"
-           "  quadedge synth small --scene cables --frames 4 --size 320x200";
+           "  quadedge synth blurred --scene cables --frames 4 --size 320x200 --blur 3";
   }
   void declare(Options& options) override {
     options.positional("OUT", output_, "folder for the sequence");
-    options.choice("--scene", scene_.scene, {"room", "cables"}, "room, or cables: thin curves before a plain wall");
-    options.number("--frames", scene_.frames, "length of the sequence");
-    options.text("--size", size_, "size of the images [px]; default 942x489", "WxH");
     options.number("--seed", scene_.seed, "of textures and camera noise");
     options.flag("--force", force_, "replace the sequence in OUT");
     options.flag("--quiet", quiet_, "no progress");
+    declare_scene(options, scene_, size_);
   }
   int run() override {
     set_size(scene_, size_);

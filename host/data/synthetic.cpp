@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
+#include "data/synthetic_disturbance.hpp"
 #include "data/synthetic_hash.hpp"
 #include "data/synthetic_path.hpp"
-#include "data/synthetic_render.hpp"
 #include "data/synthetic_scenes.hpp"
 #include "quadedge/error.hpp"
 
@@ -31,6 +32,10 @@ void check(const SyntheticOptions& options) {
   require(options.focal >= 4.0 && options.focal <= 1e5, "focal", options.focal, "4 to 100000 px");
   require(options.baseline >= 1e-3 && options.baseline <= 0.5, "baseline", options.baseline, "0.001 to 0.5 m");
   require(options.noise >= 0.0 && options.noise <= 100.0, "noise", options.noise, "0 to 100 grey levels");
+  require(options.gain >= 0.1 && options.gain <= 10.0, "gain", options.gain, "0.1 to 10");
+  require(options.right_gain >= 0.1 && options.right_gain <= 10.0, "right_gain", options.right_gain, "0.1 to 10");
+  require(options.blur >= 0.0 && options.blur <= 50.0, "blur", options.blur, "0 to 50 px");
+  require(options.mover >= 0.0 && options.mover <= 0.6, "mover", options.mover, "0 to 0.6");
   require(options.supersampling >= 1 && options.supersampling <= 64, "supersampling", options.supersampling, "1 to 64");
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads, "0 (one per processor) to 1024");
 }
@@ -52,6 +57,7 @@ class SyntheticSequence::Implementation {
   SyntheticOptions options;
   StereoRig rig;
   synthetic::Scene scene;
+  std::optional<synthetic::MovingBoard> board;
 };
 
 SyntheticSequence::SyntheticSequence(const SyntheticOptions& options) : implementation_(std::make_unique<Implementation>()) {
@@ -60,6 +66,7 @@ SyntheticSequence::SyntheticSequence(const SyntheticOptions& options) : implemen
   implementation_->rig = make_rig(options);
   implementation_->scene = options.scene == "room" ? synthetic::make_room(options.seed, options.focal)
                                                    : synthetic::make_cables(options.seed, options.focal);
+  if (options.mover > 0.0) implementation_->board.emplace(implementation_->rig.left, options.mover, options.seed);
 }
 
 SyntheticSequence::~SyntheticSequence() = default;
@@ -75,18 +82,17 @@ Eigen::Isometry3d SyntheticSequence::world_from_left(int frame) const { return s
 RenderedView SyntheticSequence::render(int frame, bool right) const {
   const SyntheticOptions& options = implementation_->options;
   require(frame >= 0 && frame < options.frames, "frame", frame, "0 to frames - 1");
-  const PinholeCamera& camera = right ? rig().right : rig().left;
-  Eigen::Isometry3d camera_from_world = world_from_left(frame).inverse();
-  if (right) camera_from_world = rig().right_from_left * camera_from_world;
-  synthetic::Radiance radiance =
-      synthetic::render(implementation_->scene, camera, camera_from_world, options.supersampling, options.threads);
+  const synthetic::MovingBoard* board = implementation_->board ? &*implementation_->board : nullptr;
+  synthetic::Radiance radiance = synthetic::expose(implementation_->scene, board, rig(), right, frame, options.blur,
+                                                   options.supersampling, options.threads);
+  const double gain = (frame % 2 == 1 ? options.gain : 1.0) * (right ? options.right_gain : 1.0);
 
   RenderedView view;
   view.image = Image(options.width, options.height);
   view.depth = std::move(radiance.depth);
   const std::uint64_t key = synthetic::combine(synthetic::combine(options.seed, frame), right ? 1 : 0);
   for (std::size_t i = 0; i < radiance.grey.size(); ++i) {
-    double grey = radiance.grey[i];
+    double grey = gain * radiance.grey[i];
     if (options.noise > 0.0) grey += options.noise * synthetic::normal(synthetic::combine(key, static_cast<std::int64_t>(i)));
     view.image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::floor(grey + 0.5), 0.0, 255.0));
   }

@@ -160,9 +160,10 @@ class TileRenderer {
 }  // namespace
 
 Radiance render(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world, int supersampling,
-                int threads) {
+                int threads, const Surface* extra) {
   VisibleSurfaces parts;
   for (const auto& surface : scene.surfaces) surface->view(camera_from_world, parts);
+  if (extra != nullptr) extra->view(camera_from_world, parts);
   const TiledView tiled(parts, camera);
 
   Radiance view;

@@ -17,7 +17,8 @@ struct Radiance {
 /// silhouette's place would be rounded to a part of the grid's step: pixels whose rays or corners meet more than one object
 /// get 4 times as many, in a low-discrepancy set that is shifted at random from pixel to pixel (unbiased in every direction).
 /// \param threads  0: one per processor. The result does not depend on it.
+/// \param extra    one more surface in the scene, or null
 Radiance render(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world, int supersampling,
-                int threads);
+                int threads, const Surface* extra = nullptr);
 
 }  // namespace quadedge::synthetic

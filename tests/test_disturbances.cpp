@@ -1,0 +1,180 @@
+/// \file test_disturbances.cpp  Rendered sequences with light changes, blur, noise and a moving board, and what the odometry makes of them.
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "devices.hpp"
+#include "evaluation/step_judgement.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/synthetic.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+SyntheticOptions small_scene(const std::string& scene) {
+  SyntheticOptions options;
+  options.scene = scene;
+  options.width = 400;
+  options.height = 250;
+  options.focal = 230;
+  options.baseline = 0.12;
+  options.frames = 5;
+  options.supersampling = 3;
+  return options;
+}
+
+double mean(const Image& image) {
+  return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) / static_cast<double>(image.pixels.size());
+}
+
+/// Mean square difference of neighbours in a row.
+double sharpness(const Image& image) {
+  double sum = 0;
+  for (std::size_t i = 1; i < image.pixels.size(); ++i) {
+    const double step = static_cast<double>(image.pixels[i]) - static_cast<double>(image.pixels[i - 1]);
+    sum += step * step;
+  }
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+/// Share of the view nearer than anything in the scene but the board.
+double near_share(const RenderedView& view) {
+  double near = 0;
+  for (const float depth : view.depth) near += depth > 0 && depth < 1.25F ? 1 : 0;
+  return near / static_cast<double>(view.depth.size());
+}
+
+struct Tracked {
+  evaluation::StepJudgement steps;
+  int lost = 0;
+};
+
+/// Tracks with the defaults. Steps of 2 to 3 cm and half a degree are wrong beyond 5 mm + 10 % and 0.25 degrees.
+Tracked track(const SyntheticOptions& options, Device& device) {
+  const SyntheticSequence sequence(options);
+  Config config;
+  config.stereo.max_disparity = sequence.max_disparity();
+  StereoOdometry odometry(sequence.rig(), device, config);
+  Trajectory estimate, truth;
+  std::vector<std::int64_t> stamps;
+  Tracked tracked;
+  for (int i = 0; i < options.frames; ++i) {
+    const Image left = sequence.render(i, false).image, right = sequence.render(i, true).image;
+    const auto result = odometry.track({sequence.stamp_ns(i), left.view(), right.view()});
+    stamps.push_back(sequence.stamp_ns(i));
+    truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
+    if (is_tracked(result.status)) estimate.push_back({sequence.stamp_ns(i), result.world_from_left});
+    else ++tracked.lost;
+  }
+  tracked.steps = evaluation::judge_steps(estimate, truth, stamps, {5e-3, 0.1, 0.25});
+  return tracked;
+}
+
+}  // namespace
+
+TEST_CASE("disturbances: light and exposure scale the images they should", "[synthetic]") {
+  SyntheticOptions options = small_scene("cables");
+  options.noise = 0;
+  const SyntheticSequence still(options);
+  options.gain = 0.5;
+  options.right_gain = 0.8;
+  const SyntheticSequence changing(options);
+  CHECK(changing.render(0, false).image.pixels == still.render(0, false).image.pixels);
+  CHECK(mean(changing.render(1, false).image) == Approx(0.5 * mean(still.render(1, false).image)).epsilon(0.01));
+  CHECK(mean(changing.render(1, true).image) == Approx(0.4 * mean(still.render(1, true).image)).epsilon(0.01));
+  CHECK(mean(changing.render(2, true).image) == Approx(0.8 * mean(still.render(2, true).image)).epsilon(0.01));
+}
+
+TEST_CASE("disturbances: blur smooths along the motion and moves nothing", "[synthetic]") {
+  SyntheticOptions options = small_scene("room");
+  options.noise = 0;
+  const RenderedView sharp = SyntheticSequence(options).render(2, false);
+  double last = sharpness(sharp.image);
+  for (const double blur : {1.0, 3.0, 5.0}) {
+    options.blur = blur;
+    const RenderedView blurred = SyntheticSequence(options).render(2, false);
+    CHECK(blurred.depth == sharp.depth);
+    CHECK(sharpness(blurred.image) < last);
+    CHECK(mean(blurred.image) == Approx(mean(sharp.image)).epsilon(0.01));
+    last = sharpness(blurred.image);
+    // The image moved by a pixel to either side fits worse than the one in place.
+    double places[3] = {0, 0, 0};
+    for (int y = 0; y < options.height; ++y) {
+      for (int x = 1; x + 1 < options.width; ++x) {
+        const auto at = [&](const Image& image, int column) { return static_cast<double>(image.pixels[static_cast<std::size_t>(y * options.width + column)]); };
+        for (int k = 0; k < 3; ++k) places[k] += std::pow(at(blurred.image, x) - at(sharp.image, x + k - 1), 2);
+      }
+    }
+    CHECK(places[1] < 0.9 * places[0]);
+    CHECK(places[1] < 0.9 * places[2]);
+  }
+}
+
+TEST_CASE("disturbances: a board covers its share of the view and moves against the scene", "[synthetic]") {
+  SyntheticOptions options = small_scene("room");
+  CHECK(near_share(SyntheticSequence(options).render(0, false)) == 0);
+  for (const double share : {0.1, 0.3}) {
+    options.mover = share;
+    const SyntheticSequence sequence(options);
+    const RenderedView first = sequence.render(0, false), later = sequence.render(4, false);
+    CHECK(near_share(first) == Approx(share).epsilon(0.15));
+    CHECK(near_share(later) == Approx(share).epsilon(0.15));
+    std::size_t changed = 0, of_board = 0;
+    for (std::size_t i = 0; i < first.depth.size(); ++i) {
+      if (!(first.depth[i] > 0 && first.depth[i] < 1.25F)) continue;
+      ++of_board;
+      changed += later.depth[i] < 1.25F ? 0 : 1;
+    }
+    CHECK(changed > of_board / 20);
+  }
+}
+
+TEST_CASE("disturbances: impossible ones are refused", "[synthetic]") {
+  const auto refused = [](const std::function<void(SyntheticOptions&)>& change) {
+    SyntheticOptions options = small_scene("room");
+    change(options);
+    CHECK_THROWS_AS(SyntheticSequence(options), UsageError);
+  };
+  refused([](SyntheticOptions& o) { o.gain = 0; });
+  refused([](SyntheticOptions& o) { o.right_gain = -1; });
+  refused([](SyntheticOptions& o) { o.blur = -0.1; });
+  refused([](SyntheticOptions& o) { o.mover = 0.7; });
+}
+
+TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][device]") {
+  Device device(all_devices().front());
+  struct Case {
+    const char* name;
+    double gain, right_gain, blur, noise, mover;
+    int most_lost;  ///< of the four frames, in the room
+  };
+  for (const Case& c : {Case{"half the light", 0.5, 1, 0, 1.5, 0, 0}, Case{"twice the light", 2, 1, 0, 1.5, 0, 0},
+                        Case{"right camera half exposed", 1, 0.5, 0, 1.5, 0, 0}, Case{"right camera twice exposed", 1, 2, 0, 1.5, 0, 0},
+                        Case{"blur of 5 px", 1, 1, 5, 1.5, 0, 0}, Case{"noise of 8 grey levels", 1, 1, 0, 8, 0, 0},
+                        Case{"a moving board over 30 %", 1, 1, 0, 1.5, 0.3, 0}}) {
+    for (const char* scene : {"room", "cables"}) {
+      SyntheticOptions options = small_scene(scene);
+      options.gain = c.gain;
+      options.right_gain = c.right_gain;
+      options.blur = c.blur;
+      options.noise = c.noise;
+      options.mover = c.mover;
+      options.frames = 4;
+      options.supersampling = 2;
+      if (c.mover > 0) {
+        // On a small image the board has more edges than the scene: before a plain wall at once, in the room where its fine leaves
+        // fall below a pixel. What most edges show is then taken for the scene.
+        if (options.scene == "cables") continue;
+        options.width = 640;
+        options.height = 332;
+        options.focal = 368;
+        options.baseline = 0.06;
+      }
+      const Tracked tracked = track(options, device);
+      INFO(scene << ", " << c.name << ": " << tracked.steps.right << " right, " << tracked.steps.wrong << " wrong, " << tracked.steps.lost << " lost");
+      CHECK(tracked.steps.wrong == 0);
+      if (std::string(scene) == "room") CHECK(tracked.lost <= c.most_lost);
+    }
+  }
+}
