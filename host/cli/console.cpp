@@ -131,6 +131,10 @@ void print_run(const report::RunRecord& run, const std::string& output) {
     }
   }
   if (run.accuracy) print_evaluation(*run.accuracy);
+  if (run.consistency.poses > 0) {
+    std::printf("\nnormalised error squared per degree of freedom (1: the covariances are honest), %d poses\n", run.consistency.poses);
+    std::printf("pose %.3f, rotation %.3f, translation %.3f\n", run.consistency.pose, run.consistency.rotation, run.consistency.translation);
+  }
   std::printf("\nresults in %s\n", output.c_str());
 }
 

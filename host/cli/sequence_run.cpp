@@ -174,6 +174,9 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
   const bool quiet = options.quiet;
   try {
     run.accuracy = evaluate_trajectory(tracked_poses(run), source.truth());
+    std::vector<FrameResult> results;
+    for (const auto& frame : run.frames) results.push_back(frame.result);
+    run.consistency = evaluation::judge_covariances(results, source.truth());
     data::write_atomically(options.output + "/errors.csv", report::errors_csv(*run.accuracy));
     const int missing = run.accuracy->estimate_poses - run.accuracy->matched;
     if (missing > 0) {

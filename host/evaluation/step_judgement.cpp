@@ -1,21 +1,11 @@
 #include "evaluation/step_judgement.hpp"
 
-#include <algorithm>
+#include "evaluation/pose_lookup.hpp"
 
 namespace quadedge::evaluation {
 namespace {
 
 constexpr double kDegreesPerRadian = 57.295779513082320876798;
-
-/// The pose nearest in time; null where none is near enough.
-const Eigen::Isometry3d* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
-  const auto later = std::lower_bound(poses.begin(), poses.end(), stamp_ns,
-                                      [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
-  const auto distance = [&](Trajectory::const_iterator pose) { return std::abs(pose->stamp_ns - stamp_ns); };
-  auto nearest = later;
-  if (later != poses.begin() && (later == poses.end() || distance(std::prev(later)) < distance(later))) nearest = std::prev(later);
-  return nearest != poses.end() && distance(nearest) <= tolerance_ns ? &nearest->world_from_left : nullptr;
-}
 
 }  // namespace
 

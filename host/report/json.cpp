@@ -62,6 +62,12 @@ std::string report_json(const RunRecord& run) {
   if (run.accuracy) {
     report["accuracy"] = accuracy(*run.accuracy);
     report["accuracy"]["truth_file"] = run.truth_file;
+    if (run.consistency.poses > 0) {
+      report["accuracy"]["normalised_error_squared"] = {{"poses", run.consistency.poses},
+                                                        {"pose", to_json(run.consistency.pose)},
+                                                        {"rotation", to_json(run.consistency.rotation)},
+                                                        {"translation", to_json(run.consistency.translation)}};
+    }
   }
   report["config"] = configuration(run.config);
   return json_text(report);

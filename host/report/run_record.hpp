@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/consistency.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/evaluation.hpp"
@@ -40,6 +41,7 @@ struct RunRecord {
   std::vector<std::vector<StageTime>> kernel_times;
   std::string truth_file;                        ///< empty without ground truth
   std::optional<TrajectoryEvaluation> accuracy;  ///< only with ground truth
+  evaluation::Consistency consistency;           ///< no poses without ground truth
 
   int tracked() const {
     int count = 0;

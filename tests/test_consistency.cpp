@@ -1,0 +1,80 @@
+#include <catch2/catch.hpp>
+
+#include <random>
+
+#include "evaluation/consistency.hpp"
+#include "pose/refinement.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Frames along a curve whose errors relative to the first one have the covariance `real`, and who claim `claimed`.
+struct Run {
+  std::vector<FrameResult> results;
+  Trajectory truth;
+  Run(int frames, const Matrix6d& real, const Matrix6d& claimed) {
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    const Matrix6d root = real.llt().matrixL();
+    const Eigen::Isometry3d world = Eigen::Translation3d(4, 5, 6) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+    for (int i = 0; i < frames; ++i) {
+      const Eigen::Isometry3d pose = Eigen::Translation3d(0.1 * i, 0, 1) * Eigen::AngleAxisd(0.02 * i, Eigen::Vector3d::UnitY());
+      truth.push_back({50'000'000LL * i, world * pose});
+      FrameResult result;
+      result.stamp_ns = truth.back().stamp_ns;
+      result.status = i == 0 ? FrameStatus::first : FrameStatus::tracked;
+      if (i > 0) {
+        Eigen::Matrix<double, 6, 1> white;
+        for (int k = 0; k < 6; ++k) white(k) = normal(random);
+        result.current_from_reference = pose::perturb(root * white, pose.inverse() * Eigen::Translation3d(0, 0, 1));
+        result.covariance = claimed;
+      }
+      results.push_back(result);
+    }
+  }
+};
+
+/// Rotations of about 1e-3 rad, translations of 1e-2 m, both correlated.
+Matrix6d covariance() {
+  Matrix6d root = Matrix6d::Zero();
+  root.diagonal() << 1e-3, 2e-3, 1e-3, 1e-2, 2e-2, 1e-2;
+  root(3, 1) = 8e-3;
+  root(5, 0) = -5e-3;
+  return root * root.transpose();
+}
+
+}  // namespace
+
+TEST_CASE("consistency: honest covariances give 1, those of half the size 4", "[evaluation]") {
+  const Run honest(2000, covariance(), covariance());
+  const auto one = evaluation::judge_covariances(honest.results, honest.truth);
+  CHECK(one.poses == 1999);
+  CHECK(one.pose == Approx(1).margin(0.05));         // standard deviation of the mean: 0.013
+  CHECK(one.rotation == Approx(1).margin(0.08));
+  CHECK(one.translation == Approx(1).margin(0.08));
+  const Run boasting(2000, covariance(), 0.25 * covariance());
+  CHECK(evaluation::judge_covariances(boasting.results, boasting.truth).pose == Approx(4).epsilon(0.05));
+}
+
+TEST_CASE("consistency: an error in the rotation alone is told apart", "[evaluation]") {
+  Matrix6d larger = covariance();
+  larger.topLeftCorner<3, 3>() *= 9;
+  larger.topRightCorner<3, 3>().setZero();
+  larger.bottomLeftCorner<3, 3>().setZero();
+  const Run run(2000, larger, covariance());
+  const auto result = evaluation::judge_covariances(run.results, run.truth);
+  CHECK(result.rotation == Approx(9).epsilon(0.08));
+  CHECK(result.translation == Approx(1).epsilon(0.08));
+}
+
+TEST_CASE("consistency: lost frames, frames without covariance and those without truth are left out", "[evaluation]") {
+  Run run(10, covariance(), covariance());
+  run.results[3].status = FrameStatus::lost_no_consensus;
+  run.results[4].covariance.setZero();
+  run.truth.erase(run.truth.begin() + 6);
+  CHECK(evaluation::judge_covariances(run.results, run.truth).poses == 6);
+  CHECK(evaluation::judge_covariances(run.results, {}).poses == 0);
+}
