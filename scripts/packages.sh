@@ -1,7 +1,7 @@
 # Installs Debian packages that are missing. Sourced by run.sh and test.sh.
 
 build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers
-  libeigen3-dev libopencv-dev
+  libeigen3-dev libtbb-dev libopencv-dev
   libcli11-dev catch2 nlohmann-json3-dev libxxhash-dev"
 test_packages="oclgrind clang python3-venv p7zip-full munge slurmctld slurmd slurm-client"
 

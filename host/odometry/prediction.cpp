@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pose/oriented_point.hpp"
+#include "pose/row_blocks.hpp"
 
 namespace quadedge::odometry {
 namespace {
@@ -28,7 +29,7 @@ stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& p
   search.right = {previous.right_x, previous.right_y, previous.right_direction};
   if (!current_from_previous) return search;
   const Eigen::Isometry3d right_from_previous = rig.right_from_left * *current_from_previous;
-  for (std::size_t i = 0; i < previous.size(); i += static_cast<std::size_t>(step)) {
+  const auto predict = [&](std::size_t i) {
     const pose::StereoObservation observation{{previous.left_x[i], previous.left_y[i]},
                                               {previous.right_x[i], previous.right_y[i]},
                                               previous.left_direction[i],
@@ -36,7 +37,11 @@ stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& p
     const auto point = pose::reconstruct(rig, observation, min_epipolar_angle);
     place(search.left, i, point ? pose::project(rig.left, *current_from_previous, *point) : std::nullopt);
     place(search.right, i, point ? pose::project(rig.right, right_from_previous, *point) : std::nullopt);
-  }
+  };
+  const auto every = static_cast<std::size_t>(step);
+  pose::for_row_blocks((previous.size() + every - 1) / every, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) predict(row * every);
+  });
   return search;
 }
 
@@ -54,7 +59,8 @@ double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b)
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.x.size(); ++i) {
-    const double distance = std::hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]);
+    const double dx = static_cast<double>(a.x[i] - b.x[i]), dy = static_cast<double>(a.y[i] - b.y[i]);
+    const double distance = std::sqrt(dx * dx + dy * dy);
     if (!std::isfinite(distance)) continue;
     sum += distance;
     ++count;

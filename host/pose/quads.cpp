@@ -1,8 +1,10 @@
 #include "pose/quads.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "pose/angles.hpp"
+#include "pose/row_blocks.hpp"
 
 namespace quadedge::pose {
 
@@ -34,15 +36,40 @@ void ScoringArrays::append_row(const ScoringArrays& other, std::size_t row) {
   for (auto column : kColumns) (this->*column).push_back((other.*column)[row]);
 }
 
-void QuadObservations::reserve(std::size_t quads) {
-  previous.reserve(quads);
-  current.reserve(quads);
-  previous_points.reserve(quads);
-  current_points.reserve(quads);
-  scoring.reserve(quads);
-  ncc.reserve(quads);
-  rivals.reserve(quads);
-  match.reserve(quads);
+void ScoringArrays::resize(std::size_t rows) {
+  for (auto column : kColumns) (this->*column).resize(rows);
+}
+
+void QuadObservations::resize(std::size_t quads) {
+  previous.resize(quads);
+  current.resize(quads);
+  previous_points.resize(quads);
+  current_points.resize(quads);
+  scoring.resize(quads);
+  ncc.resize(quads);
+  rivals.resize(quads);
+  match.resize(quads);
+}
+
+void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
+                           const StereoObservation& current_edge, float ncc_value, std::int32_t rival_count, std::int32_t match_number,
+                           const QuadLimits& limits) {
+  previous[i] = before;
+  current[i] = after;
+  previous_points[i] = before.oriented_point();
+  current_points[i] = after.oriented_point();
+  const double doubt = before.slope_per_radian * limits.direction_sigma / limits.slope_prior;
+  const Eigen::Vector3d tangent = (before.direction + before.slope / (1.0 + doubt * doubt) * before.ray).normalized();
+  const double values[] = {before.ray.x(), before.ray.y(), before.inverse_depth, tangent.x(), tangent.y(), tangent.z(),
+                           current_edge.left.x(), current_edge.left.y(),
+                           std::cos(current_edge.left_direction), std::sin(current_edge.left_direction),
+                           current_edge.right.x(), current_edge.right.y(),
+                           std::cos(current_edge.right_direction), std::sin(current_edge.right_direction)};
+  const double* value = values;
+  for (auto column : kColumns) (scoring.*column)[i] = static_cast<float>(*value++);
+  ncc[i] = ncc_value;
+  rivals[i] = rival_count;
+  match[i] = match_number;
 }
 
 bool QuadObservations::append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge,
@@ -51,34 +78,38 @@ bool QuadObservations::append(const StereoRig& rig, const StereoObservation& pre
   if (!before) return false;
   const auto after = measure(rig, current_edge, limits.min_epipolar_angle);
   if (!after) return false;
-  previous.push_back(*before);
-  current.push_back(*after);
-  previous_points.push_back(before->oriented_point());
-  current_points.push_back(after->oriented_point());
-  const double doubt = before->slope_per_radian * limits.direction_sigma / limits.slope_prior;
-  const Eigen::Vector3d tangent = (before->direction + before->slope / (1.0 + doubt * doubt) * before->ray).normalized();
-  const double values[] = {before->ray.x(), before->ray.y(), before->inverse_depth, tangent.x(), tangent.y(), tangent.z(),
-                           current_edge.left.x(), current_edge.left.y(),
-                           std::cos(current_edge.left_direction), std::sin(current_edge.left_direction),
-                           current_edge.right.x(), current_edge.right.y(),
-                           std::cos(current_edge.right_direction), std::sin(current_edge.right_direction)};
-  const double* value = values;
-  for (auto column : kColumns) (scoring.*column).push_back(static_cast<float>(*value++));
-  ncc.push_back(ncc_value);
-  rivals.push_back(rival_count);
-  match.push_back(match_number);
+  resize(size() + 1);
+  set(size() - 1, *before, *after, current_edge, ncc_value, rival_count, match_number, limits);
   return true;
 }
 
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits) {
+  struct Measured {
+    std::optional<StereoMeasurement> before, after;
+  };
+  std::vector<Measured> measured(matches.size());
+  const auto edge_before = [&](std::size_t i) { return observation(previous, static_cast<std::size_t>(matches.previous[i])); };
+  const auto edge_after = [&](std::size_t i) { return observation(current, static_cast<std::size_t>(matches.current[i])); };
+  for_row_blocks(matches.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      measured[i].before = measure(rig, edge_before(i), limits.min_epipolar_angle);
+      if (measured[i].before) measured[i].after = measure(rig, edge_after(i), limits.min_epipolar_angle);
+    }
+  });
+  std::vector<std::size_t> rows;
+  rows.reserve(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (measured[i].after) rows.push_back(i);
   QuadObservations quads;
-  quads.reserve(matches.size());
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    quads.append(rig, observation(previous, static_cast<std::size_t>(matches.previous[i])),
-                 observation(current, static_cast<std::size_t>(matches.current[i])), matches.ncc[i],
-                 matches.rivals[i], static_cast<std::int32_t>(i), limits);
-  }
+  quads.resize(rows.size());
+  for_row_blocks(rows.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      const std::size_t i = rows[q];
+      quads.set(q, *measured[i].before, *measured[i].after, edge_after(i), matches.ncc[i], matches.rivals[i],
+                static_cast<std::int32_t>(i), limits);
+    }
+  });
   return quads;
 }
 

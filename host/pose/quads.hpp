@@ -31,6 +31,7 @@ struct ScoringArrays {
 
   std::size_t size() const { return ray_x.size(); }
   void reserve(std::size_t rows);
+  void resize(std::size_t rows);
   /// Appends row `row` of `other`.
   void append_row(const ScoringArrays& other, std::size_t row);
 };
@@ -46,12 +47,14 @@ struct QuadObservations {
   std::vector<std::int32_t> match;       ///< the caller's number for the quad (row of TemporalMatches)
 
   std::size_t size() const { return previous.size(); }
-  void reserve(std::size_t quads);
-
   /// Appends a quad from its four edges. Pixels and radians. \returns false, and appends nothing, when one of the two stereo
   /// edges has no depth or no tangent (see measure()).
   bool append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge, float ncc_value,
               std::int32_t rival_count, std::int32_t match_number, const QuadLimits& limits);
+  void resize(std::size_t quads);
+  /// Sets quad `i`, see append().
+  void set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after, const StereoObservation& current_edge,
+           float ncc_value, std::int32_t rival_count, std::int32_t match_number, const QuadLimits& limits);
 };
 
 /// All quads of two rigs: the stereo edges that `matches` pairs, each at its detected place. Across the edge, where a quad is

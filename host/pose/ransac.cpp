@@ -22,18 +22,38 @@ std::size_t below(std::mt19937_64& random, std::size_t count) {
   return static_cast<std::size_t>(((random() >> 32) * static_cast<std::uint64_t>(count)) >> 32);
 }
 
-/// Quads in the order in which they are trusted.
-std::vector<std::int32_t> trust_order(const QuadObservations& quads) {
-  std::vector<std::int32_t> order(quads.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+/// Quads in the order in which they are trusted; sorted as far as asked for.
+class TrustOrder {
+ public:
+  explicit TrustOrder(const QuadObservations& quads) : quads_(quads), order_(quads.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+  }
+
+  /// Makes the first `count` places right.
+  void sort_first(std::size_t count) {
+    if (count <= sorted_) return;
+    const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
+    sorted_ = std::min(order_.size(), std::max(count, 2 * sorted_));
+    const auto end = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
+    const auto before = [this](std::int32_t a, std::int32_t b) { return is_before(a, b); };
+    std::nth_element(begin, end, order_.end(), before);
+    std::sort(begin, end, before);
+  }
+  std::size_t size() const { return order_.size(); }
+  std::size_t operator[](std::size_t place) const { return static_cast<std::size_t>(order_[place]); }
+
+ private:
+  bool is_before(std::int32_t a, std::int32_t b) const {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    if (quads.rivals[i] != quads.rivals[j]) return quads.rivals[i] < quads.rivals[j];
-    if (quads.ncc[i] != quads.ncc[j]) return quads.ncc[i] > quads.ncc[j];
+    if (quads_.rivals[i] != quads_.rivals[j]) return quads_.rivals[i] < quads_.rivals[j];
+    if (quads_.ncc[i] != quads_.ncc[j]) return quads_.ncc[i] > quads_.ncc[j];
     return a < b;
-  });
-  return order;
-}
+  }
+
+  const QuadObservations& quads_;
+  std::vector<std::int32_t> order_;
+  std::size_t sorted_ = 0;
+};
 
 /// `size` different rows of 0 .. count - 1, ascending.
 std::vector<std::int32_t> random_subset(std::mt19937_64& random, std::size_t count, std::size_t size) {
@@ -67,18 +87,19 @@ class Search {
 
  private:
   void sample() {
-    const std::vector<std::int32_t> order = trust_order(quads_);
+    TrustOrder order(quads_);
     // The pool grows linearly from the smallest subset worth sampling to all quads over the first max_hypotheses draws.
     const double first_pool = std::min<double>(static_cast<double>(order.size()), config_.min_inliers);
     const double growth = (static_cast<double>(order.size()) - first_pool) / config_.max_hypotheses;
     while (best_.draws < config_.max_draws && best_.hypotheses < std::min(needed_, config_.max_hypotheses)) {
       const double pool_size = std::min(first_pool + growth * best_.draws, static_cast<double>(order.size()));
       const std::size_t pool = std::max<std::size_t>(2, static_cast<std::size_t>(pool_size));
+      order.sort_first(pool);
       ++best_.draws;
       const std::size_t a = below(random_, pool);
       std::size_t b = below(random_, pool - 1);
       if (b >= a) ++b;
-      if (const auto motion = solve(static_cast<std::size_t>(order[a]), static_cast<std::size_t>(order[b]))) consider(*motion);
+      if (const auto motion = solve(order[a], order[b])) consider(*motion);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pose/angles.hpp"
+#include "pose/row_blocks.hpp"
 
 namespace quadedge::pose {
 
@@ -15,6 +16,8 @@ constexpr double kPlaceSize = 3, kDirectionSize = 2;  ///< residuals per block
 constexpr double kPlaceMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
 /// Variances are not believed to be smaller than this share of the assumed ones (noise-free data).
 constexpr double kSmallestScale = 1e-6;
+/// The first selection of inliers is made at a rough pose: so many of them make it a good one.
+constexpr std::size_t kFirstRows = 4000;
 /// Smallest ratio of the normal equations' pivots, after scaling their diagonal to one, that counts as solvable.
 constexpr double kSmallestPivot = 1e-12;
 
@@ -62,6 +65,13 @@ bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isome
 /// Weight of the Student-t distribution for a block of `size` residuals with squared error `error` at variance `scale`.
 double student_weight(double error, double scale, double size, double dof) { return (dof + size) / (dof + error / scale); }
 
+double place_weight(const FitWorkspace& workspace, double error, const PoseConfig& config) {
+  return student_weight(error, workspace.place_scale, kPlaceSize, config.student_dof) / workspace.place_scale;
+}
+double direction_weight(const FitWorkspace& workspace, double error, const PoseConfig& config) {
+  return student_weight(error, workspace.direction_scale, kDirectionSize, config.student_dof) / workspace.direction_scale;
+}
+
 double measured_scale(const std::vector<double>& errors, double median_of_one, std::vector<double>& sorted) {
   sorted.assign(errors.begin(), errors.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -69,13 +79,65 @@ double measured_scale(const std::vector<double>& errors, double median_of_one, s
   return std::max(*middle / median_of_one, kSmallestScale);
 }
 
-/// Evaluates all rows, storing errors and the quads' own unknowns; `each(k, terms)` sees those in front of the camera.
-template <typename Each>
-void sweep(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const PinholeCamera& left,
-           const Eigen::Isometry3d& pose, double offset, const std::vector<double>& depth, Each&& each) {
-  QuadTerms quad;
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (evaluate(terms[static_cast<std::size_t>(rows[k])], left, pose, offset, depth[k], quad)) each(k, quad);
+/// Gauss-Newton's normal equations.
+template <int Size>
+struct Normal {
+  Eigen::Matrix<double, Size, Size> matrix = Eigen::Matrix<double, Size, Size>::Zero();
+  Eigen::Matrix<double, Size, 1> gradient = Eigen::Matrix<double, Size, 1>::Zero();
+
+  Normal& operator+=(const Normal& other) {
+    matrix += other.matrix;
+    gradient += other.gradient;
+    return *this;
+  }
+  /// Adds a quad; its place counts with the first `Size` columns.
+  void add(const QuadTerms& quad, double place_weight, double direction_weight) {
+    const Eigen::Matrix<double, 3, Size> by_all = quad.place.by_pose.leftCols<Size>(), weighted = place_weight * by_all;
+    matrix.noalias() += weighted.transpose().lazyProduct(by_all);
+    gradient.noalias() += weighted.transpose().lazyProduct(quad.place.error);
+    const Eigen::Matrix<double, 2, 3> turned = direction_weight * quad.direction.by_pose;
+    matrix.template topLeftCorner<3, 3>().noalias() += turned.transpose().lazyProduct(quad.direction.by_pose);
+    gradient.template head<3>().noalias() += turned.transpose().lazyProduct(quad.direction.error);
+  }
+};
+
+/// Evaluates all rows and adds up what `each(k, terms, sum)` makes of those in front of the camera; rows run on all processors.
+template <typename Sum, typename Each>
+Sum sweep(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const PinholeCamera& left,
+          const Eigen::Isometry3d& pose, double offset, const std::vector<double>& depth, const Each& each) {
+  return sum_row_blocks(rows.size(), Sum(), [&](std::size_t begin, std::size_t end, Sum& sum) {
+    QuadTerms quad;
+    for (std::size_t k = begin; k < end; ++k)
+      if (evaluate(terms[static_cast<std::size_t>(rows[k])], left, pose, offset, depth[k], quad)) each(k, quad, sum);
+  });
+}
+
+/// What the covariance is made of.
+struct CovarianceSums {
+  Matrix6d normal = Matrix6d::Zero(), scatter = Matrix6d::Zero();
+  double weights = 0, curvature = 0, used = 0;
+
+  CovarianceSums& operator+=(const CovarianceSums& other) {
+    normal += other.normal;
+    scatter += other.scatter;
+    weights += other.weights;
+    curvature += other.curvature;
+    used += other.used;
+    return *this;
+  }
+};
+
+struct Nothing {
+  Nothing& operator+=(const Nothing&) { return *this; }
+};
+
+/// Keeps about `wanted` rows, evenly spread.
+void thin_out(std::vector<std::int32_t>& rows, std::size_t wanted) {
+  const std::size_t every = rows.size() / wanted;
+  if (every < 2) return;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < rows.size(); k += every) rows[kept++] = rows[k];
+  rows.resize(kept);
 }
 
 /// Solves A x = -g; false where A is singular.
@@ -127,30 +189,20 @@ bool fit(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& row
     workspace.place_scale = measured_scale(workspace.place_error, kPlaceMedian, workspace.sorted);
     workspace.direction_scale = measured_scale(workspace.direction_error, kDirectionMedian, workspace.sorted);
   };
-  sweep(terms, rows, rig.left, current_from_previous, 0, workspace.depth, store);
+  sweep<Nothing>(terms, rows, rig.left, current_from_previous, 0, workspace.depth,
+                 [&](std::size_t k, const QuadTerms& quad, Nothing&) { store(k, quad); });
   measure_scales();
 
   for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
-    Matrix6d normal = Matrix6d::Zero();
-    Vector6d gradient = Vector6d::Zero();
-    sweep(terms, rows, rig.left, current_from_previous, 0, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
-      store(k, quad);
-      const double place_weight =
-          student_weight(workspace.place_error[k], workspace.place_scale, kPlaceSize, config.student_dof) / workspace.place_scale;
-      const double direction_weight =
-          student_weight(workspace.direction_error[k], workspace.direction_scale, kDirectionSize, config.student_dof) /
-          workspace.direction_scale;
-      const Eigen::Matrix<double, 3, 6> by_pose = quad.place.by_pose.leftCols<6>(), weighted = place_weight * by_pose;
-      normal.noalias() += weighted.transpose().lazyProduct(by_pose);
-      gradient.noalias() += weighted.transpose().lazyProduct(quad.place.error);
-      const Eigen::Matrix<double, 2, 3> turned = direction_weight * quad.direction.by_pose;
-      normal.topLeftCorner<3, 3>().noalias() += turned.transpose().lazyProduct(quad.direction.by_pose);
-      gradient.head<3>().noalias() += turned.transpose().lazyProduct(quad.direction.error);
-    });
+    const auto normal = sweep<Normal<6>>(
+        terms, rows, rig.left, current_from_previous, 0, workspace.depth, [&](std::size_t k, const QuadTerms& quad, Normal<6>& sum) {
+          store(k, quad);
+          sum.add(quad, place_weight(workspace, workspace.place_error[k], config), direction_weight(workspace, workspace.direction_error[k], config));
+        });
     Vector6d step;
-    if (!solve<6>(normal, gradient, step)) return false;
+    if (!solve<6>(normal.matrix, normal.gradient, step)) return false;
     current_from_previous = perturb(step, current_from_previous);
-    if (-gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
+    if (-normal.gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
     measure_scales();
   }
   return true;
@@ -163,38 +215,36 @@ Matrix6d fit_covariance(const std::vector<FitTerm>& terms, const std::vector<std
   const int lines = static_cast<int>(std::ceil(rig.left.height / config.vote_cell)) + 1;
   std::vector<Vector6d> cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines), Vector6d::Zero());
 
-  Matrix6d normal = Matrix6d::Zero(), scatter = Matrix6d::Zero();
-  double weights = 0, curvature = 0, used = 0;
-  sweep(terms, rows, rig.left, current_from_previous, 0, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
-    const double error = quad.place.error.squaredNorm();
-    const double weight = student_weight(error, workspace.place_scale, kPlaceSize, config.student_dof);
-    const double direction_weight =
-        student_weight(quad.direction.error.squaredNorm(), workspace.direction_scale, kDirectionSize, config.student_dof) /
-        workspace.direction_scale;
-    const Eigen::Matrix<double, 3, 6> by_pose = quad.place.by_pose.leftCols<6>();
-    Matrix6d part = (weight / workspace.place_scale) * (by_pose.transpose() * by_pose);
-    Vector6d gradient = (weight / workspace.place_scale) * (by_pose.transpose() * quad.place.error);
-    part.topLeftCorner<3, 3>() += direction_weight * (quad.direction.by_pose.transpose() * quad.direction.by_pose);
-    gradient.head<3>() += direction_weight * (quad.direction.by_pose.transpose() * quad.direction.error);
-    normal += part;
-    scatter += gradient * gradient.transpose();
-    weights += weight;
-    curvature += weight * (1.0 - 2.0 * weight * error / (workspace.place_scale * kPlaceSize * (config.student_dof + kPlaceSize)));
-    used += 1;
+  std::vector<Vector6d> gradients(rows.size(), Vector6d::Zero());
+  const auto sums = sweep<CovarianceSums>(
+      terms, rows, rig.left, current_from_previous, 0, workspace.depth, [&](std::size_t k, const QuadTerms& quad, CovarianceSums& sum) {
+        const double error = quad.place.error.squaredNorm();
+        const double weight = student_weight(error, workspace.place_scale, kPlaceSize, config.student_dof);
+        Normal<6> own;
+        own.add(quad, weight / workspace.place_scale, direction_weight(workspace, quad.direction.error.squaredNorm(), config));
+        gradients[k] = own.gradient;
+        sum.normal += own.matrix;
+        sum.scatter += own.gradient * own.gradient.transpose();
+        sum.weights += weight;
+        sum.curvature += weight * (1.0 - 2.0 * weight * error / (workspace.place_scale * kPlaceSize * (config.student_dof + kPlaceSize)));
+        sum.used += 1;
+      });
+  for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(rows[k]);
     const auto cell_of = [&](float place, int count) {
       return std::clamp(static_cast<int>(static_cast<double>(place) / config.vote_cell), 0, count - 1);
     };
-    cells[static_cast<std::size_t>(cell_of(quads.scoring.left_y[i], lines) * columns + cell_of(quads.scoring.left_x[i], columns))] += gradient;
-  });
+    cells[static_cast<std::size_t>(cell_of(quads.scoring.left_y[i], lines) * columns + cell_of(quads.scoring.left_x[i], columns))] +=
+        gradients[k];
+  }
 
   // The normal equations hold the weights; the curvature of the Student-t cost is smaller by the mean of d(w e)/de over w.
-  const Matrix6d inverse = normal.ldlt().solve(Matrix6d::Identity());
+  const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
   Matrix6d cell_scatter = Matrix6d::Zero();
   for (const Vector6d& cell : cells) cell_scatter += cell * cell.transpose();
-  const double independent = (inverse * scatter).trace() / 6.0, shared = (inverse * cell_scatter).trace() / 6.0;
-  const double flattening = std::max(curvature / weights, 1.0 / kPlaceSize);
-  const double freedom = used / std::max(used - 2.0, 1.0);  // six parameters take the residuals of two quads
+  const double independent = (inverse * sums.scatter).trace() / 6.0, shared = (inverse * cell_scatter).trace() / 6.0;
+  const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kPlaceSize);
+  const double freedom = sums.used / std::max(sums.used - 2.0, 1.0);  // six parameters take the residuals of two quads
   const Matrix6d covariance = inverse * (std::max(independent, shared) * freedom / (flattening * flattening));
   return 0.5 * (covariance + covariance.transpose());
 }
@@ -206,22 +256,14 @@ bool fit_offset(const std::vector<FitTerm>& terms, const std::vector<std::int32_
   Eigen::Isometry3d pose = result.current_from_previous;
   double offset = 0;
   for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
-    Matrix7d normal = Matrix7d::Zero();
-    Vector7d gradient = Vector7d::Zero();
-    sweep(terms, rows, rig.left, pose, offset, workspace.depth, [&](std::size_t k, const QuadTerms& quad) {
-      const double place_error = quad.place.error.squaredNorm();
-      const double place_weight = student_weight(place_error, workspace.place_scale, kPlaceSize, config.student_dof) / workspace.place_scale;
-      const double direction_weight =
-          student_weight(quad.direction.error.squaredNorm(), workspace.direction_scale, kDirectionSize, config.student_dof) /
-          workspace.direction_scale;
-      const Eigen::Matrix<double, 3, 7> weighted = place_weight * quad.place.by_pose;
-      normal.noalias() += weighted.transpose().lazyProduct(quad.place.by_pose);
-      gradient.noalias() += weighted.transpose().lazyProduct(quad.place.error);
-      const Eigen::Matrix<double, 2, 3> turned = direction_weight * quad.direction.by_pose;
-      normal.topLeftCorner<3, 3>().noalias() += turned.transpose().lazyProduct(quad.direction.by_pose);
-      gradient.head<3>().noalias() += turned.transpose().lazyProduct(quad.direction.error);
-      workspace.depth[k] = quad.place.unknown;
-    });
+    auto sums = sweep<Normal<7>>(terms, rows, rig.left, pose, offset, workspace.depth,
+                                 [&](std::size_t k, const QuadTerms& quad, Normal<7>& sum) {
+                                   sum.add(quad, place_weight(workspace, quad.place.error.squaredNorm(), config),
+                                           direction_weight(workspace, quad.direction.error.squaredNorm(), config));
+                                   workspace.depth[k] = quad.place.unknown;
+                                 });
+    Matrix7d& normal = sums.matrix;
+    Vector7d& gradient = sums.gradient;
     // What the quads tell counts less where their errors are alike, by the same factor as in the pose's covariance.
     const double factor = std::max((covariance * normal.topLeftCorner<6, 6>()).trace() / 6.0, 1.0);
     normal /= factor;
@@ -252,14 +294,14 @@ Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads,
     select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
     mask_to_rows(result.inlier, rows);
     if (round > 0 && rows == last_rows) break;
+    if (round == 0) thin_out(rows, kFirstRows);
     Eigen::Isometry3d candidate = result.current_from_previous;
     result.solved = fit(terms, rows, rig, config, candidate, workspace);
     if (!result.solved) break;
     result.current_from_previous = candidate;
     std::swap(rows, last_rows);
   }
-  if (result.solved)
-  {
+  if (result.solved) {
     result.covariance = fit_covariance(terms, last_rows, quads, rig, config, result.current_from_previous, workspace);
     OffsetFit both;
     both.current_from_previous = result.current_from_previous;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pose/angles.hpp"
+#include "pose/row_blocks.hpp"
 
 namespace quadedge::pose {
 
@@ -18,7 +19,7 @@ double NoiseModel::on_epipolar_line(double epipolar_sine) const {
 std::vector<FitTerm> build_terms(const QuadObservations& quads, const NoiseModel& noise) {
   std::vector<FitTerm> terms(quads.size());
   const double plane_weight = 1.0 / (std::sqrt(2.0) * noise.direction);  // directions of both times are noisy
-  for (std::size_t i = 0; i < quads.size(); ++i) {
+  const auto build = [&](std::size_t i) {
     const StereoMeasurement &before = quads.previous[i], &after = quads.current[i];
     FitTerm& term = terms[i];
     term.ray = before.ray;
@@ -36,7 +37,10 @@ std::vector<FitTerm> build_terms(const QuadObservations& quads, const NoiseModel
     term.slope_sigma = before.slope_per_radian * noise.direction;
     term.left_normal = after.left_normal * plane_weight;
     term.right_normal = after.right_normal * plane_weight;
-  }
+  };
+  for_row_blocks(quads.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) build(i);
+  });
   return terms;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pose/row_blocks.hpp"
+
 namespace quadedge::pose {
 
 namespace {
@@ -27,25 +29,16 @@ bool same_direction(const float* p, float x, float y, float z, float tx, float t
   return std::abs(dx * cosine + dy * sine) >= limit * std::sqrt(dx * dx + dy * dy);
 }
 
-}  // namespace
-
-LaterCameras::LaterCameras(const StereoRig& rig, const Eigen::Isometry3d& current_from_previous) {
-  write_projection(rig.left, current_from_previous, left);
-  write_projection(rig.right, rig.right_from_left * current_from_previous, right);
-}
-
-double truncated_cost(const ScoringArrays& quads, const LaterCameras& cameras, double threshold) {
-  const std::size_t count = quads.size();
-  if (count == 0) return 1.0;
-  const float limit = static_cast<float>(threshold * threshold);
+/// Sum of the rows' truncated squared distances [px^2].
+double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, float limit, std::size_t first, std::size_t last) {
   const float *rx = quads.ray_x.data(), *ry = quads.ray_y.data(), *rho = quads.inverse_depth.data();
   const float *lx = quads.left_x.data(), *ly = quads.left_y.data(), *gx = quads.right_x.data(), *gy = quads.right_y.data();
   const LaterCameras c = cameras;  // a local copy stays in registers
   const float *l = c.left, *g = c.right;
   float sums[kLanes] = {};
   float costs[kBlock];
-  for (std::size_t begin = 0; begin < count; begin += kBlock) {
-    const std::size_t rows = std::min(kBlock, count - begin);
+  for (std::size_t begin = first; begin < last; begin += kBlock) {
+    const std::size_t rows = std::min(kBlock, last - begin);
     for (std::size_t k = 0; k < rows; ++k) {
       const std::size_t i = begin + k;
       const float a = rx[i], b = ry[i], d = rho[i];
@@ -68,33 +61,51 @@ double truncated_cost(const ScoringArrays& quads, const LaterCameras& cameras, d
   }
   double sum = 0;
   for (float lane : sums) sum += static_cast<double>(lane);
-  return sum / (static_cast<double>(limit) * static_cast<double>(count));
+  return sum;
+}
+
+bool is_inlier(const ScoringArrays& quads, std::size_t i, const LaterCameras& cameras, float limit, float min_cosine) {
+  const float *l = cameras.left, *g = cameras.right;
+  const float a = quads.ray_x[i], b = quads.ray_y[i], d = quads.inverse_depth[i];
+  const float lz = l[8] * a + l[9] * b + l[10] + l[11] * d, gz = g[8] * a + g[9] * b + g[10] + g[11] * d;
+  if (!(lz > 0.0f && gz > 0.0f)) return false;
+  const float lx = l[0] * a + l[1] * b + l[2] + l[3] * d, ly = l[4] * a + l[5] * b + l[6] + l[7] * d;
+  const float ex = lx / lz - quads.left_x[i], ey = ly / lz - quads.left_y[i];
+  if (!(ex * ex + ey * ey < limit)) return false;
+  const float gx = g[0] * a + g[1] * b + g[2] + g[3] * d, gy = g[4] * a + g[5] * b + g[6] + g[7] * d;
+  const float fx = gx / gz - quads.right_x[i], fy = gy / gz - quads.right_y[i];
+  if (!(fx * fx + fy * fy < limit)) return false;
+  const float tx = quads.tangent_x[i], ty = quads.tangent_y[i], tz = quads.tangent_z[i];
+  return same_direction(l, lx, ly, lz, tx, ty, tz, quads.left_cos[i], quads.left_sin[i], min_cosine) &&
+         same_direction(g, gx, gy, gz, tx, ty, tz, quads.right_cos[i], quads.right_sin[i], min_cosine);
+}
+
+}  // namespace
+
+LaterCameras::LaterCameras(const StereoRig& rig, const Eigen::Isometry3d& current_from_previous) {
+  write_projection(rig.left, current_from_previous, left);
+  write_projection(rig.right, rig.right_from_left * current_from_previous, right);
+}
+
+double truncated_cost(const ScoringArrays& quads, const LaterCameras& cameras, double threshold) {
+  const std::size_t count = quads.size();
+  if (count == 0) return 1.0;
+  const double sum = sum_row_blocks(count, 0.0, [&](std::size_t begin, std::size_t end, double& block_sum) {
+    block_sum = cost_of_rows(quads, cameras, static_cast<float>(threshold * threshold), begin, end);
+  });
+  return sum / (threshold * threshold * static_cast<double>(count));
 }
 
 int select_inliers(const ScoringArrays& quads, const LaterCameras& cameras, double threshold, double max_angle,
                    std::vector<std::uint8_t>& inlier) {
-  const std::size_t count = quads.size();
-  inlier.assign(count, 0);
+  inlier.assign(quads.size(), 0);
   const float limit = static_cast<float>(threshold * threshold), min_cosine = static_cast<float>(std::cos(max_angle));
-  const float *l = cameras.left, *g = cameras.right;
-  int found = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float a = quads.ray_x[i], b = quads.ray_y[i], d = quads.inverse_depth[i];
-    const float lz = l[8] * a + l[9] * b + l[10] + l[11] * d, gz = g[8] * a + g[9] * b + g[10] + g[11] * d;
-    if (!(lz > 0.0f && gz > 0.0f)) continue;
-    const float lx = l[0] * a + l[1] * b + l[2] + l[3] * d, ly = l[4] * a + l[5] * b + l[6] + l[7] * d;
-    const float ex = lx / lz - quads.left_x[i], ey = ly / lz - quads.left_y[i];
-    if (!(ex * ex + ey * ey < limit)) continue;
-    const float gx = g[0] * a + g[1] * b + g[2] + g[3] * d, gy = g[4] * a + g[5] * b + g[6] + g[7] * d;
-    const float fx = gx / gz - quads.right_x[i], fy = gy / gz - quads.right_y[i];
-    if (!(fx * fx + fy * fy < limit)) continue;
-    const float tx = quads.tangent_x[i], ty = quads.tangent_y[i], tz = quads.tangent_z[i];
-    if (!same_direction(l, lx, ly, lz, tx, ty, tz, quads.left_cos[i], quads.left_sin[i], min_cosine)) continue;
-    if (!same_direction(g, gx, gy, gz, tx, ty, tz, quads.right_cos[i], quads.right_sin[i], min_cosine)) continue;
-    inlier[i] = 1;
-    ++found;
-  }
-  return found;
+  return sum_row_blocks(quads.size(), 0, [&](std::size_t begin, std::size_t end, int& found) {
+    for (std::size_t i = begin; i < end; ++i) {
+      inlier[i] = is_inlier(quads, i, cameras, limit, min_cosine) ? 1 : 0;
+      found += inlier[i];
+    }
+  });
 }
 
 }  // namespace quadedge::pose

@@ -107,7 +107,7 @@ struct PoseConfig {
   double sigma_along = 0.5;          ///< and along it [px]
   double sigma_direction = 2.0;      ///< noise of an edge's direction in the image [deg]
   double slope_prior = 1.0;          ///< plausible depth slope of a tangent; tempers slopes that are mostly noise when inliers are told
-  double fit_tolerance = 1e-5;       ///< a step shorter than this share of the pose's standard deviation ends a fit
+  double fit_tolerance = 0.01;       ///< a step shorter than this share of the pose's standard deviation ends a fit
   double student_dof = 5.0;          ///< degrees of freedom of the residuals' Student-t distribution; small: robust
   double vote_cell = 16.0;           ///< edges of one square cell of this side may share their error [px]
   double offset_sigma = 0.3;         ///< of an unknown offset that all disparities share, at the start [px]; 0: there is none

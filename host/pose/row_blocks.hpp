@@ -1,0 +1,41 @@
+#pragma once
+/// \file row_blocks.hpp  Loops over many rows on all processors, with results that do not depend on how many there are.
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace quadedge::pose {
+
+constexpr std::size_t kBlockRows = 1024;
+
+inline std::size_t block_count(std::size_t rows) { return (rows + kBlockRows - 1) / kBlockRows; }
+
+/// Calls body(block, begin, end) for consecutive blocks of rows, in any order and at the same time.
+template <class Body>
+void for_row_blocks(std::size_t rows, Body&& body) {
+  const auto one = [&](std::size_t block) { body(block, block * kBlockRows, std::min(rows, (block + 1) * kBlockRows)); };
+  if (rows <= kBlockRows) {
+    if (rows > 0) one(0);
+  } else {
+    tbb::parallel_for(std::size_t{0}, block_count(rows), one);
+  }
+}
+
+/// Sum over all rows: body(begin, end, sum) adds a block's rows to a sum that starts as `zero`; the blocks' sums are added in order.
+template <class Sum, class Body>
+Sum sum_row_blocks(std::size_t rows, const Sum& zero, Body&& body) {
+  Sum total = zero;
+  if (rows <= kBlockRows) {
+    body(std::size_t{0}, rows, total);
+    return total;
+  }
+  std::vector<Sum> sums(block_count(rows), zero);
+  for_row_blocks(rows, [&](std::size_t block, std::size_t begin, std::size_t end) { body(begin, end, sums[block]); });
+  for (const Sum& sum : sums) total += sum;
+  return total;
+}
+
+}  // namespace quadedge::pose
