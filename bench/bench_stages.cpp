@@ -59,7 +59,7 @@ void run_stage(benchmark::State& state, const std::string& stage, const std::str
     (void)unused;
     frontend->process({second.stamp_ns, second.left.view(), second.right.view()});
     frontend->match(stages::Base::previous,
-                    bench::search_in_place(frontend->base(stages::Base::previous), config.temporal.scout_radius));
+                    bench::search_in_place(frontend->base(stages::Base::previous), config.temporal, false));
     double ms = 0;
     for (const auto& [name, time] : device.context()->take_profile()) {
       if (std::find(booked_as.begin(), booked_as.end(), name) != booked_as.end()) ms += time;

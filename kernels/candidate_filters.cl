@@ -1,6 +1,7 @@
 // candidate_filters.cl: NCC, SIFT and both best-and-nearly-best filters over candidate lists, in stereo and in time.
 //
-// Needs similarity.cl. In: candidate lists; patches (98 floats) and SIFT descriptors (256 bytes) of both sets of edges.
+// Needs similarity.cl. In: candidate lists; patches and SIFT descriptors of both sets of edges, with the numbers under which an
+// edge's own stand there.
 // Out per candidate: NCC, SIFT distance, side pairing, and `rejected_by`, the order of the filter that rejected it (0: alive);
 // per row the number of survivors.
 // One work-item = one row. Row r belongs to edge r * row_step of the first set.
@@ -9,28 +10,29 @@
 // Reference: host/reference/candidate_filters.cpp.
 
 kernel void candidate_filters(global const int* first, global const int* target, const int rows, const int row_step,
-                              const int capacity, global const float* patches_a, global const uchar* sift_a,
-                              global const float* patches_b, global const uchar* sift_b, const float ncc_min,
+                              const int capacity, global const float* patches_a, global const int* patch_of_a,
+                              global const uchar* sift_a, global const int* sift_of_a, global const float* patches_b,
+                              global const int* patch_of_b, global const uchar* sift_b, global const int* sift_of_b, const float ncc_min,
                               const float sift_max, const float ncc_nearly_best, const float sift_nearly_best,
                               const int ncc_order, const int sift_order, const int all_scores, global float* ncc,
                               global float* sift, global uchar* pairing, global uchar* rejected_by, global int* alive) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int begin = first[row], end = min(first[row + 1], capacity);
-  global const float* patch = patches_a + 98 * (size_t)(row * row_step);
-  global const uchar* descriptor = sift_a + 256 * (size_t)(row * row_step);
+  global const float* patch = patches_a + EDGE_FLOATS * (size_t)patch_of_a[row * row_step];
+  global const uchar* descriptor = sift_a + EDGE_BYTES * (size_t)sift_of_a[row * row_step];
 
   // Which of the two similarities is computed first does not change who survives; only a tap needs both for all.
   float best_ncc = 0.0f;
   for (int c = begin; c < end; ++c) {
     const int j = target[c];
     int sides;
-    const float similarity = patch_ncc_pairing(patch, patches_b + 98 * (size_t)j, &sides);
+    const float similarity = patch_ncc_pairing(patch, patches_b + EDGE_FLOATS * (size_t)patch_of_b[j], &sides);
     const int ncc_fails = similarity < ncc_min;
     int sift_fails = 0;
     float distance = 0.0f;
     if (all_scores || (!ncc_fails && sift_max > 0.0f)) {
-      distance = sqrt((float)sift_distance2(descriptor, sift_b + 256 * (size_t)j));
+      distance = sqrt((float)sift_distance2(descriptor, sift_b + EDGE_BYTES * (size_t)sift_of_b[j]));
       sift_fails = sift_max > 0.0f && distance > sift_max;
     }
     ncc[c] = similarity;

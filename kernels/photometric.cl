@@ -38,12 +38,6 @@ inline PatchFrame patch_frame(const float x, const float y, const float cosine, 
   return frame;
 }
 
-inline PatchFrame directed_frame(const float x, const float y, const float direction, const float side, const float offset) {
-  float cosine;
-  const float sine = sine_cosine(direction, &cosine);
-  return patch_frame(x, y, cosine, sine, side, offset);
-}
-
 inline float8 corner_bytes(const uint8 corners, const uint shift) {
   return convert_float8(as_int8(corners >> shift & (uint8)(255u)));
 }

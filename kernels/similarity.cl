@@ -1,7 +1,10 @@
 // similarity.cl: how alike two edges are (SPEC section 2). Plain functions for the filters; name this file before theirs.
 //
-// The layouts are those of patches.cl (98 floats per edge) and sift.cl (256 bytes per edge).
+// The layouts are those of patches.cl (112 floats per edge) and sift.cl (256 bytes per edge).
 // Reference: patch_similarity() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
+
+#define EDGE_FLOATS 112
+#define EDGE_BYTES 256
 
 // Sum over eight lanes, halves first.
 inline float similarity_sum(const float8 v) {
@@ -13,18 +16,13 @@ inline float similarity_sum(const float8 v) {
 // NCC of two edges: the highest of the four products of side patches. Its pairing: 0 dark-dark, 1 bright-bright,
 // 2 dark-bright, 3 bright-dark, the first one on a tie.
 inline float patch_ncc_pairing(global const float* a, global const float* b, int* pairing) {
-  float8 dark_dark = 0.0f, bright_bright = 0.0f, dark_bright = 0.0f, bright_dark = 0.0f;
-  for (int k = 0; k < 6; ++k) {
-    const float8 a_dark = vload8(k, a), a_bright = vload8(k, a + 49);
-    const float8 b_dark = vload8(k, b), b_bright = vload8(k, b + 49);
-    dark_dark = fma(a_dark, b_dark, dark_dark);
-    bright_bright = fma(a_bright, b_bright, bright_bright);
-    dark_bright = fma(a_dark, b_bright, dark_bright);
-    bright_dark = fma(a_bright, b_dark, bright_dark);
+  float16 alike = 0.0f, crossed = 0.0f;
+  for (int row = 0; row < 7; ++row) {
+    const float16 of_a = vload16(row, a), of_b = vload16(row, b);
+    alike = fma(of_a, of_b, alike);
+    crossed = fma(of_a, of_b.s89abcdef01234567, crossed);
   }
-  const float scores[4] = {
-      fma(a[48], b[48], similarity_sum(dark_dark)), fma(a[97], b[97], similarity_sum(bright_bright)),
-      fma(a[48], b[97], similarity_sum(dark_bright)), fma(a[97], b[48], similarity_sum(bright_dark))};
+  const float scores[4] = {similarity_sum(alike.lo), similarity_sum(alike.hi), similarity_sum(crossed.lo), similarity_sum(crossed.hi)};
   float best = scores[0];
   int which = 0;
   for (int k = 1; k < 4; ++k) {

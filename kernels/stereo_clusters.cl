@@ -117,18 +117,3 @@ kernel void stereo_collect(global const int* keep_first, const int left_count, g
   packed[5 * stride + row] = right_direction[row] = cluster_direction[k];
   ncc[row] = cluster_likeness[k];
 }
-
-// Copies the descriptions that the matching in time needs beside the stereo edges: the left edge's patches and SIFT, the right
-// anchor's SIFT (its patches are cut anew). One work-item = one stereo edge.
-kernel void stereo_gather(global const int* left_index, global const int* right_index, const int count,
-                          global const float* left_patches, global const uchar* left_sift, global const uchar* right_sift,
-                          global float* out_left_patches, global uchar* out_left_sift, global uchar* out_right_sift) {
-  const int row = (int)get_global_id(0);
-  if (row >= count) return;
-  const size_t left = (size_t)left_index[row], right = (size_t)right_index[row], to = (size_t)row;
-  for (int k = 0; k < 98; ++k) out_left_patches[98 * to + k] = left_patches[98 * left + k];
-  for (int k = 0; k < 16; ++k) {
-    vstore16(vload16(k, left_sift + 256 * left), k, out_left_sift + 256 * to);
-    vstore16(vload16(k, right_sift + 256 * right), k, out_right_sift + 256 * to);
-  }
-}

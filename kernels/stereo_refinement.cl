@@ -2,15 +2,20 @@
 //
 // Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, candidate lists.
 // Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity), how alike both places look,
-// and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge.
+// and rejected_by = rejected_order where the refinement diverged or another candidate stands for it. One work-item = one left edge.
 // Reference: host/reference/stereo_refinement.cpp.
+
+// Candidates that shift onto the line within so many px of one another are one. Twin: kSamePlace in
+// host/reference/stereo_refinement.cpp.
+#define SAME_PLACE 0.3f
 
 // Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its place s.
 inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
-                            const float min_sine, const float max_shift) {
+                            const float min_sine, const float max_shift, float* off_line) {
   const float dx = x - line.x, dy = y - line.y;
   const float s = dx * line.ex + dy * line.ey;
   const float distance = -dx * line.ey + dy * line.ex;
+  *off_line = fabs(distance);
   float cosine;
   const float sine = sine_cosine(direction, &cosine);
   const float across = -cosine * line.ey + sine * line.ex;  // sine of the angle between line and tangent
@@ -44,6 +49,21 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   float8 fixed[3][PATCH_SIDE], derivative[PATCH_SIDE], values[PATCH_SIDE];
   float norms[3];
   int ready = 0;
+  // Of candidates at one place the one nearest to the line stays; likeness holds the distances for a while.
+  for (int c = begin; c < end; ++c) {
+    if (rejected_by[c] != 0) continue;
+    const int j = target[c];
+    float distance;
+    const float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max, &distance);
+    place[c] = s;
+    likeness[c] = distance;
+    for (int k = begin; k < c; ++k) {
+      if (rejected_by[k] != 0 || fabs(place[k] - s) >= SAME_PLACE) continue;
+      const int nearer = distance < likeness[k];
+      rejected_by[nearer ? k : c] = (uchar)rejected_order;
+      if (!nearer) break;
+    }
+  }
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
     if (!ready) {
@@ -56,8 +76,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
                        derivative);
       ready = 1;
     }
-    const int j = target[c];
-    float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+    float s = place[c];
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;

@@ -55,10 +55,13 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
       stages::EdgeDescription describer(context, image.width, image.height, {}, {}, {{stage, variant.name}});
       TestDescriptions found[2];
       for (auto& run : found) {
-        stages::DeviceDescriptions result;
+        opencl::Buffer<cl_float> patches;
+        opencl::Buffer<cl_uchar> sift;
         describer.prepare(pixels);
-        describer.describe(x, y, direction, static_cast<int>(count), result);
-        run = {device.info().name + " " + variant.name, result.patches.read(count * 98), result.sift.read(count * 256)};
+        describer.prepare_sift(pixels);
+        describer.cut_patches(x, y, direction, static_cast<int>(count), patches);
+        describer.describe_sift(x, y, direction, static_cast<int>(count), sift);
+        run = {device.info().name + " " + variant.name, patches.read(count * 112), sift.read(count * 256)};
       }
       CHECK(found[0].patches == found[1].patches);
       CHECK(found[0].sift == found[1].sift);

@@ -18,6 +18,7 @@
 #include "reference/candidate_filters.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
+#include "stages/device_image.hpp"
 #include "stages/stereo_refinement.hpp"
 
 namespace matching {

@@ -49,7 +49,7 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
         "/device/opencl", "/variants/edges",
         "/input/width", "/frames_measured", "/frames_tracked", "/frames_lost", "/warm_up", "/threads", "/edges_wanted",
         "/latency_ms/median", "/latency_ms/p90", "/latency_ms/p99", "/latency_ms/max", "/latency_ms/first", "/edge_detection_ms/median",
-        "/edge_detection_ms/p90", "/stages_ms/stereo/median", "/kernels_ms/edges/median", "/kernels_ms/sift/p90", "/start_ms/total",
+        "/edge_detection_ms/p90", "/stages_ms/stereo/median", "/kernels_ms/edges/median", "/kernels_ms/temporal_match/p90", "/start_ms/total",
         "/start_ms/kernel_build", "/memory_mb/host_peak", "/memory_mb/device_peak", "/memory_mb/frames", "/moved_mb_per_frame/to_device",
         "/moved_mb_per_frame/to_host", "/counts/edges_left", "/config/edges/threshold", "/baseline/opencv_sift_both_ms",
         "/baseline/opencv_sepfilter_nine_ms", "/baseline/threads", "/baseline/frame_ratio", "/baseline/edges_ratio"}) {

@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "matching.hpp"
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
@@ -16,15 +18,15 @@ struct Measured {
   reference::EdgeDescriptions a, b;
   explicit Measured(int first_edges) {
     for (int i = 0; i < first_edges; ++i) {
-      a.patches.resize(a.patches.size() + 98, 0.0f);
-      a.patches[a.patches.size() - 98] = 1.0f;
+      a.patches.resize(a.patches.size() + 112, 0.0f);
+      a.patches[a.patches.size() - 112] = 1.0f;
       a.sift.resize(a.sift.size() + 256, 0);
     }
   }
   /// `bright`: the similar side is the second set's bright one.
   int add(double ncc, int distance, bool bright = false) {
-    const std::size_t patch = b.patches.size() + (bright ? 49 : 0), sift = b.sift.size();
-    b.patches.resize(b.patches.size() + 98, 0.0f);
+    const std::size_t patch = b.patches.size() + (bright ? 8 : 0), sift = b.sift.size();
+    b.patches.resize(b.patches.size() + 112, 0.0f);
     b.patches[patch] = static_cast<float>(ncc);
     b.patches[patch + 1] = static_cast<float>(std::sqrt(1 - ncc * ncc));
     b.sift.resize(sift + 256, 0);
@@ -51,8 +53,21 @@ void on_devices(const reference::Candidates& lists, const reference::EdgeDescrip
     patches_a.write(context, a.patches);
     patches_b.write(context, b.patches);
     sift_a.write(context, a.sift);
-    sift_b.write(context, b.sift);
-    stage.run(patches_a, sift_a, patches_b, sift_b,
+    opencl::Buffer<cl_int> itself, turned;
+    std::vector<cl_int> numbers(a.sift.size() + b.sift.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    itself.write(context, numbers);
+    // The second set's SIFT stands in the opposite order.
+    const auto last = static_cast<cl_int>(b.sift.size() / 256) - 1;
+    std::vector<std::uint8_t> sift_turned;
+    std::vector<cl_int> from_the_end;
+    for (cl_int k = last; k >= 0; --k) {
+      from_the_end.push_back(k);
+      sift_turned.insert(sift_turned.end(), b.sift.begin() + 256 * k, b.sift.begin() + 256 * (k + 1));
+    }
+    turned.write(context, from_the_end);
+    sift_b.write(context, sift_turned);
+    stage.run({patches_a, itself, sift_a, itself}, {patches_b, itself, sift_b, turned},
               {limits.ncc_min, limits.sift_max, limits.ncc_nearly_best, limits.sift_nearly_best, limits.ncc_order, limits.sift_order},
               row_step, all_scores, device);
     const auto size = lists.target.size();
@@ -110,7 +125,7 @@ TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][m
 TEST_CASE("candidate filters: rows are judged alone, also empty ones and every second edge", "[filters][matching][device][oclgrind]") {
   Measured edges(5);
   // Edge 2 is the opposite of the others: what is like them is unlike it. Rows 0, 1, 2 belong to edges 0, 2, 4.
-  edges.a.patches[2 * 98] = -1.0f;
+  edges.a.patches[2 * 112] = -1.0f;
   const int good = edges.add(0.96875, 40), bad = edges.add(-0.9375, 40);
   reference::Candidates lists;
   lists.target = {good, bad, good, bad};
@@ -134,7 +149,11 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
           v = random(-0.5, 1);
           squares += v * v;
         }
-        for (const double v : values) set.patches.push_back(static_cast<float>(v / std::sqrt(squares)));
+        const std::size_t first = set.patches.size() - (side == 0 ? 0 : 112);
+        set.patches.resize(first + 112, 0.0f);
+        for (std::size_t k = 0; k < 49; ++k) {
+          set.patches[first + 16 * (k / 7) + 8 * static_cast<std::size_t>(side) + k % 7] = static_cast<float>(values[k] / std::sqrt(squares));
+        }
       }
       for (int k = 0; k < 256; ++k) set.sift.push_back(static_cast<std::uint8_t>(random(0, 60)));
     }

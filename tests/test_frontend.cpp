@@ -136,6 +136,7 @@ TEST_CASE("frontend: every variant of every stage gives the default's bytes, and
 TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[frontend][matching][device]") {
   RenderedScene scene("room", 161, 97, 2);
   scene.config.temporal.sift_max = 300;
+  scene.config.stereo.sift_max = 400;
   for (const auto& device : all_devices()) {
     for (const int step : {1, 8}) {
       Lists tap;

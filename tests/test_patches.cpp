@@ -26,11 +26,23 @@ std::vector<float> cut(const Image& image, float x, float y, float direction) {
   return reference::side_patches(image.view(), {x}, {y}, {direction}, PatchesConfig{});
 }
 
-float norm(const float* patch) {
+/// Sample `k` = 7 i + j of the dark (0) or bright (1) patch.
+std::size_t place(int side, int k) { return static_cast<std::size_t>(16 * (k / 7) + 8 * side + k % 7); }
+
+/// The 49 samples of one side.
+std::vector<float> side_of(const std::vector<float>& patches, int side) {
+  std::vector<float> samples;
+  for (int k = 0; k < kPatchSamples; ++k) samples.push_back(patches[place(side, k)]);
+  return samples;
+}
+
+float norm(const std::vector<float>& patch) {
   float squares = 0;
-  for (int k = 0; k < kPatchSamples; ++k) squares += patch[k] * patch[k];
+  for (const float value : patch) squares += value * value;
   return std::sqrt(squares);
 }
+
+std::ptrdiff_t brightest(const std::vector<float>& patch) { return std::max_element(patch.begin(), patch.end()) - patch.begin(); }
 
 }  // namespace
 
@@ -60,7 +72,7 @@ TEST_CASE("patches: a linear ramp shows the sample layout", "[patches]") {
       for (int i = 0; i < 7; ++i) {
         for (int j = 0; j < 7; ++j) {
           const double expected = scale * ((i - 3) * per_i + (j - 3) * per_j);
-          CHECK(patches[static_cast<std::size_t>(side * 49 + 7 * i + j)] == Approx(expected).margin(1e-5));
+          CHECK(patches[place(side, 7 * i + j)] == Approx(expected).margin(1e-5));
         }
       }
     }
@@ -73,15 +85,13 @@ TEST_CASE("patches: the dark side lies 5 px along (sin, -cos) and comes first", 
   image.pixels[20 * 41 + 25] = 255;
   // Tangent upwards (direction -90 degrees): dark side at (-1, 0), bright side at (1, 0).
   const auto patches = cut(image, 20, 20, -kPi / 2);
-  CHECK(norm(patches.data()) == 0.0f);
-  const float* bright = patches.data() + kPatchSamples;
-  CHECK(std::max_element(bright, bright + kPatchSamples) - bright == 24);  // the middle sample
+  CHECK(norm(side_of(patches, 0)) == 0.0f);
+  CHECK(brightest(side_of(patches, 1)) == 24);  // the middle sample
   // The pixel one step along the tangent (0, -1) and two steps along the bright normal (1, 0): i = 4, j = 5.
   std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{0});
   image.pixels[19 * 41 + 27] = 255;
   const auto moved = cut(image, 20, 20, -kPi / 2);
-  bright = moved.data() + kPatchSamples;
-  CHECK(std::max_element(bright, bright + kPatchSamples) - bright == 7 * 4 + 5);
+  CHECK(brightest(side_of(moved, 1)) == 7 * 4 + 5);
 }
 
 TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches", "[patches]") {
@@ -98,9 +108,9 @@ TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches"
 TEST_CASE("patches: the opposite direction swaps the sides and turns both patches by 180 degrees", "[patches]") {
   const Image image = noise_image(50, 40, 2);
   const auto before = cut(image, 25.5f, 20.125f, 0.9f), after = cut(image, 25.5f, 20.125f, 0.9f - kPi);
-  for (std::size_t k = 0; k < kPatchSamples; ++k) {
-    CHECK(after[kPatchSamples + 48 - k] == Approx(before[k]).margin(1e-5));
-    CHECK(after[48 - k] == Approx(before[kPatchSamples + k]).margin(1e-5));
+  for (int k = 0; k < kPatchSamples; ++k) {
+    CHECK(after[place(1, 48 - k)] == Approx(before[place(0, k)]).margin(1e-5));
+    CHECK(after[place(0, 48 - k)] == Approx(before[place(1, k)]).margin(1e-5));
   }
 }
 
@@ -112,9 +122,10 @@ TEST_CASE("patches: unit norm, no mean, and neither gain nor offset matter", "[p
   }
   const auto a = cut(image, 25, 20, 2.2f), b = cut(darker, 25, 20, 2.2f);
   for (int side = 0; side < 2; ++side) {
-    CHECK(norm(a.data() + side * kPatchSamples) == Approx(1).margin(1e-6));
+    const auto samples = side_of(a, side);
+    CHECK(norm(samples) == Approx(1).margin(1e-6));
     float sum = 0;
-    for (int k = 0; k < kPatchSamples; ++k) sum += a[static_cast<std::size_t>(side * kPatchSamples + k)];
+    for (const float value : samples) sum += value;
     CHECK(sum == Approx(0).margin(1e-5));
   }
   CHECK(reference::patch_ncc(a.data(), b.data()) == Approx(1).margin(1e-5));
@@ -141,8 +152,8 @@ TEST_CASE("patches: the similarity is the best pairing of sides, the first one o
   // Four patches without anything in common: unit vectors along different axes.
   const auto edge = [](int dark, int bright) {
     std::vector<float> patches(kEdgePatchFloats, 0.0f);
-    patches[static_cast<std::size_t>(dark)] = 1;
-    patches[static_cast<std::size_t>(kPatchSamples + bright)] = 1;
+    patches[place(0, dark)] = 1;
+    patches[place(1, bright)] = 1;
     return patches;
   };
   const auto pairing = [](const std::vector<float>& a, const std::vector<float>& b) {
@@ -210,9 +221,10 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
   const TestEdges edges = random_edges(90, 70, 60, 10);
   auto patches = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
   std::fill_n(patches.begin(), kEdgePatchFloats, 0.0f);                          // a flat edge
-  std::copy_n(patches.begin() + kEdgePatchFloats, kPatchSamples,                 // a tie: both sides of edge 2 are the
-              patches.begin() + 2 * kEdgePatchFloats);                           // dark side of edge 1
-  std::copy_n(patches.begin() + kEdgePatchFloats, kPatchSamples, patches.begin() + 2 * kEdgePatchFloats + kPatchSamples);
+  for (int k = 0; k < kPatchSamples; ++k) {                                      // a tie: both sides of edge 2 are the
+    const float dark = patches[kEdgePatchFloats + place(0, k)];                  // dark side of edge 1
+    for (const int side : {0, 1}) patches[2 * kEdgePatchFloats + place(side, k)] = dark;
+  }
   for (const auto& index : all_devices()) {
     Device device(index);
     auto& context = *device.context();
@@ -221,7 +233,7 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
         "kernel void score(global const float* patches, global float* scores, global int* pairings) {\n"
         "  const int a = (int)get_global_id(0), b = (int)get_global_id(1), k = b * (int)get_global_size(0) + a;\n"
         "  int pairing;\n"
-        "  scores[k] = patch_ncc_pairing(patches + a * 98, patches + b * 98, &pairing);\n"
+        "  scores[k] = patch_ncc_pairing(patches + a * 112, patches + b * 112, &pairing);\n"
         "  pairings[k] = pairing;\n"
         "}\n");
     const opencl::Kernel<opencl::In<cl_float>, opencl::Out<cl_float>, opencl::Out<cl_int>> score(context, program, "score");

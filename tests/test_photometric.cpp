@@ -111,7 +111,9 @@ TEST_CASE("photometric: devices cut the same patches, also across the border", "
       "  const int i = (int)get_global_id(0);\n"
       "  if (i >= count) return;\n"
       "  float8 rows[PATCH_SIDE];\n"
-      "  cut_patch(corners, width, height, directed_frame(at[4 * i], at[4 * i + 1], at[4 * i + 2], at[4 * i + 3], 5.0f), 0.25f, -0.5f, rows);\n"
+      "  float cosine;\n"
+      "  const float sine = sine_cosine(at[4 * i + 2], &cosine);\n"
+      "  cut_patch(corners, width, height, patch_frame(at[4 * i], at[4 * i + 1], cosine, sine, at[4 * i + 3], 5.0f), 0.25f, -0.5f, rows);\n"
       "  for (int k = 0; k < PATCH_SIDE; ++k) vstore8(rows[k], k, grey + 56 * i);\n"
       "}\n";
   const auto& kernels = opencl::embedded_kernels();

@@ -1,45 +1,47 @@
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <set>
 
 #include "matching.hpp"
 #include "stages/point_index.hpp"
 
 using namespace quadedge;
 
-TEST_CASE("point index: rows of half a pixel, then x, then the number", "[temporal][matching]") {
-  //                            0     1     2      3     4      5
-  const std::vector<float> xs = {7, 3.5f, 3.5f, 20.25f, 1, 0}, ys = {2.1f, 1.9f, 2.2f, 0.2f, 9, -3};
-  const auto index = stages::make_point_index(xs, ys, 4);
-  // round(2 y) = 4, 4, 4, 0, 18 -> 7 (last row), -6 -> 0.
-  CHECK(index.order == std::vector<std::int32_t>{5, 3, 1, 2, 0, 4});
-  CHECK(index.row_first == std::vector<std::int32_t>{0, 2, 2, 2, 2, 5, 5, 5, 6});
-}
-
-TEST_CASE("point index: no points make empty rows", "[temporal][matching]") {
-  const auto index = stages::make_point_index({}, {}, 3);
+TEST_CASE("point index: cells of 8 x 4 px in rows, then the number; what lies outside counts to the border", "[temporal][matching]") {
+  //                             0     1      2      3      4    5     6
+  const std::vector<float> xs = {17, 7.9f, 8.1f, 2.25f, 100, -30, 3}, ys = {2.1f, 3.9f, 4.2f, 0.2f, 9, -3, 4};
+  stages::PointIndex index;
+  stages::make_point_index(xs, ys, 20, 7, index);
+  CHECK(index.columns == 3);
+  CHECK(index.rows == 2);
+  CHECK(index.order == std::vector<std::int32_t>{1, 3, 5, 0, 6, 2, 4});
+  CHECK(index.cell_first == std::vector<std::int32_t>{0, 3, 3, 4, 5, 6, 7});
+  stages::make_point_index({}, {}, 9, 3, index);
   CHECK(index.order.empty());
-  CHECK(index.row_first == std::vector<std::int32_t>(7, 0));
+  CHECK(index.cell_first == std::vector<std::int32_t>(3, 0));
 }
 
-TEST_CASE("point index: every point once, in its row, ascending in x", "[temporal][matching]") {
+TEST_CASE("point index: a square holds every point within its radius, also beyond the border", "[temporal][matching]") {
   matching::Random random(4);
   std::vector<float> xs, ys;
   for (int k = 0; k < 500; ++k) {
-    xs.push_back(static_cast<float>(random(0, 80)));
-    ys.push_back(static_cast<float>(random(0, 30)));
+    xs.push_back(static_cast<float>(random(-5, 85)));
+    ys.push_back(static_cast<float>(random(-5, 35)));
   }
-  const auto index = stages::make_point_index(xs, ys, 31);
+  stages::PointIndex index;
+  stages::make_point_index(xs, ys, 80, 30, index);
   auto sorted = index.order;
   std::sort(sorted.begin(), sorted.end());
   std::vector<std::int32_t> all(500);
   std::iota(all.begin(), all.end(), 0);
   CHECK(sorted == all);
-  REQUIRE(index.row_first.size() == 63);
-  for (std::size_t row = 0; row < 62; ++row) {
-    for (auto k = static_cast<std::size_t>(index.row_first[row]); k < static_cast<std::size_t>(index.row_first[row + 1]); ++k) {
-      const auto point = static_cast<std::size_t>(index.order[k]);
-      CHECK(std::abs(2 * ys[point] - static_cast<float>(row)) <= 0.5f);
-      if (k > static_cast<std::size_t>(index.row_first[row])) CHECK(xs[static_cast<std::size_t>(index.order[k - 1])] <= xs[point]);
+  for (int k = 0; k < 200; ++k) {
+    const auto x = static_cast<float>(random(-20, 100)), y = static_cast<float>(random(-20, 50)), radius = static_cast<float>(random(0, 12));
+    std::set<std::int32_t> visited;
+    index.visit_square(x, y, radius, [&](std::int32_t number) { CHECK(visited.insert(number).second); });
+    for (std::int32_t i = 0; i < 500; ++i) {
+      const auto p = static_cast<std::size_t>(i);
+      if (std::hypot(xs[p] - x, ys[p] - y) <= radius) CHECK(visited.count(i) == 1);
     }
   }
 }

@@ -25,9 +25,10 @@ struct Scene {
 
   explicit Scene(int count, std::uint64_t seed = 2) {
     config.max_disparity = 20;
-    // The candidates lie farther off than edges do: the images alone decide, and need more steps.
+    // The candidates lie farther off than edges do: the images alone decide, and need more steps, down to the end.
     config.refine_prior = 100;
     config.refine_steps = 20;
+    config.refine_tolerance = 1e-3;
     geometry = stages::make_epipolar_geometry(rig, config);
     left_image = image_of(97, 71, smooth_grey);
     right_image = image_of(97, 71, [](double x, double y) { return smooth_grey(x + kDisparity, y); });
@@ -65,7 +66,10 @@ struct Scene {
       opencl::Buffer<cl_float> packed;
       stages::DeviceRefined found;
       packed.write(context, geometry.packed());
-      stage.run(upload(context, left_image), upload(context, right_image), upload(context, left), upload(context, right), packed, device,
+      stages::PixelCorners left_corners(context), right_corners(context);
+      left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
+      right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
+      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), packed, device,
                 found);
       const auto states = device.rejected_by.read(places.size());
       const auto device_places = found.place.read(places.size()), device_likeness = found.likeness.read(places.size());

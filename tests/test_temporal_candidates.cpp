@@ -7,6 +7,8 @@ using namespace matching;
 
 namespace {
 
+constexpr int kWidth = 90;  // px
+
 stages::PlacedEdges places_of(const std::vector<Edge>& edges) {
   stages::PlacedEdges places;
   for (const Edge& edge : edges) {
@@ -48,45 +50,24 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
   return certain;
 }
 
-/// The current edges stand in the left blocks; the right blocks are moved by 3 px, and searched with places moved alike.
 std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std::vector<Edge>& current_edges, int height, double radius,
                              double orientation, int step) {
   const auto predicted = places_of(predicted_edges), current = places_of(current_edges);
-  const auto index = stages::make_point_index(current.x, current.y, height);
+  stages::PointIndex index;
+  stages::make_point_index(current.x, current.y, kWidth, height, index);
   const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius), static_cast<float>(orientation), step);
   const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
   for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    for (const int side : {0, 1}) {
-      INFO(name << ", side " << side);
-      auto here = current, sought = predicted;
-      for (auto* values : {&here.x, &sought.x}) {
-        for (float& x : *values) x += side == 0 ? 0.0f : 3.0f;
-      }
-      stages::DeviceStereoEdges edges;
-      edges.count = static_cast<int>(here.x.size());
-      edges.stride = edges.count + 5;
-      const auto stride = static_cast<std::size_t>(edges.stride);
-      std::vector<float> packed(6 * stride, 1e3f);  // the other side's edges are nowhere near
-      const auto begin = packed.begin() + static_cast<std::ptrdiff_t>(3 * stride * static_cast<std::size_t>(side));
-      std::copy(here.x.begin(), here.x.end(), begin);
-      std::copy(here.y.begin(), here.y.end(), begin + edges.stride);
-      std::copy(here.direction.begin(), here.direction.end(), begin + 2 * edges.stride);
-      edges.packed.write(context, packed);
-      const auto points = stages::make_point_index(here.x, here.y, height);
-      stages::DevicePointIndex device_index;
-      device_index.row_first.write(context, points.row_first);
-      device_index.order.write(context, points.order);
-      stages::DevicePlaces device_places;
-      device_places.x.write(context, sought.x);
-      device_places.y.write(context, sought.y);
-      device_places.direction.write(context, sought.direction);
-      device_places.count = static_cast<int>(sought.x.size());
-      stages::TemporalCandidates stage(context, variants);
-      stages::DeviceCandidates lists;
-      stage.run(device_places, step, edges, side, device_index, height, static_cast<float>(radius), static_cast<float>(orientation), lists);
-      check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1), lists.target.read(static_cast<std::size_t>(lists.host_total)),
-                  sought, here, radius, orientation, step);
-    }
+    INFO(name);
+    stages::DevicePointIndex device_index;
+    device_index.build(context, current.x, current.y, current.direction, kWidth, height);
+    stages::DevicePlaces device_places;
+    device_places.write(context, predicted);
+    stages::TemporalCandidates stage(context, variants);
+    stages::DeviceCandidates lists;
+    stage.run(device_places, step, device_index, static_cast<float>(radius), static_cast<float>(orientation), lists);
+    check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1), lists.target.read(static_cast<std::size_t>(lists.host_total)),
+                predicted, current, radius, orientation, step);
   });
   return certain;
 }
@@ -106,9 +87,11 @@ TEST_CASE("temporal candidates: a circle around the predicted place and a full t
   // At 5 px, beside the corner of the square, at the right place with the other contrast, across the wrap of the direction.
   const std::vector<Edge> current = {{24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
   const auto places = places_of(current);
-  const auto lists = reference::temporal_candidates(places_of(predicted), places, stages::make_point_index(places.x, places.y, 30), 5.0f, 0.15f);
+  stages::PointIndex index;
+  stages::make_point_index(places.x, places.y, kWidth, 30, index);
+  const auto lists = reference::temporal_candidates(places_of(predicted), places, index, 5.0f, 0.15f);
   CHECK(lists.first == std::vector<std::int32_t>{0, 2, 2, 3});
-  CHECK(lists.target == std::vector<std::int32_t>{0, 3, 2});
+  CHECK(lists.target == std::vector<std::int32_t>{3, 0, 2});
   CHECK(check_everywhere(predicted, current, 30, 5, 0.15, 1) == 3);
 }
 

@@ -55,11 +55,12 @@ bool same(const TemporalMatches& a, const TemporalMatches& b) {
 
 }  // namespace
 
-stages::TemporalSearch search_in_place(const StereoEdges& previous, double radius) {
+stages::TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool scout) {
   stages::TemporalSearch search;
   search.left = {previous.left_x, previous.left_y, previous.left_direction};
   search.right = {previous.right_x, previous.right_y, previous.right_direction};
-  search.radius = static_cast<float>(radius);
+  search.radius = static_cast<float>(scout ? config.scout_radius : config.radius);
+  search.scout = scout;
   return search;
 }
 
@@ -70,7 +71,8 @@ FrontendOutput run_frontend(stages::Frontend& frontend, const FramePrefetcher::F
   frontend.process(view(second));
   FrontendOutput output;
   output.previous = frontend.base(stages::Base::previous);
-  output.quads = frontend.match(stages::Base::previous, search_in_place(output.previous, config.temporal.scout_radius));
+  output.scouted = frontend.match(stages::Base::previous, search_in_place(output.previous, config.temporal, true));
+  output.quads = frontend.match(stages::Base::previous, search_in_place(output.previous, config.temporal, false));
   output.left_edges = frontend.edges(false);
   output.right_edges = frontend.edges(true);
   output.current = frontend.current();
@@ -79,11 +81,11 @@ FrontendOutput run_frontend(stages::Frontend& frontend, const FramePrefetcher::F
 
 bool same_bytes(const FrontendOutput& a, const FrontendOutput& b) {
   return same(a.left_edges, b.left_edges) && same(a.right_edges, b.right_edges) && same(a.previous, b.previous) &&
-         same(a.current, b.current) && same(a.quads, b.quads);
+         same(a.current, b.current) && same(a.scouted, b.scouted) && same(a.quads, b.quads);
 }
 
 Agreement agreement(const FrontendOutput& a, const FrontendOutput& b) {
-  return {std::min(both_ways(a.previous, b.previous), both_ways(a.current, b.current)), both_ways(a.quads, b.quads)};
+  return {std::min(both_ways(a.previous, b.previous), both_ways(a.current, b.current)), std::min(both_ways(a.scouted, b.scouted), both_ways(a.quads, b.quads))};
 }
 
 }  // namespace quadedge::bench

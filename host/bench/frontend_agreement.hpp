@@ -10,13 +10,13 @@ namespace quadedge::bench {
 struct FrontendOutput {
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
-  TemporalMatches quads;
+  TemporalMatches scouted, quads;  ///< by a scout with its strict limits, and by a guided search
 };
 
-/// Edges of the first frame stay where they were in both later images, `radius` px around.
-stages::TemporalSearch search_in_place(const StereoEdges& previous, double radius);
+/// Edges of the first frame stay where they were in both later images, within the radius of a scout or of a guided search.
+stages::TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool scout);
 
-/// Both frames through the frontend, with the quads between them within config.temporal.scout_radius of no motion.
+/// Both frames through the frontend, with the quads that both kinds of search find between them around no motion.
 FrontendOutput run_frontend(stages::Frontend& frontend, const FramePrefetcher::Frame& first, const FramePrefetcher::Frame& second,
                             const Config& config);
 

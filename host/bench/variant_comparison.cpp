@@ -19,10 +19,12 @@ namespace quadedge::bench {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kGuidedMatch = "temporal_match";  // one of its variants is a sequence of other stages
 constexpr double kWorthChanging = 0.97;  // of the default's time
 
 /// The names under which the pipeline books the kernels of a stage with variants.
 std::vector<std::string> booked_as(const std::string& stage) {
+  if (stage == kGuidedMatch) return {kGuidedMatch, "temporal_candidates", "temporal_filters", "temporal_quads"};
   if (stage == "candidate_filters") return {"stereo_filters", "temporal_filters"};
   if (stage == "scan") return {"edges", "stereo_candidates", "temporal_candidates"};  // the stages that use it
   return {stage};
@@ -48,8 +50,10 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   auto& context = *candidate.device->context();
   context.take_profile();
   candidate.frontend->process({input.second.stamp_ns, input.second.left.view(), input.second.right.view()});
-  candidate.frontend->match(stages::Base::previous,
-                            search_in_place(candidate.frontend->base(stages::Base::previous), input.config.temporal.scout_radius));
+  const StereoEdges& previous = candidate.frontend->base(stages::Base::previous);
+  const auto match = [&](bool scout) { candidate.frontend->match(stages::Base::previous, search_in_place(previous, input.config.temporal, scout)); };
+  match(false);
+  if (stage != kGuidedMatch) match(true);
   const auto names = booked_as(stage);
   double sum = kNaN;
   for (const auto& [name, ms] : context.take_profile()) {

@@ -17,19 +17,19 @@ class NearbyTargets {
  public:
   /// The arrays must outlive the object. `height`: of the image [px].
   NearbyTargets(const std::vector<float>& x, const std::vector<float>& y, int height)
-      : x_(x), y_(y), index_(stages::make_point_index(x, y, height)) {}
+      : x_(x), y_(y) {
+    const float right_end = x.empty() ? 0 : *std::max_element(x.begin(), x.end());
+    stages::make_point_index(x, y, std::max(1, static_cast<int>(std::ceil(right_end)) + 1), height, index_);
+  }
 
   /// Calls `found(index)` for every target within `radius` px of the place.
   template <class Found>
   void visit(double x, double y, double radius, const Found& found) const {
-    const int last_row = static_cast<int>(index_.row_first.size()) - 2;
-    const auto row = [&](double value) { return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(last_row))); };
-    const auto begin = static_cast<std::size_t>(index_.row_first[row(2 * (y - radius) - 1)]);
-    const auto end = static_cast<std::size_t>(index_.row_first[row(2 * (y + radius) + 1) + 1]);
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto j = static_cast<std::size_t>(index_.order[k]);
+    constexpr float kRounding = 0.01F;
+    index_.visit_square(static_cast<float>(x), static_cast<float>(y), static_cast<float>(radius) + kRounding, [&](std::int32_t number) {
+      const auto j = static_cast<std::size_t>(number);
       if (std::hypot(x_[j] - x, y_[j] - y) <= radius) found(j);
-    }
+    });
   }
 
  private:

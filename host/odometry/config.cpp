@@ -48,7 +48,7 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.min_depth", &stereo.min_depth, "nearest depth; 0: from max_disparity [m]", 0, kUnlimited);
   visit("stereo.max_disparity", &stereo.max_disparity, "largest disparity; 0: from min_depth or the data's reader [px]", 0, 10000);
   visit("stereo.orientation", &stereo.orientation, "largest difference of directions, modulo 360 [deg]", 0, 90);
-  visit("stereo.sift_max", &stereo.sift_max, "largest SIFT distance", 0, kUnlimited);
+  visit("stereo.sift_max", &stereo.sift_max, "largest SIFT distance; 0: without SIFT", 0, kUnlimited);
   visit("stereo.ncc_min", &stereo.ncc_min, "smallest NCC", 0.01, 1);
   visit("stereo.ncc_nearly_best", &stereo.ncc_nearly_best, "share of the best NCC that is kept", 0, 1);
   visit("stereo.sift_nearly_best", &stereo.sift_nearly_best, "ratio of best SIFT distance to distance that is kept", 0, 1);
@@ -83,7 +83,8 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("temporal.scout_edges", &temporal.scout_edges, "the scout looks for about this many stereo edges", 100, 1000000);
   visit("temporal.scout_min_inlier_share", &temporal.scout_min_inlier_share, "smallest inlier share of the scout's quads", 0, 1);
   visit("temporal.scout_ncc_min", &temporal.scout_ncc_min, "scout's smallest NCC", 0.01, 1);
-  visit("temporal.scout_sift_max", &temporal.scout_sift_max, "scout's largest SIFT distance; 0: without SIFT", 0, kUnlimited);
+  visit("temporal.scout_sift_max", &temporal.scout_sift_max, "scout's largest SIFT distance around a prediction; 0: without SIFT", 0, kUnlimited);
+  visit("temporal.scout_wide_sift_max", &temporal.scout_wide_sift_max, "and in the wider circles; 0: without SIFT", 0, kUnlimited);
   visit("temporal.scout_ncc_nearly_best", &temporal.scout_ncc_nearly_best, "scout's share of the best NCC that is kept", 0, 1);
   visit("temporal.scout_sift_nearly_best", &temporal.scout_sift_nearly_best, "scout's ratio of best SIFT distance to distance that is kept", 0, 1);
   visit("temporal.orientation", &temporal.orientation, "largest difference of directions, modulo 360 [deg]", 0, 180);

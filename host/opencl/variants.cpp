@@ -32,6 +32,9 @@ const std::vector<Variant>& all_variants() {
       {"stereo_clusters", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
       {"temporal_candidates", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
       {"temporal_candidates", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
+      {"temporal_match", "fused", {}, 1, true, false, "candidates, filters and choice of a row in one work-item, groups of one"},
+      {"temporal_match", "fused64", {}, 64, false, true, "the same in groups of 64"},
+      {"temporal_match", "lists", {}, 64, false, false, "lists of candidates that one kernel after the other shortens"},
       {"temporal_quads", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
       {"temporal_quads", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
   };

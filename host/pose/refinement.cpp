@@ -18,6 +18,8 @@ constexpr double kPlaceMedian = 2.3659738843753377, kDirectionMedian = 1.3862943
 constexpr double kSmallestScale = 1e-6;
 /// The first selection of inliers is made at a rough pose: so many of them make it a good one.
 constexpr std::size_t kFirstRows = 4000;
+/// A selection that differs from the last one in less than one row of so many calls for no further fit.
+constexpr std::size_t kSameSelection = 500;
 /// Smallest ratio of the normal equations' pivots, after scaling their diagonal to one, that counts as solvable.
 constexpr double kSmallestPivot = 1e-12;
 
@@ -90,14 +92,22 @@ struct Normal {
     gradient += other.gradient;
     return *this;
   }
+  /// Adds weight * J^T J and weight * J^T e of `Rows` residuals that depend on the first `Columns` unknowns. Plain loops: as Eigen
+  /// products this function takes minutes to compile.
+  template <int Rows, int Columns>
+  void add_rows(const double* by_unknowns, const double* errors, double weight) {
+    for (int c = 0; c < Columns; ++c) {
+      for (int k = 0; k < Rows; ++k) {
+        const double weighted = weight * by_unknowns[Rows * c + k];
+        gradient(c) += weighted * errors[k];
+        for (int r = 0; r < Columns; ++r) matrix(r, c) += weighted * by_unknowns[Rows * r + k];
+      }
+    }
+  }
   /// Adds a quad; its place counts with the first `Size` columns.
   void add(const QuadTerms& quad, double place_weight, double direction_weight) {
-    const Eigen::Matrix<double, 3, Size> by_all = quad.place.by_pose.leftCols<Size>(), weighted = place_weight * by_all;
-    matrix.noalias() += weighted.transpose().lazyProduct(by_all);
-    gradient.noalias() += weighted.transpose().lazyProduct(quad.place.error);
-    const Eigen::Matrix<double, 2, 3> turned = direction_weight * quad.direction.by_pose;
-    matrix.template topLeftCorner<3, 3>().noalias() += turned.transpose().lazyProduct(quad.direction.by_pose);
-    gradient.template head<3>().noalias() += turned.transpose().lazyProduct(quad.direction.error);
+    add_rows<3, Size>(quad.place.by_pose.data(), quad.place.error.data(), place_weight);
+    add_rows<2, 3>(quad.direction.by_pose.data(), quad.direction.error.data(), direction_weight);
   }
 };
 
@@ -130,6 +140,18 @@ struct CovarianceSums {
 struct Nothing {
   Nothing& operator+=(const Nothing&) { return *this; }
 };
+
+/// How many rows only one of two ascending lists has.
+std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
+  std::size_t i = 0, j = 0, common = 0;
+  while (i < a.size() && j < b.size()) {
+    common += a[i] == b[j] ? 1 : 0;
+    const bool step_a = a[i] <= b[j], step_b = b[j] <= a[i];
+    i += step_a ? 1 : 0;
+    j += step_b ? 1 : 0;
+  }
+  return a.size() + b.size() - 2 * common;
+}
 
 /// Keeps about `wanted` rows, evenly spread.
 void thin_out(std::vector<std::int32_t>& rows, std::size_t wanted) {
@@ -293,7 +315,7 @@ Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads,
   for (int round = 0; round < config.refine_rounds; ++round) {
     select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
     mask_to_rows(result.inlier, rows);
-    if (round > 0 && rows == last_rows) break;
+    if (round > 0 && changed_rows(rows, last_rows) <= rows.size() / kSameSelection) break;
     if (round == 0) thin_out(rows, kFirstRows);
     Eigen::Isometry3d candidate = result.current_from_previous;
     result.solved = fit(terms, rows, rig, config, candidate, workspace);

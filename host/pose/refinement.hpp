@@ -74,7 +74,7 @@ struct Refined {
 };
 
 /// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and fit(), config.refine_rounds times or until the selection
-/// stays the same; then fit_offset() with a prior of `offset_variance` [px^2], 0: without it.
+/// hardly changes; of many quads the first fit sees a part. Then fit_offset() with a prior of `offset_variance` [px^2], 0: without it.
 Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial, double offset_variance = 0);
 

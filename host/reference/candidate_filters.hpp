@@ -5,21 +5,17 @@
 #include <vector>
 
 #include "reference/stereo_candidates.hpp"
+#include "stages/filter_limits.hpp"
 
 namespace quadedge::reference {
 
-/// Patches (98 floats per edge, reference/patches.hpp) and SIFT descriptors (256 bytes per edge, reference/sift.hpp).
+/// Patches (112 floats per edge, reference/patches.hpp) and SIFT descriptors (256 bytes per edge, reference/sift.hpp).
 struct EdgeDescriptions {
   std::vector<float> patches;
   std::vector<std::uint8_t> sift;
 };
 
-/// Thresholds of SPEC section 3 filters 4 to 7, or section 4 filters 3 to 5. The orders are the filters' places in their cascade;
-/// the nearly-best filters follow at the larger one + 1 and + 2.
-struct FilterLimits {
-  float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
-  int ncc_order, sift_order;
-};
+using stages::FilterLimits;
 
 /// One entry per candidate.
 struct CandidateScores {

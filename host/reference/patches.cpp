@@ -18,7 +18,7 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (bottom - top);
 }
 
-/// One patch around (x, y) with its unit tangent (c, s).
+/// One patch around (x, y) with its unit tangent (c, s); `patch`: its first row.
 void sample_patch(const ImageView& image, double x, double y, double c, double s, float* patch) {
   constexpr int kHalf = kPatchSide / 2;
   std::array<double, kPatchSamples> values;
@@ -39,17 +39,17 @@ void sample_patch(const ImageView& image, double x, double y, double c, double s
     squares += value * value;
   }
   const double scale = squares < kFlatPatchSquares ? 0.0 : 1.0 / std::sqrt(squares);
-  for (int k = 0; k < kPatchSamples; ++k) patch[k] = static_cast<float>(values[k] * scale);
+  for (int i = 0; i < kPatchSide; ++i) {
+    for (int j = 0; j < kPatchSide; ++j) patch[2 * kPatchLanes * i + j] = static_cast<float>(values[i * kPatchSide + j] * scale);
+  }
 }
 
 float dot(const float* a, const float* b) {
-  std::array<float, 8> lane{};
-  for (int k = 0; k + 8 < kPatchSamples; k += 8) {
-    for (int l = 0; l < 8; ++l) lane[l] = std::fma(a[k + l], b[k + l], lane[l]);
+  std::array<float, kPatchLanes> lane{};
+  for (int i = 0; i < kPatchSide; ++i) {
+    for (int l = 0; l < kPatchLanes; ++l) lane[l] = std::fma(a[2 * kPatchLanes * i + l], b[2 * kPatchLanes * i + l], lane[l]);
   }
-  const float even = (lane[0] + lane[4]) + (lane[2] + lane[6]);
-  const float odd = (lane[1] + lane[5]) + (lane[3] + lane[7]);
-  return std::fma(a[kPatchSamples - 1], b[kPatchSamples - 1], even + odd);
+  return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
 }  // namespace
@@ -62,14 +62,14 @@ std::vector<float> side_patches(const ImageView& image, const std::vector<float>
     const double to_dark_x = config.offset * s, to_dark_y = -config.offset * c;
     float* edge = patches.data() + e * kEdgePatchFloats;
     sample_patch(image, xs[e] + to_dark_x, ys[e] + to_dark_y, c, s, edge);
-    sample_patch(image, xs[e] - to_dark_x, ys[e] - to_dark_y, c, s, edge + kPatchSamples);
+    sample_patch(image, xs[e] - to_dark_x, ys[e] - to_dark_y, c, s, edge + kPatchLanes);
   }
   return patches;
 }
 
 PatchSimilarity patch_similarity(const float* a, const float* b) {
-  const float* a_bright = a + kPatchSamples;
-  const float* b_bright = b + kPatchSamples;
+  const float* a_bright = a + kPatchLanes;
+  const float* b_bright = b + kPatchLanes;
   const std::array<float, 4> scores = {dot(a, b), dot(a_bright, b_bright), dot(a, b_bright), dot(a_bright, b)};
   const auto best = std::max_element(scores.begin(), scores.end());
   return {*best, static_cast<SidePairing>(best - scores.begin())};

@@ -10,12 +10,14 @@ namespace quadedge::reference {
 
 inline constexpr int kPatchSide = 7;                           ///< samples along each axis of a patch
 inline constexpr int kPatchSamples = kPatchSide * kPatchSide;  ///< floats of one patch
-inline constexpr int kEdgePatchFloats = 2 * kPatchSamples;     ///< floats of one edge: dark side, then bright side
+inline constexpr int kPatchLanes = kPatchSide + 1;             ///< floats of one row of a patch, the last one zero
+inline constexpr int kEdgePatchFloats = 2 * kPatchSide * kPatchLanes;  ///< floats of one edge
 inline constexpr double kFlatPatchSquares = 1e-10;             ///< below this sum of squares a patch is flat
 
-/// The two side patches of every edge: `kEdgePatchFloats` floats per edge, the dark side's 49 first.
+/// The two side patches of every edge, `kEdgePatchFloats` floats per edge: row by row, each row of the dark patch followed by the one
+/// of the bright patch, so that sixteen floats loaded at once hold a row of both.
 ///
-/// Sample (i, j) of a patch is element 7 i + j. i steps along the tangent (cos t, sin t), j along the normal that points
+/// Sample (i, j) of the dark patch is element 16 i + j, of the bright one 16 i + 8 + j; j = 7 is zero. i steps along the tangent (cos t, sin t), j along the normal that points
 /// to the bright side (-sin t, cos t), both 1 px per step; the middle sample (3, 3) lies `config.offset` px from the edge, on the
 /// dark side at (x + offset sin t, y - offset cos t) and on the bright side opposite to it. Bilinear; coordinates outside the
 /// image are clamped to its border. Each patch is mean-free with unit norm; a flat one (sum of squares below
@@ -34,7 +36,7 @@ struct PatchSimilarity {
 };
 
 /// Similarity of two edges from their patches (`kEdgePatchFloats` each). Single precision with the summation order of the
-/// kernel (eight fused multiply-add lanes, then a tree, then the 49th product), so that both give the same bits.
+/// kernel (eight fused multiply-add lanes over the rows, then a tree), so that both give the same bits.
 PatchSimilarity patch_similarity(const float* a, const float* b);
 
 /// Only the NCC of patch_similarity().

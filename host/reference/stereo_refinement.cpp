@@ -9,13 +9,16 @@ namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kSamePlace = 0.3;  // px; twin: SAME_PLACE in kernels/stereo_refinement.cl
+
+double distance_from(const EpipolarLine& line, double x, double y) { return -(x - line.x) * line.ey + (y - line.y) * line.ex; }
 
 }  // namespace
 
 double epipolar_shift(const EpipolarLine& line, double x, double y, double direction, double min_angle, double max_shift) {
   const double dx = x - line.x, dy = y - line.y;
   const double s = dx * line.ex + dy * line.ey;
-  const double distance = -dx * line.ey + dy * line.ex;
+  const double distance = distance_from(line, x, y);
   const double across = -std::cos(direction) * line.ey + std::sin(direction) * line.ex;
   const double along = std::cos(direction) * line.ex + std::sin(direction) * line.ey;
   if (std::abs(across) <= std::sin(min_angle)) return s;
@@ -35,11 +38,25 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
     const double line_sine = left_epipolar_sine(geometry, left.x[i], left.y[i], left.direction[i]);
     const double stiffness = std::pow(config.refine_noise / config.refine_prior * line_sine, 2);
     const auto left_frame = [&](double side) { return patch_frame(left.x[i], left.y[i], cosine, sine, side, patch_offset); };
-    for (auto c = static_cast<std::size_t>(candidates.first[i]); c < static_cast<std::size_t>(candidates.first[i + 1]); ++c) {
+    const auto begin = static_cast<std::size_t>(candidates.first[i]), end = static_cast<std::size_t>(candidates.first[i + 1]);
+    const auto off_line = [&](std::size_t c) {
+      const auto j = static_cast<std::size_t>(candidates.target[c]);
+      return std::abs(distance_from(line, right.x[j], right.y[j]));
+    };
+    for (std::size_t c = begin; c < end; ++c) {
       if (scores.rejected_by[c] != 0) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
-      const double s = epipolar_shift(line, right.x[j], right.y[j], right.direction[j], config.shift_min_angle * kPi / 180,
-                                      config.shift_max);
+      refined.place[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j], config.shift_min_angle * kPi / 180, config.shift_max);
+      for (std::size_t k = begin; k < c; ++k) {
+        if (scores.rejected_by[k] != 0 || std::abs(refined.place[k] - refined.place[c]) >= kSamePlace) continue;
+        const bool nearer = off_line(c) < off_line(k);
+        scores.rejected_by[nearer ? k : c] = kStereoRefinementOrder;
+        if (!nearer) break;
+      }
+    }
+    for (std::size_t c = begin; c < end; ++c) {
+      if (scores.rejected_by[c] != 0) continue;
+      const double s = refined.place[c];
       const auto right_frame = [&](double place, double side) {
         return patch_frame(line.x + place * line.ex, line.y + place * line.ey, cosine, sine, side, patch_offset);
       };

@@ -14,17 +14,19 @@ inline constexpr int kStereoRefinementOrder = 8;
 /// and the move is shorter than `max_shift` [px], else orthogonally. Returns px from the point at infinity (SPEC 8a).
 double epipolar_shift(const EpipolarLine& line, double x, double y, double direction, double min_angle, double max_shift);
 
-/// Refined candidates, one entry each; zeros for rejected ones.
+/// Refined candidates, one entry each; of no meaning for rejected ones.
 struct RefinedCandidates {
   std::vector<double> place;     ///< on the left edge's epipolar line [px from the point at infinity]
   std::vector<double> likeness;  ///< of both places: mean of the NCC of the patches on the edges and of the better equal side
 };
 
-/// Shifts and refines every candidate that is alive (SPEC 8a, 8b), and marks diverged ones in `scores.rejected_by`.
+/// Shifts and refines every candidate that is alive (SPEC 8a, 8b), and marks diverged and superfluous ones in `scores.rejected_by`.
 ///
 /// Where SPEC aligns a side patch, the patch on the edge itself is aligned here, at equal contrast: it holds the edge's own profile,
 /// and the flank that another surface owns weighs little. A prior holds it around the detected place, as tightly as an edge is
 /// known along this line: refine_prior / sin(angle between edge and line).
+///
+/// Neighbours on one curve shift to the same place: of candidates within 0.3 px the one nearest to the line stands for all.
 RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image, const EdgeSet& left,
                                       const EdgeSet& right, const stages::EpipolarGeometry& geometry,
                                       const Candidates& candidates, const StereoConfig& config, double patch_offset,

@@ -6,13 +6,16 @@
 
 #include "opencl/kernel.hpp"
 #include "stages/device_candidates.hpp"
+#include "stages/filter_limits.hpp"
 
 namespace quadedge::stages {
 
-/// Thresholds and places of the four filters in their cascade (reference::FilterLimits on the device). sift_max = 0: without SIFT.
-struct CandidateLimits {
-  float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
-  int ncc_order, sift_order;
+/// Descriptions of a set of edges, with the numbers under which an edge's own stand there.
+struct DescribedEdges {
+  const opencl::Buffer<cl_float>& patches;   ///< see host/reference/patches.hpp
+  const opencl::Buffer<cl_int>& patch_of;
+  const opencl::Buffer<cl_uchar>& sift;      ///< see host/reference/sift.hpp
+  const opencl::Buffer<cl_int>& sift_of;
 };
 
 /// Variants of the stage "candidate_filters".
@@ -22,9 +25,8 @@ class CandidateFilters {
 
   /// Fills ncc, sift, pairing and rejected_by of every candidate. Row r belongs to edge r * row_step of the first set.
   /// `all_scores`: also computes what is not needed to decide (for a tap).
-  void run(const opencl::Buffer<cl_float>& patches_a, const opencl::Buffer<cl_uchar>& sift_a,
-           const opencl::Buffer<cl_float>& patches_b, const opencl::Buffer<cl_uchar>& sift_b, const CandidateLimits& limits,
-           int row_step, bool all_scores, DeviceCandidates& candidates);
+  void run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step, bool all_scores,
+           DeviceCandidates& candidates);
 
  private:
   template <class T>
@@ -34,8 +36,8 @@ class CandidateFilters {
 
   opencl::Context& context_;
   std::size_t local_size_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_uchar>,
-                 cl_float, cl_float, cl_float, cl_float, cl_int, cl_int, cl_int, Out<cl_float>, Out<cl_float>, Out<cl_uchar>,
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_float>, In<cl_int>, In<cl_uchar>, In<cl_int>, In<cl_float>,
+                 In<cl_int>, In<cl_uchar>, In<cl_int>, cl_float, cl_float, cl_float, cl_float, cl_int, cl_int, cl_int, Out<cl_float>, Out<cl_float>, Out<cl_uchar>,
                  Out<cl_uchar>, Out<cl_int>>
       kernel_;
 };

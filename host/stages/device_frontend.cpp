@@ -1,5 +1,7 @@
 #include "stages/device_frontend.hpp"
 
+#include <numeric>
+
 #include "reference/temporal_quads.hpp"
 #include "stages/filter_names.hpp"
 #include "stages/point_index.hpp"
@@ -8,23 +10,6 @@ namespace quadedge::stages {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-CandidateLimits stereo_limits(const StereoConfig& config) {
-  return {static_cast<float>(config.ncc_min),         static_cast<float>(config.sift_max),
-          static_cast<float>(config.ncc_nearly_best), static_cast<float>(config.sift_nearly_best),
-          kStereoNccOrder,                            kStereoSiftOrder};
-}
-
-CandidateLimits temporal_limits(const TemporalConfig& config, bool scout) {
-  if (scout) {
-    return {static_cast<float>(config.scout_ncc_min),         static_cast<float>(config.scout_sift_max),
-            static_cast<float>(config.scout_ncc_nearly_best), static_cast<float>(config.scout_sift_nearly_best),
-            kTemporalNccOrder,                                kTemporalSiftOrder};
-  }
-  return {static_cast<float>(config.ncc_min),         static_cast<float>(config.sift_max),
-          static_cast<float>(config.ncc_nearly_best), static_cast<float>(config.sift_nearly_best),
-          kTemporalNccOrder,                          kTemporalSiftOrder};
-}
 
 }  // namespace
 
@@ -38,8 +23,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
     : context_(context),
       config_(config),
       epipolar_(make_epipolar_geometry(rig, config.stereo)),
-      left_height_(rig.left.height),
-      right_height_(rig.right.height),
+      rig_(rig),
       left_(context, rig.left, rig.left_undistortion, config),
       right_(context, rig.right, rig.right_undistortion, config),
       stereo_candidates_(context, config.variants),
@@ -47,20 +31,26 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       refinement_(context, config.stereo, config.patches.offset, config.variants),
       clustering_(context, config.stereo, config.variants),
       temporal_candidates_(context, config.variants),
-      temporal_quads_(context, config.temporal, config.variants) {
+      temporal_quads_(context, config.temporal, config.variants),
+      temporal_match_(context, config.temporal, config.variants) {
   geometry_.write(context, epipolar_.packed());
-  left_image_.width = rig.left.width;
-  left_image_.height = rig.left.height;
-  right_image_.width = rig.right.width;
-  right_image_.height = rig.right.height;
+  for (auto& slot : rigs_) {
+    slot.left_image.width = rig.left.width;
+    slot.left_image.height = rig.left.height;
+    slot.right_image.width = rig.right.width;
+    slot.right_image.height = rig.right.height;
+  }
+  std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
+  std::iota(itself.begin(), itself.end(), 0);
+  itself_.write(context, itself);
 }
 
 void DeviceFrontend::process(const StereoFrame& frame) {
   DeviceStereoEdges& rig = rigs_[now_];
-  left_.undistortion.run(frame.left, left_image_.pixels);
-  right_.undistortion.run(frame.right, right_image_.pixels);
-  left_.detection.run(left_image_.pixels, left_.edges);
-  right_.detection.run(right_image_.pixels, right_.edges);
+  left_.undistortion.run(frame.left, rig.left_image.pixels);
+  right_.undistortion.run(frame.right, rig.right_image.pixels);
+  left_.detection.run(rig.left_image.pixels, left_.edges);
+  right_.detection.run(rig.right_image.pixels, right_.edges);
   left_.edges.read_count();
   right_.edges.read_count();
   counts_ = {};
@@ -69,20 +59,26 @@ void DeviceFrontend::process(const StereoFrame& frame) {
   counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
   if (tap_ != nullptr) tap_->edges(edges(false), edges(true));
 
-  for (auto* camera : {&left_, &right_}) {
-    camera->description.prepare(camera == &left_ ? left_image_.pixels : right_image_.pixels);
-    camera->description.describe(camera->edges.x, camera->edges.y, camera->edges.direction, camera->edges.host_count,
-                                 camera->descriptions);
+  left_.description.prepare(rig.left_image.pixels);
+  right_.description.prepare(rig.right_image.pixels);
+  left_.description.cut_patches(left_.edges, rig.left_patches);
+  right_.description.cut_patches(right_.edges, right_patches_);
+  if (tap_ != nullptr || config_.stereo.sift_max > 0) {
+    left_.description.prepare_sift(rig.left_image.pixels);
+    right_.description.prepare_sift(rig.right_image.pixels);
+    left_.description.describe_sift(left_.edges, left_sift_);
+    right_.description.describe_sift(right_.edges, right_sift_);
   }
   if (tap_ != nullptr) tap_candidates_without_limits();
-  stereo_candidates_.run(left_.edges, right_.edges, right_height_, geometry_, candidates_);
+  stereo_candidates_.run(left_.edges, right_.edges, rig_.right.height, geometry_, candidates_);
   context_.begin_stage("stereo_filters");
-  filters_.run(left_.descriptions.patches, left_.descriptions.sift, right_.descriptions.patches, right_.descriptions.sift,
+  filters_.run({rig.left_patches, itself_, left_sift_, itself_}, {right_patches_, itself_, right_sift_, itself_},
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
-  refinement_.run(left_image_, right_image_, left_.edges, right_.edges, geometry_, candidates_, refined_);
-  clustering_.run(left_.edges, right_.edges, left_.descriptions, right_.descriptions, right_.description, geometry_,
-                  candidates_, refined_, clusters_, rig);
+  refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges, geometry_, candidates_, refined_);
+  clustering_.run(left_.edges, right_.edges, right_.description, geometry_, candidates_, refined_, clusters_, rig);
   current_ = rig.read();
+  rig.has_sift = false;
+  indexed_ = false;
   if (tap_ != nullptr) tap_stereo();
 }
 
@@ -96,36 +92,45 @@ void DeviceFrontend::keep(bool as_key) {
   while (now_ == previous_rig_ || now_ == key_rig_) now_ = (now_ + 1) % 3;
 }
 
+void DeviceFrontend::index_current() {
+  if (indexed_) return;
+  left_index_.build(context_, current_.left_x, current_.left_y, current_.left_direction, rig_.left.width, rig_.left.height);
+  right_index_.build(context_, current_.right_x, current_.right_y, current_.right_direction, rig_.right.width, rig_.right.height);
+  indexed_ = true;
+}
+
+DescribedEdges DeviceFrontend::described(const DeviceStereoEdges& rig, bool right) const {
+  if (right) return {rig.right_patches, itself_, rig.right_sift, itself_};
+  return {rig.left_patches, rig.left_index, rig.left_sift, itself_};
+}
+
+void DeviceFrontend::describe_by_sift(DeviceStereoEdges& rig, const StereoEdges& edges) {
+  if (rig.has_sift) return;
+  const auto describe = [&](EdgeDescription& description, const DeviceImage& image, const PlacedEdges& places, opencl::Buffer<cl_uchar>& sift) {
+    described_places_.write(context_, places);
+    description.prepare_sift(image.pixels);
+    description.describe_sift(described_places_.x, described_places_.y, described_places_.direction, described_places_.count, sift);
+  };
+  describe(left_.description, rig.left_image, {edges.left_x, edges.left_y, edges.left_direction}, rig.left_sift);
+  describe(right_.description, rig.right_image, {edges.right_x, edges.right_y, edges.right_direction}, rig.right_sift);
+  rig.has_sift = true;
+}
+
 void DeviceFrontend::match_side(int side, Base base, const TemporalSearch& search, DeviceCandidates& candidates) {
-  const DeviceStereoEdges& current = rigs_[now_];
-  const DeviceStereoEdges& before = rigs_[base == Base::key ? key_rig_ : previous_rig_];
-  const PlacedEdges& predicted = side == 0 ? search.left : search.right;
-  DevicePlaces& places = predicted_[side];
-  places.x.write(context_, predicted.x);
-  places.y.write(context_, predicted.y);
-  places.direction.write(context_, predicted.direction);
-  places.count = static_cast<int>(predicted.x.size());
-  temporal_candidates_.run(places, search.step, current, side, side == 0 ? left_index_ : right_index_,
-                           side == 0 ? left_height_ : right_height_, search.radius,
+  DeviceStereoEdges& before = rig_of(base);
+  temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius,
                            static_cast<float>(config_.temporal.orientation * kDegree), candidates);
+  const FilterLimits limits = temporal_limits(config_.temporal, search);
+  if (tap_ != nullptr || limits.sift_max > 0) {
+    describe_by_sift(before, this->base(base));
+    describe_by_sift(rigs_[now_], current_);
+  }
   context_.begin_stage("temporal_filters");
-  filters_.run(side == 0 ? before.left_patches : before.right_patches, side == 0 ? before.left_sift : before.right_sift,
-               side == 0 ? current.left_patches : current.right_patches, side == 0 ? current.left_sift : current.right_sift,
-               temporal_limits(config_.temporal, search.scout), search.step, tap_ != nullptr, candidates);
+  filters_.run(described(before, side == 1), described(rigs_[now_], side == 1), limits, search.step, tap_ != nullptr, candidates);
   if (tap_ != nullptr) tap_temporal(side, search);
 }
 
-TemporalMatches DeviceFrontend::match(Base base, const TemporalSearch& search) {
-  const auto left_index = make_point_index(current_.left_x, current_.left_y, left_height_);
-  const auto right_index = make_point_index(current_.right_x, current_.right_y, right_height_);
-  left_index_.row_first.write(context_, left_index.row_first);
-  left_index_.order.write(context_, left_index.order);
-  right_index_.row_first.write(context_, right_index.row_first);
-  right_index_.order.write(context_, right_index.order);
-  if (tap_ != nullptr) {
-    tap_->temporal_search({search.left.x, search.left.y, search.left.direction}, {search.right.x, search.right.y, search.right.direction},
-                          search.radius, search.step);
-  }
+TemporalMatches DeviceFrontend::match_by_lists(Base base, const TemporalSearch& search) {
   match_side(0, base, search, temporal_left_);
   match_side(1, base, search, temporal_right_);
   counts_.temporal_left = temporal_left_.living_rows();
@@ -135,13 +140,31 @@ TemporalMatches DeviceFrontend::match(Base base, const TemporalSearch& search) {
     tap_->temporal_filter(reference::kAgreementOrder, kTemporalFilters[reference::kAgreementOrder], 0,
                           temporal_left_.alive_after(reference::kAgreementOrder, nullptr));
   }
-  TemporalMatches matches = temporal_quads_.collect(rigs_[now_], current_, search, predicted_[0], temporal_left_);
+  return temporal_quads_.collect(rigs_[now_], current_, search, predicted_[0], temporal_left_);
+}
+
+TemporalMatches DeviceFrontend::match(Base base, const TemporalSearch& search) {
+  index_current();
+  predicted_[0].write(context_, search.left);
+  predicted_[1].write(context_, search.right);
+  if (tap_ != nullptr) {
+    tap_->temporal_search({search.left.x, search.left.y, search.left.direction}, {search.right.x, search.right.y, search.right.direction},
+                          search.radius, search.step);
+  } else if (temporal_match_.serves(search)) {
+    if (auto matched = temporal_match_.run(predicted_[0], predicted_[1], search, rig_of(base), rigs_[now_], left_index_, right_index_, itself_,
+                                           current_)) {
+      counts_.temporal_left = matched->left_alive;
+      counts_.temporal_right = matched->right_alive;
+      return std::move(matched->quads);
+    }
+  }
+  TemporalMatches matches = match_by_lists(base, search);
   if (tap_ != nullptr) tap_->quads(matches);
   return matches;
 }
 
 EdgeSet DeviceFrontend::edges(bool right) {
-  return right ? right_.edges.read(right_height_) : left_.edges.read(left_height_);
+  return right ? right_.edges.read(rig_.right.height) : left_.edges.read(rig_.left.height);
 }
 
 }  // namespace quadedge::stages

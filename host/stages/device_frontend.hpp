@@ -10,6 +10,7 @@
 #include "stages/stereo_clusters.hpp"
 #include "stages/stereo_refinement.hpp"
 #include "stages/temporal_candidates.hpp"
+#include "stages/temporal_match.hpp"
 #include "stages/temporal_quads.hpp"
 #include "stages/undistortion.hpp"
 
@@ -33,11 +34,17 @@ class DeviceFrontend : public Frontend {
     EdgeDetection detection;
     EdgeDescription description;
     DeviceEdges edges;
-    DeviceDescriptions descriptions;
     Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table, const Config& config);
   };
 
+  /// Indexes the current stereo edges of both images, once per frame.
+  void index_current();
+  DeviceStereoEdges& rig_of(Base base) { return rigs_[base == Base::key ? key_rig_ : previous_rig_]; }
+  DescribedEdges described(const DeviceStereoEdges& rig, bool right) const;
+  /// SIFT descriptors of a rig's stereo edges, unless it has them; `edges`: the same on the host.
+  void describe_by_sift(DeviceStereoEdges& rig, const StereoEdges& edges);
   void match_side(int side, Base base, const TemporalSearch& search, DeviceCandidates& candidates);
+  TemporalMatches match_by_lists(Base base, const TemporalSearch& search);
   void tap_stereo();
   void tap_candidates_without_limits();
   void tap_temporal(int side, const TemporalSearch& search);
@@ -46,7 +53,7 @@ class DeviceFrontend : public Frontend {
   Config config_;
   EpipolarGeometry epipolar_;
   opencl::Buffer<cl_float> geometry_;
-  int left_height_, right_height_;
+  StereoRig rig_;
   Camera left_, right_;
   StereoCandidates stereo_candidates_;
   CandidateFilters filters_;
@@ -54,13 +61,18 @@ class DeviceFrontend : public Frontend {
   StereoClusters clustering_;
   TemporalCandidates temporal_candidates_;
   TemporalQuads temporal_quads_;
+  TemporalMatch temporal_match_;
 
   DeviceCandidates candidates_, temporal_left_, temporal_right_;
   DeviceRefined refined_;
   DeviceClusters clusters_;
   DevicePlaces predicted_[2];  ///< left, right
   DevicePointIndex left_index_, right_index_;
-  DeviceImage left_image_, right_image_;
+  bool indexed_ = false;                    ///< of the current frame
+  opencl::Buffer<cl_float> right_patches_;  ///< of every edge of the right image
+  opencl::Buffer<cl_uchar> left_sift_{context_, 0}, right_sift_{context_, 0};  ///< of every edge, where the stereo cascade asks for SIFT
+  DevicePlaces described_places_;
+  opencl::Buffer<cl_int> itself_;           ///< 0, 1, 2 ...
   DeviceStereoEdges rigs_[3];
   int now_ = 0, previous_rig_ = 1, key_rig_ = 1;  ///< places in rigs_
 };

@@ -28,7 +28,7 @@ void DeviceFrontend::tap_candidates_without_limits() {
   opencl::Buffer<cl_float> geometry;
   for (int order = 1; order < kStereoSiftOrder - 1; ++order) {
     geometry.write(context_, without_limits(epipolar_, order < 2, order < 3).packed());
-    stereo_candidates_.run(left_.edges, right_.edges, right_height_, geometry, lists);
+    stereo_candidates_.run(left_.edges, right_.edges, rig_.right.height, geometry, lists);
     lists.rejected_by.fill(0, static_cast<std::size_t>(lists.host_total));
     tap_->stereo_filter(order, stereo_name(order), lists.alive_after(order, nullptr));
   }
@@ -67,8 +67,7 @@ void DeviceFrontend::tap_stereo() {
 
 void DeviceFrontend::tap_temporal(int side, const TemporalSearch& search) {
   DeviceCandidates near;
-  temporal_candidates_.run(predicted_[side], search.step, rigs_[now_], side, side == 0 ? left_index_ : right_index_,
-                           side == 0 ? left_height_ : right_height_, search.radius, kAllDirections, near);
+  temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius, kAllDirections, near);
   near.rejected_by.fill(0, static_cast<std::size_t>(near.host_total));
   tap_->temporal_filter(1, temporal_name(1), side, near.alive_after(1, nullptr));
   const DeviceCandidates& lists = side == 0 ? temporal_left_ : temporal_right_;

@@ -3,19 +3,23 @@
 
 #include "opencl/buffer.hpp"
 #include "quadedge/edges.hpp"
+#include "stages/device_image.hpp"
 
 namespace quadedge::stages {
 
-/// Stereo edges in the scan order of their left edges. Everything a later frame needs stands here, so that the edges and
-/// descriptions of the frame itself can be overwritten.
+/// Stereo edges in the scan order of their left edges. Everything a later frame needs stands here, so that the edges of the frame
+/// itself can be overwritten.
 struct DeviceStereoEdges {
   opencl::Buffer<cl_int> left_index, right_index;
   /// Six blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad].
   opencl::Buffer<cl_float> packed;
   opencl::Buffer<cl_float> right_x, right_y, right_direction;  ///< the right blocks again, for cutting patches
   opencl::Buffer<cl_float> ncc;
-  opencl::Buffer<cl_float> left_patches, right_patches;        ///< 98 floats per stereo edge
-  opencl::Buffer<cl_uchar> left_sift, right_sift;              ///< 256 bytes per stereo edge
+  opencl::Buffer<cl_float> left_patches;                       ///< of every edge of the left image, see host/reference/patches.hpp
+  opencl::Buffer<cl_float> right_patches;                      ///< of every stereo edge, cut at its refined place
+  DeviceImage left_image, right_image;                         ///< undistorted, for SIFT descriptors when a search asks for them
+  opencl::Buffer<cl_uchar> left_sift, right_sift;              ///< of every stereo edge, where has_sift; see host/reference/sift.hpp
+  bool has_sift = false;
   int stride = 0;
   int count = 0;
 

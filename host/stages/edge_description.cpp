@@ -30,7 +30,7 @@ EdgeDescription::EdgeDescription(opencl::Context& context, int width, int height
   const auto& patches_variant = opencl::choose_variant("patches", context, variants);
   patches_local_ = static_cast<std::size_t>(patches_variant.local_size);
   patches_items_ = items_per_edge(patches_variant);
-  const auto patches_program = context.program({"direction.cl", "patches.cl"}, patches_variant.defines);
+  const auto patches_program = context.program({"direction.cl", "photometric.cl", "patches.cl"}, patches_variant.defines);
   patches_kernel_ = {context, patches_program, "side_patches"};
 
   const auto& sift_variant = opencl::choose_variant("sift", context, variants);
@@ -41,34 +41,34 @@ EdgeDescription::EdgeDescription(opencl::Context& context, int width, int height
   blur_along_kernel_ = {context, sift_program, "sift_blur_along"};
   gradient_kernel_ = {context, sift_program, "sift_gradient"};
   sift_kernel_ = {context, sift_program, "sift_describe"};
-
-  const std::size_t plane = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height);
-  const std::size_t map = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2 * kPadding);
-  blurred_down_.ensure(context, plane);
-  blurred_.ensure(context, plane);
-  blurred_.fill(0.0f, plane);  // the columns beside the image are read and not used
-  magnitude_.ensure(context, map);
-  angle_.ensure(context, map);
 }
 
 void EdgeDescription::prepare(const opencl::Buffer<cl_uchar>& image) {
-  const auto height = static_cast<std::size_t>(height_);
-  const auto stride = static_cast<std::size_t>(stride_);
   context_.begin_stage("patches");
   corners_.prepare(image, width_, height_);
+}
+
+void EdgeDescription::reserve_planes() {
+  const std::size_t plane = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_);
+  const std::size_t map = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_ + 2 * kPadding);
+  blurred_down_.ensure(context_, plane);
+  blurred_.ensure(context_, plane);
+  blurred_.fill(0.0f, plane);  // the columns beside the image are read and not used
+  magnitude_.ensure(context_, map);
+  angle_.ensure(context_, map);
+}
+
+void EdgeDescription::prepare_sift(const opencl::Buffer<cl_uchar>& image) {
+  const auto height = static_cast<std::size_t>(height_);
+  const auto stride = static_cast<std::size_t>(stride_);
   context_.begin_stage("sift");
+  if (magnitude_.capacity() == 0) reserve_planes();
   const std::size_t group = 16;
   blur_down_kernel_({(stride - 2 * kPadding) / kSiftVector + 2, height, group, 1}, image, width_, height_, stride_,
                     blurred_down_);
   blur_along_kernel_({(stride - 2 * kPadding) / kSiftVector, height, group, 1}, blurred_down_, height_, stride_, blurred_);
   gradient_kernel_({stride / kSiftVector, height + 2 * kPadding, group, 1}, blurred_, width_, height_, stride_, magnitude_,
                    angle_);
-}
-
-void EdgeDescription::describe(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
-                               const opencl::Buffer<cl_float>& direction, int count, DeviceDescriptions& result) {
-  cut_patches(x, y, direction, count, result.patches);
-  describe_sift(x, y, direction, count, result.sift);
 }
 
 void EdgeDescription::cut_patches(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,

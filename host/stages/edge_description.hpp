@@ -11,12 +11,6 @@
 
 namespace quadedge::stages {
 
-/// Both descriptions of every edge, in the order of the edges.
-struct DeviceDescriptions {
-  opencl::Buffer<cl_float> patches;  ///< 98 floats per edge, see host/reference/patches.hpp
-  opencl::Buffer<cl_uchar> sift;     ///< 256 bytes per edge, see host/reference/sift.hpp
-};
-
 /// Describes edges on the device. One object per camera: it keeps the prepared image until the next one, so that patches
 /// can be cut anew at refined places.
 class EdgeDescription {
@@ -25,25 +19,27 @@ class EdgeDescription {
   EdgeDescription(opencl::Context& context, int width, int height, const PatchesConfig& patches, const SiftConfig& sift,
                   const std::map<std::string, std::string>& variants);
 
-  /// Takes the next image (packed, height x width): prepares bilinear sampling and the gradient of the blurred image.
+  /// Takes the next image (packed, height x width) for cut_patches(): prepares bilinear sampling.
   void prepare(const opencl::Buffer<cl_uchar>& image);
+  /// Takes the next image for describe_sift(): prepares the gradient of the blurred image.
+  void prepare_sift(const opencl::Buffer<cl_uchar>& image);
 
-  /// Both descriptions of `count` edges of the prepared image: places in pixels, directions in radians.
-  void describe(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
-                const opencl::Buffer<cl_float>& direction, int count, DeviceDescriptions& result);
-
-  /// Both descriptions of the edges detected in the prepared image; after DeviceEdges::read_count().
-  void describe(const DeviceEdges& edges, DeviceDescriptions& result) {
-    describe(edges.x, edges.y, edges.direction, edges.host_count, result);
-  }
-
-  /// Only the side patches, at any `count` places and directions in the prepared image.
+  /// Side patches at any `count` places and directions in the prepared image.
   void cut_patches(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
                    const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_float>& patches);
 
-  /// Only the SIFT descriptors.
+  /// Side patches of the edges detected in the prepared image; after DeviceEdges::read_count().
+  void cut_patches(const DeviceEdges& edges, opencl::Buffer<cl_float>& patches) {
+    cut_patches(edges.x, edges.y, edges.direction, edges.host_count, patches);
+  }
+
+  /// SIFT descriptors of `count` edges of the prepared image: places in pixels, directions in radians.
   void describe_sift(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
                      const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_uchar>& sift);
+
+  void describe_sift(const DeviceEdges& edges, opencl::Buffer<cl_uchar>& sift) {
+    describe_sift(edges.x, edges.y, edges.direction, edges.host_count, sift);
+  }
 
   /// The prepared image for bilinear sampling.
   const PixelCorners& corners() const { return corners_; }
@@ -53,6 +49,8 @@ class EdgeDescription {
   using In = opencl::In<T>;
   template <class T>
   using Out = opencl::Out<T>;
+
+  void reserve_planes();
 
   opencl::Context& context_;
   int width_, height_;

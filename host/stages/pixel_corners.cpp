@@ -6,6 +6,8 @@ PixelCorners::PixelCorners(opencl::Context& context)
     : context_(&context), kernel_(context, context.program({"corners.cl"}, {}), "pixel_corners") {}
 
 void PixelCorners::prepare(const opencl::Buffer<cl_uchar>& image, int width, int height) {
+  width_ = width;
+  height_ = height;
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   values_.ensure(*context_, columns * rows);
   kernel_({columns, rows, 64, 1}, image, width, height, values_);

@@ -15,10 +15,13 @@ class PixelCorners {
 
   /// height x width: (x, y), (x+1, y), (x, y+1), (x+1, y+1) from the lowest byte on, border replicated.
   const opencl::Buffer<cl_uint>& values() const { return values_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
 
  private:
   opencl::Context* context_;
   opencl::Buffer<cl_uint> values_;
+  int width_ = 0, height_ = 0;
   opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::Out<cl_uint>> kernel_;
 };
 

@@ -1,30 +1,20 @@
 #include "stages/point_index.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace quadedge::stages {
 
-PointIndex make_point_index(const std::vector<float>& xs, const std::vector<float>& ys, int height) {
-  const auto row_count = static_cast<std::size_t>(2 * height);
-  std::vector<std::int32_t> row_of(ys.size());
-  PointIndex index;
-  index.row_first.assign(row_count + 1, 0);
-  for (std::size_t i = 0; i < ys.size(); ++i) {
-    row_of[i] = std::clamp(static_cast<std::int32_t>(std::lround(2.0f * ys[i])), 0, static_cast<std::int32_t>(row_count) - 1);
-    ++index.row_first[static_cast<std::size_t>(row_of[i]) + 1];
-  }
-  for (std::size_t row = 0; row < row_count; ++row) index.row_first[row + 1] += index.row_first[row];
-  std::vector<std::int32_t> next(index.row_first.begin(), index.row_first.end() - 1);
-  index.order.resize(ys.size());
-  for (std::size_t i = 0; i < ys.size(); ++i) {
-    index.order[static_cast<std::size_t>(next[static_cast<std::size_t>(row_of[i])]++)] = static_cast<std::int32_t>(i);
-  }
-  for (std::size_t row = 0; row < row_count; ++row) {
-    std::stable_sort(index.order.begin() + index.row_first[row], index.order.begin() + index.row_first[row + 1],
-                     [&](std::int32_t a, std::int32_t b) { return xs[static_cast<std::size_t>(a)] < xs[static_cast<std::size_t>(b)]; });
-  }
-  return index;
+void make_point_index(const std::vector<float>& xs, const std::vector<float>& ys, int width, int height, PointIndex& index) {
+  index.columns = static_cast<int>((static_cast<float>(width) + kCellWidth - 1) / kCellWidth);
+  index.rows = static_cast<int>((static_cast<float>(height) + kCellHeight - 1) / kCellHeight);
+  const auto cell = [&](std::size_t i) { return static_cast<std::size_t>(index.row(ys[i]) * index.columns + index.column(xs[i])); };
+  const auto cells = static_cast<std::size_t>(index.columns * index.rows);
+  // Two places ahead, so that filling moves every start to where the cell's own entry has to be.
+  auto& first = index.cell_first;
+  first.assign(cells + 2, 0);
+  for (std::size_t i = 0; i < xs.size(); ++i) ++first[cell(i) + 2];
+  for (std::size_t c = 2; c < first.size(); ++c) first[c] += first[c - 1];
+  index.order.resize(xs.size());
+  for (std::size_t i = 0; i < xs.size(); ++i) index.order[static_cast<std::size_t>(first[cell(i) + 1]++)] = static_cast<std::int32_t>(i);
+  first.pop_back();
 }
 
 }  // namespace quadedge::stages

@@ -50,21 +50,6 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
           reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction, config.sift)};
 }
 
-reference::FilterLimits stereo_limits(const StereoConfig& config) {
-  return {static_cast<float>(config.ncc_min), static_cast<float>(config.sift_max), static_cast<float>(config.ncc_nearly_best),
-          static_cast<float>(config.sift_nearly_best), kStereoNccOrder, kStereoSiftOrder};
-}
-
-reference::FilterLimits temporal_limits(const TemporalConfig& config, bool scout) {
-  if (scout) {
-    return {static_cast<float>(config.scout_ncc_min), static_cast<float>(config.scout_sift_max),
-            static_cast<float>(config.scout_ncc_nearly_best), static_cast<float>(config.scout_sift_nearly_best),
-            kTemporalNccOrder, kTemporalSiftOrder};
-  }
-  return {static_cast<float>(config.ncc_min), static_cast<float>(config.sift_max), static_cast<float>(config.ncc_nearly_best),
-          static_cast<float>(config.sift_nearly_best), kTemporalNccOrder, kTemporalSiftOrder};
-}
-
 int living_rows(const reference::Candidates& candidates, const reference::CandidateScores& scores) {
   int rows = 0;
   for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
@@ -99,9 +84,9 @@ void ReferenceFrontend::process(const StereoFrame& frame) {
 
   now_.left_descriptions = {rows_of(left.patches, current_.left_index, reference::kEdgePatchFloats),
                             rows_of(left.sift, current_.left_index, reference::kEdgeSiftBytes)};
-  now_.right_descriptions = {reference::side_patches(now_.right.view(), current_.right_x, current_.right_y, current_.right_direction,
-                                                     config_.patches),
-                             rows_of(right.sift, current_.right_index, reference::kEdgeSiftBytes)};
+  now_.right_descriptions = {
+      reference::side_patches(now_.right.view(), current_.right_x, current_.right_y, current_.right_direction, config_.patches),
+      reference::sift_descriptors(now_.right.view(), current_.right_x, current_.right_y, current_.right_direction, config_.sift)};
 }
 
 void ReferenceFrontend::keep(bool as_key) {
@@ -117,14 +102,15 @@ void ReferenceFrontend::keep(bool as_key) {
 reference::Candidates ReferenceFrontend::side_candidates(int side, const TemporalSearch& search) const {
   const PlacedEdges current = side == 0 ? PlacedEdges{current_.left_x, current_.left_y, current_.left_direction}
                                         : PlacedEdges{current_.right_x, current_.right_y, current_.right_direction};
-  const int height = side == 0 ? rig_.left.height : rig_.right.height;
-  return reference::temporal_candidates(side == 0 ? search.left : search.right, current, make_point_index(current.x, current.y, height),
-                                        search.radius, static_cast<float>(config_.temporal.orientation * kDegree), search.step);
+  const PinholeCamera& camera = side == 0 ? rig_.left : rig_.right;
+  PointIndex index;
+  make_point_index(current.x, current.y, camera.width, camera.height, index);
+  return reference::temporal_candidates(side == 0 ? search.left : search.right, current, index, search.radius, static_cast<float>(config_.temporal.orientation * kDegree), search.step);
 }
 
 TemporalMatches ReferenceFrontend::match(Base base, const TemporalSearch& search) {
   const RigMemory& before = base == Base::key ? key_memory_ : before_;
-  const auto limits = temporal_limits(config_.temporal, search.scout);
+  const auto limits = temporal_limits(config_.temporal, search);
   const auto left = side_candidates(0, search), right = side_candidates(1, search);
   auto left_scores = reference::candidate_filters(left, before.left_descriptions, now_.left_descriptions, limits, search.step);
   const auto right_scores = reference::candidate_filters(right, before.right_descriptions, now_.right_descriptions, limits, search.step);

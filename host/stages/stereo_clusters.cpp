@@ -23,13 +23,11 @@ StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& con
   owner_ = {context, program, "stereo_owner"};
   mutual_ = {context, program, "stereo_mutual"};
   collect_ = {context, program, "stereo_collect"};
-  gather_ = {context, program, "stereo_gather"};
 }
 
-void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, const DeviceDescriptions& left_descriptions,
-                         const DeviceDescriptions& right_descriptions, EdgeDescription& right_description,
-                         const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates,
-                         const DeviceRefined& refined, DeviceClusters& clusters, DeviceStereoEdges& result) {
+void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, EdgeDescription& right_description,
+                         const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates, const DeviceRefined& refined,
+                         DeviceClusters& clusters, DeviceStereoEdges& result) {
   context_.begin_stage("stereo_clusters");
   const int n = left.host_count;
   const auto edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
@@ -73,13 +71,6 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, cons
   cl_int total[2];
   clusters.total.read(total, 2);
   result.count = total[0];
-
-  const auto count = static_cast<std::size_t>(result.count);
-  result.left_patches.ensure(context_, 98 * count);
-  result.left_sift.ensure(context_, 256 * count);
-  result.right_sift.ensure(context_, 256 * count);
-  gather_({count, local_size_}, result.left_index, result.right_index, result.count, left_descriptions.patches,
-          left_descriptions.sift, right_descriptions.sift, result.left_patches, result.left_sift, result.right_sift);
   right_description.cut_patches(result.right_x, result.right_y, result.right_direction, result.count, result.right_patches);
 }
 

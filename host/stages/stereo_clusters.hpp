@@ -32,10 +32,9 @@ class StereoClusters {
  public:
   StereoClusters(opencl::Context& context, const StereoConfig& config, const std::map<std::string, std::string>& variants);
 
-  /// Clusters, best and mutual; waits for the number of stereo edges and fills rows and descriptions of `result`.
+  /// Clusters, best and mutual; waits for the number of stereo edges and fills the rows of `result` and its right patches.
   /// `right_description` has the right image prepared.
-  void run(const DeviceEdges& left, const DeviceEdges& right, const DeviceDescriptions& left_descriptions,
-           const DeviceDescriptions& right_descriptions, EdgeDescription& right_description,
+  void run(const DeviceEdges& left, const DeviceEdges& right, EdgeDescription& right_description,
            const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates, const DeviceRefined& refined,
            DeviceClusters& clusters, DeviceStereoEdges& result);
 
@@ -60,9 +59,6 @@ class StereoClusters {
                  In<cl_float>, In<cl_int>, In<cl_float>, cl_int, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>,
                  Out<cl_float>, Out<cl_float>, Out<cl_float>>
       collect_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, In<cl_uchar>, In<cl_uchar>, Out<cl_float>, Out<cl_uchar>,
-                 Out<cl_uchar>>
-      gather_;
 };
 
 }  // namespace quadedge::stages

@@ -16,9 +16,7 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
                                    const std::map<std::string, std::string>& variants)
     : context_(context),
       config_(config),
-      patch_offset_(static_cast<float>(patch_offset)),
-      left_corners_(context),
-      right_corners_(context) {
+      patch_offset_(static_cast<float>(patch_offset)) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto program =
@@ -26,17 +24,15 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
   kernel_ = {context, program, "stereo_refinement"};
 }
 
-void StereoRefinement::run(const DeviceImage& left_image, const DeviceImage& right_image, const DeviceEdges& left,
+void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
                            const DeviceEdges& right, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates,
                            DeviceRefined& refined) {
   context_.begin_stage("stereo_refinement");
   refined.place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
   refined.likeness.ensure(context_, static_cast<std::size_t>(candidates.capacity));
-  left_corners_.prepare(left_image.pixels, left_image.width, left_image.height);
-  right_corners_.prepare(right_image.pixels, right_image.width, right_image.height);
   kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.capacity,
-          candidates.rows, left_corners_.values(), left_image.width, left_image.height, right_corners_.values(), right_image.width,
-          right_image.height, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
+          candidates.rows, left_image.values(), left_image.width(), left_image.height(), right_image.values(), right_image.width(),
+          right_image.height(), left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
           static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
           static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2)), config_.refine_steps,
           static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),

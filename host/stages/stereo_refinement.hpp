@@ -12,12 +12,6 @@
 
 namespace quadedge::stages {
 
-/// A packed grey image on the device, height x width.
-struct DeviceImage {
-  opencl::Buffer<cl_uchar> pixels;
-  int width = 0, height = 0;
-};
-
 /// What the refinement finds for every candidate.
 struct DeviceRefined {
   opencl::Buffer<cl_float> place;     ///< on the left edge's epipolar line [px from the point at infinity]
@@ -30,8 +24,8 @@ class StereoRefinement {
   StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
                    const std::map<std::string, std::string>& variants);
 
-  /// Living candidates get a place and a likeness; those that diverge are rejected.
-  void run(const DeviceImage& left_image, const DeviceImage& right_image, const DeviceEdges& left, const DeviceEdges& right,
+  /// Living candidates get a place and a likeness; those that diverge are rejected. Both images prepared for sampling.
+  void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left, const DeviceEdges& right,
            const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
 
  private:
@@ -44,7 +38,6 @@ class StereoRefinement {
   StereoConfig config_;
   float patch_offset_;
   std::size_t local_size_;
-  PixelCorners left_corners_, right_corners_;
   opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
                  In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, cl_float,
                  cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>,

@@ -13,24 +13,24 @@ TemporalCandidates::TemporalCandidates(opencl::Context& context, const std::map<
     : context_(context), scan_(context, variants) {
   const auto& variant = opencl::choose_variant("temporal_candidates", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"temporal_candidates.cl"}, variant.defines);
+  const auto program = context.program({"point_index.cl", "temporal_candidates.cl"}, variant.defines);
   count_ = {context, program, "temporal_candidates_count"};
   fill_ = {context, program, "temporal_candidates_fill"};
 }
 
-void TemporalCandidates::run(const DevicePlaces& predicted, int row_step, const DeviceStereoEdges& current, int side,
-                             const DevicePointIndex& index, int height, float radius, float orientation,
-                             DeviceCandidates& candidates) {
+void TemporalCandidates::run(const DevicePlaces& predicted, int row_step, const DevicePointIndex& current, float radius,
+                             float orientation, DeviceCandidates& candidates) {
   context_.begin_stage("temporal_candidates");
   candidates.rows = (predicted.count + row_step - 1) / row_step;
   candidates.counts.ensure(context_, static_cast<std::size_t>(candidates.rows));
   candidates.reserve(context_, kFirstCapacityPerRow * candidates.rows);
   const opencl::Range range(static_cast<std::size_t>(candidates.rows), local_size_);
-  count_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.packed, current.stride, side,
-         index.row_first, index.order, height, radius, orientation, candidates.counts);
+  count_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.x, current.y, current.direction,
+         current.number, current.cell_first, current.columns, current.rows, radius, orientation, candidates.counts);
   candidates.build(context_, scan_, [&] {
-    fill_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.packed, current.stride, side,
-          index.row_first, index.order, height, radius, orientation, candidates.first, candidates.capacity, candidates.target);
+    fill_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.x, current.y, current.direction,
+          current.number, current.cell_first, current.columns, current.rows, radius, orientation, candidates.first,
+          candidates.capacity, candidates.target);
   });
 }
 

@@ -6,7 +6,7 @@
 
 #include "opencl/kernel.hpp"
 #include "stages/device_candidates.hpp"
-#include "stages/device_stereo_edges.hpp"
+#include "stages/device_point_index.hpp"
 #include "stages/temporal_search.hpp"
 
 namespace quadedge::stages {
@@ -15,11 +15,13 @@ namespace quadedge::stages {
 struct DevicePlaces {
   opencl::Buffer<cl_float> x, y, direction;
   int count = 0;
-};
 
-/// A point index on the device.
-struct DevicePointIndex {
-  opencl::Buffer<cl_int> row_first, order;
+  void write(opencl::Context& context, const PlacedEdges& places) {
+    x.write(context, places.x);
+    y.write(context, places.y);
+    direction.write(context, places.direction);
+    count = static_cast<int>(places.x.size());
+  }
 };
 
 /// Filters 1 and 2 of SPEC section 4. Variants of the stage "temporal_candidates".
@@ -27,10 +29,9 @@ class TemporalCandidates {
  public:
   TemporalCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
-  /// `side`: 0 left, 1 right. `height` of that side's image [px], `radius` [px], `orientation` [rad]. Every row_step-th
-  /// predicted place has a row.
-  void run(const DevicePlaces& predicted, int row_step, const DeviceStereoEdges& current, int side,
-           const DevicePointIndex& index, int height, float radius, float orientation, DeviceCandidates& candidates);
+  /// `radius` [px], `orientation` [rad]. Every row_step-th predicted place has a row. `current`: the stereo edges of one side.
+  void run(const DevicePlaces& predicted, int row_step, const DevicePointIndex& current, float radius, float orientation,
+           DeviceCandidates& candidates);
 
  private:
   template <class T>
@@ -41,11 +42,11 @@ class TemporalCandidates {
   opencl::Context& context_;
   std::size_t local_size_;
   Scan scan_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, cl_int, cl_int, In<cl_int>, In<cl_int>,
-                 cl_int, cl_float, cl_float, Out<cl_int>>
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
+                 In<cl_int>, cl_int, cl_int, cl_float, cl_float, Out<cl_int>>
       count_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, cl_int, cl_int, In<cl_int>, In<cl_int>,
-                 cl_int, cl_float, cl_float, In<cl_int>, cl_int, Out<cl_int>>
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
+                 In<cl_int>, cl_int, cl_int, cl_float, cl_float, In<cl_int>, cl_int, Out<cl_int>>
       fill_;
 };
 

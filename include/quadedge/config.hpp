@@ -38,7 +38,7 @@ struct StereoConfig {
   double min_depth = 0.0;           ///< nearest depth [m]; 0: from max_disparity, or else from the data set's reader
   double max_disparity = 0.0;       ///< largest disparity [px]; 0: from min_depth, or else from the data set's reader
   double orientation = 10.0;        ///< [deg], modulo 360: contrast keeps its sign
-  double sift_max = 500.0;          ///< largest SIFT distance
+  double sift_max = 0.0;            ///< largest SIFT distance (the paper: 500); 0: without SIFT
   double ncc_min = 0.4;             ///< smallest NCC; the refined places are judged more strictly
   double ncc_nearly_best = 0.9;     ///< share of the best NCC that is kept
   double sift_nearly_best = 0.4;    ///< best distance / distance that is kept
@@ -46,7 +46,7 @@ struct StereoConfig {
   double shift_min_angle = 12.0;    ///< below it the orthogonal projection replaces the shift along the tangent [deg]
   double shift_max = 3.0;           ///< longest shift along the tangent [px]
   int refine_steps = 8;             ///< Gauss-Newton steps
-  double refine_tolerance = 1e-3;   ///< [px]
+  double refine_tolerance = 0.02;   ///< [px]
   double refine_huber = 3.0;        ///< [grey levels]
   double refine_clamp = 2.0;        ///< longest move along the line [px]
   double refine_prior = 0.1;        ///< spread of a detected edge across itself [px], more along a line that it is flat to
@@ -71,7 +71,8 @@ struct TemporalConfig {
   int rounds = 3;                   ///< searches at most, each around what the last one found, until the places stay
   double scout_min_inlier_share = 0.03;  ///< of the scout's quads; the search that follows has to convince
   double scout_ncc_min = 0.8;
-  double scout_sift_max = 200.0;
+  double scout_sift_max = 0.0;       ///< around a prediction; 0: without SIFT
+  double scout_wide_sift_max = 200.0;  ///< in the wider circles
   double scout_ncc_nearly_best = 0.9;
   double scout_sift_nearly_best = 0.6;
   double orientation = 10.0;        ///< [deg], modulo 360

@@ -1,0 +1,126 @@
+// temporal_match.cl: the whole temporal cascade of one row in one work-item: displacement, orientation, NCC and nearly best NCC in
+// both images, agreement, the best and its rivals. The same as temporal_candidates.cl, candidate_filters.cl without SIFT and
+// temporal_quads.cl one after the other, without lists in global memory.
+//
+// Needs similarity.cl and point_index.cl. In: predicted places of the base's stereo edges in both current images (NaN: none), the
+// current stereo edges of both sides in the order of their point indices, side patches with the number of each stereo edge's patch.
+// Out per row, which belongs to base edge row * row_step: {current edge or -1, rivals, score as bits, flags}.
+// Reference: host/reference/temporal_candidates.cpp, candidate_filters.cpp, temporal_quads.cpp.
+
+// Candidates of a row and side that there is room for; a row with more says so and has no result.
+#define MOST 160
+#define LEFT_ALIVE 1
+#define RIGHT_ALIVE 2
+#define OVERFLOW 4
+
+// One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
+inline int alike_near(const float x, const float y, const float direction, global const float* xs, global const float* ys,
+                      global const float* directions, global const int* numbers, global const int* cell_first,
+                      const int columns, const int rows, const float radius, const float orientation, global const float* patch,
+                      global const float* patches, global const int* patch_numbers, const float ncc_min,
+                      const float ncc_nearly_best, int* target, float* ncc) {
+  if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
+  const int first_column = cell_of(x - radius, CELL_WIDTH, columns), last_column = cell_of(x + radius, CELL_WIDTH, columns);
+  const int last_row = cell_of(y + radius, CELL_HEIGHT, rows);
+  int near = 0;
+  for (int row = cell_of(y - radius, CELL_HEIGHT, rows); row <= last_row; ++row) {
+    const int end = cell_first[row * columns + last_column + 1];
+    for (int k = cell_first[row * columns + first_column]; k < end; ++k) {
+      const float dx = xs[k] - x, dy = ys[k] - y;
+      if (dx * dx + dy * dy > radius * radius) continue;
+      if (angle_between(directions[k], direction) > orientation) continue;
+      if (near == MOST) return -1;
+      target[near++] = numbers[k];
+    }
+  }
+  int alike = 0;
+  float best = 0.0f;
+  for (int c = 0; c < near; ++c) {
+    const float similarity = patch_ncc(patch, patches + EDGE_FLOATS * (size_t)patch_numbers[target[c]]);
+    if (similarity < ncc_min) continue;
+    target[alike] = target[c];
+    ncc[alike++] = similarity;
+    best = fmax(best, similarity);
+  }
+  int kept = 0;
+  for (int c = 0; c < alike; ++c) {
+    if (ncc[c] < ncc_nearly_best * best) continue;
+    target[kept] = target[c];
+    ncc[kept++] = ncc[c];
+  }
+  return kept;
+}
+
+// Groups of edges that chain up by place and direction: single linkage.
+inline int count_clusters(const int* edges, const int count, global const float* x, global const float* y,
+                          global const float* direction, const float gap, const float orientation) {
+  int label[MOST];
+  for (int c = 0; c < count; ++c) label[c] = c;
+  for (int changed = 1; changed;) {
+    changed = 0;
+    for (int c = 1; c < count; ++c) {
+      for (int d = 0; d < c; ++d) {
+        if (label[d] == label[c]) continue;
+        const float dx = x[edges[c]] - x[edges[d]], dy = y[edges[c]] - y[edges[d]];
+        if (dx * dx + dy * dy >= gap * gap || angle_between(direction[edges[c]], direction[edges[d]]) > orientation) continue;
+        label[c] = label[d] = min(label[c], label[d]);
+        changed = 1;
+      }
+    }
+  }
+  int clusters = 0;
+  for (int c = 0; c < count; ++c) clusters += label[c] == c;
+  return clusters;
+}
+
+kernel void temporal_match(const int rows, const int row_step, global const float* left_predicted_x,
+                           global const float* left_predicted_y, global const float* left_predicted_direction,
+                           global const float* right_predicted_x, global const float* right_predicted_y,
+                           global const float* right_predicted_direction, global const float* left_xs,
+                           global const float* left_ys, global const float* left_directions, global const int* left_numbers,
+                           global const int* left_cell_first, const int left_columns, const int left_cell_rows,
+                           global const float* right_xs, global const float* right_ys, global const float* right_directions,
+                           global const int* right_numbers, global const int* right_cell_first, const int right_columns,
+                           const int right_cell_rows, global const float* base_left_patches, global const int* base_left_index,
+                           global const float* base_right_patches, global const float* left_patches,
+                           global const int* left_index, global const float* right_patches, global const int* itself,
+                           global const float* current, const int stride, const float radius, const float orientation,
+                           const float ncc_min, const float ncc_nearly_best, const float distance_weight,
+                           const float cluster_gap, const float cluster_orientation, global int* result) {
+  const int row = (int)get_global_id(0);
+  if (row >= rows) return;
+  const int i = row * row_step;
+  int left_target[MOST], right_target[MOST];
+  float left_ncc[MOST], right_ncc[MOST];
+  const float x = left_predicted_x[i], y = left_predicted_y[i];
+  const int left = alike_near(x, y, left_predicted_direction[i], left_xs, left_ys, left_directions, left_numbers,
+                              left_cell_first, left_columns, left_cell_rows, radius, orientation,
+                              base_left_patches + EDGE_FLOATS * (size_t)base_left_index[i], left_patches, left_index, ncc_min,
+                              ncc_nearly_best, left_target, left_ncc);
+  const int right = alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs, right_ys,
+                               right_directions, right_numbers, right_cell_first, right_columns, right_cell_rows, radius,
+                               orientation, base_right_patches + EDGE_FLOATS * (size_t)i, right_patches, itself, ncc_min,
+                               ncc_nearly_best, right_target, right_ncc);
+  const int flags = (left > 0 ? LEFT_ALIVE : 0) | (right > 0 ? RIGHT_ALIVE : 0) | (left < 0 || right < 0 ? OVERFLOW : 0);
+  int agreeing = 0, winner = -1;
+  float highest = 0.0f, score = 0.0f;
+  for (int c = 0; c < left; ++c) {
+    int found = -1;
+    for (int d = 0; d < right && found < 0; ++d) {
+      if (right_target[d] == left_target[c]) found = d;
+    }
+    if (found < 0) continue;
+    const int j = left_target[c];
+    const float mean = 0.5f * (left_ncc[c] + right_ncc[found]);
+    const float dx = current[j] - x, dy = current[stride + j] - y;
+    const float weighed = mean - distance_weight * (dx * dx + dy * dy);
+    left_target[agreeing++] = j;
+    if (winner >= 0 && weighed <= highest) continue;
+    winner = j;
+    highest = weighed;
+    score = mean;
+  }
+  const int clusters = count_clusters(left_target, agreeing, current, current + stride, current + 2 * stride, cluster_gap,
+                                      cluster_orientation);
+  vstore4((int4)(winner, clusters - 1, as_int(score), flags), row, result);
+}
