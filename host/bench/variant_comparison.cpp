@@ -40,7 +40,12 @@ struct Candidate {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+constexpr double kPaperSiftMax = 500;
+
+/// The configuration with a variant, changed where it would not run the stage at all.
 Config with_variant(Config config, const std::string& stage, const std::string& name) {
+  if (stage == "sift" && config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;
+  if (stage == "temporal_candidates" || stage == "temporal_quads") config.variants[kGuidedMatch] = "lists";
   config.variants[stage] = name;
   return config;
 }
@@ -83,6 +88,7 @@ struct ReferenceCheck::Small {
     config.stereo.max_disparity = sequence.max_disparity();
     config.stereo.min_depth = 0;
     config.variants.clear();
+    if (config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;  // every stage shall run
     for (int i = 0; i < 2; ++i) {
       frames[i].stamp_ns = sequence.stamp_ns(i);
       frames[i].left = sequence.render(i, false).image;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "pose/angles.hpp"
 #include "pose/row_blocks.hpp"
@@ -16,8 +17,10 @@ constexpr double kPlaceSize = 3, kDirectionSize = 2;  ///< residuals per block
 constexpr double kPlaceMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
 /// Variances are not believed to be smaller than this share of the assumed ones (noise-free data).
 constexpr double kSmallestScale = 1e-6;
-/// The first selection of inliers is made at a rough pose: so many of them make it a good one.
-constexpr std::size_t kFirstRows = 4000;
+/// About so many quads settle which ones are inliers.
+constexpr std::size_t kScoutingQuads = 4000;
+/// A scale is the median of about so many errors.
+constexpr std::size_t kScaleErrors = 4000;
 /// A selection that differs from the last one in less than one row of so many calls for no further fit.
 constexpr std::size_t kSameSelection = 500;
 /// Smallest ratio of the normal equations' pivots, after scaling their diagonal to one, that counts as solvable.
@@ -75,7 +78,9 @@ double direction_weight(const FitWorkspace& workspace, double error, const PoseC
 }
 
 double measured_scale(const std::vector<double>& errors, double median_of_one, std::vector<double>& sorted) {
-  sorted.assign(errors.begin(), errors.end());
+  const std::size_t every = std::max<std::size_t>(1, errors.size() / kScaleErrors);
+  sorted.clear();
+  for (std::size_t k = 0; k < errors.size(); k += every) sorted.push_back(errors[k]);
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   return std::max(*middle / median_of_one, kSmallestScale);
@@ -143,23 +148,9 @@ struct Nothing {
 
 /// How many rows only one of two ascending lists has.
 std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
-  std::size_t i = 0, j = 0, common = 0;
-  while (i < a.size() && j < b.size()) {
-    common += a[i] == b[j] ? 1 : 0;
-    const bool step_a = a[i] <= b[j], step_b = b[j] <= a[i];
-    i += step_a ? 1 : 0;
-    j += step_b ? 1 : 0;
-  }
-  return a.size() + b.size() - 2 * common;
-}
-
-/// Keeps about `wanted` rows, evenly spread.
-void thin_out(std::vector<std::int32_t>& rows, std::size_t wanted) {
-  const std::size_t every = rows.size() / wanted;
-  if (every < 2) return;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < rows.size(); k += every) rows[kept++] = rows[k];
-  rows.resize(kept);
+  std::vector<std::int32_t> changed;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(changed));
+  return changed.size();
 }
 
 /// Solves A x = -g; false where A is singular.
@@ -211,9 +202,11 @@ bool fit(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& row
     workspace.place_scale = measured_scale(workspace.place_error, kPlaceMedian, workspace.sorted);
     workspace.direction_scale = measured_scale(workspace.direction_error, kDirectionMedian, workspace.sorted);
   };
-  sweep<Nothing>(terms, rows, rig.left, current_from_previous, 0, workspace.depth,
-                 [&](std::size_t k, const QuadTerms& quad, Nothing&) { store(k, quad); });
-  measure_scales();
+  if (!workspace.knows_scales) {
+    sweep<Nothing>(terms, rows, rig.left, current_from_previous, 0, workspace.depth,
+                   [&](std::size_t k, const QuadTerms& quad, Nothing&) { store(k, quad); });
+    measure_scales();
+  }
 
   for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
     const auto normal = sweep<Normal<6>>(
@@ -312,16 +305,30 @@ Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads,
   FitWorkspace workspace;
   std::vector<std::int32_t> rows, last_rows;
   const double angle = radians(config.inlier_orientation);
-  for (int round = 0; round < config.refine_rounds; ++round) {
+  // Every n-th quad finds the pose, all of them make it exact.
+  const std::size_t every = std::max<std::size_t>(1, quads.size() / kScoutingQuads);
+  const auto select = [&](std::size_t step) {
     select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
-    mask_to_rows(result.inlier, rows);
-    if (round > 0 && changed_rows(rows, last_rows) <= rows.size() / kSameSelection) break;
-    if (round == 0) thin_out(rows, kFirstRows);
+    rows.clear();
+    for (std::size_t i = 0; i < result.inlier.size(); i += step)
+      if (result.inlier[i] != 0) rows.push_back(static_cast<std::int32_t>(i));
+  };
+  const auto fit_selected = [&] {
     Eigen::Isometry3d candidate = result.current_from_previous;
     result.solved = fit(terms, rows, rig, config, candidate, workspace);
-    if (!result.solved) break;
-    result.current_from_previous = candidate;
+    if (result.solved) result.current_from_previous = candidate;
     std::swap(rows, last_rows);
+    return result.solved;
+  };
+  for (int round = 0; round < config.refine_rounds; ++round) {
+    select(every);
+    if (round > 0 && changed_rows(rows, last_rows) <= rows.size() / kSameSelection) break;
+    if (!fit_selected()) break;
+  }
+  if (result.solved && every > 1) {
+    select(1);
+    workspace.knows_scales = true;
+    fit_selected();
   }
   if (result.solved) {
     result.covariance = fit_covariance(terms, last_rows, quads, rig, config, result.current_from_previous, workspace);

@@ -20,6 +20,7 @@ struct FitWorkspace {
   std::vector<double> place_error, direction_error;   ///< squared Mahalanobis errors
   std::vector<double> sorted;
   double place_scale = 1, direction_scale = 1;        ///< measured variance over the assumed one, per block of residuals
+  bool knows_scales = false;                          ///< from a fit over a part of the same rows: need not be measured before the first step
 };
 
 /// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces; ends after
@@ -74,7 +75,8 @@ struct Refined {
 };
 
 /// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and fit(), config.refine_rounds times or until the selection
-/// hardly changes; of many quads the first fit sees a part. Then fit_offset() with a prior of `offset_variance` [px^2], 0: without it.
+/// hardly changes; of many quads
+/// a part settles the selection, and one fit over all of them follows. Then fit_offset() with a prior of `offset_variance` [px^2], 0: without it.
 Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial, double offset_variance = 0);
 
