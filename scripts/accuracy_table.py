@@ -30,6 +30,7 @@ SEQUENCES = {
 }
 SYSTEMS = {"default": "QuadEdge", "paper": "QuadEdge, paper.toml", "opencv": "OpenCV SIFT + PnP"}
 STEP_SEQUENCE = "keyframes"  # judged step by step: errors over all its frames say nothing
+COMPLETE = "complete"  # empty file in the folder of a run that came to its end
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 
 
@@ -48,6 +49,9 @@ def run(system, sequence, options):
     """Tracks a sequence with a system. Returns the folder with its results and what the truth is."""
     _, place, _ = SEQUENCES[sequence]
     output = options.out / system / sequence
+    truth = options.data / place if place and not options.frames else output / "groundtruth.txt"
+    if options.keep and (output / COMPLETE).exists():
+        return output, truth
     shutil.rmtree(output, ignore_errors=True)
     if system == "opencv":
         frames = ["--frames", options.frames] if options.frames else []
@@ -63,7 +67,7 @@ def run(system, sequence, options):
             frames = ["--frames", options.frames] if options.frames else []
             command = [options.quadedge, "demo", "--scene", sequence]
         call([*command, "-o", output, "--quiet", *frames, *method], allowed=(0, 5))  # 5: many frames lost, which is a result too
-    truth = options.data / place if place and not options.frames else output / "groundtruth.txt"
+    (output / COMPLETE).touch()
     return output, truth
 
 
@@ -157,6 +161,7 @@ def parse():
     parser.add_argument("--sequences", nargs="+", choices=SEQUENCES, default=list(SEQUENCES))
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
     parser.add_argument("--frames", type=int, default=0, help="only the first N frames of each sequence")
+    parser.add_argument("--keep", action="store_true", help="use the runs that are complete in OUT, to go on after an interruption")
     parser.add_argument("--device", help="as in `quadedge run`")
     parser.add_argument("--quadedge", type=Path, default=REPOSITORY / "build" / "quadedge")
     parser.add_argument("--baseline", type=Path, default=REPOSITORY / "build" / "bench" / "opencv_baseline")
@@ -175,14 +180,15 @@ def main():
             for system in options.systems:
                 print(f"{sequence}: {SYSTEMS[system]}", file=sys.stderr, flush=True)
                 entries.append(evaluate(system, sequence, options))
+                # Written each time, so that an interrupted table keeps what it has.
+                table = markdown(entries)
+                (options.out / "accuracy.md").write_text(table, encoding="utf-8")
+                (options.out / "accuracy.json").write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
             if SEQUENCES[sequence][1] is None:
                 plot(sequence, [entry for entry in entries if entry["sequence"] == sequence], options)
     except Problem as problem:
         print(f"accuracy_table: {problem}", file=sys.stderr)
         return 1
-    table = markdown(entries)
-    (options.out / "accuracy.md").write_text(table, encoding="utf-8")
-    (options.out / "accuracy.json").write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
     print(table, end="")
     return 0
 

@@ -81,6 +81,9 @@ TEST_CASE("run: the report has every documented key", "[cli][device]") {
       for (const char* number : {"mean", "std", "rmse", "max"}) CHECK(report["accuracy"][alignment][error][number].is_number());
     }
   }
+  const auto& honesty = report["accuracy"]["normalised_error_squared"];
+  CHECK(honesty["poses"] == 3);
+  for (const char* part : {"pose", "rotation", "translation"}) CHECK(honesty[part].get<double>() > 0);
   CHECK(report["stages_ms"].size() > 2);
 }
 

@@ -14,10 +14,10 @@ TEST_CASE("disparity offset: the corrected rig sees points nearer by the offset"
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
     DisparityOffset offset(rig, config);
     CHECK(offset.variance() == Approx(0.09));
-    offset.update(0.25, 0.0004);
-    offset.update(-0.05, 0.0003);
+    offset.update(0.25, 0.0004, 1);
+    offset.update(-0.05, 0.0003, 5);
     CHECK(offset.value() == Approx(0.2));
-    CHECK(offset.variance() == Approx(0.0003 + 0.0001));
+    CHECK(offset.variance() == Approx(0.0003 + 5 * 0.0001));
     // The same pixels, measured with both rigs: the inverse depth grows by 0.2 px worth of it.
     const pose::OrientedPoint point{{0.1, -0.05, 6}, Eigen::Vector3d(0.5, 0.8, 0.2).normalized()};
     const auto seen = generated::observe(rig, point);
@@ -32,7 +32,7 @@ TEST_CASE("disparity offset: switched off, nothing moves", "[odometry]") {
   config.offset_sigma = 0;
   DisparityOffset offset(generated::car_rig(), config);
   CHECK(offset.variance() == 0);
-  offset.update(0.25, 0.0004);
+  offset.update(0.25, 0.0004, 1);
   CHECK(offset.value() == 0);
   CHECK(offset.rig().right.cx == generated::car_rig().right.cx);
 }

@@ -11,10 +11,10 @@ DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
   nearer_ = (rig.right.project(rig.right_from_left * Eigen::Vector3d(50 * rig.baseline() * ray)) - far).normalized();
 }
 
-void DisparityOffset::update(double correction, double variance) {
+void DisparityOffset::update(double correction, double variance, int frames) {
   if (!(variance_ > 0) || !(variance > 0)) return;
   value_ += correction;
-  variance_ = variance + drift_ * drift_;
+  variance_ = variance + frames * drift_ * drift_;
   rig_.right.cx = cx_ - value_ * nearer_.x();
   rig_.right.cy = cy_ - value_ * nearer_.y();
 }

@@ -7,13 +7,14 @@
 namespace quadedge::odometry {
 
 /// A rig's disparities may all be wrong by the same part of a pixel (KITTI: 0.2 px and more), which shows in the quads of a moving
-/// camera (pose::fit_offset()). This is the scalar Kalman filter over what the frames say of it.
+/// camera (pose::fit_offset()). This is the scalar Kalman filter over what one frame of each key stereo rig says of it.
 class DisparityOffset {
  public:
   DisparityOffset(const StereoRig& rig, const PoseConfig& config);
 
-  /// Takes in what one frame found beyond the offset known before, and its variance with the prior [px, px^2].
-  void update(double correction, double variance);
+  /// Takes in what one frame found beyond the offset known before, and its variance with the prior [px, px^2]; `frames` have passed since
+  /// the last time.
+  void update(double correction, double variance, int frames);
 
   /// The rig with its right principal point moved by the offset, so that right points mean what they should. Without undistortion
   /// tables.

@@ -203,8 +203,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   state.median_parallax = odometry::median_parallax(frontend_->base(step.base), step.matches);
   state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();
   state.frames = frame_ - key_rig_.frame();
-  offset_.update(step.motion.offset, step.motion.offset_variance);
-  result.disparity_offset = offset_.value();
+  result.disparity_offset = offset_.value() + step.motion.offset;
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
   result.reference_frame = key_rig_.frame();
@@ -217,6 +216,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.new_key_rig = !config_.odometry.key_rig || !by_key || key_rig_.is_worn(state, config_.odometry);
   base_from_key_ = current_from_key;
   base_covariance_ = covariance;
+  // All frames of a key rig are measured against its disparities: together they tell no more than the last one, the farthest away.
+  if (result.new_key_rig) offset_.update(step.motion.offset, step.motion.offset_variance, state.frames);
   if (result.new_key_rig) key_rig_.start(frame_, result.world_from_left);
   become_base(result);
 }
