@@ -5,6 +5,9 @@
 // One work-item = one left edge. Two launches: count, then (after an exclusive scan) fill.
 // Reference: host/reference/stereo_candidates.cpp.
 
+// Candidates per row that the first sweep can note (kNoted in host/stages/stereo_candidates.cpp).
+#define NOTED 32
+
 // A position differs from its cell of the doubled grid by at most this [px] (kEdgeRowReach in host/reference/edges.hpp).
 #define CELL_SLACK 0.5f
 
@@ -63,23 +66,28 @@ inline int visit_candidates(const float x, const float y, const float direction,
 kernel void stereo_candidates_count(global const float* left_x, global const float* left_y, global const float* left_direction,
                                     const int left_count, global const float* right_x, global const float* right_y,
                                     global const float* right_direction, global const int* right_row_first,
-                                    const int right_height, global const float* geometry, global int* counts) {
+                                    const int right_height, global const float* geometry, global int* counts,
+                                    global int* noted) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   counts[i] = visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction, right_row_first,
-                               right_height, geometry, 0, 0);
+                               right_height, geometry, noted + i * NOTED, NOTED);
 }
 
-// Rows beyond the capacity stay empty: the host sees the total, makes room and runs again.
+// Copies what the first sweep noted; only rows with more candidates than that sweep again. Rows beyond the capacity stay empty: the host sees the total, makes room and runs again.
 kernel void stereo_candidates_fill(global const float* left_x, global const float* left_y, global const float* left_direction,
                                    const int left_count, global const float* right_x, global const float* right_y,
                                    global const float* right_direction, global const int* right_row_first,
                                    const int right_height, global const float* geometry, global const int* first,
-                                   const int capacity, global int* target) {
+                                   const int capacity, global const int* noted, global int* target) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   const int room = min(first[i + 1], capacity) - first[i];
   if (room <= 0) return;
+  if (room <= NOTED) {
+    for (int k = 0; k < room; ++k) target[first[i] + k] = noted[i * NOTED + k];
+    return;
+  }
   visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction, right_row_first, right_height,
                    geometry, target + first[i], room);
 }

@@ -29,11 +29,12 @@ class StereoCandidates {
   opencl::Context& context_;
   std::size_t local_size_;
   Scan scan_;
+  opencl::Buffer<cl_int> noted_;  ///< the first candidates of every row
   opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, cl_int,
-                 In<cl_float>, Out<cl_int>>
+                 In<cl_float>, Out<cl_int>, Out<cl_int>>
       count_;
   opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, cl_int,
-                 In<cl_float>, In<cl_int>, cl_int, Out<cl_int>>
+                 In<cl_float>, In<cl_int>, cl_int, In<cl_int>, Out<cl_int>>
       fill_;
 };
 
