@@ -145,6 +145,23 @@ TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odo
   CHECK(odometry.track(room().frame(1)).reference_frame == 0);
 }
 
+TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the device", "[odometry][device]") {
+  for (const auto& name : all_devices()) {
+    Device device(name);
+    StereoOdometry odometry(room().rig, device, room().config);
+    const std::size_t last = room().left.size() - 1;
+    const auto track_there_and_back = [&] {
+      for (std::size_t i = 0; i < last; ++i) CHECK(odometry.track(room().frame(i)).status != FrameStatus::lost_no_consensus);
+      for (std::size_t i = last; i > 0; --i) CHECK(odometry.track(room().frame(i)).status == FrameStatus::tracked);
+    };
+    for (int pass = 0; pass < 3; ++pass) track_there_and_back();  // three rigs take turns in holding the frames
+    const std::size_t bytes = odometry.device_bytes();
+    CHECK(bytes > 0);
+    track_there_and_back();
+    CHECK(odometry.device_bytes() == bytes);
+  }
+}
+
 TEST_CASE("odometry: without a key rig every frame is tracked against the one before", "[odometry][device]") {
   Config config = room().config;
   config.odometry.key_rig = false;

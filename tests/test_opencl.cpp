@@ -72,7 +72,7 @@ TEST_CASE("buffers: memory is accounted for and reused", "[device]") {
     buffer.ensure(context, 50);
     CHECK(context.bytes() == before + 400);
     buffer.write(context, std::vector<cl_int>(200, 7));
-    CHECK(context.bytes() == before + 800);
+    CHECK(context.bytes() == before + 900);  // an eighth to spare, having grown
     CHECK(buffer.read(200) == std::vector<cl_int>(200, 7));
     buffer.fill(3, 100);
     CHECK(buffer.read(200)[99] == 3);

@@ -25,11 +25,13 @@ class Buffer {
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
 
-  /// Makes room for at least `count` elements. The contents are lost when it grows. \throws DeviceError when memory runs out.
+  /// Makes room for at least `count` elements, with an eighth to spare from the second time on. The contents are lost when it grows.
+  /// \throws DeviceError when memory runs out.
   void ensure(Context& context, std::size_t count) {
     if (context_ != nullptr && count <= capacity_) return;
+    const std::size_t spare = context_ != nullptr ? count / 8 : 0;
     release();
-    const std::size_t wanted = count == 0 ? 1 : count;
+    const std::size_t wanted = count == 0 ? 1 : count + spare;
     try {
       memory_ = cl::Buffer(context.context(), CL_MEM_READ_WRITE, wanted * sizeof(T));
     } catch (const cl::Error& error) {
