@@ -2,12 +2,13 @@
 //
 // Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, candidate lists.
 // Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity), how alike both places look,
-// and rejected_by = rejected_order where the refinement diverged or another candidate stands for it. One work-item = one left edge.
+// and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
 // Candidates that shift onto the line within so many px of one another are one. Twin: kSamePlace in
 // host/reference/stereo_refinement.cpp.
 #define SAME_PLACE 0.3f
+#define STOOD_FOR 255  // in rejected_by, for a while: another candidate is refined for this one
 
 // Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its place s.
 inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
@@ -60,7 +61,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     for (int k = begin; k < c; ++k) {
       if (rejected_by[k] != 0 || fabs(place[k] - s) >= SAME_PLACE) continue;
       const int nearer = distance < likeness[k];
-      rejected_by[nearer ? k : c] = (uchar)rejected_order;
+      rejected_by[nearer ? k : c] = STOOD_FOR;
       if (!nearer) break;
     }
   }
@@ -94,5 +95,17 @@ kernel void stereo_refinement(global const int* first, global const int* target,
       similarity[side] = rows_ncc(fixed[side], norms[side], values);
     }
     likeness[c] = 0.5f * (similarity[1] + fmax(similarity[0], similarity[2]));
+  }
+  // The others join their neighbour's cluster, where they count for its direction and cannot represent it.
+  for (int c = begin; c < end; ++c) {
+    if (rejected_by[c] != STOOD_FOR) continue;
+    int nearest = -1;
+    for (int k = begin; k < end; ++k) {
+      if (rejected_by[k] == 0 && likeness[k] >= -1.0f && (nearest < 0 || fabs(place[k] - place[c]) < fabs(place[nearest] - place[c]))) nearest = k;
+    }
+    rejected_by[c] = nearest < 0 ? (uchar)rejected_order : 0;
+    if (nearest < 0) continue;
+    place[c] = place[nearest];
+    likeness[c] = likeness[nearest] - 3.0f;
   }
 }

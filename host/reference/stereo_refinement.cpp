@@ -9,6 +9,7 @@ namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr std::uint8_t kStoodFor = 255;  // in rejected_by, for a while: another candidate is refined for this one
 constexpr double kSamePlace = 0.3;  // px; twin: SAME_PLACE in kernels/stereo_refinement.cl
 
 double distance_from(const EpipolarLine& line, double x, double y) { return -(x - line.x) * line.ey + (y - line.y) * line.ex; }
@@ -50,7 +51,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       for (std::size_t k = begin; k < c; ++k) {
         if (scores.rejected_by[k] != 0 || std::abs(refined.place[k] - refined.place[c]) >= kSamePlace) continue;
         const bool nearer = off_line(c) < off_line(k);
-        scores.rejected_by[nearer ? k : c] = kStereoRefinementOrder;
+        scores.rejected_by[nearer ? k : c] = kStoodFor;
         if (!nearer) break;
       }
     }
@@ -68,6 +69,19 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
         return patch_ncc(cut_patch(left_image, left_frame(side), 0, 0), cut_patch(right_image, right_frame(refined.place[c], side), 0, 0));
       };
       refined.likeness[c] = 0.5 * (similarity(0) + std::max(similarity(-1), similarity(1)));
+    }
+    // The others join their neighbour's cluster, where they count for its direction and cannot represent it.
+    for (std::size_t c = begin; c < end; ++c) {
+      if (scores.rejected_by[c] != kStoodFor) continue;
+      std::size_t nearest = end;
+      for (std::size_t k = begin; k < end; ++k) {
+        if (scores.rejected_by[k] != 0 || refined.likeness[k] < -1) continue;
+        if (nearest == end || std::abs(refined.place[k] - refined.place[c]) < std::abs(refined.place[nearest] - refined.place[c])) nearest = k;
+      }
+      scores.rejected_by[c] = nearest == end ? kStereoRefinementOrder : std::uint8_t{0};
+      if (nearest == end) continue;
+      refined.place[c] = refined.place[nearest];
+      refined.likeness[c] = refined.likeness[nearest] - 3;
     }
   }
   return refined;

@@ -20,13 +20,14 @@ struct RefinedCandidates {
   std::vector<double> likeness;  ///< of both places: mean of the NCC of the patches on the edges and of the better equal side
 };
 
-/// Shifts and refines every candidate that is alive (SPEC 8a, 8b), and marks diverged and superfluous ones in `scores.rejected_by`.
+/// Shifts and refines every candidate that is alive (SPEC 8a, 8b), and marks diverged ones in `scores.rejected_by`.
 ///
 /// Where SPEC aligns a side patch, the patch on the edge itself is aligned here, at equal contrast: it holds the edge's own profile,
 /// and the flank that another surface owns weighs little. A prior holds it around the detected place, as tightly as an edge is
 /// known along this line: refine_prior / sin(angle between edge and line).
 ///
-/// Neighbours on one curve shift to the same place: of candidates within 0.3 px the one nearest to the line stands for all.
+/// Neighbours on one curve shift to the same place: of candidates within 0.3 px the one nearest to the line is refined,
+/// and the others get its place and a likeness below -1.
 RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image, const EdgeSet& left,
                                       const EdgeSet& right, const stages::EpipolarGeometry& geometry,
                                       const Candidates& candidates, const StereoConfig& config, double patch_offset,
