@@ -118,6 +118,38 @@ TEST_CASE("frontend: every device finds the reference's stereo edges and quads",
   }
 }
 
+TEST_CASE("frontend: found anywhere, edges are the reference's on every device, and where the motion brings them", "[frontend][matching][device]") {
+  const RenderedScene scene("room", 240, 150, 2, 8);
+  const auto find = [&](const std::string& device_name) {
+    Device device(device_name);
+    const auto frontend = stages::make_frontend(scene.rig, device, scene.config);
+    frontend->process(scene.frame(0));
+    frontend->keep(true);
+    frontend->process(scene.frame(1));
+    const auto matches = frontend->match_anywhere(stages::Base::previous);
+    CHECK(same_bytes(matches, frontend->match_anywhere(stages::Base::key)));
+    const StereoEdges& before = frontend->base(stages::Base::previous);
+    std::size_t right = 0;
+    for (std::size_t m = 0; m < matches.size(); ++m) {
+      const auto i = static_cast<std::size_t>(matches.previous[m]);
+      const Eigen::Vector3d ray = scene.rig.left.ray({before.left_x[i], before.left_y[i]});
+      const double depth = scene.rig.left.fx * scene.rig.baseline() / static_cast<double>(before.left_x[i] - before.right_x[i]);
+      const Eigen::Vector2d place = scene.rig.left.project(scene.world_from_left[1].inverse() * scene.world_from_left[0] * Eigen::Vector3d(depth * ray));
+      right += std::hypot(place.x() - static_cast<double>(matches.left_x[m]), place.y() - static_cast<double>(matches.left_y[m])) < 4 ? 1 : 0;
+    }
+    CHECK(matches.size() > 200);
+    CHECK(right > matches.size() * 7 / 10);
+    return matches;
+  };
+  const auto expected = find("reference");
+  for (const auto& name : all_devices()) {
+    const auto found = find(name);
+    // Every few bytes of a descriptor differ by one, and an edge more or less moves the choice of those that take part.
+    CHECK(shared(found.left_x, found.left_y, found.right_x, expected.left_x, expected.left_y, expected.right_x) > 0.8);
+    CHECK(shared(expected.left_x, expected.left_y, expected.right_x, found.left_x, found.left_y, found.right_x) > 0.8);
+  }
+}
+
 TEST_CASE("frontend: every variant of every stage gives the default's bytes, and so does a second run", "[frontend][matching][device]") {
   const RenderedScene scene("room", 161, 97, 2);
   for (const auto& device : all_devices()) {

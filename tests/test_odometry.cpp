@@ -121,6 +121,71 @@ TEST_CASE("odometry: a black frame is lost, and tracking goes on after it at the
   }
 }
 
+TEST_CASE("odometry: a frame of another place is lost, and the next one is tracked at the right place", "[odometry][device]") {
+  const RenderedScene elsewhere("cables", 240, 150, 1);
+  Config config = room().config;
+  config.stereo.max_disparity = std::max(config.stereo.max_disparity, elsewhere.config.stereo.max_disparity);
+  Device device(all_devices().front());
+  StereoOdometry odometry(room().rig, device, config);
+  for (std::size_t i : {0, 1, 2}) CHECK(is_tracked(odometry.track(room().frame(i)).status));
+  const auto lost = odometry.track(elsewhere.frame(0));
+  CHECK_FALSE(is_tracked(lost.status));
+  CHECK(lost.counts.stereo_edges > 100);
+  const auto result = odometry.track(room().frame(4));
+  CHECK(result.status == FrameStatus::tracked);
+  CHECK(result.reference_frame == 2);  // the last frame that had a pose
+  check_pose(result, room().world_from_left[4], 4e-3, 0.1);
+}
+
+TEST_CASE("odometry: in another place tracking restarts from the lost frame, and says so", "[odometry][device]") {
+  const RenderedScene before("cables", 240, 150, 1);
+  Config config = room().config;
+  config.stereo.max_disparity = std::max(config.stereo.max_disparity, before.config.stereo.max_disparity);
+  Device device(all_devices().front());
+  StereoOdometry odometry(room().rig, device, config);
+  CHECK(odometry.track(before.frame(0)).status == FrameStatus::first);
+  const auto lost = odometry.track(room().frame(0));
+  CHECK_FALSE(is_tracked(lost.status));
+  const auto restarted = odometry.track(room().frame(1));
+  CHECK(restarted.status == FrameStatus::tracked);
+  CHECK(restarted.reference_frame == 1);
+  CHECK(restarted.message.find("restarted from frame 1") != std::string::npos);
+  const auto after = odometry.track(room().frame(2));
+  CHECK(after.status == FrameStatus::tracked);
+  CHECK(after.message.empty());
+  for (const auto* result : {&restarted, &after}) {
+    const auto& truth = room().world_from_left[result == &after ? 2 : 1];
+    const Eigen::Isometry3d motion = lost.world_from_left.inverse() * result->world_from_left;
+    CHECK((motion.translation() - truth.translation()).norm() < 4e-3);
+    CHECK(turn_between(motion, truth) < 0.1 * kDegree);
+  }
+}
+
+TEST_CASE("odometry: a turn by a third of the view, and one about the optical axis, are found", "[odometry][device]") {
+  const auto world = synthetic::make_room(7, room().rig.left.fx);
+  const auto render = [&](const Eigen::Isometry3d& camera_from_world) {
+    const auto view = synthetic::render(world, room().rig.left, camera_from_world, 3, 0);
+    Image image(240, 150);
+    for (std::size_t i = 0; i < view.grey.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
+    return image;
+  };
+  Eigen::Isometry3d yawed = Eigen::Isometry3d::Identity(), rolled = yawed;
+  yawed.linear() = Eigen::AngleAxisd(25 * kDegree, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  yawed.translation() = Eigen::Vector3d(0.1, -0.05, 0.15);
+  rolled.linear() = Eigen::AngleAxisd(40 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  for (const Eigen::Isometry3d& world_from_left : {yawed, rolled}) {
+    Device device(all_devices().front());
+    StereoOdometry odometry(room().rig, device, room().config);
+    FrameResult result;
+    for (const Eigen::Isometry3d& pose : {Eigen::Isometry3d(Eigen::Isometry3d::Identity()), world_from_left}) {
+      const Image left = render(pose.inverse()), right = render(room().rig.right_from_left * pose.inverse());
+      result = odometry.track({0, left.view(), right.view()});
+    }
+    CHECK(result.status == FrameStatus::tracked);
+    check_pose(result, world_from_left, 0.01, 0.3);
+  }
+}
+
 TEST_CASE("odometry: a sequence that begins in the dark starts at the first frame with edges", "[odometry][device]") {
   Device device(all_devices().front());
   StereoOdometry odometry(room().rig, device, room().config);

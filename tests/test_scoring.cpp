@@ -103,3 +103,13 @@ TEST_CASE("Inliers are the quads near in both images and alike in direction, mod
   s.left_x[i] += 1.51f;
   CHECK_FALSE(accepted());
 }
+
+TEST_CASE("Cells that hold a marked quad count once", "[pose][scoring]") {
+  ScoringArrays quads;
+  quads.left_x = {0, 15.9f, 16, 3, 40, 100};
+  quads.left_y = {0, 15.9f, 3, 16, 40, 100};
+  CHECK(count_cells(quads, {1, 1, 1, 1, 0, 0}, 16) == 3);
+  CHECK(count_cells(quads, {1, 1, 1, 1, 1, 1}, 16) == 5);
+  CHECK(count_cells(quads, {0, 0, 0, 0, 0, 0}, 16) == 0);
+  CHECK(count_cells(quads, {1, 1, 1, 1, 1, 1}, 200) == 1);
+}

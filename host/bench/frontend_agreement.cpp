@@ -73,6 +73,7 @@ FrontendOutput run_frontend(stages::Frontend& frontend, const FramePrefetcher::F
   output.previous = frontend.base(stages::Base::previous);
   output.scouted = frontend.match(stages::Base::previous, search_in_place(output.previous, config.temporal, true));
   output.quads = frontend.match(stages::Base::previous, search_in_place(output.previous, config.temporal, false));
+  output.anywhere = frontend.match_anywhere(stages::Base::previous);
   output.left_edges = frontend.edges(false);
   output.right_edges = frontend.edges(true);
   output.current = frontend.current();
@@ -81,7 +82,7 @@ FrontendOutput run_frontend(stages::Frontend& frontend, const FramePrefetcher::F
 
 bool same_bytes(const FrontendOutput& a, const FrontendOutput& b) {
   return same(a.left_edges, b.left_edges) && same(a.right_edges, b.right_edges) && same(a.previous, b.previous) &&
-         same(a.current, b.current) && same(a.scouted, b.scouted) && same(a.quads, b.quads);
+         same(a.current, b.current) && same(a.scouted, b.scouted) && same(a.quads, b.quads) && same(a.anywhere, b.anywhere);
 }
 
 Agreement agreement(const FrontendOutput& a, const FrontendOutput& b) {

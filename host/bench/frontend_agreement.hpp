@@ -11,6 +11,7 @@ struct FrontendOutput {
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
   TemporalMatches scouted, quads;  ///< by a scout with its strict limits, and by a guided search
+  TemporalMatches anywhere;        ///< edges found anywhere in the left image
 };
 
 /// Edges of the first frame stay where they were in both later images, within the radius of a scout or of a guided search.

@@ -59,6 +59,7 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   const auto match = [&](bool scout) { candidate.frontend->match(stages::Base::previous, search_in_place(previous, input.config.temporal, scout)); };
   match(false);
   if (stage != kGuidedMatch) match(true);
+  candidate.frontend->match_anywhere(stages::Base::previous);
   const auto names = booked_as(stage);
   double sum = kNaN;
   for (const auto& [name, ms] : context.take_profile()) {

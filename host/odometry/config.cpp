@@ -73,13 +73,18 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   auto& temporal = config.temporal;
   visit("temporal.radius", &temporal.radius, "search radius around the place that the scouted motion predicts [px]", 0.1, 1000);
   visit("temporal.distance_weight", &temporal.distance_weight, "NCC that a candidate at the end of the radius has to be better", 0, 1);
+  visit("temporal.sure_support", &temporal.sure_support,
+        "a motion with a smaller support has to agree with edges found anywhere [share of the edges in view]", 0, 1);
   visit("temporal.min_support", &temporal.min_support, "smallest share of inliers among the base's edges in view", 0, 1);
   visit("temporal.rounds", &temporal.rounds, "searches at most, each around what the last one found", 1, 10);
   visit("temporal.scout_radius", &temporal.scout_radius, "scout's radius around the place that constant velocity predicts [px]", 0.1, 1000);
   visit("temporal.scout_radius_wide", &temporal.scout_radius_wide,
-        "scout's radius where there is no prediction, or it fails [share of the image width]", 0.001, 1);
-  visit("temporal.scout_radius_widest", &temporal.scout_radius_widest,
-        "scout's radius where scout_radius_wide finds no motion [share of the image width]", 0.001, 1);
+        "scout's radius where there is no prediction, or it fails, with wide_edges = 0 [share of the image width]", 0.001, 1);
+  visit("temporal.wide_edges", &temporal.wide_edges,
+        "edges looked for anywhere where there is no prediction, or it fails; 0: none", 0, 1000000);
+  visit("temporal.wide_ratio", &temporal.wide_ratio, "then: distance / distance of the best rival elsewhere that is kept", 0.01, 1);
+  visit("temporal.wide_neighbourhood", &temporal.wide_neighbourhood, "then: what is nearer is no rival [px]", 0, 1000);
+  visit("temporal.wide_inlier_distance", &temporal.wide_inlier_distance, "then: reprojection distance of an inlier [px]", 0.01, 100);
   visit("temporal.scout_edges", &temporal.scout_edges, "the scout looks for about this many stereo edges", 100, 1000000);
   visit("temporal.scout_min_inlier_share", &temporal.scout_min_inlier_share, "smallest inlier share of the scout's quads", 0, 1);
   visit("temporal.scout_ncc_min", &temporal.scout_ncc_min, "scout's smallest NCC", 0.01, 1);

@@ -4,36 +4,60 @@
 #include <vector>
 
 #include "odometry/prediction.hpp"
+#include "pose/angles.hpp"
+#include "pose/scoring.hpp"
 
 namespace quadedge::odometry {
+
+using pose::radians;
+
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kSettled = 0.3;  ///< mean distance of predicted places that calls for no further search [px]
 
 }  // namespace
 
-MotionStep MotionSearch::estimate(stages::Base base, const stages::TemporalSearch& search,
-                                  const std::optional<Eigen::Isometry3d>& prediction, const PoseConfig& limits, std::uint64_t seed) const {
+MotionStep MotionSearch::estimate(stages::Base base, TemporalMatches matches, const std::optional<Eigen::Isometry3d>& prediction,
+                                  const PoseConfig& limits, std::uint64_t seed) const {
   const StereoRig& rig = offset_.rig();
   MotionStep step;
   step.base = base;
-  step.matches = frontend_.match(base, search);
+  step.matches = std::move(matches);
   step.quads = pose::build_quads(rig, frontend_.base(base), frontend_.current(), step.matches, pose::QuadLimits(config_));
   step.motion = pose::estimate_motion(rig, step.quads, limits, seed, prediction, offset_.variance());
   return step;
 }
 
-/// Looks for the motion since the previous rig with a part of the edges. What it suggests need not convince.
+/// Looks for the motion since the base with a part of the edges. What it suggests need not convince.
 MotionStep MotionSearch::scout(const MotionPrior& prior, double radius) const {
   PoseConfig lenient = config_.pose;
   lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
   lenient.min_spread = 0;
-  const StereoEdges& previous = frontend_.base(stages::Base::previous);
-  const int every = std::max(1, static_cast<int>(previous.size()) / config_.temporal.scout_edges);
-  auto search = predict_places(offset_.rig(), previous, prior.prediction, radius, every, config_.stereo.min_epipolar_angle * kDegree);
+  const StereoEdges& base = frontend_.base(prior.base);
+  const int every = std::max(1, static_cast<int>(base.size()) / config_.temporal.scout_edges);
+  auto search = predict_places(offset_.rig(), base, prior.prediction, radius, every, radians(config_.stereo.min_epipolar_angle));
   search.scout = true;
-  return estimate(stages::Base::previous, search, prior.prediction, lenient, prior.seed);
+  return estimate(prior.base, frontend_.match(prior.base, search), prior.prediction, lenient, prior.seed);
+}
+
+/// Looks for the motion since the base, however large, with edges that what surrounds them tells from all others.
+MotionStep MotionSearch::look_anywhere(const MotionPrior& prior) const {
+  PoseConfig lenient = config_.pose;
+  lenient.inlier_distance = config_.temporal.wide_inlier_distance;
+  lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
+  lenient.min_spread = 0;
+  return estimate(prior.base, frontend_.match_anywhere(prior.base), std::nullopt, lenient, prior.seed);
+}
+
+/// Whether edges found anywhere agree with a motion: in as many places of the image as an estimate needs inliers. A found edge could lie
+/// anywhere, so a wrong motion meets next to none of them; neighbours, which may err together, count once.
+bool MotionSearch::is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior) const {
+  Eigen::Isometry3d motion = found.motion.current_from_previous;
+  if (found.base != prior.base) motion = motion * prior.base_from_key->inverse();
+  std::vector<std::uint8_t> agrees;
+  pose::select_inliers(anywhere.quads.scoring, pose::LaterCameras(offset_.rig(), motion), config_.temporal.wide_inlier_distance,
+                       radians(config_.pose.inlier_orientation), agrees);
+  return pose::count_cells(anywhere.quads.scoring, agrees, config_.pose.vote_cell) >= config_.pose.min_inliers;
 }
 
 /// Matches all edges of a base within a few pixels of where a motion predicts them, again around what that finds until the places
@@ -41,15 +65,16 @@ MotionStep MotionSearch::scout(const MotionPrior& prior, double radius) const {
 MotionStep MotionSearch::match(stages::Base base, Eigen::Isometry3d prediction, std::uint64_t seed) const {
   const auto places = [&](const Eigen::Isometry3d& motion) {
     return predict_places(offset_.rig(), frontend_.base(base), motion, config_.temporal.radius, 1,
-                          config_.stereo.min_epipolar_angle * kDegree);
+                          radians(config_.stereo.min_epipolar_angle));
   };
   auto search = places(prediction);
   MotionStep step;
   for (int round = 0; round < config_.temporal.rounds; ++round) {
-    step = estimate(base, search, prediction, config_.pose, seed);
-    if (step.motion.status != pose::MotionStatus::ok) break;
+    step = estimate(base, frontend_.match(base, search), prediction, config_.pose, seed);
     const int in_view = count_in_view(rig_.left, search.left);
-    if (step.motion.inliers < config_.temporal.min_support * in_view) {
+    step.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
+    if (step.motion.status != pose::MotionStatus::ok) break;
+    if (step.support < config_.temporal.min_support) {
       step.motion.status = pose::MotionStatus::no_consensus;
       break;
     }
@@ -61,21 +86,29 @@ MotionStep MotionSearch::match(stages::Base base, Eigen::Isometry3d prediction, 
   return step;
 }
 
-MotionStep MotionSearch::find(const MotionPrior& prior) const {
-  std::vector<double> radii = {config_.temporal.scout_radius_wide * rig_.left.width,
-                               config_.temporal.scout_radius_widest * rig_.left.width};
-  if (prior.prediction) radii.insert(radii.begin(), config_.temporal.scout_radius);
-  MotionStep step;
-  for (const double radius : radii) {
-    step = scout(prior, radius);
-    if (step.motion.status != pose::MotionStatus::ok) continue;
-    const Eigen::Isometry3d motion = step.motion.current_from_previous;
-    step = match(stages::Base::key, motion * prior.previous_from_key, prior.seed);
-    if (step.motion.status == pose::MotionStatus::ok) break;
-    if (prior.previous_is_key) continue;
-    step = match(stages::Base::previous, motion, prior.seed);
-    if (step.motion.status == pose::MotionStatus::ok) break;
+/// What the matching of all edges says of a scouted motion.
+MotionStep MotionSearch::confirm(MotionStep scouted, const MotionPrior& prior) const {
+  if (!scouted.ok()) return scouted;
+  const Eigen::Isometry3d motion = scouted.motion.current_from_previous;
+  if (prior.base_from_key) {
+    MotionStep step = match(stages::Base::key, motion * *prior.base_from_key, prior.seed);
+    if (step.ok()) return step;
   }
+  return match(prior.base, motion, prior.seed);
+}
+
+MotionStep MotionSearch::find(const MotionPrior& prior) const {
+  const bool anywhere = config_.temporal.wide_edges > 0;
+  MotionStep near;
+  if (prior.prediction) {
+    near = confirm(scout(prior, config_.temporal.scout_radius), prior);
+    if (near.ok() && (!anywhere || near.support >= config_.temporal.sure_support)) return near;
+  }
+  if (!anywhere) return confirm(scout(prior, config_.temporal.scout_radius_wide * rig_.left.width), prior);
+  const MotionStep seen = look_anywhere(prior);
+  MotionStep step = confirm(seen, prior);
+  if (near.ok() && (!step.ok() || near.support > step.support)) step = std::move(near);
+  if (step.ok() && !is_seen(seen, step, prior)) step.motion.status = pose::MotionStatus::no_consensus;
   return step;
 }
 

@@ -17,18 +17,21 @@ struct MotionStep {
   TemporalMatches matches;
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
+  double support = 0;  ///< inliers, share of the base's edges that the motion brings into view
+
+  bool ok() const { return motion.status == pose::MotionStatus::ok; }
 };
 
 /// What is known of the current frame's motion before its edges are matched with earlier ones.
 struct MotionPrior {
-  std::optional<Eigen::Isometry3d> prediction;  ///< current_from_previous by constant velocity
-  Eigen::Isometry3d previous_from_key = Eigen::Isometry3d::Identity();
-  bool previous_is_key = false;
+  stages::Base base = stages::Base::previous;                ///< the rig to start from
+  std::optional<Eigen::Isometry3d> prediction = std::nullopt;     ///< current_from_base by constant velocity
+  std::optional<Eigen::Isometry3d> base_from_key = std::nullopt;  ///< the key rig beyond the base, preferred where it is in sight
   std::uint64_t seed = 0;
 };
 
-/// A scout finds the motion since the previous rig, in growing circles; it guides the matching with the key rig or, where that one is
-/// out of sight, with the previous rig, and that matching has to convince.
+/// A scout finds the motion since the base, near the prediction or else anywhere; it guides the matching of all edges with the key rig
+/// or, where that one is out of sight, with the base. That matching has to convince: by its support, or by edges found anywhere.
 class MotionSearch {
  public:
   /// Refers to the frontend and to the offset, which must outlive it.
@@ -40,8 +43,11 @@ class MotionSearch {
 
  private:
   MotionStep scout(const MotionPrior& prior, double radius) const;
+  MotionStep look_anywhere(const MotionPrior& prior) const;
+  MotionStep confirm(MotionStep scouted, const MotionPrior& prior) const;
+  bool is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior) const;
   MotionStep match(stages::Base base, Eigen::Isometry3d prediction, std::uint64_t seed) const;
-  MotionStep estimate(stages::Base base, const stages::TemporalSearch& search, const std::optional<Eigen::Isometry3d>& prediction,
+  MotionStep estimate(stages::Base base, TemporalMatches matches, const std::optional<Eigen::Isometry3d>& prediction,
                       const PoseConfig& limits, std::uint64_t seed) const;
 
   StereoRig rig_;

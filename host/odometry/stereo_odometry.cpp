@@ -15,7 +15,6 @@
 namespace quadedge {
 namespace {
 
-constexpr int kLostBeforeRestart = 2;  // frames with edges but without a motion, until tracking restarts from the newest one
 
 /// Milliseconds since the last lap, steady clock.
 class StageClock {
@@ -92,6 +91,7 @@ class StereoOdometry::Implementation {
   const Config& config() const { return config_; }
 
  private:
+  odometry::MotionStep find_motion(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
   void become_base(const FrameResult& result);
@@ -115,7 +115,13 @@ class StereoOdometry::Implementation {
   Eigen::Matrix<double, 6, 6> base_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Isometry3d world_from_last_ = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Isometry3d> velocity_;  ///< current_from_previous of one frame interval
-  int lost_with_edges_ = 0;                    ///< in a row
+  /// The newest frame that has edges and no pose: the frontend's previous rig while the key rig is the base.
+  struct Unplaced {
+    int frame;
+    Eigen::Isometry3d world_from_left;  ///< a guess
+  };
+  std::optional<Unplaced> unplaced_;
+  bool base_to_key_pending_ = false;  ///< the base becomes the key rig before the current frame is kept
 
   TemporalMatches last_matches_;
   std::vector<std::uint8_t> last_inlier_;
@@ -131,8 +137,9 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   FrameResult result;
   result.stamp_ns = frame.stamp_ns;
 
+  if (base_to_key_pending_) frontend_->previous_to_key();
   if (keep_pending_) frontend_->keep(key_pending_);
-  keep_pending_ = false;
+  base_to_key_pending_ = keep_pending_ = false;
   frontend_->process(frame);
   result.stages.push_back({"stereo", clock.lap()});
   result.counts.edges_left = frontend_->counts().edges_left;
@@ -153,8 +160,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     key_rig_.start(frame_, result.world_from_left);
     become_base(result);
   } else {
-    odometry::MotionStep step =
-        search_.find({predicted_motion(), base_from_key_, base_frame_ == key_rig_.frame(), config_.seed + static_cast<std::uint64_t>(frame_)});
+    odometry::MotionStep step = find_motion(result);
     result.counts.temporal_left = frontend_->counts().temporal_left;
     result.counts.temporal_right = frontend_->counts().temporal_right;
     result.counts.quads = static_cast<int>(step.matches.size());
@@ -188,6 +194,29 @@ std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motio
   return motion;
 }
 
+/// The motion since the base or the key rig; after a loss, else the one since the frame that was lost, from which tracking restarts.
+odometry::MotionStep StereoOdometry::Implementation::find_motion(FrameResult& result) {
+  odometry::MotionPrior prior;
+  prior.seed = config_.seed + static_cast<std::uint64_t>(frame_);
+  prior.prediction = predicted_motion();
+  if (base_frame_ == key_rig_.frame()) {
+    prior.base = stages::Base::key;
+  } else {
+    prior.base_from_key = base_from_key_;
+  }
+  odometry::MotionStep step = search_.find(prior);
+  if (step.ok() || !unplaced_) return step;
+  prior.base = stages::Base::previous;
+  prior.prediction = std::nullopt;
+  odometry::MotionStep restart = search_.find(prior);
+  if (!restart.ok()) return step;
+  result.message += std::string(result.message.empty() ? "" : "; ") + "restarted from frame " + std::to_string(unplaced_->frame) +
+                    ", whose place is a guess";
+  key_rig_.start(unplaced_->frame, unplaced_->world_from_left);
+  base_frame_ = unplaced_->frame;
+  return restart;
+}
+
 /// Pose against the key rig, or against the previous frame where the key rig is out of sight: then this frame is the next key rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == stages::Base::key;
@@ -212,7 +241,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.world_from_left = key_rig_.world_from_key() * current_from_key.inverse();
 
   velocity_ = one_interval(current_from_key * base_from_key_.inverse(), frame_ - base_frame_);
-  lost_with_edges_ = 0;
+  unplaced_ = std::nullopt;
   result.new_key_rig = !config_.odometry.key_rig || !by_key || key_rig_.is_worn(state, config_.odometry);
   base_from_key_ = current_from_key;
   base_covariance_ = covariance;
@@ -222,18 +251,24 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   become_base(result);
 }
 
-/// Repeats the last motion. After several losses in a row tracking restarts from the newest frame that has edges.
+/// Repeats the last motion. A lost frame that has edges is kept beside the last base, which becomes the key rig: the next frame may be
+/// found against either.
 void StereoOdometry::Implementation::lose(FrameStatus status, const std::string& message, FrameResult& result) {
   result.status = status;
   result.message += (result.message.empty() ? "" : "; ") + message;
+  if (unplaced_) velocity_ = std::nullopt;  // lost twice in a row
   result.world_from_left = velocity_ ? world_from_last_ * velocity_->inverse() : world_from_last_;
   result.reference_frame = key_rig_.frame();
-  if (status == FrameStatus::lost_too_few_edges || ++lost_with_edges_ < kLostBeforeRestart) return;
-  lost_with_edges_ = 0;
-  velocity_ = std::nullopt;
-  result.new_key_rig = true;
-  key_rig_.start(frame_, result.world_from_left);
-  become_base(result);
+  if (status == FrameStatus::lost_too_few_edges) return;
+  if (base_frame_ != key_rig_.frame()) {
+    base_to_key_pending_ = true;
+    key_rig_.start(base_frame_, key_rig_.world_from_key() * base_from_key_.inverse());
+    base_from_key_ = Eigen::Isometry3d::Identity();
+    base_covariance_.setZero();
+  }
+  unplaced_ = Unplaced{frame_, result.world_from_left};
+  keep_pending_ = true;
+  key_pending_ = false;
 }
 
 /// The current frame is what the next one is matched with. The frontend keeps it when that one comes, so that details() sees both.

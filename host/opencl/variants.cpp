@@ -37,6 +37,10 @@ const std::vector<Variant>& all_variants() {
       {"temporal_match", "lists", {}, 64, false, false, "lists of candidates that one kernel after the other shortens"},
       {"temporal_quads", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
       {"temporal_quads", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
+      {"wide_description", "group16", {}, 16, true, false, "one work-item per stereo edge, groups of 16"},
+      {"wide_description", "group64", {}, 64, false, true, "one work-item per stereo edge, groups of 64"},
+      {"wide_matching", "group16", {}, 16, true, false, "one work-item per previous stereo edge, groups of 16"},
+      {"wide_matching", "group64", {}, 64, false, true, "one work-item per previous stereo edge, groups of 64"},
   };
   return table;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "pose/row_blocks.hpp"
 
@@ -106,6 +108,15 @@ int select_inliers(const ScoringArrays& quads, const LaterCameras& cameras, doub
       found += inlier[i];
     }
   });
+}
+
+int count_cells(const ScoringArrays& quads, const std::vector<std::uint8_t>& mask, double cell) {
+  std::set<std::pair<int, int>> cells;
+  const auto number = [&](float place) { return static_cast<int>(std::floor(static_cast<double>(place) / cell)); };
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i]) cells.emplace(number(quads.left_x[i]), number(quads.left_y[i]));
+  }
+  return static_cast<int>(cells.size());
 }
 
 }  // namespace quadedge::pose

@@ -27,4 +27,7 @@ double truncated_cost(const ScoringArrays& quads, const LaterCameras& cameras, d
 int select_inliers(const ScoringArrays& quads, const LaterCameras& cameras, double threshold, double max_angle,
                    std::vector<std::uint8_t>& inlier);
 
+/// Square cells of side `cell` px of the current left image that hold a row with a non-zero byte in `mask`.
+int count_cells(const ScoringArrays& quads, const std::vector<std::uint8_t>& mask, double cell);
+
 }  // namespace quadedge::pose

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "reference/temporal_quads.hpp"
+#include "reference/wide_matching.hpp"
 #include "stages/filter_names.hpp"
 #include "stages/point_index.hpp"
 
@@ -32,7 +33,9 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       clustering_(context, config.stereo, config.variants),
       temporal_candidates_(context, config.variants),
       temporal_quads_(context, config.temporal, config.variants),
-      temporal_match_(context, config.temporal, config.variants) {
+      temporal_match_(context, config.temporal, config.variants),
+      wide_description_(context, rig.left.width, rig.left.height, config.variants),
+      wide_matching_(context, config.temporal, config.variants) {
   geometry_.write(context, epipolar_.packed());
   for (auto& slot : rigs_) {
     slot.left_image.width = rig.left.width;
@@ -116,6 +119,11 @@ void DeviceFrontend::describe_by_sift(DeviceStereoEdges& rig, const StereoEdges&
   rig.has_sift = true;
 }
 
+void DeviceFrontend::previous_to_key() {
+  key_rig_ = previous_rig_;
+  key_ = previous_;
+}
+
 void DeviceFrontend::match_side(int side, Base base, const TemporalSearch& search, DeviceCandidates& candidates) {
   DeviceStereoEdges& before = rig_of(base);
   temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius,
@@ -161,6 +169,18 @@ TemporalMatches DeviceFrontend::match(Base base, const TemporalSearch& search) {
   TemporalMatches matches = match_by_lists(base, search);
   if (tap_ != nullptr) tap_->quads(matches);
   return matches;
+}
+
+TemporalMatches DeviceFrontend::match_anywhere(Base base) {
+  const DeviceStereoEdges& before = rig_of(base);
+  const DeviceStereoEdges& current = rigs_[now_];
+  const int before_step = reference::wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);
+  const int step = reference::wide_step(static_cast<std::size_t>(current.count), 2 * config_.temporal.wide_edges);
+  wide_description_.prepare(before.left_image.pixels, small_);
+  const int before_rows = wide_description_.describe(small_, before, before_step, wide_before_);
+  wide_description_.prepare(current.left_image.pixels, small_);
+  const int rows = wide_description_.describe(small_, current, step, wide_now_);
+  return wide_matching_.run({before, before_step, before_rows, wide_before_}, {current, step, rows, wide_now_}, current_);
 }
 
 EdgeSet DeviceFrontend::edges(bool right) {

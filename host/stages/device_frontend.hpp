@@ -13,6 +13,8 @@
 #include "stages/temporal_match.hpp"
 #include "stages/temporal_quads.hpp"
 #include "stages/undistortion.hpp"
+#include "stages/wide_description.hpp"
+#include "stages/wide_matching.hpp"
 
 namespace quadedge::stages {
 
@@ -23,7 +25,9 @@ class DeviceFrontend : public Frontend {
 
   void process(const StereoFrame& frame) override;
   void keep(bool as_key) override;
+  void previous_to_key() override;
   TemporalMatches match(Base base, const TemporalSearch& search) override;
+  TemporalMatches match_anywhere(Base base) override;
   EdgeSet edges(bool right) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
@@ -62,8 +66,12 @@ class DeviceFrontend : public Frontend {
   TemporalCandidates temporal_candidates_;
   TemporalQuads temporal_quads_;
   TemporalMatch temporal_match_;
+  WideDescription wide_description_;
+  WideMatching wide_matching_;
 
   DeviceCandidates candidates_, temporal_left_, temporal_right_;
+  opencl::Buffer<cl_float> small_;                   ///< scratch of match_anywhere(), as are these descriptors
+  opencl::Buffer<cl_uchar> wide_before_, wide_now_;
   DeviceRefined refined_;
   DeviceClusters clusters_;
   DevicePlaces predicted_[2];  ///< left, right

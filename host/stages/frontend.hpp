@@ -30,8 +30,12 @@ class Frontend {
   virtual void process(const StereoFrame& frame) = 0;
   /// The current rig becomes the previous one, and the key rig too if `as_key`.
   virtual void keep(bool as_key) = 0;
+  /// The previous rig becomes the key rig too.
+  virtual void previous_to_key() = 0;
   /// Stage 6: quads between a base and the current rig. `search` has one entry per stereo edge of the base.
   virtual TemporalMatches match(Base base, const TemporalSearch& search) = 0;
+  /// Quads between a part of a base's edges and the current rig, found anywhere in the left image by what surrounds them.
+  virtual TemporalMatches match_anywhere(Base base) = 0;
 
   const StereoEdges& current() const { return current_; }
   const StereoEdges& base(Base base) const { return base == Base::key ? key_ : previous_; }

@@ -6,6 +6,8 @@
 #include "reference/stereo_clusters.hpp"
 #include "reference/temporal_quads.hpp"
 #include "reference/undistortion.hpp"
+#include "reference/wide_description.hpp"
+#include "reference/wide_matching.hpp"
 #include "stages/filter_names.hpp"
 
 namespace quadedge::stages {
@@ -99,6 +101,11 @@ void ReferenceFrontend::keep(bool as_key) {
   previous_ = current_;
 }
 
+void ReferenceFrontend::previous_to_key() {
+  key_memory_ = before_;
+  key_ = previous_;
+}
+
 reference::Candidates ReferenceFrontend::side_candidates(int side, const TemporalSearch& search) const {
   const PlacedEdges current = side == 0 ? PlacedEdges{current_.left_x, current_.left_y, current_.left_direction}
                                         : PlacedEdges{current_.right_x, current_.right_y, current_.right_direction};
@@ -118,6 +125,16 @@ TemporalMatches ReferenceFrontend::match(Base base, const TemporalSearch& search
   counts_.temporal_right = living_rows(right, right_scores);
   const auto agreement = reference::temporal_agreement(left, left_scores, right, right_scores);
   return reference::temporal_best(left, left_scores, agreement, current_, config_.temporal, search);
+}
+
+TemporalMatches ReferenceFrontend::match_anywhere(Base base_name) {
+  const RigMemory& before = base_name == Base::key ? key_memory_ : before_;
+  const auto describe_some = [](const Image& image, const StereoEdges& edges, int wanted) {
+    const int step = reference::wide_step(edges.size(), wanted);
+    return reference::WideEdges{edges, step, reference::wide_descriptions(reference::shrink(image.view()), edges, step)};
+  };
+  return reference::wide_matches(describe_some(before.left, base(base_name), config_.temporal.wide_edges),
+                                 describe_some(now_.left, current_, 2 * config_.temporal.wide_edges), config_.temporal);
 }
 
 }  // namespace quadedge::stages

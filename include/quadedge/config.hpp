@@ -64,9 +64,13 @@ struct TemporalConfig {
   double radius = 3.0;              ///< around the place that the scouted motion predicts [px]
   double distance_weight = 0.2;     ///< NCC that a candidate at the end of the radius has to be better than one at the predicted place
   double scout_radius = 10.0;       ///< around the place that constant velocity predicts [px]
-  double scout_radius_wide = 0.1;   ///< where there is no prediction, or it fails [share of the image width]
-  double scout_radius_widest = 0.3; ///< where that finds no motion [share of the image width]
+  int wide_edges = 3000;            ///< where there is no prediction, or it fails: so many are looked for anywhere, among twice as many; 0: none
+  double scout_radius_wide = 0.1;   ///< scout's radius there with wide_edges = 0 [share of the image width]
+  double wide_ratio = 0.8;          ///< distance of descriptors / distance of the best rival elsewhere that is kept
+  double wide_neighbourhood = 12.0; ///< what is nearer is no rival [px]
+  double wide_inlier_distance = 4.0;  ///< replaces pose.inlier_distance: found places are neighbours of the right one [px]
   int scout_edges = 4000;           ///< the scout looks for about this many stereo edges; its motion then predicts for all
+  double sure_support = 0.35;       ///< a motion that less supports, see min_support, has to agree with edges found anywhere
   double min_support = 0.06;        ///< inliers, share of the base's edges that the motion brings into view: a wrong one finds about 0.03
   int rounds = 3;                   ///< searches at most, each around what the last one found, until the places stay
   double scout_min_inlier_share = 0.03;  ///< of the scout's quads; the search that follows has to convince

@@ -1,0 +1,46 @@
+#pragma once
+/// \file wide_matching.hpp  Finds stereo edges of an earlier rig anywhere in the current left image: kernels/wide_matching.cl.
+
+#include <map>
+#include <string>
+
+#include "opencl/kernel.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/edges.hpp"
+#include "stages/device_stereo_edges.hpp"
+
+namespace quadedge::stages {
+
+/// Every step-th stereo edge of a rig with its wide descriptor.
+struct DeviceWideEdges {
+  const DeviceStereoEdges& edges;
+  int step;
+  int rows;
+  const opencl::Buffer<cl_uchar>& descriptors;
+};
+
+/// Variants of the stage "wide_matching".
+class WideMatching {
+ public:
+  WideMatching(opencl::Context& context, const TemporalConfig& config, const std::map<std::string, std::string>& variants);
+
+  /// See reference::wide_matches(). `current_edges` are those of `current` on the host.
+  TemporalMatches run(const DeviceWideEdges& earlier, const DeviceWideEdges& current, const StereoEdges& current_edges);
+
+ private:
+  template <class T>
+  using In = opencl::In<T>;
+  template <class T>
+  using Out = opencl::Out<T>;
+
+  opencl::Context& context_;
+  float neighbourhood_, ratio_;
+  std::size_t local_size_;
+  opencl::Buffer<cl_int> best_;
+  opencl::Buffer<cl_float> likeness_;
+  opencl::Kernel<In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, cl_float, cl_float,
+                 Out<cl_int>, Out<cl_float>>
+      kernel_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,137 @@
+#include "matching.hpp"
+#include "reference/wide_description.hpp"
+#include "reference/wide_matching.hpp"
+#include "stages/wide_matching.hpp"
+
+using namespace quadedge;
+using namespace matching;
+using reference::kWideBytes;
+using reference::WideEdges;
+
+namespace {
+
+StereoEdges edges_at(const std::vector<std::pair<float, float>>& places) {
+  StereoEdges edges;
+  for (const auto& [x, y] : places) {
+    edges.left_x.push_back(x);
+    edges.left_y.push_back(y);
+    edges.right_x.push_back(x - 5);
+    edges.right_y.push_back(y);
+    edges.left_index.push_back(static_cast<std::int32_t>(edges.left_index.size()));
+  }
+  return edges;
+}
+
+/// Descriptors that point along axis `first`, turned by `degrees` towards axis `second`.
+void add_descriptor(std::vector<std::uint8_t>& bytes, int first, int second, double degrees) {
+  std::vector<std::uint8_t> one(kWideBytes, 0);
+  // Norm 512 takes more than one byte of 255 at most: five equal ones each.
+  for (int k = 0; k < 5; ++k) {
+    one[static_cast<std::size_t>(5 * first + k)] = static_cast<std::uint8_t>(std::lround(229 * std::cos(degrees * kDegree)));
+    one[static_cast<std::size_t>(5 * second + k)] = static_cast<std::uint8_t>(std::lround(229 * std::sin(degrees * kDegree)));
+  }
+  bytes.insert(bytes.end(), one.begin(), one.end());
+}
+
+std::vector<std::uint8_t> random_descriptors(std::size_t rows, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::uint8_t> bytes(rows * kWideBytes);
+  for (auto& byte : bytes) byte = static_cast<std::uint8_t>(std::abs(random(-40, 40)) + std::abs(random(-40, 40)));
+  return bytes;
+}
+
+stages::DeviceStereoEdges on_device(opencl::Context& context, const StereoEdges& edges) {
+  stages::DeviceStereoEdges result;
+  result.count = static_cast<int>(edges.size());
+  result.stride = result.count + 7;
+  std::vector<float> packed(6 * static_cast<std::size_t>(result.stride), 0.0f);
+  std::copy(edges.left_x.begin(), edges.left_x.end(), packed.begin());
+  std::copy(edges.left_y.begin(), edges.left_y.end(), packed.begin() + result.stride);
+  result.packed.write(context, packed);
+  return result;
+}
+
+/// The reference's matches, after checking that every device and variant finds the very same.
+TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config) {
+  const auto expected = reference::wide_matches(earlier, current, config);
+  for_each_variant("wide_matching", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+    INFO(name);
+    const auto before = on_device(context, earlier.edges), now = on_device(context, current.edges);
+    opencl::Buffer<cl_uchar> before_bytes, now_bytes;
+    before_bytes.write(context, earlier.descriptors);
+    now_bytes.write(context, current.descriptors);
+    const auto rows = [](const WideEdges& set) { return static_cast<int>(set.descriptors.size() / kWideBytes); };
+    stages::WideMatching stage(context, config, variants);
+    const auto found = stage.run({before, earlier.step, rows(earlier), before_bytes}, {now, current.step, rows(current), now_bytes}, current.edges);
+    CHECK(found.previous == expected.previous);
+    CHECK(found.current == expected.current);
+    CHECK(found.ncc == expected.ncc);
+    CHECK(found.rivals == expected.rivals);
+    CHECK(found.left_x == expected.left_x);
+    CHECK(found.right_x == expected.right_x);
+  });
+  return expected;
+}
+
+}  // namespace
+
+TEST_CASE("wide matching: about as many edges take part as wanted", "[wide]") {
+  CHECK(reference::wide_step(0, 3000) == 1);
+  CHECK(reference::wide_step(5999, 3000) == 1);
+  CHECK(reference::wide_step(6000, 3000) == 2);
+  CHECK(reference::wide_step(30000, 3000) == 10);
+}
+
+TEST_CASE("wide matching: a rival elsewhere makes a match ambiguous, a neighbour does not", "[wide][device][oclgrind]") {
+  // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 see rivals at a distance: angles of 20 and 24 degrees have
+  // distances of ratio 0.84, 20 and 40 degrees of 0.51.
+  std::vector<std::uint8_t> rows, columns;
+  for (int axis : {0, 2, 4}) add_descriptor(rows, axis, axis + 1, 0);
+  add_descriptor(columns, 0, 1, 20);
+  add_descriptor(columns, 0, 1, 21);
+  add_descriptor(columns, 2, 3, 20);
+  add_descriptor(columns, 2, 3, 24);
+  add_descriptor(columns, 4, 5, 20);
+  add_descriptor(columns, 4, 5, 40);
+  const StereoEdges earlier = edges_at({{10, 10}, {50, 10}, {90, 10}});
+  const StereoEdges current = edges_at({{10, 30}, {14, 30}, {60, 30}, {100, 30}, {140, 30}, {180, 30}});
+  const auto matches = match_everywhere({earlier, 1, rows}, {current, 1, columns}, {});
+  CHECK(matches.previous == std::vector<std::int32_t>{0, 2});
+  CHECK(matches.current == std::vector<std::int32_t>{0, 4});
+  CHECK(matches.left_x == std::vector<float>{10, 140});
+  CHECK(matches.right_x == std::vector<float>{5, 135});
+  CHECK(std::abs(matches.ncc[0] - static_cast<float>(std::cos(20 * kDegree))) < 0.01f);
+}
+
+TEST_CASE("wide matching: an edge that another one elsewhere fits as well is nobody's", "[wide][device][oclgrind]") {
+  std::vector<std::uint8_t> rows, columns;
+  for (double degrees : {10.0, 8.0, 8.0}) add_descriptor(rows, 0, 1, degrees);
+  add_descriptor(columns, 0, 1, 0);
+  const StereoEdges current = edges_at({{30, 30}});
+  // The first row is worse than the others. The last two are as good as one another: neighbours share the column, others lose it.
+  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {54, 10}}), 1, rows}, {current, 1, columns}, {}).previous == std::vector<std::int32_t>{1, 2});
+  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {90, 10}}), 1, rows}, {current, 1, columns}, {}).previous.empty());
+}
+
+TEST_CASE("wide matching: random descriptors, odd counts and steps, on every device as in the reference", "[wide][device][oclgrind]") {
+  Random random(5);
+  const auto places = [&](int count) {
+    std::vector<std::pair<float, float>> result;
+    for (int k = 0; k < count; ++k) result.emplace_back(static_cast<float>(random(0, 100)), static_cast<float>(random(0, 80)));
+    return edges_at(result);
+  };
+  const StereoEdges earlier = places(61), current = places(100);
+  auto rows = random_descriptors(21, 6), columns = random_descriptors(50, 7);
+  // A third of the rows come again among the columns.
+  for (std::size_t k = 0; k < 21; k += 3) std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * kWideBytes), kWideBytes, columns.begin() + static_cast<std::ptrdiff_t>(2 * k * kWideBytes));
+  TemporalConfig config;
+  config.wide_ratio = 0.95;
+  const auto matches = match_everywhere({earlier, 3, rows}, {current, 2, columns}, config);
+  CHECK(matches.size() >= 5);
+  for (std::size_t m = 0; m < matches.size(); ++m) {
+    CHECK(matches.previous[m] % 3 == 0);
+    CHECK(matches.current[m] % 2 == 0);
+  }
+  CHECK(match_everywhere({places(0), 1, {}}, {current, 2, columns}, config).size() == 0);
+  CHECK(match_everywhere({earlier, 3, rows}, {places(0), 1, {}}, config).size() == 0);
+}
