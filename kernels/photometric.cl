@@ -124,12 +124,12 @@ inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
 
 // Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`; `derivative` is
 // that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start. Returns 0 when it
-// left the clamp, 2 when its last step was shorter than the tolerance: `values` then is the patch at the place found, 1 otherwise.
+// left the clamp.
 inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
                       const float ey, const float8* fixed, const float fixed_norm, const float8* derivative,
-                      const float stiffness, const RefinementSettings settings, float* move, float8* values) {
+                      const float stiffness, const RefinementSettings settings, float* move) {
+  float8 values[PATCH_SIDE];
   float alpha = 0.0f;
-  int converged = 1;
   for (int step = 0; step < settings.steps; ++step) {
     cut_patch(corners, width, height, moving, alpha * ex, alpha * ey, values);
     const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
@@ -146,11 +146,8 @@ inline int align_edge(global const uint* corners, const int width, const int hei
     const float change = (sum_used(slopes) - stiffness * alpha) / curvature;
     alpha += change;
     if (!(fabs(alpha) <= settings.clamp)) return 0;
-    if (fabs(change) < settings.tolerance) {
-      converged = 2;
-      break;
-    }
+    if (fabs(change) < settings.tolerance) break;
   }
   *move = alpha;
-  return converged;
+  return 1;
 }

@@ -81,23 +81,20 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
-    const int aligned = align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed[1], norms[1],
-                                   derivative, edge_stiffness, settings, &move, values);
-    if (!aligned) rejected_by[c] = (uchar)rejected_order;
+    if (!align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed[1], norms[1], derivative,
+                    edge_stiffness, settings, &move)) {
+      rejected_by[c] = (uchar)rejected_order;
+    }
     s += move;
     place[c] = s;
-    if (aligned != 2) {
-      cut_patch(right_corners, right_width, right_height, moving, move * line.ex, move * line.ey, values);
-    }
-    const float of_edge = rows_ncc(fixed[1], norms[1], values);
-    float of_side = -1.0f;
-    for (int side = 0; side < 3; side += 2) {
+    float similarity[3];
+    for (int side = 0; side < 3; ++side) {
       const PatchFrame frame =
           patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, (float)(side - 1), patch_offset);
       cut_patch(right_corners, right_width, right_height, frame, 0.0f, 0.0f, values);
-      of_side = fmax(of_side, rows_ncc(fixed[side], norms[side], values));
+      similarity[side] = rows_ncc(fixed[side], norms[side], values);
     }
-    likeness[c] = 0.5f * (of_edge + of_side);
+    likeness[c] = 0.5f * (similarity[1] + fmax(similarity[0], similarity[2]));
   }
   // The others join their neighbour's cluster, where they count for its direction and cannot represent it.
   for (int c = begin; c < end; ++c) {

@@ -166,10 +166,11 @@ TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][devi
         // On a small image the board has more edges than the scene: before a plain wall at once, in the room where its fine leaves
         // fall below a pixel. What most edges show is then taken for the scene.
         if (options.scene == "cables") continue;
-        options.width = 640;
-        options.height = 332;
-        options.focal = 368;
-        options.baseline = 0.06;
+        const SyntheticOptions full;
+        options.width = full.width;
+        options.height = full.height;
+        options.focal = full.focal;
+        options.baseline = full.baseline;
       }
       const Tracked tracked = track(options, device);
       INFO(scene << ", " << c.name << ": " << tracked.steps.right << " right, " << tracked.steps.wrong << " wrong, " << tracked.steps.lost << " lost");

@@ -78,8 +78,10 @@ TEST_CASE("A cumulative curve climbs where the values are, and stays low where t
 }
 
 TEST_CASE("A density has the area one", "[report]") {
-  auto cues = make_cues(paper_scene::small_rig(), {});
-  CueDistribution& cue = *find_cue(cues, CueTable::stereo, 4);  // SIFT, threshold 500
+  Config config;
+  config.stereo.sift_max = 500;
+  auto cues = make_cues(paper_scene::small_rig(), config);
+  CueDistribution& cue = *find_cue(cues, CueTable::stereo, 4);  // SIFT
   for (int i = 0; i < 1000; ++i) {
     cue.veridical.add(100 + 0.2 * i);
     cue.other.add(300 + 0.2 * i);
