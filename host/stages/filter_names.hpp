@@ -11,8 +11,8 @@ inline constexpr std::array<const char*, 11> kStereoFilters = {
     "nearly best SIFT", "refinement and clustering", "likeness of representatives", "best"};
 inline constexpr int kStereoSiftOrder = 4, kStereoNccOrder = 5;
 
-/// Temporal cascade; the index is the order (SPEC section 4). SIFT takes part in a scout's search only, unless temporal.sift_max is
-/// set.
+/// Temporal cascade; the index is the order (SPEC section 4). Each kind of search takes SIFT where its limit is set
+/// (temporal_limits()).
 inline constexpr std::array<const char*, 9> kTemporalFilters = {
     "baseline", "displacement", "orientation", "NCC", "SIFT", "nearly best NCC", "nearly best SIFT", "quad agreement",
     "best"};
