@@ -1,8 +1,16 @@
 #include "stages/wide_matching.hpp"
 
 #include "opencl/variants.hpp"
+#include "reference/wide_description.hpp"
 
 namespace quadedge::stages {
+namespace {
+
+constexpr int kBlockLanes = 16;  ///< descriptors per block; twin: LANES in kernels/wide_matching_blocks.cl
+
+int count_blocks(int descriptors) { return (descriptors + kBlockLanes - 1) / kBlockLanes; }
+
+}  // namespace
 
 WideMatching::WideMatching(opencl::Context& context, const TemporalConfig& config, const std::map<std::string, std::string>& variants)
     : context_(context),
@@ -10,7 +18,21 @@ WideMatching::WideMatching(opencl::Context& context, const TemporalConfig& confi
       ratio_(static_cast<float>(config.wide_ratio)) {
   const auto& variant = opencl::choose_variant("wide_matching", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  kernel_ = {context, context.program({"wide_matching.cl"}, variant.defines), "wide_match"};
+  const auto rows = variant.defines.find("ROWS");
+  rows_per_item_ = rows == variant.defines.end() ? 0 : std::stoul(rows->second);
+  if (rows_per_item_ == 0) {
+    kernel_ = {context, context.program({"wide_matching.cl"}, variant.defines), "wide_match"};
+  } else {
+    const auto program = context.program({"wide_matching_blocks.cl"}, variant.defines);
+    transpose_ = {context, program, "wide_transpose"};
+    blocks_kernel_ = {context, program, "wide_match"};
+  }
+}
+
+void WideMatching::transpose(const DeviceWideEdges& edges, opencl::Buffer<cl_uchar>& blocks) {
+  const int count = count_blocks(edges.rows);
+  blocks.ensure(context_, static_cast<std::size_t>(count) * kBlockLanes * reference::kWideBytes);
+  transpose_({static_cast<std::size_t>(count), local_size_}, edges.descriptors, edges.rows, blocks);
 }
 
 TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWideEdges& current, const StereoEdges& current_edges) {
@@ -18,9 +40,17 @@ TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWi
   const auto rows = static_cast<std::size_t>(earlier.rows);
   best_.ensure(context_, rows);
   likeness_.ensure(context_, rows);
-  kernel_({rows, local_size_}, earlier.descriptors, earlier.edges.packed, earlier.edges.stride, earlier.rows, earlier.step,
-          current.descriptors, current.edges.packed, current.edges.stride, current.rows, current.step, neighbourhood_, ratio_, best_,
-          likeness_);
+  if (rows_per_item_ == 0) {
+    kernel_({rows, local_size_}, earlier.descriptors, earlier.edges.packed, earlier.edges.stride, earlier.rows, earlier.step,
+            current.descriptors, current.edges.packed, current.edges.stride, current.rows, current.step, neighbourhood_, ratio_, best_,
+            likeness_);
+  } else {
+    transpose(earlier, earlier_blocks_);
+    transpose(current, current_blocks_);
+    blocks_kernel_({(rows + rows_per_item_ - 1) / rows_per_item_, local_size_}, earlier.descriptors, earlier_blocks_, earlier.edges.packed,
+                   earlier.edges.stride, earlier.rows, earlier.step, current.descriptors, current_blocks_, current.edges.packed,
+                   current.edges.stride, current.rows, current.step, neighbourhood_, ratio_, best_, likeness_);
+  }
   const auto best = best_.read(rows);
   const auto likeness = likeness_.read(rows);
   TemporalMatches matches;

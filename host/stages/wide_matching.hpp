@@ -1,5 +1,6 @@
 #pragma once
-/// \file wide_matching.hpp  Finds stereo edges of an earlier rig anywhere in the current left image: kernels/wide_matching.cl.
+/// \file wide_matching.hpp  Finds stereo edges of an earlier rig anywhere in the current left image: kernels/wide_matching.cl and
+/// kernels/wide_matching_blocks.cl.
 
 #include <map>
 #include <string>
@@ -33,14 +34,22 @@ class WideMatching {
   template <class T>
   using Out = opencl::Out<T>;
 
+  void transpose(const DeviceWideEdges& edges, opencl::Buffer<cl_uchar>& blocks);
+
   opencl::Context& context_;
   float neighbourhood_, ratio_;
   std::size_t local_size_;
+  std::size_t rows_per_item_;  ///< of the variant with blocks, else 0
+  opencl::Buffer<cl_uchar> earlier_blocks_, current_blocks_;
   opencl::Buffer<cl_int> best_;
   opencl::Buffer<cl_float> likeness_;
   opencl::Kernel<In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, cl_float, cl_float,
                  Out<cl_int>, Out<cl_float>>
       kernel_;
+  opencl::Kernel<In<cl_uchar>, cl_int, Out<cl_uchar>> transpose_;
+  opencl::Kernel<In<cl_uchar>, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_uchar>, In<cl_float>, cl_int, cl_int,
+                 cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_float>>
+      blocks_kernel_;
 };
 
 }  // namespace quadedge::stages

@@ -1,0 +1,148 @@
+// wide_matching_blocks.cl: the same as wide_matching.cl for devices with wide vectors: sixteen descriptors at once, one per lane, against
+// ROWS others, so that no product is summed across lanes. All products are whole numbers below 2^24: the same bits as there.
+//
+// wide_transpose  In: descriptors. Out: blocks of sixteen, byte by byte: byte k of descriptor 16 b + lane is element
+//                 (BYTES b + k) * 16 + lane; zeros after the last one. One work-item = one block.
+// wide_match      Out per row as in wide_matching.cl. One work-item = ROWS rows.
+
+#define BYTES 128
+#define LANES 16
+#define LISTED 64         // blocks of columns that may hold a rival, per row
+#define SQUARE 262144.0f  // 512^2
+
+kernel void wide_transpose(global const uchar* descriptors, const int count, global uchar* blocks) {
+  const int block = (int)get_global_id(0);
+  if (block * LANES >= count) return;
+  for (int lane = 0; lane < LANES; ++lane) {
+    const int descriptor = block * LANES + lane;
+    for (int k = 0; k < BYTES; ++k) {
+      blocks[(size_t)(block * BYTES + k) * LANES + lane] = descriptor < count ? descriptors[(size_t)descriptor * BYTES + k] : 0;
+    }
+  }
+}
+
+inline void wide_load(global const uchar* descriptor, float* values) {
+  for (int k = 0; k < BYTES; ++k) values[k] = (float)descriptor[k];
+}
+
+// Products of ROWS descriptors with the sixteen of a block.
+inline void wide_products(const float* mine, global const uchar* block, float16* products) {
+#pragma unroll
+  for (int row = 0; row < ROWS; ++row) products[row] = 0.0f;
+  for (int k = 0; k < BYTES; ++k) {
+    const float16 other = convert_float16(vload16(k, block));
+#pragma unroll
+    for (int row = 0; row < ROWS; ++row) products[row] = fma((float16)(mine[row * BYTES + k]), other, products[row]);
+  }
+}
+
+inline float16 wide_product(const float* mine, global const uchar* block) {
+  float16 product = 0.0f;
+  for (int k = 0; k < BYTES; ++k) product = fma((float16)(mine[k]), convert_float16(vload16(k, block)), product);
+  return product;
+}
+
+inline float wide_highest(const float16 v) {
+  const float8 eight = fmax(v.lo, v.hi);
+  const float4 four = fmax(eight.lo, eight.hi);
+  const float2 two = fmax(four.lo, four.hi);
+  return fmax(two.x, two.y);
+}
+
+// The likeness above which a rival elsewhere is too near to one of `highest`.
+inline float wide_limit(const float highest, const float ratio) { return SQUARE - (SQUARE - highest) / (ratio * ratio); }
+
+// Whether a descriptor of the block reaches `limit` (or exceeds it, where `above`) farther than `distance` px from edge `from`.
+inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block, const int count,
+                           global const float* x, global const float* y, const int step, const int from, const float distance) {
+  float of_lane[LANES];
+  vstore16(products, 0, of_lane);
+  for (int lane = 0; lane < LANES; ++lane) {
+    const int other = block * LANES + lane;
+    if (other >= count || !(above ? of_lane[lane] > limit : of_lane[lane] >= limit)) continue;
+    const float dx = x[other * step] - x[from], dy = y[other * step] - y[from];
+    if (dx * dx + dy * dy > distance * distance) return true;
+  }
+  return false;
+}
+
+kernel void wide_match(global const uchar* row_descriptors, global const uchar* row_blocks, global const float* row_edges,
+                       const int row_stride, const int rows, const int row_step, global const uchar* column_descriptors,
+                       global const uchar* column_blocks, global const float* column_edges, const int column_stride,
+                       const int columns, const int column_step, const float neighbourhood, const float ratio, global int* best,
+                       global float* likeness) {
+  const int first = (int)get_global_id(0) * ROWS;
+  if (first >= rows) return;
+  float mine[ROWS * BYTES], found[ROWS * BYTES];
+  float16 products[ROWS];
+  float highest[ROWS];
+  int winner[ROWS], listed[ROWS], list[ROWS][LISTED];
+  float listed_highest[ROWS][LISTED];
+  bool alone[ROWS];
+  for (int r = 0; r < ROWS; ++r) {
+    wide_load(row_descriptors + (size_t)min(first + r, rows - 1) * BYTES, mine + r * BYTES);
+    highest[r] = 0.0f;
+    winner[r] = -1;
+    listed[r] = 0;
+  }
+  for (int block = 0; block * LANES < columns; ++block) {
+    wide_products(mine, column_blocks + (size_t)block * (BYTES * LANES), products);
+    for (int r = 0; r < ROWS; ++r) {
+      const float here = wide_highest(products[r]);
+      if (here > highest[r]) {
+        highest[r] = here;
+        float of_lane[LANES];
+        vstore16(products[r], 0, of_lane);
+        int lane = 0;
+        while (of_lane[lane] != here) ++lane;
+        winner[r] = block * LANES + lane;
+      }
+      // The limit only rises: what it has passed is no rival. A full list is cleared of that; LISTED + 1 says it did not suffice.
+      const float limit = wide_limit(highest[r], ratio);
+      if (here <= limit || listed[r] > LISTED) continue;
+      if (listed[r] == LISTED) {
+        listed[r] = 0;
+        for (int k = 0; k < LISTED; ++k) {
+          if (listed_highest[r][k] <= limit) continue;
+          list[r][listed[r]] = list[r][k];
+          listed_highest[r][listed[r]++] = listed_highest[r][k];
+        }
+        if (listed[r] == LISTED) {
+          listed[r] = LISTED + 1;
+          continue;
+        }
+      }
+      list[r][listed[r]] = block;
+      listed_highest[r][listed[r]++] = here;
+    }
+  }
+  for (int r = 0; r < ROWS; ++r) {
+    alone[r] = winner[r] >= 0;
+    // Without a winner anything may stand in `found`; it has to be something that exists.
+    wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * BYTES : row_descriptors, found + r * BYTES);
+  }
+  for (int block = 0; block * LANES < rows; ++block) {
+    wide_products(found, row_blocks + (size_t)block * (BYTES * LANES), products);
+    for (int r = 0; r < ROWS; ++r) {
+      const int row = min(first + r, rows - 1);
+      if (alone[r] && wide_highest(products[r]) >= highest[r]) {
+        alone[r] = !wide_elsewhere(products[r], highest[r], false, block, rows, row_edges, row_edges + row_stride, row_step,
+                                   row * row_step, neighbourhood);
+      }
+    }
+  }
+  for (int r = 0; r < ROWS && first + r < rows; ++r) {
+    const float limit = wide_limit(highest[r], ratio);
+    const bool all = listed[r] > LISTED;
+    const int blocks = all ? (columns + LANES - 1) / LANES : listed[r];
+    for (int k = 0; alone[r] && k < blocks; ++k) {
+      const int block = all ? k : list[r][k];
+      if (!all && listed_highest[r][k] <= limit) continue;
+      alone[r] = !wide_elsewhere(wide_product(mine + r * BYTES, column_blocks + (size_t)block * (BYTES * LANES)), limit, true, block,
+                                 columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step,
+                                 neighbourhood);
+    }
+    best[first + r] = alone[r] ? winner[r] : -1;
+    likeness[first + r] = alone[r] ? highest[r] / SQUARE : 0.0f;
+  }
+}
