@@ -2,7 +2,7 @@
 //
 // In: corners of the image (corners.cl), edges (x, y [px], direction [rad]). Out: 112 floats per edge, laid out as in
 // host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
-//   ITEMS_PER_EDGE 1: one work-item = one edge, the 7 samples across the edge are the lanes of a float8;
+//   ITEMS_PER_EDGE 1: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
 //   GROUP floats.
 // Needs direction.cl and photometric.cl before it. Reference: host/reference/patches.cpp.
@@ -29,14 +29,16 @@ kernel void side_patches(global const uint* corners, const int width, const int 
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
   global float* patch = patches + (size_t)edge * EDGE_FLOATS;
-  for (int side = 0; side < 2; ++side) {
-    float8 rows[PATCH_SIDE];
-    cut_patch(corners, width, height, patch_frame(xs[edge], ys[edge], cosine, sine, side == 0 ? 1.0f : -1.0f, offset), 0.0f,
-              0.0f, rows);
-    float8 squares = 0.0f;
-    for (int i = 0; i < PATCH_SIDE; ++i) squares += rows[i] * rows[i];
-    const float scale = scale_of(sum_used(squares));
-    for (int i = 0; i < PATCH_SIDE; ++i) vstore8(used_lanes(rows[i] * scale), 2 * i + side, patch);
+  const float x = xs[edge], y = ys[edge];
+  float16 rows[PATCH_SIDE];
+  cut_two_patches(corners, width, height, patch_frame(x, y, cosine, sine, 1.0f, offset),
+                  patch_frame(x, y, cosine, sine, -1.0f, offset), rows);
+  float16 squares = 0.0f;
+  for (int i = 0; i < PATCH_SIDE; ++i) squares += rows[i] * rows[i];
+  const float16 scale = (float16)((float8)(scale_of(sum_used(squares.lo))), (float8)(scale_of(sum_used(squares.hi))));
+  for (int i = 0; i < PATCH_SIDE; ++i) {
+    const float16 row = rows[i] * scale;
+    vstore16((float16)(used_lanes(row.lo), used_lanes(row.hi)), i, patch);
   }
 }
 

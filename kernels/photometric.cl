@@ -41,6 +41,9 @@ inline PatchFrame patch_frame(const float x, const float y, const float cosine, 
 inline float8 corner_bytes(const uint8 corners, const uint shift) {
   return convert_float8(as_int8(corners >> shift & (uint8)(255u)));
 }
+inline float16 two_corner_bytes(const uint16 corners, const uint shift) {
+  return convert_float16(as_int16(corners >> shift & (uint16)(255u)));
+}
 
 // Mean-free grey levels of a patch moved by (dx, dy); coordinates outside the image are clamped to the border.
 inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame, const float dx,
@@ -82,14 +85,57 @@ inline void cut_patch(global const uint* corners, const int width, const int hei
   for (int i = 0; i < PATCH_SIDE; ++i) rows[i] -= mean;
 }
 
+// Two patches of one direction at once, as the halves of float16 rows; each the same bits as from cut_patch().
+inline void cut_two_patches(global const uint* corners, const int width, const int height, const PatchFrame low,
+                            const PatchFrame high, float16* rows) {
+  const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
+  const int low_x = (int)low.x - PATCH_REACH, low_y = (int)low.y - PATCH_REACH;
+  const int high_x = (int)high.x - PATCH_REACH, high_y = (int)high.y - PATCH_REACH;
+  const float16 middle_x = (float16)((low.x - (float)low_x) - across * low.sine, (high.x - (float)high_x) - across * low.sine);
+  const float16 middle_y = (float16)((low.y - (float)low_y) + across * low.cosine, (high.y - (float)high_y) + across * low.cosine);
+  const float16 first_x = (float16)((float8)(-low_x), (float8)(-high_x)), first_y = (float16)((float8)(-low_y), (float8)(-high_y));
+  const float16 last_x = (float)(width - 1) + first_x, last_y = (float)(height - 1) + first_y;
+  const int16 stride = width, origin = (int16)((int8)(low_y * width + low_x), (int8)(high_y * width + high_x));
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) {
+    const float along = (float)(i - PATCH_SIDE / 2);
+    const float16 u = clamp(middle_x + along * low.cosine, first_x, last_x);
+    const float16 v = clamp(middle_y + along * low.sine, first_y, last_y);
+    const int16 u0 = convert_int16(u), v0 = convert_int16(v);
+    const float16 fx = u - convert_float16(u0), fy = v - convert_float16(v0);
+    const int16 k = origin + v0 * stride + u0;
+    const uint16 four = (uint16)(corners[k.s0], corners[k.s1], corners[k.s2], corners[k.s3], corners[k.s4], corners[k.s5],
+                                 corners[k.s6], corners[k.s7], corners[k.s8], corners[k.s9], corners[k.sa], corners[k.sb],
+                                 corners[k.sc], corners[k.sd], corners[k.se], corners[k.sf]);
+    const float16 a = two_corner_bytes(four, 0), b = two_corner_bytes(four, 8);
+    const float16 c = two_corner_bytes(four, 16), d = two_corner_bytes(four, 24);
+    const float16 top = a + fx * (b - a), bottom = c + fx * (d - c);
+    rows[i] = top + fy * (bottom - top);
+  }
+  const float16 middle = (float16)((float8)(rows[PATCH_SIDE / 2].s3), (float8)(rows[PATCH_SIDE / 2].sb));
+  float16 sum = 0.0f;
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) {
+    rows[i] -= middle;
+    sum += rows[i];
+  }
+  const float16 mean = (float16)((float8)(sum_used(sum.lo) * (1.0f / PATCH_SAMPLES)), (float8)(sum_used(sum.hi) * (1.0f / PATCH_SAMPLES)));
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] -= mean;
+}
+
 // Mean-free derivative of a patch along the unit vector (ex, ey), grey levels per px: central difference over 1 px.
 inline void patch_derivative(global const uint* corners, const int width, const int height, const PatchFrame frame,
                              const float ex, const float ey, float8* rows) {
-  float8 ahead[PATCH_SIDE];
-  cut_patch(corners, width, height, frame, 0.5f * ex, 0.5f * ey, ahead);
-  cut_patch(corners, width, height, frame, -0.5f * ex, -0.5f * ey, rows);
+  PatchFrame ahead = frame, behind = frame;
+  ahead.x += 0.5f * ex;
+  ahead.y += 0.5f * ey;
+  behind.x -= 0.5f * ex;
+  behind.y -= 0.5f * ey;
+  float16 both[PATCH_SIDE];
+  cut_two_patches(corners, width, height, ahead, behind, both);
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] = ahead[i] - rows[i];
+  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] = both[i].lo - both[i].hi;
 }
 
 // Largest difference of contrast that the alignment evens out. Twin: kGainMax in host/reference/photometric.cpp.
@@ -113,23 +159,27 @@ inline float patch_norm(const float8* rows) {
   return sqrt(sum_used(squares));
 }
 
-// NCC of two mean-free patches; -1 where one of them is flat.
+// NCC of two mean-free patches; 0 where one of them is flat.
 inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
   float8 product = 0.0f;
 #pragma unroll
   for (int i = 0; i < PATCH_SIDE; ++i) product += a[i] * b[i];
   const float norms = norm_a * patch_norm(b);
-  return norms < 1e-10f ? -1.0f : sum_used(product) / norms;
+  return norms < 1e-10f ? 0.0f : sum_used(product) / norms;
 }
 
+// What align_edge() ends with.
+#define ALIGN_LEFT 0     // the clamp
+#define ALIGN_MOVED 1    // after the last step
+#define ALIGN_SETTLED 2  // with a step below the tolerance: `values` is the patch that it found
+
 // Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`; `derivative` is
-// that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start. Returns 0 when it
-// left the clamp.
+// that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start.
 inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
                       const float ey, const float8* fixed, const float fixed_norm, const float8* derivative,
-                      const float stiffness, const RefinementSettings settings, float* move) {
-  float8 values[PATCH_SIDE];
+                      const float stiffness, const RefinementSettings settings, float8* values, float* move) {
   float alpha = 0.0f;
+  int status = ALIGN_MOVED;
   for (int step = 0; step < settings.steps; ++step) {
     cut_patch(corners, width, height, moving, alpha * ex, alpha * ey, values);
     const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
@@ -142,12 +192,14 @@ inline int align_edge(global const uint* corners, const int width, const int hei
       slopes += weighted * residual;
     }
     const float curvature = stiffness + sum_used(curvatures);
-    if (curvature < 1e-6f) break;
-    const float change = (sum_used(slopes) - stiffness * alpha) / curvature;
+    const float change = curvature < 1e-6f ? 0.0f : (sum_used(slopes) - stiffness * alpha) / curvature;
     alpha += change;
-    if (!(fabs(alpha) <= settings.clamp)) return 0;
-    if (fabs(change) < settings.tolerance) break;
+    if (!(fabs(alpha) <= settings.clamp)) return ALIGN_LEFT;
+    if (fabs(change) < settings.tolerance) {
+      status = ALIGN_SETTLED;
+      break;
+    }
   }
   *move = alpha;
-  return 1;
+  return status;
 }

@@ -2,7 +2,8 @@
 //
 // Needs direction.cl and epipolar.cl. In: left and right edges (scan order, with the right rows' starts), packed epipolar geometry.
 // Out: candidate lists in compressed rows, targets in the scan order of the right edges.
-// One work-item = one left edge. Two launches: count, then (after an exclusive scan) fill.
+// One work-item = one left edge; with LANES 16 it tests sixteen right edges at once. Two launches: count, then (after an exclusive
+// scan) fill.
 // Reference: host/reference/stereo_candidates.cpp.
 
 // Candidates per row that the first sweep can note (kNoted in host/stages/stereo_candidates.cpp).
@@ -20,7 +21,66 @@ inline int lower_bound_x(global const float* xs, int begin, int end, const float
   return begin;
 }
 
-// Visits every right edge that passes; writes to target[] where it is not null and fewer than `room` are written.
+// What a right edge of a row has to be.
+typedef struct {
+  EpipolarLine line;
+  float direction;              // of the left edge
+  float tau, orientation;       // largest distance from the line, largest turn
+  float s_low, s_high;          // places on the line
+  float nx, ny;                 // the line's normal
+} Wanted;
+
+inline int passes(const Wanted wanted, const float x, const float y, const float direction) {
+  const float dx = x - wanted.line.x, dy = y - wanted.line.y;
+  const float s = dx * wanted.line.ex + dy * wanted.line.ey;
+  const float distance = fabs(dx * wanted.nx + dy * wanted.ny);
+  return !(distance > wanted.tau || s < wanted.s_low || s > wanted.s_high) && !(angle_between(direction, wanted.direction) > wanted.orientation);
+}
+
+// Visits the right edges [begin, end) of a row up to x = `to`; writes those that pass to target[] while fewer than `room` are written.
+inline int visit_row(const Wanted wanted, global const float* xs, global const float* ys, global const float* directions, int begin,
+                     const int end, const int total, const float to, global int* target, const int room, int count) {
+#if LANES == 16
+  // The same tests in the same arithmetic. Edges beyond the row's end are read and left out.
+  const int16 lanes = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  for (; begin < end && begin + 16 <= total; begin += 16) {
+    const float16 x = vload16(0, xs + begin), y = vload16(0, ys + begin);
+    const float16 dx = x - wanted.line.x, dy = y - wanted.line.y;
+    const float16 s = dx * wanted.line.ex + dy * wanted.line.ey;
+    const float16 distance = fabs(dx * wanted.nx + dy * wanted.ny);
+    const float16 difference = fabs(vload16(0, directions + begin) - wanted.direction);
+    const float16 turn = difference > PI_F ? 2.0f * PI_F - difference : difference;
+    const int16 in = distance <= wanted.tau & s >= wanted.s_low & s <= wanted.s_high & turn <= wanted.orientation & lanes < end - begin;
+    const int8 eight = in.lo | in.hi;
+    const int4 four = eight.lo | eight.hi;
+    if ((four.x | four.y | four.z | four.w) != 0) {
+      int passed[16];
+      vstore16(in, 0, passed);
+      if (count + 16 <= room) {  // what does not pass is overwritten by what comes next
+        for (int lane = 0; lane < 16; ++lane) {
+          target[count] = begin + lane;
+          count -= passed[lane];
+        }
+      } else {
+        for (int lane = 0; lane < 16; ++lane) {
+          if (passed[lane] == 0) continue;
+          if (count < room) target[count] = begin + lane;
+          ++count;
+        }
+      }
+    }
+    if (x.sf > to) return count;
+  }
+#endif
+  for (int j = begin; j < end && xs[j] <= to; ++j) {
+    if (!passes(wanted, xs[j], ys[j], directions[j])) continue;
+    if (count < room) target[count] = j;
+    ++count;
+  }
+  return count;
+}
+
+// Visits every right edge that passes; writes to target[] while fewer than `room` are written.
 inline int visit_candidates(const float x, const float y, const float direction, global const float* right_x,
                             global const float* right_y, global const float* right_direction,
                             global const int* right_row_first, const int right_height, global const float* g,
@@ -28,37 +88,27 @@ inline int visit_candidates(const float x, const float y, const float direction,
   if (left_epipolar_sine(g, x, y, direction) < g[GEOMETRY_MIN_EPIPOLAR_SINE]) return 0;
   const EpipolarLine line = epipolar_line(g, x, y);
   if (!line.valid) return 0;
-  const float tau = g[GEOMETRY_EPIPOLAR_DISTANCE];
-  const float s_low = -g[GEOMETRY_TOLERANCE], s_high = line.s_max + g[GEOMETRY_TOLERANCE];
-  const float orientation = g[GEOMETRY_ORIENTATION];
-  const float nx = -line.ey, ny = line.ex;
-  const float ax = line.x + s_low * line.ex, bx = line.x + s_high * line.ex;
-  const float ay = line.y + s_low * line.ey, by = line.y + s_high * line.ey;
-  const float x_low = fmin(ax, bx) - tau, x_high = fmax(ax, bx) + tau;
+  const Wanted wanted = {line, direction, g[GEOMETRY_EPIPOLAR_DISTANCE], g[GEOMETRY_ORIENTATION], -g[GEOMETRY_TOLERANCE],
+                         line.s_max + g[GEOMETRY_TOLERANCE], -line.ey, line.ex};
+  const float ax = line.x + wanted.s_low * line.ex, bx = line.x + wanted.s_high * line.ex;
+  const float ay = line.y + wanted.s_low * line.ey, by = line.y + wanted.s_high * line.ey;
+  const float x_low = fmin(ax, bx) - wanted.tau, x_high = fmax(ax, bx) + wanted.tau;
   const float last_row = (float)(2 * right_height - 1);
-  const int row_low = (int)clamp(floor(2.0f * (fmin(ay, by) - tau - CELL_SLACK)), 0.0f, last_row);
-  const int row_high = (int)clamp(ceil(2.0f * (fmax(ay, by) + tau + CELL_SLACK)), 0.0f, last_row);
+  const int row_low = (int)clamp(floor(2.0f * (fmin(ay, by) - wanted.tau - CELL_SLACK)), 0.0f, last_row);
+  const int row_high = (int)clamp(ceil(2.0f * (fmax(ay, by) + wanted.tau + CELL_SLACK)), 0.0f, last_row);
+  const int total = right_row_first[2 * right_height];
   int count = 0;
   for (int row = row_low; row <= row_high; ++row) {
     float from = x_low, to = x_high;
-    if (fabs(nx) > 1e-4f) {
-      const float center = line.x - ny * (0.5f * (float)row - line.y) / nx;
-      const float reach = (tau + CELL_SLACK * fabs(ny)) / fabs(nx) + 0.01f;
+    if (fabs(wanted.nx) > 1e-4f) {
+      const float center = line.x - wanted.ny * (0.5f * (float)row - line.y) / wanted.nx;
+      const float reach = (wanted.tau + CELL_SLACK * fabs(wanted.ny)) / fabs(wanted.nx) + 0.01f;
       from = fmax(from, center - reach);
       to = fmin(to, center + reach);
     }
     const int end = right_row_first[row + 1];
-    for (int j = lower_bound_x(right_x, right_row_first[row], end, from - 2.0f * CELL_SLACK); j < end; ++j) {
-      const float dx = right_x[j] - line.x;
-      if (right_x[j] > to + 2.0f * CELL_SLACK) break;
-      const float dy = right_y[j] - line.y;
-      const float s = dx * line.ex + dy * line.ey;
-      const float distance = fabs(dx * nx + dy * ny);
-      if (distance > tau || s < s_low || s > s_high) continue;
-      if (angle_between(right_direction[j], direction) > orientation) continue;
-      if (count < room) target[count] = j;
-      ++count;
-    }
+    const int begin = lower_bound_x(right_x, right_row_first[row], end, from - 2.0f * CELL_SLACK);
+    count = visit_row(wanted, right_x, right_y, right_direction, begin, end, total, to + 2.0f * CELL_SLACK, target, room, count);
   }
   return count;
 }

@@ -1,22 +1,22 @@
 // stereo_refinement.cl: filter 8a and 8b of the stereo cascade: epipolar shift, then photometric refinement along the line.
 //
-// Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, candidate lists.
+// Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, the left edges' side patches (patches.cl),
+// candidate lists.
 // Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity), how alike both places look,
 // and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
-// Candidates that shift onto the line within so many px of one another are one. Twin: kSamePlace in
-// host/reference/stereo_refinement.cpp.
-#define SAME_PLACE 0.3f
+// Candidates that shift onto the line within so many px of one another are one: neighbours on a curve, which the refinement leads to the
+// same place. Twin: kSamePlace in host/reference/stereo_refinement.cpp.
+#define SAME_PLACE 0.5f
 #define STOOD_FOR 255  // in rejected_by, for a while: another candidate is refined for this one
 
 // Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its place s.
 inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
-                            const float min_sine, const float max_shift, float* off_line) {
+                            const float min_sine, const float max_shift) {
   const float dx = x - line.x, dy = y - line.y;
   const float s = dx * line.ex + dy * line.ey;
   const float distance = -dx * line.ey + dy * line.ex;
-  *off_line = fabs(distance);
   float cosine;
   const float sine = sine_cosine(direction, &cosine);
   const float across = -cosine * line.ey + sine * line.ex;  // sine of the angle between line and tangent
@@ -26,15 +26,31 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
   return fabs(shift) < max_shift ? s + shift * along : s;
 }
 
-kernel void stereo_refinement(global const int* first, global const int* target, const int capacity, const int left_count,
+// The higher NCC of the two side patches of a left edge, mean-free with unit norm, and those cut at two places of the right image.
+inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,
+                         const PatchFrame bright, global const float* side_patches) {
+  float16 rows[PATCH_SIDE], squares = 0.0f, products = 0.0f;
+  cut_two_patches(corners, width, height, dark, bright, rows);
+  for (int k = 0; k < PATCH_SIDE; ++k) {
+    squares += rows[k] * rows[k];
+    products += rows[k] * vload16(k, side_patches);
+  }
+  const float dark_norm = sqrt(sum_used(squares.lo)), bright_norm = sqrt(sum_used(squares.hi));
+  return fmax(dark_norm < 1e-10f ? 0.0f : sum_used(products.lo) / dark_norm,
+              bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) / bright_norm);
+}
+
+kernel void stereo_refinement(global const int* first, global const int* target, global const float* ncc, const int capacity,
+                              const int left_count,
                               global const uint* left_corners, const int left_width, const int left_height,
                               global const uint* right_corners, const int right_width, const int right_height,
+                              global const float* left_patches,
                               global const float* left_x, global const float* left_y, global const float* left_direction,
                               global const float* right_x, global const float* right_y, global const float* right_direction,
                               global const float* geometry, const float patch_offset, const float shift_min_sine,
                               const float shift_max, const float stiffness, const int steps, const float tolerance,
-                              const float huber, const float clamp_px, const int rejected_order, global uchar* rejected_by,
-                              global float* place, global float* likeness) {
+                              const float huber, const float clamp_px, const float likeness_min, const int rejected_order,
+                              global uchar* rejected_by, global float* place, global float* likeness) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   const int begin = first[i], end = min(first[i + 1], capacity);
@@ -47,32 +63,28 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   const float edge_stiffness = stiffness * line_sine * line_sine;
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
-  float8 fixed[3][PATCH_SIDE], derivative[PATCH_SIDE], values[PATCH_SIDE];
-  float norms[3];
+  global const float* side_patches = left_patches + (size_t)i * (16 * PATCH_SIDE);
+  float8 fixed[PATCH_SIDE], derivative[PATCH_SIDE], values[PATCH_SIDE];
+  float fixed_norm = 0.0f;
   int ready = 0;
-  // Of candidates at one place the one nearest to the line stays; likeness holds the distances for a while.
+  // Of candidates at one place the one whose sides are most alike stays.
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
     const int j = target[c];
-    float distance;
-    const float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max, &distance);
+    const float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
     place[c] = s;
-    likeness[c] = distance;
     for (int k = begin; k < c; ++k) {
       if (rejected_by[k] != 0 || fabs(place[k] - s) >= SAME_PLACE) continue;
-      const int nearer = distance < likeness[k];
-      rejected_by[nearer ? k : c] = STOOD_FOR;
-      if (!nearer) break;
+      const int better = ncc[c] > ncc[k];
+      rejected_by[better ? k : c] = STOOD_FOR;
+      if (!better) break;
     }
   }
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
     if (!ready) {
-      for (int side = 0; side < 3; ++side) {
-        cut_patch(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, (float)(side - 1), patch_offset), 0.0f, 0.0f,
-                  fixed[side]);
-        norms[side] = patch_norm(fixed[side]);
-      }
+      cut_patch(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, fixed);
+      fixed_norm = patch_norm(fixed);
       patch_derivative(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), line.ex, line.ey,
                        derivative);
       ready = 1;
@@ -81,20 +93,27 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
-    if (!align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed[1], norms[1], derivative,
-                    edge_stiffness, settings, &move)) {
+    const int aligned = align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed, fixed_norm,
+                                   derivative, edge_stiffness, settings, values, &move);
+    if (aligned == ALIGN_LEFT) {
       rejected_by[c] = (uchar)rejected_order;
+      continue;
     }
     s += move;
     place[c] = s;
-    float similarity[3];
-    for (int side = 0; side < 3; ++side) {
-      const PatchFrame frame =
-          patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, (float)(side - 1), patch_offset);
-      cut_patch(right_corners, right_width, right_height, frame, 0.0f, 0.0f, values);
-      similarity[side] = rows_ncc(fixed[side], norms[side], values);
+    const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
+    if (aligned == ALIGN_MOVED) {
+      cut_patch(right_corners, right_width, right_height, patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f,
+                values);
     }
-    likeness[c] = 0.5f * (similarity[1] + fmax(similarity[0], similarity[2]));
+    const float on_edge = rows_ncc(fixed, fixed_norm, values);
+    // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
+    float beside = -1.0f;
+    if (0.5f * (on_edge + 1.0f) >= likeness_min) {
+      beside = better_side(right_corners, right_width, right_height, patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset),
+                           patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, patch_offset), side_patches);
+    }
+    likeness[c] = 0.5f * (on_edge + beside);
   }
   // The others join their neighbour's cluster, where they count for its direction and cannot represent it.
   for (int c = begin; c < end; ++c) {

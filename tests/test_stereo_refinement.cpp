@@ -1,6 +1,7 @@
 #include <numeric>
 
 #include "matching.hpp"
+#include "reference/patches.hpp"
 #include "reference/photometric.hpp"
 #include "reference/stereo_refinement.hpp"
 #include "stages/stereo_refinement.hpp"
@@ -10,7 +11,8 @@ using namespace matching;
 
 namespace {
 
-constexpr double kOffset = 5;
+const PatchesConfig patches;
+const double kOffset = patches.offset;
 
 /// A right image that shows the left one's texture at a disparity of 6.3 px everywhere, with edges all over it, and one candidate
 /// per left edge that lies up to 1.2 px beside the truth along the line and up to 0.4 px across it.
@@ -63,14 +65,14 @@ struct Scene {
       stages::StereoRefinement stage(context, config, kOffset, variants);
       auto device = upload(context, lists);
       upload(context, scores, device);
-      opencl::Buffer<cl_float> packed;
+      opencl::Buffer<cl_float> packed, left_patches;
       stages::DeviceRefined found;
       packed.write(context, geometry.packed());
+      left_patches.write(context, reference::side_patches(left_image.view(), left.x, left.y, left.direction, patches));
       stages::PixelCorners left_corners(context), right_corners(context);
       left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
       right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
-      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), packed, device,
-                found);
+      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), left_patches, packed, device, found);
       const auto states = device.rejected_by.read(places.size());
       const auto device_places = found.place.read(places.size()), device_likeness = found.likeness.read(places.size());
       std::size_t other_state = 0;

@@ -22,7 +22,8 @@ const std::vector<Variant>& all_variants() {
       {"sift", "edge", {{"ITEMS_PER_EDGE", "1"}}, 1, true, false, "one work-item per edge, float8 of angle bins"},
       {"sift", "cells", {{"ITEMS_PER_EDGE", "32"}, {"GROUP", "64"}}, 64, false, true,
        "one work-item per cell of either side, local memory"},
-      {"stereo_candidates", "group64", {}, 64, true, true, "one work-item per left edge, groups of 64"},
+      {"stereo_candidates", "lanes16", {{"LANES", "16"}}, 16, true, false, "one work-item per left edge tests 16 right edges at once, groups of 16"},
+      {"stereo_candidates", "group64", {}, 64, false, true, "one work-item per left edge, groups of 64"},
       {"stereo_candidates", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
       {"candidate_filters", "group64", {}, 64, true, true, "one work-item per row of candidates, groups of 64"},
       {"candidate_filters", "group16", {}, 16, false, false, "one work-item per row of candidates, groups of 16"},
@@ -39,7 +40,8 @@ const std::vector<Variant>& all_variants() {
       {"temporal_quads", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
       {"wide_description", "group16", {}, 16, true, false, "one work-item per stereo edge, groups of 16"},
       {"wide_description", "group64", {}, 64, false, true, "one work-item per stereo edge, groups of 64"},
-      {"wide_matching", "group16", {}, 16, true, false, "one work-item per previous stereo edge, groups of 16"},
+      {"wide_matching", "blocks", {{"ROWS", "8"}}, 1, true, false, "one work-item per eight previous stereo edges, sixteen current ones as lanes"},
+      {"wide_matching", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
       {"wide_matching", "group64", {}, 64, false, true, "one work-item per previous stereo edge, groups of 64"},
   };
   return table;

@@ -59,11 +59,11 @@ double patch_norm(const PatchValues& values) {
 
 double patch_ncc(const PatchValues& a, const PatchValues& b) {
   const double norms = patch_norm(a) * patch_norm(b);
-  return norms < 1e-10 ? -1 : std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / norms;
+  return norms < 1e-10 ? 0 : std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / norms;
 }
 
-std::optional<double> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
-                                 const PatchValues& derivative, double stiffness, const RefinementSettings& settings) {
+std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
+                                    const PatchValues& derivative, double stiffness, const RefinementSettings& settings) {
   double move = 0;
   for (int step = 0; step < settings.steps; ++step) {
     const PatchValues values = cut_patch(image, moving, move * ex, move * ey);
@@ -75,13 +75,12 @@ std::optional<double> align_edge(const ImageView& image, const PatchFrame& movin
       curvature += weight * derivative[k] * derivative[k];
       slope += weight * derivative[k] * residual;
     }
-    if (curvature < 1e-6) break;
-    const double change = slope / curvature;
+    const double change = curvature < 1e-6 ? 0 : slope / curvature;
     move += change;
     if (!(std::abs(move) <= settings.clamp)) return std::nullopt;
-    if (std::abs(change) < settings.tolerance) break;
+    if (std::abs(change) < settings.tolerance) return Alignment{move, values};
   }
-  return move;
+  return Alignment{move, cut_patch(image, moving, move * ex, move * ey)};
 }
 
 }  // namespace quadedge::reference

@@ -41,13 +41,19 @@ double huber_weight(double residual, double limit);
 /// Root of the sum of squares.
 double patch_norm(const PatchValues& values);
 
-/// NCC of two mean-free patches; -1 where one of them is flat.
+/// NCC of two mean-free patches; 0 where one of them is flat.
 double patch_ncc(const PatchValues& a, const PatchValues& b);
+
+/// What the alignment of an edge finds.
+struct Alignment {
+  double move;         ///< px
+  PatchValues values;  ///< the patch there, or less than the tolerance before it
+};
 
 /// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`, whose derivative
 /// along the move is `derivative` (SPEC section 3, 8b). A prior of `stiffness` [grey levels^2 / px^2] holds it around the start.
-/// \returns the move [px], nothing when it left the clamp.
-std::optional<double> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
-                                 const PatchValues& derivative, double stiffness, const RefinementSettings& settings);
+/// \returns nothing when it left the clamp.
+std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
+                                    const PatchValues& derivative, double stiffness, const RefinementSettings& settings);
 
 }  // namespace quadedge::reference

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint8_t kStoodFor = 255;  // in rejected_by, for a while: another candidate is refined for this one
-constexpr double kSamePlace = 0.3;  // px; twin: SAME_PLACE in kernels/stereo_refinement.cl
+constexpr double kSamePlace = 0.5;  // px; twin: SAME_PLACE in kernels/stereo_refinement.cl
 
 double distance_from(const EpipolarLine& line, double x, double y) { return -(x - line.x) * line.ey + (y - line.y) * line.ex; }
 
@@ -40,19 +40,15 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
     const double stiffness = std::pow(config.refine_noise / config.refine_prior * line_sine, 2);
     const auto left_frame = [&](double side) { return patch_frame(left.x[i], left.y[i], cosine, sine, side, patch_offset); };
     const auto begin = static_cast<std::size_t>(candidates.first[i]), end = static_cast<std::size_t>(candidates.first[i + 1]);
-    const auto off_line = [&](std::size_t c) {
-      const auto j = static_cast<std::size_t>(candidates.target[c]);
-      return std::abs(distance_from(line, right.x[j], right.y[j]));
-    };
     for (std::size_t c = begin; c < end; ++c) {
       if (scores.rejected_by[c] != 0) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
       refined.place[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j], config.shift_min_angle * kPi / 180, config.shift_max);
       for (std::size_t k = begin; k < c; ++k) {
         if (scores.rejected_by[k] != 0 || std::abs(refined.place[k] - refined.place[c]) >= kSamePlace) continue;
-        const bool nearer = off_line(c) < off_line(k);
-        scores.rejected_by[nearer ? k : c] = kStoodFor;
-        if (!nearer) break;
+        const bool better = scores.ncc[c] > scores.ncc[k];
+        scores.rejected_by[better ? k : c] = kStoodFor;
+        if (!better) break;
       }
     }
     for (std::size_t c = begin; c < end; ++c) {
@@ -61,14 +57,21 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       const auto right_frame = [&](double place, double side) {
         return patch_frame(line.x + place * line.ex, line.y + place * line.ey, cosine, sine, side, patch_offset);
       };
-      const auto move = align_edge(right_image, right_frame(s, 0), line.ex, line.ey, cut_patch(left_image, left_frame(0), 0, 0),
-                                   patch_derivative(left_image, left_frame(0), line.ex, line.ey), stiffness, settings);
-      if (!move) scores.rejected_by[c] = kStereoRefinementOrder;
-      refined.place[c] = s + move.value_or(0);
+      const PatchValues on_edge = cut_patch(left_image, left_frame(0), 0, 0);
+      const auto found = align_edge(right_image, right_frame(s, 0), line.ex, line.ey, on_edge,
+                                    patch_derivative(left_image, left_frame(0), line.ex, line.ey), stiffness, settings);
+      if (!found) {
+        scores.rejected_by[c] = kStereoRefinementOrder;
+        continue;
+      }
+      refined.place[c] = s + found->move;
       const auto similarity = [&](double side) {
         return patch_ncc(cut_patch(left_image, left_frame(side), 0, 0), cut_patch(right_image, right_frame(refined.place[c], side), 0, 0));
       };
-      refined.likeness[c] = 0.5 * (similarity(0) + std::max(similarity(-1), similarity(1)));
+      // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
+      const double centre = patch_ncc(on_edge, found->values);
+      const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(similarity(-1), similarity(1)) : -1;
+      refined.likeness[c] = 0.5 * (centre + beside);
     }
     // The others join their neighbour's cluster, where they count for its direction and cannot represent it.
     for (std::size_t c = begin; c < end; ++c) {

@@ -77,7 +77,8 @@ void DeviceFrontend::process(const StereoFrame& frame) {
   context_.begin_stage("stereo_filters");
   filters_.run({rig.left_patches, itself_, left_sift_, itself_}, {right_patches_, itself_, right_sift_, itself_},
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
-  refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges, geometry_, candidates_, refined_);
+  refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges, rig.left_patches, geometry_,
+                  candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, right_.description, geometry_, candidates_, refined_, clusters_, rig);
   current_ = rig.read();
   rig.has_sift = false;

@@ -25,18 +25,18 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
 }
 
 void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
-                           const DeviceEdges& right, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates,
-                           DeviceRefined& refined) {
+                           const DeviceEdges& right, const opencl::Buffer<cl_float>& left_patches,
+                           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined) {
   context_.begin_stage("stereo_refinement");
   refined.place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
   refined.likeness.ensure(context_, static_cast<std::size_t>(candidates.capacity));
-  kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.capacity,
+  kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.ncc, candidates.capacity,
           candidates.rows, left_image.values(), left_image.width(), left_image.height(), right_image.values(), right_image.width(),
-          right_image.height(), left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
+          right_image.height(), left_patches, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
           static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
           static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2)), config_.refine_steps,
           static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
-          static_cast<float>(config_.refine_clamp), reference::kStereoRefinementOrder, candidates.rejected_by, refined.place,
+          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min), reference::kStereoRefinementOrder, candidates.rejected_by, refined.place,
           refined.likeness);
 }
 

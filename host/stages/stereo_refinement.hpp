@@ -24,9 +24,10 @@ class StereoRefinement {
   StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
                    const std::map<std::string, std::string>& variants);
 
-  /// Living candidates get a place and a likeness; those that diverge are rejected. Both images prepared for sampling.
+  /// Living candidates get a place and a likeness; those that diverge are rejected. Both images prepared for sampling;
+  /// `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.
   void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left, const DeviceEdges& right,
-           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
+           const opencl::Buffer<cl_float>& left_patches, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
 
  private:
   template <class T>
@@ -38,9 +39,9 @@ class StereoRefinement {
   StereoConfig config_;
   float patch_offset_;
   std::size_t local_size_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
-                 In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, cl_float,
-                 cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>,
+  opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
+                 In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
+                 cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>,
                  Out<cl_float>>
       kernel_;
 };

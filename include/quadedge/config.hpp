@@ -46,7 +46,7 @@ struct StereoConfig {
   double shift_min_angle = 12.0;    ///< below it the orthogonal projection replaces the shift along the tangent [deg]
   double shift_max = 3.0;           ///< longest shift along the tangent [px]
   int refine_steps = 8;             ///< Gauss-Newton steps
-  double refine_tolerance = 0.02;   ///< [px]
+  double refine_tolerance = 0.05;   ///< [px]
   double refine_huber = 3.0;        ///< [grey levels]
   double refine_clamp = 2.0;        ///< longest move along the line [px]
   double refine_prior = 0.1;        ///< spread of a detected edge across itself [px], more along a line that it is flat to
