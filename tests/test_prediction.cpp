@@ -27,6 +27,11 @@ StereoEdges edges_of(const StereoRig& rig, const std::vector<pose::OrientedPoint
   return edges;
 }
 
+stages::TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std::optional<Eigen::Isometry3d>& motion, double radius,
+                               int step) {
+  return odometry::predict_places(rig, edges, pose::measure_edges(rig, edges, 0.07), motion, radius, step);
+}
+
 }  // namespace
 
 TEST_CASE("prediction: points moved by a known motion are expected where they project to", "[odometry][prediction]") {
@@ -40,7 +45,7 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
     motion.linear() = Eigen::AngleAxisd(0.05, Vector3d(0.2, 1, 0.1).normalized()).toRotationMatrix();
     motion.translation() = Vector3d(0.05, -0.02, -0.2);
-    const auto search = odometry::predict_places(rig, edges_of(rig, points), motion, 12, 1, 0.07);
+    const auto search = predict(rig, edges_of(rig, points), motion, 12, 1);
     CHECK(search.radius == 12.0f);
     CHECK(search.step == 1);
     REQUIRE(search.left.x.size() == points.size());
@@ -66,7 +71,7 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
 TEST_CASE("prediction: without a motion everything is expected where it was", "[odometry][prediction]") {
   const auto rig = generated::car_rig();
   const auto edges = edges_of(rig, {{Vector3d(0, 0, 5), Vector3d::UnitY()}, {Vector3d(1, 0, 9), Vector3d(0.5, 1, 0).normalized()}});
-  const auto search = odometry::predict_places(rig, edges, std::nullopt, 30, 8, 0.07);
+  const auto search = predict(rig, edges, std::nullopt, 30, 8);
   CHECK(search.left.x == edges.left_x);
   CHECK(search.left.direction == edges.left_direction);
   CHECK(search.right.y == edges.right_y);
@@ -79,7 +84,7 @@ TEST_CASE("prediction: no place for what has no depth or falls behind the camera
   edges.right_x[0] = edges.left_x[0] + 2;  // negative disparity
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.translation() = Vector3d(0, 0, -4);  // the second point is passed
-  const auto search = odometry::predict_places(rig, edges, motion, 10, 1, 0.07);
+  const auto search = predict(rig, edges, motion, 10, 1);
   for (std::size_t i = 0; i < 3; ++i) {  // the third one lies along its epipolar line
     CHECK(std::isnan(search.left.x[i]));
     CHECK(std::isnan(search.right.x[i]));
@@ -91,6 +96,6 @@ TEST_CASE("prediction: what is in view is counted, and moves are measured where 
   const stages::PlacedEdges a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}}, b{{3, 10, 4, nowhere, 50}, {4, 11, 5, 49, 20}, {}};
   CHECK(odometry::count_in_view({80, 80, 50, 25, 100, 50}, a) == 4);
   CHECK(odometry::count_in_view({80, 80, 50, 25, 60, 50}, a) == 3);
-  CHECK(odometry::mean_distance(a, b) == Approx((5 + 1 + 0) / 3.0));
-  CHECK(odometry::mean_distance({}, {}) == 0);
+  CHECK(odometry::mean_distance(a, b, 1) == Approx((5 + 1 + 0) / 3.0));
+  CHECK(odometry::mean_distance({}, {}, 1) == 0);
 }

@@ -14,39 +14,50 @@ using pose::radians;
 namespace {
 
 constexpr double kSettled = 0.3;  ///< mean distance of predicted places that calls for no further search [px]
+constexpr int kSettledStep = 16;  ///< every so many edges tell it
 
 }  // namespace
 
+const pose::MeasuredEdges& MotionSearch::measured(stages::Base base, const MotionPrior& prior) {
+  const bool key = base == stages::Base::key;
+  MeasuredBase& known = key ? measured_key_ : measured_previous_;
+  const int frame = key ? prior.key_frame : prior.previous_frame;
+  if (known.frame != frame || known.offset != offset_.value()) {
+    known = {frame, offset_.value(), pose::measure_edges(offset_.rig(), frontend_.base(base), radians(config_.stereo.min_epipolar_angle))};
+  }
+  return known.edges;
+}
+
 MotionStep MotionSearch::estimate(stages::Base base, TemporalMatches matches, const std::optional<Eigen::Isometry3d>& prediction,
-                                  const PoseConfig& limits, std::uint64_t seed) const {
+                                  const PoseConfig& limits, const MotionPrior& prior) {
   const StereoRig& rig = offset_.rig();
   MotionStep step;
   step.base = base;
   step.matches = std::move(matches);
-  step.quads = pose::build_quads(rig, frontend_.base(base), frontend_.current(), step.matches, pose::QuadLimits(config_));
-  step.motion = pose::estimate_motion(rig, step.quads, limits, seed, prediction, offset_.variance());
+  step.quads = pose::build_quads(rig, measured(base, prior), frontend_.current(), step.matches, pose::QuadLimits(config_));
+  step.motion = pose::estimate_motion(rig, step.quads, limits, prior.seed, prediction, offset_.variance());
   return step;
 }
 
 /// Looks for the motion since the base with a part of the edges. What it suggests need not convince.
-MotionStep MotionSearch::scout(const MotionPrior& prior, double radius) const {
+MotionStep MotionSearch::scout(const MotionPrior& prior, double radius) {
   PoseConfig lenient = config_.pose;
   lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
   lenient.min_spread = 0;
   const StereoEdges& base = frontend_.base(prior.base);
   const int every = std::max(1, static_cast<int>(base.size()) / config_.temporal.scout_edges);
-  auto search = predict_places(offset_.rig(), base, prior.prediction, radius, every, radians(config_.stereo.min_epipolar_angle));
+  auto search = predict_places(offset_.rig(), base, measured(prior.base, prior), prior.prediction, radius, every);
   search.scout = true;
-  return estimate(prior.base, frontend_.match(prior.base, search), prior.prediction, lenient, prior.seed);
+  return estimate(prior.base, frontend_.match(prior.base, search), prior.prediction, lenient, prior);
 }
 
 /// Looks for the motion since the base, however large, with edges that what surrounds them tells from all others.
-MotionStep MotionSearch::look_anywhere(const MotionPrior& prior) const {
+MotionStep MotionSearch::look_anywhere(const MotionPrior& prior) {
   PoseConfig lenient = config_.pose;
   lenient.inlier_distance = config_.temporal.wide_inlier_distance;
   lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
   lenient.min_spread = 0;
-  return estimate(prior.base, frontend_.match_anywhere(prior.base), std::nullopt, lenient, prior.seed);
+  return estimate(prior.base, frontend_.match_anywhere(prior.base), std::nullopt, lenient, prior);
 }
 
 /// Whether edges found anywhere agree with a motion: in as many places of the image as an estimate needs inliers. A found edge could lie
@@ -62,15 +73,14 @@ bool MotionSearch::is_seen(const MotionStep& anywhere, const MotionStep& found, 
 
 /// Matches all edges of a base within a few pixels of where a motion predicts them, again around what that finds until the places
 /// stay. Within so few pixels a wrong motion finds some support too: a true one has to find more.
-MotionStep MotionSearch::match(stages::Base base, Eigen::Isometry3d prediction, std::uint64_t seed) const {
-  const auto places = [&](const Eigen::Isometry3d& motion) {
-    return predict_places(offset_.rig(), frontend_.base(base), motion, config_.temporal.radius, 1,
-                          radians(config_.stereo.min_epipolar_angle));
+MotionStep MotionSearch::match(stages::Base base, Eigen::Isometry3d motion, const MotionPrior& prior) {
+  const auto places = [&](int step) {
+    return predict_places(offset_.rig(), frontend_.base(base), measured(base, prior), motion, config_.temporal.radius, step);
   };
-  auto search = places(prediction);
+  auto search = places(1);
   MotionStep step;
   for (int round = 0; round < config_.temporal.rounds; ++round) {
-    step = estimate(base, frontend_.match(base, search), prediction, config_.pose, seed);
+    step = estimate(base, frontend_.match(base, search), motion, config_.pose, prior);
     const int in_view = count_in_view(rig_.left, search.left);
     step.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
     if (step.motion.status != pose::MotionStatus::ok) break;
@@ -78,26 +88,26 @@ MotionStep MotionSearch::match(stages::Base base, Eigen::Isometry3d prediction, 
       step.motion.status = pose::MotionStatus::no_consensus;
       break;
     }
-    prediction = step.motion.current_from_previous;
-    auto next = places(prediction);
-    if (mean_distance(search.left, next.left) < kSettled) break;
-    search = std::move(next);
+    motion = step.motion.current_from_previous;
+    if (round + 1 == config_.temporal.rounds) break;
+    if (mean_distance(search.left, places(kSettledStep).left, kSettledStep) < kSettled) break;
+    search = places(1);
   }
   return step;
 }
 
 /// What the matching of all edges says of a scouted motion.
-MotionStep MotionSearch::confirm(MotionStep scouted, const MotionPrior& prior) const {
+MotionStep MotionSearch::confirm(MotionStep scouted, const MotionPrior& prior) {
   if (!scouted.ok()) return scouted;
   const Eigen::Isometry3d motion = scouted.motion.current_from_previous;
   if (prior.base_from_key) {
-    MotionStep step = match(stages::Base::key, motion * *prior.base_from_key, prior.seed);
+    MotionStep step = match(stages::Base::key, motion * *prior.base_from_key, prior);
     if (step.ok()) return step;
   }
-  return match(prior.base, motion, prior.seed);
+  return match(prior.base, motion, prior);
 }
 
-MotionStep MotionSearch::find(const MotionPrior& prior) const {
+MotionStep MotionSearch::find(const MotionPrior& prior) {
   const bool anywhere = config_.temporal.wide_edges > 0;
   MotionStep near;
   if (prior.prediction) {

@@ -27,6 +27,7 @@ struct MotionPrior {
   stages::Base base = stages::Base::previous;                ///< the rig to start from
   std::optional<Eigen::Isometry3d> prediction = std::nullopt;     ///< current_from_base by constant velocity
   std::optional<Eigen::Isometry3d> base_from_key = std::nullopt;  ///< the key rig beyond the base, preferred where it is in sight
+  int key_frame = 0, previous_frame = 0;                     ///< numbers of the frames that the frontend's rigs show
   std::uint64_t seed = 0;
 };
 
@@ -39,21 +40,30 @@ class MotionSearch {
       : rig_(rig), config_(config), frontend_(frontend), offset_(offset) {}
 
   /// The motion of the frontend's current rig; its status says whether there is one.
-  MotionStep find(const MotionPrior& prior) const;
+  MotionStep find(const MotionPrior& prior);
 
  private:
-  MotionStep scout(const MotionPrior& prior, double radius) const;
-  MotionStep look_anywhere(const MotionPrior& prior) const;
-  MotionStep confirm(MotionStep scouted, const MotionPrior& prior) const;
+  /// A base's measured edges, kept while the rig and its calibration stay.
+  struct MeasuredBase {
+    int frame = -1;
+    double offset = 0;  ///< of the disparities
+    pose::MeasuredEdges edges;
+  };
+  const pose::MeasuredEdges& measured(stages::Base base, const MotionPrior& prior);
+
+  MotionStep scout(const MotionPrior& prior, double radius);
+  MotionStep look_anywhere(const MotionPrior& prior);
+  MotionStep confirm(MotionStep scouted, const MotionPrior& prior);
   bool is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior) const;
-  MotionStep match(stages::Base base, Eigen::Isometry3d prediction, std::uint64_t seed) const;
+  MotionStep match(stages::Base base, Eigen::Isometry3d motion, const MotionPrior& prior);
   MotionStep estimate(stages::Base base, TemporalMatches matches, const std::optional<Eigen::Isometry3d>& prediction,
-                      const PoseConfig& limits, std::uint64_t seed) const;
+                      const PoseConfig& limits, const MotionPrior& prior);
 
   StereoRig rig_;
   Config config_;
   stages::Frontend& frontend_;
   const DisparityOffset& offset_;
+  MeasuredBase measured_key_, measured_previous_;
 };
 
 }  // namespace quadedge::odometry

@@ -19,9 +19,8 @@ void place(stages::PlacedEdges& places, std::size_t i, const std::optional<pose:
 
 }  // namespace
 
-stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous,
-                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
-                                      double min_epipolar_angle) {
+stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
+                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step) {
   stages::TemporalSearch search;
   search.radius = static_cast<float>(radius);
   search.step = step;
@@ -30,11 +29,8 @@ stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& p
   if (!current_from_previous) return search;
   const Eigen::Isometry3d right_from_previous = rig.right_from_left * *current_from_previous;
   const auto predict = [&](std::size_t i) {
-    const pose::StereoObservation observation{{previous.left_x[i], previous.left_y[i]},
-                                              {previous.right_x[i], previous.right_y[i]},
-                                              previous.left_direction[i],
-                                              previous.right_direction[i]};
-    const auto point = pose::reconstruct(rig, observation, min_epipolar_angle);
+    std::optional<pose::OrientedPoint> point;
+    if (measured[i]) point = measured[i]->oriented_point();
     place(search.left, i, point ? pose::project(rig.left, *current_from_previous, *point) : std::nullopt);
     place(search.right, i, point ? pose::project(rig.right, right_from_previous, *point) : std::nullopt);
   };
@@ -55,10 +51,10 @@ int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places
   return count;
 }
 
-double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b) {
+double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b, int step) {
   double sum = 0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < a.x.size(); ++i) {
+  for (std::size_t i = 0; i < a.x.size(); i += static_cast<std::size_t>(step)) {
     const double dx = static_cast<double>(a.x[i] - b.x[i]), dy = static_cast<double>(a.y[i] - b.y[i]);
     const double distance = std::sqrt(dx * dx + dy * dy);
     if (!std::isfinite(distance)) continue;

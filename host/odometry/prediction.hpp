@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "pose/quads.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/temporal_search.hpp"
@@ -13,15 +14,15 @@ namespace quadedge::odometry {
 /// Moves every stereo edge's oriented point by the predicted motion and projects it into both images; without a prediction the
 /// places and directions stay. Edges without depth, or that leave the field of view, get NaN where a motion is predicted.
 /// \param current_from_previous left cameras, metres
-/// \param radius px; \param step every step-th edge is looked for; \param min_epipolar_angle radians
-stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous,
-                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
-                                      double min_epipolar_angle);
+/// \param measured the previous edges, see pose::measure_edges()
+/// \param radius px; \param step every step-th edge is looked for
+stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
+                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step);
 
 /// Places inside a camera's image.
 int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places);
 
-/// Mean distance of places that both hold [px]; 0 where there is none.
-double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b);
+/// Mean distance of every step-th place that both hold [px]; 0 where there is none.
+double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b, int step);
 
 }  // namespace quadedge::odometry

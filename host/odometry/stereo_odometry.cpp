@@ -199,6 +199,8 @@ odometry::MotionStep StereoOdometry::Implementation::find_motion(FrameResult& re
   odometry::MotionPrior prior;
   prior.seed = config_.seed + static_cast<std::uint64_t>(frame_);
   prior.prediction = predicted_motion();
+  prior.key_frame = key_rig_.frame();
+  prior.previous_frame = base_frame_;
   if (base_frame_ == key_rig_.frame()) {
     prior.base = stages::Base::key;
   } else {
@@ -207,6 +209,7 @@ odometry::MotionStep StereoOdometry::Implementation::find_motion(FrameResult& re
   odometry::MotionStep step = search_.find(prior);
   if (step.ok() || !unplaced_) return step;
   prior.base = stages::Base::previous;
+  prior.previous_frame = unplaced_->frame;
   prior.prediction = std::nullopt;
   odometry::MotionStep restart = search_.find(prior);
   if (!restart.ok()) return step;

@@ -1,7 +1,6 @@
 #include "pose/quads.hpp"
 
 #include <cmath>
-#include <optional>
 
 #include "pose/angles.hpp"
 #include "pose/row_blocks.hpp"
@@ -83,31 +82,38 @@ bool QuadObservations::append(const StereoRig& rig, const StereoObservation& pre
   return true;
 }
 
+MeasuredEdges measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle) {
+  MeasuredEdges measured(edges.size());
+  for_row_blocks(edges.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) measured[i] = measure(rig, observation(edges, i), min_epipolar_angle);
+  });
+  return measured;
+}
+
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits) {
-  struct Measured {
-    std::optional<StereoMeasurement> before, after;
-  };
-  std::vector<Measured> measured(matches.size());
-  const auto edge_before = [&](std::size_t i) { return observation(previous, static_cast<std::size_t>(matches.previous[i])); };
+  return build_quads(rig, measure_edges(rig, previous, limits.min_epipolar_angle), current, matches, limits);
+}
+
+QuadObservations build_quads(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
+                             const TemporalMatches& matches, const QuadLimits& limits) {
+  const auto before = [&](std::size_t i) -> const auto& { return previous[static_cast<std::size_t>(matches.previous[i])]; };
   const auto edge_after = [&](std::size_t i) { return observation(current, static_cast<std::size_t>(matches.current[i])); };
+  MeasuredEdges after(matches.size());
   for_row_blocks(matches.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      measured[i].before = measure(rig, edge_before(i), limits.min_epipolar_angle);
-      if (measured[i].before) measured[i].after = measure(rig, edge_after(i), limits.min_epipolar_angle);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      if (before(i)) after[i] = measure(rig, edge_after(i), limits.min_epipolar_angle);
   });
   std::vector<std::size_t> rows;
   rows.reserve(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i)
-    if (measured[i].after) rows.push_back(i);
+    if (after[i]) rows.push_back(i);
   QuadObservations quads;
   quads.resize(rows.size());
   for_row_blocks(rows.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       const std::size_t i = rows[q];
-      quads.set(q, *measured[i].before, *measured[i].after, edge_after(i), matches.ncc[i], matches.rivals[i],
-                static_cast<std::int32_t>(i), limits);
+      quads.set(q, *before(i), *after[i], edge_after(i), matches.ncc[i], matches.rivals[i], static_cast<std::int32_t>(i), limits);
     }
   });
   return quads;

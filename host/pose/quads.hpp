@@ -2,6 +2,7 @@
 /// \file quads.hpp  Quads as the pose estimator sees them: structures of arrays for scoring, full measurements for fitting.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pose/oriented_point.hpp"
@@ -57,11 +58,20 @@ struct QuadObservations {
            float ncc_value, std::int32_t rival_count, std::int32_t match_number, const QuadLimits& limits);
 };
 
+/// The measurements of all stereo edges of a rig; nothing for an edge without depth or tangent.
+using MeasuredEdges = std::vector<std::optional<StereoMeasurement>>;
+
+/// \param min_epipolar_angle see measure() [rad]
+MeasuredEdges measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle);
+
 /// All quads of two rigs: the stereo edges that `matches` pairs, each at its detected place. Across the edge, where a quad is
 /// measured, detection is more exact than the photometric refinement of the match (KITTI 06, frame to frame: 1.6 cm per frame
 /// against 2.3 cm), whose patches lie beside the edge; the refinement tells right matches from wrong ones.
 /// Matches without depth are left out, QuadObservations::match says which row a quad came from.
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
+                             const TemporalMatches& matches, const QuadLimits& limits);
+/// The same with the previous edges measured beforehand.
+QuadObservations build_quads(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits);
 
 }  // namespace quadedge::pose
