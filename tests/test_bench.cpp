@@ -51,7 +51,7 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
         "/latency_ms/median", "/latency_ms/p90", "/latency_ms/p99", "/latency_ms/max", "/latency_ms/first", "/edge_detection_ms/median",
         "/edge_detection_ms/p90", "/stages_ms/stereo/median", "/kernels_ms/edges/median", "/kernels_ms/temporal_match/p90", "/start_ms/total",
         "/start_ms/kernel_build", "/memory_mb/host_peak", "/memory_mb/device_peak", "/memory_mb/frames", "/moved_mb_per_frame/to_device",
-        "/moved_mb_per_frame/to_host", "/counts/edges_left", "/config/edges/threshold", "/baseline/opencv_sift_both_ms",
+        "/moved_mb_per_frame/to_host", "/waits_per_frame", "/counts/edges_left", "/config/edges/threshold", "/baseline/opencv_sift_both_ms",
         "/baseline/opencv_sepfilter_nine_ms", "/baseline/threads", "/baseline/frame_ratio", "/baseline/edges_ratio"}) {
     INFO(pointer);
     CHECK(result.contains(json::json_pointer(pointer)));
@@ -65,6 +65,9 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   CHECK_THAT(result["command"].get<std::string>(), Contains("quadedge bench --size 160x100"));
   // At least both images go up, and a pixel is a byte.
   CHECK(result["moved_mb_per_frame"]["to_device"].get<double>() > 2 * 160 * 100 / (1024.0 * 1024.0));
+  // Numbers of edges, candidates and stereo edges, the stereo edges, and what each of at most two searches finds.
+  CHECK(result["waits_per_frame"].get<double>() >= 5);
+  CHECK(result["waits_per_frame"].get<double>() <= 6);
   CHECK(result["memory_mb"]["frames"].get<double>() == Approx(4 * 2 * 160 * 100 / (1024.0 * 1024.0)));
   CHECK(result["baseline"]["frame_ratio"].get<double>() ==
         Approx(result["latency_ms"]["median"].get<double>() / result["baseline"]["opencv_sift_both_ms"].get<double>()));

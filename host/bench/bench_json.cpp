@@ -27,6 +27,7 @@ std::string bench_json(const BenchRecord& record) {
   json["edges_wanted"] = record.edges_wanted == 0 ? Json(nullptr) : Json(record.edges_wanted);
   json["edge_detection_ms"] = {{"median", to_json(report::median(record.edges_ms))},
                                {"p90", to_json(report::percentile(record.edges_ms, 0.9))}};
+  json["waits_per_frame"] = record.waits;
   json["moved_mb_per_frame"] = {{"to_device", record.to_device_mb}, {"to_host", record.to_host_mb}};
   json["memory_mb"]["frames"] = record.frames_mb;
   if (record.yardsticks) {

@@ -29,6 +29,7 @@ struct BenchRecord {
   int edges_wanted = 0;            ///< per image, what edges.threshold was chosen for; 0: it was left as configured
   std::vector<double> edges_ms;    ///< edge detection of one left image: from host memory until the device is done
   double to_device_mb = 0, to_host_mb = 0;  ///< copied per measured frame
+  double waits = 0;                         ///< for results of the device, per measured frame
   double frames_mb = 0;            ///< the recorded images kept in host memory, part of run.host_peak_mb
   std::optional<Yardsticks> yardsticks;
 

@@ -97,8 +97,9 @@ void measure_latency(const Subject& subject, BenchRecord& record) {
   record.run.host_peak_mb = host_peak_mb();
   if (device.context() == nullptr) return;
   const auto& moved = device.context()->moved();
-  const double scale = 1 / (kMegabyte * std::max(1, total - 1 - record.warm_up));
+  const double frames = std::max(1, total - 1 - record.warm_up), scale = 1 / (kMegabyte * frames);
   record.to_device_mb = static_cast<double>(moved.to_device - before.to_device) * scale;
+  record.waits = static_cast<double>(moved.waits - before.waits) / frames;
   record.to_host_mb = static_cast<double>(moved.to_host - before.to_host) * scale;
   record.run.device_peak_mb = static_cast<double>(device.context()->peak_bytes()) / kMegabyte;
 }

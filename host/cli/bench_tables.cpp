@@ -47,7 +47,8 @@ void print_benchmark(const bench::BenchRecord& record) {
   std::printf("kernel build      %.0f ms of it\n", run.kernel_build_ms);
   std::printf("memory            host peak %.0f MB (%.0f MB of it recorded images), device peak %.0f MB\n", run.host_peak_mb,
               record.frames_mb, run.device_peak_mb);
-  std::printf("moved per frame   %.2f MB to the device, %.2f MB to the host\n", record.to_device_mb, record.to_host_mb);
+  std::printf("moved per frame   %.2f MB to the device, %.2f MB to the host; %.1f waits for results\n", record.to_device_mb, record.to_host_mb,
+              record.waits);
   print_stages("\nhost stages, median", report::stage_summary(report::stage_times(run.frames)));
   print_stages("\nkernels by OpenCL events, in a pass of their own, median", report::stage_summary(run.kernel_times));
   if (!record.yardsticks) return;

@@ -55,13 +55,15 @@ class Buffer {
     ensure(context, values.size());
     write(values.data(), values.size());
   }
-  /// Copies to the host, after everything enqueued before.
+  /// Copies to the host, after everything enqueued before, and waits for it.
   void read(T* values, std::size_t count, std::size_t offset = 0) const {
     if (count == 0) return;
-    context_->count_to_host(count * sizeof(T));
-    call("reading a buffer", [&] {
-      context_->queue().enqueueReadBuffer(memory_, CL_TRUE, offset * sizeof(T), count * sizeof(T), values);
-    });
+    context_->count_wait();
+    enqueue_read(values, count, offset, CL_TRUE);
+  }
+  /// The same without waiting: `values` are there after the next read() of any buffer of the context, and must live until then.
+  void read_later(T* values, std::size_t count, std::size_t offset = 0) const {
+    if (count > 0) enqueue_read(values, count, offset, CL_FALSE);
   }
   std::vector<T> read(std::size_t count) const {
     std::vector<T> values(count);
@@ -93,6 +95,12 @@ class Buffer {
     memory_ = cl::Buffer();
     context_ = nullptr;
     capacity_ = 0;
+  }
+  void enqueue_read(T* values, std::size_t count, std::size_t offset, cl_bool blocking) const {
+    context_->count_to_host(count * sizeof(T));
+    call("reading a buffer", [&] {
+      context_->queue().enqueueReadBuffer(memory_, blocking, offset * sizeof(T), count * sizeof(T), values);
+    });
   }
   template <class Function>
   void call(const char* what, Function&& function) const {

@@ -42,13 +42,14 @@ class Context {
   std::size_t peak_bytes() const { return peak_bytes_; }
   void account(std::ptrdiff_t bytes);
 
-  /// Bytes copied between host and device so far.
+  /// Bytes copied between host and device so far, and how often the host waited for results.
   struct Moved {
-    std::size_t to_device = 0, to_host = 0;
+    std::size_t to_device = 0, to_host = 0, waits = 0;
   };
   const Moved& moved() const { return moved_; }
   void count_to_device(std::size_t bytes) { moved_.to_device += bytes; }
   void count_to_host(std::size_t bytes) { moved_.to_host += bytes; }
+  void count_wait() { ++moved_.waits; }
 
   /// The stage that the following launches belong to (profiling).
   void begin_stage(const std::string& stage) { stage_ = stage; }

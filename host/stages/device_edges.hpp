@@ -13,15 +13,20 @@ struct DeviceEdges {
   opencl::Buffer<cl_float> strength;   ///< grey levels per pixel
   opencl::Buffer<cl_int> row_first;    ///< 2 * height + 1 starts of the rows of the doubled grid
   opencl::Buffer<cl_int> count;        ///< {number of edges, edges cut off because the capacity ran out}
+  cl_int host_values[2] = {0, 0};  ///< `count` on its way to the host
   int host_count = 0;    ///< count[0] after read_count()
   int host_dropped = 0;  ///< count[1] after read_count(); not zero is an overflow that the frame reports
 
   /// Waits for the detection and copies the two numbers of `count` to the host.
   void read_count() {
-    cl_int values[2];
-    count.read(values, 2);
-    host_count = values[0];
-    host_dropped = values[1];
+    count.read(host_values, 2);
+    take_count();
+  }
+  /// The same in two halves, with a read() of another buffer between them.
+  void request_count() { count.read_later(host_values, 2); }
+  void take_count() {
+    host_count = host_values[0];
+    host_dropped = host_values[1];
   }
 
   /// Copies the edges to the host; after read_count(). `height` of the image in pixels.

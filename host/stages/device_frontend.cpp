@@ -54,8 +54,9 @@ void DeviceFrontend::process(const StereoFrame& frame) {
   right_.undistortion.run(frame.right, rig.right_image.pixels);
   left_.detection.run(rig.left_image.pixels, left_.edges);
   right_.detection.run(rig.right_image.pixels, right_.edges);
-  left_.edges.read_count();
+  left_.edges.request_count();
   right_.edges.read_count();
+  left_.edges.take_count();
   counts_ = {};
   counts_.edges_left = left_.edges.host_count;
   counts_.edges_right = right_.edges.host_count;

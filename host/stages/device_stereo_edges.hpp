@@ -1,6 +1,8 @@
 #pragma once
 /// \file device_stereo_edges.hpp  The stereo edges of one rig on the device, with what the matching in time needs of them.
 
+#include <utility>
+
 #include "opencl/buffer.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/device_image.hpp"
@@ -23,24 +25,21 @@ struct DeviceStereoEdges {
   int stride = 0;
   int count = 0;
 
-  /// Copies the rows to the host.
+  /// Copies the rows to the host; waits for the device once.
   StereoEdges read() const {
     const auto size = static_cast<std::size_t>(count), step = static_cast<std::size_t>(stride);
     StereoEdges edges;
-    edges.left_index = left_index.read(size);
-    edges.right_index = right_index.read(size);
-    const auto block = [&](std::size_t number) {
-      std::vector<float> values(size);
-      packed.read(values.data(), size, number * step);
-      return values;
-    };
-    edges.left_x = block(0);
-    edges.left_y = block(1);
-    edges.left_direction = block(2);
-    edges.right_x = block(3);
-    edges.right_y = block(4);
-    edges.right_direction = block(5);
-    edges.ncc = ncc.read(size);
+    for (auto [buffer, values] : {std::pair(&left_index, &edges.left_index), std::pair(&right_index, &edges.right_index)}) {
+      values->resize(size);
+      buffer->read_later(values->data(), size);
+    }
+    std::size_t block = 0;
+    for (auto* values : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y, &edges.right_direction}) {
+      values->resize(size);
+      packed.read_later(values->data(), size, step * block++);
+    }
+    edges.ncc.resize(size);
+    ncc.read(edges.ncc.data(), size);
     return edges;
   }
 };

@@ -51,7 +51,8 @@ TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWi
                    earlier.edges.stride, earlier.rows, earlier.step, current.descriptors, current_blocks_, current.edges.packed,
                    current.edges.stride, current.rows, current.step, neighbourhood_, ratio_, best_, likeness_);
   }
-  const auto best = best_.read(rows);
+  std::vector<cl_int> best(rows);
+  best_.read_later(best.data(), rows);
   const auto likeness = likeness_.read(rows);
   TemporalMatches matches;
   for (std::size_t row = 0; row < rows; ++row) {
