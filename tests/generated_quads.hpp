@@ -106,6 +106,7 @@ struct Problem {
   double near = 5, far = 100;      ///< depths, uniform in the inverse [m]
   double outliers = 0;             ///< share with a wrong current edge
   Noise noise;
+  double width_share = 1;          ///< of the image, from its left border, that is seen at first
   int copies = 1;                  ///< quads come in rows of this many, half a pixel apart along the tangent, that share one error
 };
 
@@ -114,8 +115,8 @@ struct Generated {
   std::vector<bool> correct;
 };
 
-inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, double far, Random& random) {
-  const Eigen::Vector2d pixel(random.uniform(0, rig.left.width), random.uniform(0, rig.left.height));
+inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, double far, Random& random, double width_share = 1) {
+  const Eigen::Vector2d pixel(random.uniform(0, width_share * rig.left.width), random.uniform(0, rig.left.height));
   const double depth = 1.0 / random.uniform(1.0 / far, 1.0 / near);
   return {depth * rig.left.ray(pixel), random.unit()};
 }
@@ -126,7 +127,7 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
   quadedge::pose::QuadLimits quad_limits = limits();
   quad_limits.direction_sigma = problem.noise.direction;
   while (static_cast<int>(result.quads.size()) < problem.quads) {
-    const auto p = random_point(problem.rig, problem.near, problem.far, random);
+    const auto p = random_point(problem.rig, problem.near, problem.far, random, problem.width_share);
     const Eigen::Vector3d moved = problem.motion * p.point;
     if (moved.z() < 0.5 * problem.near) continue;
     const Eigen::Vector2d seen = problem.rig.left.project(moved);
@@ -153,6 +154,19 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
     }
   }
   return result;
+}
+
+/// Adds the quads of another scene.
+inline void append(quadedge::pose::QuadObservations& quads, const quadedge::pose::QuadObservations& others) {
+  const auto both = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  both(quads.previous, others.previous);
+  both(quads.current, others.current);
+  both(quads.previous_points, others.previous_points);
+  both(quads.current_points, others.current_points);
+  both(quads.ncc, others.ncc);
+  both(quads.rivals, others.rivals);
+  both(quads.match, others.match);
+  for (std::size_t row = 0; row < others.scoring.size(); ++row) quads.scoring.append_row(others.scoring, row);
 }
 
 /// Rotation angle [rad] of the difference of two motions.

@@ -42,6 +42,26 @@ TEST_CASE("Consensus is found among 70 % outliers, exact and noisy, for several 
   }
 }
 
+TEST_CASE("A moving thing counts by the area that it covers, not by its edges", "[pose][ransac]") {
+  generated::Problem scene = drive(), thing = drive();
+  scene.quads = 600;
+  thing.quads = 2400;
+  thing.width_share = 0.3;
+  thing.near = 4;
+  thing.far = 6;
+  thing.motion.translation() << 0.6, 0, 0.2;
+  auto g = generated::generate(scene, 60);
+  generated::append(g.quads, generated::generate(thing, 61).quads);
+  quadedge::PoseConfig config;
+  for (std::uint64_t seed : {1u, 2u, 3u}) {
+    const Consensus found = search(scene, g, config, seed);
+    REQUIRE(found.found);
+    CHECK(generated::translation_error(found.current_from_previous, scene.motion) < 0.02);
+  }
+  config.scoring_cell = 0;
+  CHECK(generated::translation_error(search(scene, g, config).current_from_previous, thing.motion) < 0.02);
+}
+
 TEST_CASE("The search ends with no, one and two quads, and with quads of which no pair passes", "[pose][ransac]") {
   quadedge::PoseConfig config;
   generated::Problem problem = drive();

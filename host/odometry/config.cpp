@@ -114,7 +114,9 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("pose.max_hypotheses", &pose.max_hypotheses, "most RANSAC hypotheses", 1, 10000000);
   visit("pose.max_draws", &pose.max_draws, "most pairs drawn, rejected ones included", 1, kLargestInt);
   visit("pose.min_pair_distance", &pose.min_pair_distance, "between a sample's quads [share of the image diagonal]", 0, 1);
-  visit("pose.preview", &pose.preview, "quads on which hypotheses are compared", 2, kLargestInt);
+  visit("pose.scoring_cell", &pose.scoring_cell, "cells that have the same say about hypotheses; 0: quads have [px]", 0, 1000);
+  visit("pose.scored", &pose.scored, "quads on which promising hypotheses are compared", 2, kLargestInt);
+  visit("pose.preview", &pose.preview, "quads on which all hypotheses are compared", 2, kLargestInt);
   visit("pose.local_widening", &pose.local_widening, "first inlier distance of the local optimisation, times inlier_distance", 1, 100);
   visit("pose.local_rounds", &pose.local_rounds, "rounds of the local optimisation; 0: samples are not polished at all", 0, 100);
   visit("pose.refine", &pose.refine, "least squares over the inliers at the end", 0, 1);

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kSettled = 0.3;  ///< mean distance of predicted places that calls for no further search [px]
 constexpr int kSettledStep = 16;  ///< every so many edges tell it
+/// Of the inlier distance; in fine texture many an edge meets a wrong place by chance, the fewer the nearer it has to come.
+constexpr double kExplained = 1.0 / 3.0;
 
 }  // namespace
 
@@ -51,13 +53,61 @@ MotionStep MotionSearch::scout(const MotionPrior& prior, double radius) {
   return estimate(prior.base, frontend_.match(prior.base, search), prior.prediction, lenient, prior);
 }
 
-/// Looks for the motion since the base, however large, with edges that what surrounds them tells from all others.
-MotionStep MotionSearch::look_anywhere(const MotionPrior& prior) {
+MotionStep MotionSearch::suggest_anywhere(TemporalMatches matches, const MotionPrior& prior) {
   PoseConfig lenient = config_.pose;
   lenient.inlier_distance = config_.temporal.wide_inlier_distance;
   lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
   lenient.min_spread = 0;
-  return estimate(prior.base, frontend_.match_anywhere(prior.base), std::nullopt, lenient, prior);
+  return estimate(prior.base, std::move(matches), std::nullopt, lenient, prior);
+}
+
+/// Looks for the motion since the base, however large, with edges that what surrounds them tells from all others.
+MotionStep MotionSearch::look_anywhere(const MotionPrior& prior) {
+  return suggest_anywhere(frontend_.match_anywhere(prior.base), prior);
+}
+
+/// The motion of what look_anywhere() found and its motion does not explain: of the scene, where that one is a moving thing's.
+MotionStep MotionSearch::look_beside(const MotionStep& seen, const MotionPrior& prior) {
+  if (!seen.ok()) return {};
+  std::vector<std::uint8_t> explained(seen.matches.size(), 0);
+  for (std::size_t q = 0; q < seen.quads.size(); ++q) explained[static_cast<std::size_t>(seen.quads.match[q])] = seen.motion.inlier[q];
+  TemporalMatches others;
+  for (std::size_t m = 0; m < seen.matches.size(); ++m)
+    if (explained[m] == 0) others.append(seen.matches.previous[m], seen.matches.current[m], frontend_.current(), seen.matches.ncc[m], seen.matches.rivals[m]);
+  return suggest_anywhere(std::move(others), prior);
+}
+
+/// Mean share of a cell's predicted places whose quads agree closely with the motion. A thing counts by the area that it covers, not by the
+/// edges that it is covered with.
+double MotionSearch::explained_area(const MotionStep& step, const stages::PlacedEdges& predicted) const {
+  const double side = config_.pose.scoring_cell > 0 ? config_.pose.scoring_cell : std::max(rig_.left.width, rig_.left.height);
+  const int columns = static_cast<int>(rig_.left.width / side) + 1, rows = static_cast<int>(rig_.left.height / side) + 1;
+  struct Cell {
+    double edges = 0, explained = 0;
+  };
+  std::vector<Cell> cells(static_cast<std::size_t>(columns * rows));
+  const auto cell_of = [&](std::size_t i) -> Cell* {
+    const double x = static_cast<double>(predicted.x[i]) / side, y = static_cast<double>(predicted.y[i]) / side;
+    if (!(x >= 0 && x < columns && y >= 0 && y < rows)) return nullptr;
+    return &cells[static_cast<std::size_t>(static_cast<int>(y) * columns + static_cast<int>(x))];
+  };
+  for (std::size_t i = 0; i < predicted.x.size(); ++i)
+    if (Cell* cell = cell_of(i)) cell->edges += 1;
+  std::vector<std::uint8_t> agrees;
+  pose::select_inliers(step.quads.scoring, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous),
+                       kExplained * config_.pose.inlier_distance, radians(config_.pose.inlier_orientation), agrees);
+  for (std::size_t q = 0; q < step.quads.size(); ++q) {
+    if (!agrees[q]) continue;
+    const auto edge = step.matches.previous[static_cast<std::size_t>(step.quads.match[q])];
+    if (Cell* cell = cell_of(static_cast<std::size_t>(edge))) cell->explained += 1;
+  }
+  double sum = 0, held = 0;
+  for (const Cell& cell : cells) {
+    if (!(cell.edges > 0)) continue;
+    sum += cell.explained / cell.edges;
+    held += 1;
+  }
+  return held > 0 ? sum / held : 0;
 }
 
 /// Whether edges found anywhere agree with a motion: in as many places of the image as an estimate needs inliers. A found edge could lie
@@ -83,6 +133,7 @@ MotionStep MotionSearch::match(stages::Base base, Eigen::Isometry3d motion, cons
     step = estimate(base, frontend_.match(base, search), motion, config_.pose, prior);
     const int in_view = count_in_view(rig_.left, search.left);
     step.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
+    step.area = explained_area(step, search.left);
     if (step.motion.status != pose::MotionStatus::ok) break;
     if (step.support < config_.temporal.min_support) {
       step.motion.status = pose::MotionStatus::no_consensus;
@@ -117,7 +168,12 @@ MotionStep MotionSearch::find(const MotionPrior& prior) {
   if (!anywhere) return confirm(scout(prior, config_.temporal.scout_radius_wide * rig_.left.width), prior);
   const MotionStep seen = look_anywhere(prior);
   MotionStep step = confirm(seen, prior);
-  if (near.ok() && (!step.ok() || near.support > step.support)) step = std::move(near);
+  const MotionStep beside = look_beside(seen, prior);
+  if (beside.ok()) {
+    MotionStep other = confirm(beside, prior);
+    if (other.ok() && (!step.ok() || other.area > step.area)) step = std::move(other);
+  }
+  if (near.ok() && (!step.ok() || near.area > step.area)) step = std::move(near);
   if (step.ok() && !is_seen(seen, step, prior)) step.motion.status = pose::MotionStatus::no_consensus;
   return step;
 }

@@ -18,6 +18,7 @@ struct MotionStep {
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
   double support = 0;  ///< inliers, share of the base's edges that the motion brings into view
+  double area = 0;     ///< the same as a mean over the cells of the image that such edges fall into
 
   bool ok() const { return motion.status == pose::MotionStatus::ok; }
 };
@@ -53,6 +54,9 @@ class MotionSearch {
 
   MotionStep scout(const MotionPrior& prior, double radius);
   MotionStep look_anywhere(const MotionPrior& prior);
+  MotionStep look_beside(const MotionStep& seen, const MotionPrior& prior);
+  MotionStep suggest_anywhere(TemporalMatches matches, const MotionPrior& prior);
+  double explained_area(const MotionStep& step, const stages::PlacedEdges& predicted) const;
   MotionStep confirm(MotionStep scouted, const MotionPrior& prior);
   bool is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior) const;
   MotionStep match(stages::Base base, Eigen::Isometry3d motion, const MotionPrior& prior);

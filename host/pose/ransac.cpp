@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "pose/angles.hpp"
@@ -55,14 +57,41 @@ class TrustOrder {
   std::size_t sorted_ = 0;
 };
 
-/// `size` different rows of 0 .. count - 1, ascending.
+/// `size` different rows of 0 .. count - 1 in random order.
 std::vector<std::int32_t> random_subset(std::mt19937_64& random, std::size_t count, std::size_t size) {
   std::vector<std::int32_t> rows(count);
   std::iota(rows.begin(), rows.end(), 0);
-  if (size >= count) return rows;
+  size = std::min(size, count);
   for (std::size_t i = 0; i < size; ++i) std::swap(rows[i], rows[i + below(random, count - i)]);
   rows.resize(size);
-  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+/// At most `size` different rows, the same number from each square cell of the current left image: as many as the median cell has, or
+/// all that a cell has. So a thing counts by the area that it covers, not by the edges it is covered with. Cells and rows come in random
+/// order.
+std::vector<std::int32_t> balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double cell, std::size_t size) {
+  std::map<std::pair<int, int>, std::vector<std::int32_t>> by_place;
+  const auto number = [&](float place) { return static_cast<int>(std::floor(static_cast<double>(place) / cell)); };
+  for (std::size_t i = 0; i < quads.size(); ++i)
+    by_place[{number(quads.left_y[i]), number(quads.left_x[i])}].push_back(static_cast<std::int32_t>(i));
+  std::vector<std::vector<std::int32_t>> cells;
+  for (auto& entry : by_place) cells.push_back(std::move(entry.second));
+  for (std::size_t i = 0; i < cells.size(); ++i) std::swap(cells[i], cells[i + below(random, cells.size() - i)]);
+  if (cells.empty()) return {};
+  std::vector<std::size_t> held;
+  for (const auto& members : cells) held.push_back(members.size());
+  const auto median = held.begin() + static_cast<std::ptrdiff_t>(held.size() / 2);
+  std::nth_element(held.begin(), median, held.end());
+  std::vector<std::int32_t> rows;
+  rows.reserve(std::min(size, quads.size()));
+  for (std::size_t round = 0; round < *median && rows.size() < size; ++round) {
+    for (auto& members : cells) {
+      if (members.size() <= round || rows.size() == size) continue;
+      std::swap(members[round], members[round + below(random, members.size() - round)]);
+      rows.push_back(members[round]);
+    }
+  }
   return rows;
 }
 
@@ -71,9 +100,18 @@ class Search {
   Search(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
          std::uint64_t seed)
       : terms_(terms), quads_(quads), rig_(rig), config_(config), random_(seed), limits_(config) {
-    preview_rows_ = random_subset(random_, quads.size(), static_cast<std::size_t>(config.preview));
-    preview_.reserve(preview_rows_.size());
-    for (std::int32_t row : preview_rows_) preview_.append_row(quads.scoring, static_cast<std::size_t>(row));
+    std::vector<std::int32_t> rows;
+    if (config.scoring_cell > 0) {
+      rows = balanced_subset(random_, quads.scoring, config.scoring_cell, static_cast<std::size_t>(config.scored));
+    } else {
+      rows = random_subset(random_, quads.size(), static_cast<std::size_t>(config.scored));
+    }
+    preview_rows_.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), static_cast<std::size_t>(config.preview))));
+    for (auto [numbers, arrays] : {std::pair(&rows, &scored_), std::pair(&preview_rows_, &preview_)}) {
+      std::sort(numbers->begin(), numbers->end());
+      arrays->reserve(numbers->size());
+      for (std::int32_t row : *numbers) arrays->append_row(quads.scoring, static_cast<std::size_t>(row));
+    }
     inlier_rows_.reserve(preview_rows_.size());
     const double diagonal = std::hypot(rig.left.width, rig.left.height);
     min_distance_squared_ = std::pow(config.min_pair_distance * diagonal, 2);
@@ -149,14 +187,14 @@ class Search {
 
   void accept(const Eigen::Isometry3d& motion) {
     const LaterCameras cameras(rig_, motion);
-    const double cost = truncated_cost(quads_.scoring, cameras, config_.inlier_distance);
+    const double cost = truncated_cost(scored_, cameras, config_.inlier_distance);
     if (best_.found && cost >= best_.cost) return;
     best_.found = true;
     best_.cost = cost;
     best_.current_from_previous = motion;
     const int inliers =
-        select_inliers(quads_.scoring, cameras, config_.inlier_distance, radians(config_.inlier_orientation), mask_);
-    const double share = static_cast<double>(inliers) / static_cast<double>(quads_.size());
+        select_inliers(scored_, cameras, config_.inlier_distance, radians(config_.inlier_orientation), mask_);
+    const double share = static_cast<double>(inliers) / static_cast<double>(scored_.size());
     const double miss = std::log1p(-std::min(share * share, 1.0 - std::numeric_limits<double>::epsilon()));
     const double draws = std::log1p(-config_.confidence) / miss;
     needed_ = std::max(config_.min_hypotheses, draws < config_.max_hypotheses ? static_cast<int>(std::ceil(draws)) : config_.max_hypotheses);
@@ -168,7 +206,7 @@ class Search {
   const PoseConfig& config_;
   std::mt19937_64 random_;
   ConstraintLimits limits_;
-  ScoringArrays preview_;
+  ScoringArrays scored_, preview_;
   std::vector<std::int32_t> preview_rows_, inlier_rows_;
   std::vector<std::int32_t> pair_rows_ = std::vector<std::int32_t>(2);
   std::vector<std::uint8_t> mask_;

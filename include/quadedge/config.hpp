@@ -102,7 +102,9 @@ struct PoseConfig {
   int max_hypotheses = 2000;
   int max_draws = 100000;            ///< pairs drawn at most, those that fail the constraints included
   double min_pair_distance = 0.05;   ///< of a sample's two quads in the image, share of the image diagonal
-  int preview = 512;                 ///< quads on which hypotheses are compared; promising ones see all
+  double scoring_cell = 32.0;        ///< square cells of the image have the same say about hypotheses, however many edges they hold [px]; 0: quads have
+  int scored = 4096;                 ///< quads on which promising hypotheses are compared
+  int preview = 512;                 ///< quads on which all hypotheses are compared
   double local_widening = 4.0;       ///< inlier distance of raw samples and of the local optimisation's start, times inlier_distance
   int local_rounds = 3;              ///< rounds of the local optimisation, narrowing to inlier_distance; 0: samples are not polished at all
   bool refine = true;                ///< least squares over the inliers at the end
