@@ -139,8 +139,8 @@ class Split {
  public:
   Split(const evaluation::MatchingSource& source, const Config& config) : source_(source), config_(config) {
     for (const char* name : {"as the odometry has it", "estimated again, disparities taken as exact", "quads of known truth alone", "without wrong quads",
-                             "disparities without their mean error", "true disparities", "true motion of the left edges", "both true: solver and directions",
-                             "both true, and directions without weight", "no direction residuals", "no robust weights", "as exact along an edge as across it",
+                             "disparities without their mean error", "true disparities", "true motion of the left edges", "both true: the solver",
+                             "no robust weights", "as exact along an edge as across it",
                              "no least squares: the best sample alone"}) {
       errors_.push_back({name});
     }
@@ -172,20 +172,16 @@ class Split {
     }
     estimate(7, changed, config_.pose);
     PoseConfig pose = config_.pose;
-    pose.sigma_direction = 90;
-    estimate(8, changed, pose);
-    estimate(9, all, pose);
-    pose = config_.pose;
     pose.student_dof = 1e6;
-    estimate(10, all, pose);
+    estimate(8, all, pose);
     pose = config_.pose;
     pose.sigma_along = pose.sigma_across;
-    estimate(11, all, pose);
+    estimate(9, all, pose);
     pose = config_.pose;
     pose.refine = false;
     pose.local_rounds = 0;
     pose.local_widening = 1;
-    estimate(12, all, pose, false);
+    estimate(10, all, pose, false);
   }
 
   void print() const {

@@ -158,7 +158,8 @@ class Search {
     pair_rows_[0] = static_cast<std::int32_t>(a);
     pair_rows_[1] = static_cast<std::int32_t>(b);
     Eigen::Isometry3d polished = *motion;
-    return fit(terms_, pair_rows_, rig_, config_, polished, workspace_) ? polished : *motion;
+    const bool fitted = fit(terms_, pair_rows_, rig_, config_, Residuals::places_and_directions, polished, workspace_);
+    return fitted ? polished : *motion;
   }
 
   void consider(const Eigen::Isometry3d& motion) {
@@ -180,7 +181,7 @@ class Search {
       select_inliers(preview_, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation), mask_);
       mask_to_rows(mask_, inlier_rows_);
       for (std::int32_t& row : inlier_rows_) row = preview_rows_[static_cast<std::size_t>(row)];
-      if (!fit(terms_, inlier_rows_, rig_, config_, motion, workspace_)) return std::nullopt;
+      if (!fit(terms_, inlier_rows_, rig_, config_, Residuals::places_and_directions, motion, workspace_)) return std::nullopt;
     }
     return motion;
   }
