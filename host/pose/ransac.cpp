@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -71,25 +71,37 @@ std::vector<std::int32_t> random_subset(std::mt19937_64& random, std::size_t cou
 /// all that a cell has. So a thing counts by the area that it covers, not by the edges it is covered with. Cells and rows come in random
 /// order.
 std::vector<std::int32_t> balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double cell, std::size_t size) {
-  std::map<std::pair<int, int>, std::vector<std::int32_t>> by_place;
-  const auto number = [&](float place) { return static_cast<int>(std::floor(static_cast<double>(place) / cell)); };
-  for (std::size_t i = 0; i < quads.size(); ++i)
-    by_place[{number(quads.left_y[i]), number(quads.left_x[i])}].push_back(static_cast<std::int32_t>(i));
-  std::vector<std::vector<std::int32_t>> cells;
-  for (auto& entry : by_place) cells.push_back(std::move(entry.second));
+  if (quads.size() == 0) return {};
+  const auto number = [&](float place) { return static_cast<std::int32_t>(std::floor(static_cast<double>(place) / cell)); };
+  // Rows sorted by their cell.
+  struct Placed {
+    std::int32_t line, column, row;
+  };
+  std::vector<Placed> placed(quads.size());
+  for (std::size_t i = 0; i < quads.size(); ++i) placed[i] = {number(quads.left_y[i]), number(quads.left_x[i]), static_cast<std::int32_t>(i)};
+  const auto key = [](const Placed& p) { return std::tie(p.line, p.column, p.row); };
+  std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) { return key(a) < key(b); });
+  struct Cell {
+    std::size_t begin, size;
+  };
+  std::vector<Cell> cells;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (i == 0 || placed[i].line != placed[i - 1].line || placed[i].column != placed[i - 1].column) cells.push_back({i, 0});
+    ++cells.back().size;
+  }
   for (std::size_t i = 0; i < cells.size(); ++i) std::swap(cells[i], cells[i + below(random, cells.size() - i)]);
-  if (cells.empty()) return {};
   std::vector<std::size_t> held;
-  for (const auto& members : cells) held.push_back(members.size());
+  for (const Cell& members : cells) held.push_back(members.size);
   const auto median = held.begin() + static_cast<std::ptrdiff_t>(held.size() / 2);
   std::nth_element(held.begin(), median, held.end());
   std::vector<std::int32_t> rows;
   rows.reserve(std::min(size, quads.size()));
   for (std::size_t round = 0; round < *median && rows.size() < size; ++round) {
-    for (auto& members : cells) {
-      if (members.size() <= round || rows.size() == size) continue;
-      std::swap(members[round], members[round + below(random, members.size() - round)]);
-      rows.push_back(members[round]);
+    for (const Cell& members : cells) {
+      if (members.size <= round || rows.size() == size) continue;
+      Placed* const first = placed.data() + members.begin;
+      std::swap(first[round], first[round + below(random, members.size - round)]);
+      rows.push_back(first[round].row);
     }
   }
   return rows;

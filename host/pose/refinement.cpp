@@ -410,10 +410,17 @@ Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads,
     if (round > 0 && changed_rows(rows, last_rows) <= rows.size() / kSameSelection) break;
     if (!fit_selected()) break;
   }
-  if (result.solved && every > 1) {
+  // With the offset the last fit comes at once.
+  const bool by_part = every > 1;
+  if (result.solved && by_part) {
     select(1);
     workspace.knows_scales = true;
-    fit_selected();
+    if (offset_variance > 0) {
+      std::swap(rows, last_rows);
+      workspace.depth.assign(last_rows.size(), 0.0);
+    } else {
+      fit_selected();
+    }
   }
   if (result.solved) {
     const auto measure = [&](double offset) {
@@ -430,6 +437,10 @@ Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads,
       result.offset = both.offset;
       result.offset_variance = both.offset_variance;
     } else {
+      if (offset_variance > 0 && by_part) {
+        std::swap(rows, last_rows);
+        fit_selected();
+      }
       result.covariance = measure(0).covariance();
     }
   }

@@ -97,8 +97,8 @@ struct Refined {
 };
 
 /// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and fit(), config.refine_rounds times or until the selection
-/// hardly changes; of many quads a part settles the selection, and one fit over all of them follows. Then fit_offset() with a prior
-/// of `offset_variance` [px^2], 0: without it. By the places alone, see Residuals.
+/// hardly changes; of many quads a part settles the selection. Then all of them go into fit_offset() with a prior of
+/// `offset_variance` [px^2], or into one more fit() where that is 0. By the places alone, see Residuals.
 Refined refine(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial, double offset_variance = 0);
 
