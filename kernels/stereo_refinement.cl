@@ -115,7 +115,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     }
     likeness[c] = 0.5f * (on_edge + beside);
   }
-  // The others join their neighbour's cluster, where they count for its direction and cannot represent it.
+  // The others stay where they are and join their neighbour's cluster, where they count for its direction and cannot represent it.
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != STOOD_FOR) continue;
     int nearest = -1;
@@ -124,7 +124,6 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     }
     rejected_by[c] = nearest < 0 ? (uchar)rejected_order : 0;
     if (nearest < 0) continue;
-    place[c] = place[nearest];
     likeness[c] = likeness[nearest] - 3.0f;
   }
 }

@@ -73,7 +73,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(similarity(-1), similarity(1)) : -1;
       refined.likeness[c] = 0.5 * (centre + beside);
     }
-    // The others join their neighbour's cluster, where they count for its direction and cannot represent it.
+    // The others stay where they are and join their neighbour's cluster, where they count for its direction and cannot represent it.
     for (std::size_t c = begin; c < end; ++c) {
       if (scores.rejected_by[c] != kStoodFor) continue;
       std::size_t nearest = end;
@@ -83,7 +83,6 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       }
       scores.rejected_by[c] = nearest == end ? kStereoRefinementOrder : std::uint8_t{0};
       if (nearest == end) continue;
-      refined.place[c] = refined.place[nearest];
       refined.likeness[c] = refined.likeness[nearest] - 3;
     }
   }
