@@ -2,7 +2,7 @@
 //
 // Needs direction.cl and epipolar.cl. In: left and right edges (scan order, with the right rows' starts), packed epipolar geometry.
 // Out: candidate lists in compressed rows, targets in the scan order of the right edges.
-// One work-item = one left edge; with LANES 16 it tests sixteen right edges at once. Two launches: count, then (after an exclusive
+// One work-item = one left edge; with LANES (16) it tests as many right edges at once. Two launches: count, then (after an exclusive
 // scan) fill.
 // Reference: host/reference/stereo_candidates.cpp.
 
@@ -30,46 +30,46 @@ typedef struct {
   float nx, ny;                 // the line's normal
 } Wanted;
 
-inline int passes(const Wanted wanted, const float x, const float y, const float direction) {
-  const float dx = x - wanted.line.x, dy = y - wanted.line.y;
-  const float s = dx * wanted.line.ex + dy * wanted.line.ey;
-  const float distance = fabs(dx * wanted.nx + dy * wanted.ny);
-  return !(distance > wanted.tau || s < wanted.s_low || s > wanted.s_high) && !(angle_between(direction, wanted.direction) > wanted.orientation);
+inline int passes(const Wanted* wanted, const float x, const float y, const float direction) {
+  const float dx = x - wanted->line.x, dy = y - wanted->line.y;
+  const float s = dx * wanted->line.ex + dy * wanted->line.ey;
+  const float distance = fabs(dx * wanted->nx + dy * wanted->ny);
+  return !(distance > wanted->tau || s < wanted->s_low || s > wanted->s_high) && !(angle_between(direction, wanted->direction) > wanted->orientation);
 }
 
 // Visits the right edges [begin, end) of a row up to x = `to`; writes those that pass to target[] while fewer than `room` are written.
-inline int visit_row(const Wanted wanted, global const float* xs, global const float* ys, global const float* directions, int begin,
+inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys, global const float* directions, int begin,
                      const int end, const int total, const float to, global int* target, const int room, int count) {
-#if LANES == 16
-  // The same tests in the same arithmetic. Edges beyond the row's end are read and left out.
-  const int16 lanes = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  for (; begin < end && begin + 16 <= total; begin += 16) {
-    const float16 x = vload16(0, xs + begin), y = vload16(0, ys + begin);
-    const float16 dx = x - wanted.line.x, dy = y - wanted.line.y;
-    const float16 s = dx * wanted.line.ex + dy * wanted.line.ey;
-    const float16 distance = fabs(dx * wanted.nx + dy * wanted.ny);
-    const float16 difference = fabs(vload16(0, directions + begin) - wanted.direction);
-    const float16 turn = difference > PI_F ? 2.0f * PI_F - difference : difference;
-    const int16 in = distance <= wanted.tau & s >= wanted.s_low & s <= wanted.s_high & turn <= wanted.orientation & lanes < end - begin;
-    const int8 eight = in.lo | in.hi;
-    const int4 four = eight.lo | eight.hi;
-    if ((four.x | four.y | four.z | four.w) != 0) {
-      int passed[16];
-      vstore16(in, 0, passed);
-      if (count + 16 <= room) {  // what does not pass is overwritten by what comes next
-        for (int lane = 0; lane < 16; ++lane) {
+#ifndef LANES
+  (void)total;
+#else
+  // The same tests in the same arithmetic: by how much each fails at most. Edges beyond the row's end are read and left out.
+  for (const int last = min(end - 1, total - LANES); begin <= last; begin += LANES) {
+    float excess[LANES], lowest = INFINITY;
+    for (int lane = 0; lane < LANES; ++lane) {
+      const float dx = xs[begin + lane] - wanted->line.x, dy = ys[begin + lane] - wanted->line.y;
+      const float s = dx * wanted->line.ex + dy * wanted->line.ey;
+      const float distance = fabs(dx * wanted->nx + dy * wanted->ny);
+      const float turn = angle_between(directions[begin + lane], wanted->direction);
+      excess[lane] = fmax(fmax(distance - wanted->tau, turn - wanted->orientation), fmax(wanted->s_low - s, s - wanted->s_high));
+    }
+    for (int lane = 0; lane < LANES; ++lane) lowest = fmin(lowest, excess[lane]);
+    if (lowest <= 0.0f) {
+      const int lanes = min(LANES, end - begin);
+      if (count + lanes <= room) {  // what does not pass is overwritten by what comes next
+        for (int lane = 0; lane < lanes; ++lane) {
           target[count] = begin + lane;
-          count -= passed[lane];
+          count += excess[lane] <= 0.0f;
         }
       } else {
-        for (int lane = 0; lane < 16; ++lane) {
-          if (passed[lane] == 0) continue;
+        for (int lane = 0; lane < lanes; ++lane) {
+          if (!(excess[lane] <= 0.0f)) continue;
           if (count < room) target[count] = begin + lane;
           ++count;
         }
       }
     }
-    if (x.sf > to) return count;
+    if (xs[begin + LANES - 1] > to) return count;
   }
 #endif
   for (int j = begin; j < end && xs[j] <= to; ++j) {
@@ -108,7 +108,7 @@ inline int visit_candidates(const float x, const float y, const float direction,
     }
     const int end = right_row_first[row + 1];
     const int begin = lower_bound_x(right_x, right_row_first[row], end, from - 2.0f * CELL_SLACK);
-    count = visit_row(wanted, right_x, right_y, right_direction, begin, end, total, to + 2.0f * CELL_SLACK, target, room, count);
+    count = visit_row(&wanted, right_x, right_y, right_direction, begin, end, total, to + 2.0f * CELL_SLACK, target, room, count);
   }
   return count;
 }

@@ -5,6 +5,9 @@
 //                 (BYTES b + k) * 16 + lane; zeros after the last one. One work-item = one block.
 // wide_match      Out per row as in wide_matching.cl. One work-item = ROWS rows.
 
+#ifndef ROWS
+#define ROWS 8
+#endif
 #define BYTES 128
 #define LANES 16
 #define LISTED 64         // blocks of columns that may hold a rival, per row
