@@ -21,7 +21,8 @@ struct Consensus {
 /// Samples pairs of quads, best first (fewest rivals, then highest NCC, then lowest index; the pool grows with the draws as in
 /// PROSAC), solves each pair that passes the six constraints and whose quads lie apart in the image, and scores it on a fixed random
 /// subset of config.preview quads, as many from each cell of config.scoring_cell px as it has: a motion is judged by the area that it
-/// explains, not by the edges that this area happens to hold (a moving thing may be covered with most of them). Proposition 2 takes the rotation about the line through the pair from one tangent in space, whose
+/// explains, not by the edges that this area happens to hold (a moving thing may be covered with most of them).
+/// Proposition 2 takes the rotation about the line through the pair from one tangent in space, whose
 /// depth slope is the least certain thing about an edge; fit() on the two quads alone, which knows that, follows it. (On generated
 /// quads with a direction noise of 0.6 degrees it takes the median error elsewhere in the image from 28 to 7 px.)
 /// A correct sample is still some pixels off elsewhere: samples are compared with the inlier distance widened by
