@@ -63,7 +63,7 @@ TEST_CASE("Exact quads lead back to the exact motion from a start nearby", "[pos
   }
 }
 
-TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covariance is honest", "[pose][refinement]") {
+TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covariance is honest", "[long][pose][refinement]") {
   generated::Problem problem = drive();
   const Trials trials = run_trials(problem, 150);
   for (int k = 0; k < 6; ++k) CHECK(std::abs(trials.mean(k)) < 3.5 * trials.standard_error(k));
@@ -72,7 +72,7 @@ TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covarian
   CHECK(trials.nees < 1.5);
 }
 
-TEST_CASE("Far points with large disparity noise do not shorten the motion", "[pose][refinement]") {
+TEST_CASE("Far points with large disparity noise do not shorten the motion", "[long][pose][refinement]") {
   generated::Problem problem = drive();
   problem.noise.across = 0.3;
   problem.near = 15;
@@ -84,7 +84,7 @@ TEST_CASE("Far points with large disparity noise do not shorten the motion", "[p
   CHECK(std::abs(trials.mean(5)) < 3.5 * trials.standard_error(5));
 }
 
-TEST_CASE("The covariance stays honest with few quads and with rows of edges that share their errors", "[pose][refinement]") {
+TEST_CASE("The covariance stays honest with few quads and with rows of edges that share their errors", "[long][pose][refinement]") {
   generated::Problem problem = drive();
   problem.quads = 60;
   const Trials few = run_trials(problem, 200);
@@ -123,7 +123,7 @@ QuadObservations with_region_errors(const generated::Problem& problem, double si
 
 }  // namespace
 
-TEST_CASE("The covariance grows with errors that are alike over large regions, and only with them", "[pose][refinement]") {
+TEST_CASE("The covariance grows with errors that are alike over large regions, and only with them", "[long][pose][refinement]") {
   generated::Problem problem = drive();
   problem.quads = 3000;
   quadedge::PoseConfig config;

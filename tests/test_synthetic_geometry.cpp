@@ -64,7 +64,7 @@ double shaded(double grey, const Vector3d& normal) { return grey * synthetic::sh
 
 }  // namespace
 
-TEST_CASE("rendered silhouettes lie where geometry says", "[synthetic]") {
+TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
   const PinholeCamera camera{400.0, 400.0, 101.3, 58.7, 200, 120};
   const Isometry3d camera_from_world = at({0.02, -0.03, 0.05}, 0.02, -0.03, 0.015);
   const auto scene_with = [&](std::unique_ptr<synthetic::Surface> front) {
@@ -151,7 +151,7 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[synthetic]") {
   }
 }
 
-TEST_CASE("a texture lies on its plane where geometry says", "[synthetic]") {
+TEST_CASE("a texture lies on its plane where geometry says", "[long][synthetic]") {
   synthetic::TextureStyle style;
   style.feature = 0.2;
   const auto texture = std::make_shared<synthetic::Texture>(style, 5, 1.0, 1.0, 0.002);
