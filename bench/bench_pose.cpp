@@ -21,7 +21,6 @@ struct Quads {
   SyntheticSequence sequence;
   Config config;
   pose::QuadObservations quads;
-  std::vector<pose::FitTerm> terms;
   Eigen::Isometry3d motion;  ///< the true one, for scoring alone
 
   explicit Quads(std::size_t wanted) : sequence(options()) {
@@ -40,7 +39,6 @@ struct Quads {
       matches.append(seen.quads.previous[q], seen.quads.current[q], seen.current, seen.quads.ncc[q], seen.quads.rivals[q]);
     }
     quads = pose::build_quads(sequence.rig(), seen.previous, seen.current, matches, pose::QuadLimits(config));
-    terms = pose::build_terms(quads, pose::NoiseModel(config.pose));
     motion = sequence.world_from_left(1).inverse() * sequence.world_from_left(0);
   }
   static SyntheticOptions options() {
@@ -91,7 +89,7 @@ void ransac(benchmark::State& state) {
   for (auto unused : state) {
     (void)unused;
     benchmark::DoNotOptimize(
-        pose::find_consensus(input.terms, input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt));
+        pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt));
   }
 }
 BENCHMARK(ransac)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);
@@ -99,11 +97,12 @@ BENCHMARK(ransac)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);
 void refinement(benchmark::State& state) {
   const auto& input = quads_of(state.range(0));
   const auto consensus =
-      pose::find_consensus(input.terms, input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt);
+      pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt);
+  pose::RefinementWorkspace workspace;
   for (auto unused : state) {
     (void)unused;
     benchmark::DoNotOptimize(
-        pose::refine(input.terms, input.quads, input.sequence.rig(), input.config.pose, consensus.current_from_previous));
+        pose::refine(input.quads, input.sequence.rig(), input.config.pose, consensus.current_from_previous, 0, workspace));
   }
 }
 BENCHMARK(refinement)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);

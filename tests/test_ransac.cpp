@@ -18,7 +18,7 @@ generated::Problem drive() {
 
 Consensus search(const generated::Problem& problem, const generated::Generated& g, const quadedge::PoseConfig& config,
                  std::uint64_t seed = 42, const std::optional<Eigen::Isometry3d>& initial = std::nullopt) {
-  return find_consensus(build_terms(g.quads, NoiseModel(config)), g.quads, problem.rig, config, seed, initial);
+  return find_consensus(g.quads, problem.rig, config, seed, initial);
 }
 
 }  // namespace

@@ -7,6 +7,12 @@ using namespace quadedge::pose;
 
 namespace {
 
+Refined refined_by(const QuadObservations& quads, const quadedge::StereoRig& rig, const quadedge::PoseConfig& config,
+               const Eigen::Isometry3d& initial, double offset_variance = 0) {
+  RefinementWorkspace workspace;
+  return quadedge::pose::refine(quads, rig, config, initial, offset_variance, workspace);
+}
+
 generated::Problem drive() {
   generated::Problem problem;
   problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
@@ -34,7 +40,7 @@ Trials run_trials(const generated::Problem& problem, int trials) {
   Vector6d squares = Vector6d::Zero();
   for (int trial = 0; trial < trials; ++trial) {
     const auto g = generated::generate(problem, 1000 + static_cast<std::uint64_t>(trial));
-    const Refined refined = refine(build_terms(g.quads, NoiseModel(config)), g.quads, problem.rig, config, problem.motion);
+    const Refined refined = refined_by(g.quads, problem.rig, config, problem.motion);
     REQUIRE(refined.solved);
     const Vector6d error = error_of(refined.current_from_previous, problem.motion);
     result.mean += error / trials;
@@ -56,7 +62,7 @@ TEST_CASE("Exact quads lead back to the exact motion from a start nearby", "[pos
     generated::Random random(31);
     quadedge::PoseConfig config;
     const Refined refined =
-        refine(build_terms(g.quads, NoiseModel(config)), g.quads, rig, config, random.motion(3e-4, 0.005) * problem.motion);
+        refined_by(g.quads, rig, config, random.motion(3e-4, 0.005) * problem.motion);
     REQUIRE(refined.solved);
     CHECK(refined.inliers == static_cast<int>(g.quads.size()));
     CHECK((refined.current_from_previous.matrix() - problem.motion.matrix()).norm() < 1e-9);
@@ -132,12 +138,12 @@ TEST_CASE("The covariance grows with errors that are alike over large regions, a
     double nees = 0, growth = 0;
     for (int trial = 0; trial < kTrials; ++trial) {
       const auto quads = with_region_errors(problem, 90, sigma, 2000 + static_cast<std::uint64_t>(trial));
-      const Refined refined = refine(build_terms(quads, NoiseModel(config)), quads, problem.rig, config, problem.motion);
+      const Refined refined = refined_by(quads, problem.rig, config, problem.motion);
       REQUIRE(refined.solved);
       const Vector6d error = error_of(refined.current_from_previous, problem.motion);
       nees += error.dot(refined.covariance.ldlt().solve(error)) / (6.0 * kTrials);
       const auto alone = with_region_errors(problem, 90, 0, 2000 + static_cast<std::uint64_t>(trial));
-      const Refined without = refine(build_terms(alone, NoiseModel(config)), alone, problem.rig, config, problem.motion);
+      const Refined without = refined_by(alone, problem.rig, config, problem.motion);
       growth += (refined.covariance * without.covariance.inverse()).trace() / (6.0 * kTrials);
     }
     INFO("regions' errors of " << sigma << " px: normalised error " << nees << ", covariance times " << growth);
@@ -164,7 +170,7 @@ TEST_CASE("Wrong quads that pass for inliers hardly move the pose", "[pose][refi
     quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(i), generated::limits());
   }
   const auto error = [&](const quadedge::PoseConfig& config) {
-    const Refined refined = refine(build_terms(quads, NoiseModel(config)), quads, problem.rig, config, problem.motion);
+    const Refined refined = refined_by(quads, problem.rig, config, problem.motion);
     REQUIRE(refined.solved);
     return error_of(refined.current_from_previous, problem.motion).head<3>().norm();
   };
@@ -178,9 +184,9 @@ TEST_CASE("Quads that cannot fix a motion are reported as unsolved", "[pose][ref
   quadedge::PoseConfig config;
   problem.quads = 1;
   const auto one = generated::generate(problem, 34);
-  CHECK_FALSE(refine(build_terms(one.quads, NoiseModel(config)), one.quads, problem.rig, config, problem.motion).solved);
+  CHECK_FALSE(refined_by(one.quads, problem.rig, config, problem.motion).solved);
   const QuadObservations none;
-  CHECK_FALSE(refine({}, none, problem.rig, config, problem.motion).solved);
+  CHECK_FALSE(refined_by(none, problem.rig, config, problem.motion).solved);
 }
 
 TEST_CASE("Perturbing is a rotation followed by a shift", "[pose][refinement]") {
@@ -222,9 +228,8 @@ TEST_CASE("An offset of all disparities makes the motion too long until it is fi
   const double length = problem.motion.translation().norm();
   for (const double offset : {0.3, -0.2}) {
     const auto quads = quads_with_offset(problem, offset, 41);
-    const auto terms = build_terms(quads, NoiseModel(config));
-    const Refined plain = refine(terms, quads, problem.rig, config, problem.motion);
-    const Refined fitted = refine(terms, quads, problem.rig, config, problem.motion, 0.3 * 0.3);
+    const Refined plain = refined_by(quads, problem.rig, config, problem.motion);
+    const Refined fitted = refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
     REQUIRE(plain.solved);
     CHECK(plain.offset == 0);
     // Disparities that are too small by the offset make everything, and the way, look longer.
@@ -245,7 +250,7 @@ TEST_CASE("A standing camera says nothing about the disparities' offset", "[pose
   problem.motion = Eigen::Isometry3d::Identity();
   quadedge::PoseConfig config;
   const auto quads = quads_with_offset(problem, 0.3, 43);
-  const Refined fitted = refine(build_terms(quads, NoiseModel(config)), quads, problem.rig, config, problem.motion, 0.3 * 0.3);
+  const Refined fitted = refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
   REQUIRE(fitted.solved);
   CHECK(fitted.offset_variance > 0.9 * 0.3 * 0.3);
   CHECK(std::abs(fitted.offset) < 0.1);

@@ -45,8 +45,7 @@ MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& qua
   if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return estimate;
 
   estimate.status = MotionStatus::no_consensus;
-  const std::vector<FitTerm> terms = build_terms(quads, NoiseModel(config));
-  const Consensus consensus = find_consensus(terms, quads, rig, config, seed, initial);
+  const Consensus consensus = find_consensus(quads, rig, config, seed, initial);
   estimate.hypotheses = consensus.hypotheses;
   estimate.draws = consensus.draws;
   if (!consensus.found) return estimate;
@@ -55,7 +54,8 @@ MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& qua
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   bool solved = true;
   if (config.refine) {
-    Refined refined = refine(terms, quads, rig, config, pose, offset_variance);
+    RefinementWorkspace workspace;
+    Refined refined = refine(quads, rig, config, pose, offset_variance, workspace);
     pose = refined.current_from_previous;
     covariance = refined.covariance;
     solved = refined.solved;

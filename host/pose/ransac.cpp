@@ -11,7 +11,7 @@
 
 #include "pose/angles.hpp"
 #include "pose/constraints.hpp"
-#include "pose/refinement.hpp"
+#include "pose/sample_fit.hpp"
 #include "pose/scoring.hpp"
 #include "pose/two_quads.hpp"
 
@@ -107,11 +107,17 @@ std::vector<std::int32_t> balanced_subset(std::mt19937_64& random, const Scoring
   return rows;
 }
 
+/// Indices of the non-zero bytes, ascending.
+void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_t>& rows) {
+  rows.clear();
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask[i]) rows.push_back(static_cast<std::int32_t>(i));
+}
+
 class Search {
  public:
-  Search(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
-         std::uint64_t seed)
-      : terms_(terms), quads_(quads), rig_(rig), config_(config), random_(seed), limits_(config) {
+  Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed)
+      : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), limits_(config) {
     std::vector<std::int32_t> rows;
     if (config.scoring_cell > 0) {
       rows = balanced_subset(random_, quads.scoring, config.scoring_cell, static_cast<std::size_t>(config.scored));
@@ -124,6 +130,8 @@ class Search {
       arrays->reserve(numbers->size());
       for (std::int32_t row : *numbers) arrays->append_row(quads.scoring, static_cast<std::size_t>(row));
     }
+    preview_terms_.reserve(preview_rows_.size());
+    for (std::int32_t row : preview_rows_) preview_terms_.push_back(make_term(quads, static_cast<std::size_t>(row), noise_));
     inlier_rows_.reserve(preview_rows_.size());
     const double diagonal = std::hypot(rig.left.width, rig.left.height);
     min_distance_squared_ = std::pow(config.min_pair_distance * diagonal, 2);
@@ -167,10 +175,10 @@ class Search {
     }
     auto motion = solve_two_quads(before, after, limits_.max_cosine);
     if (!motion || config_.local_rounds == 0) return motion;
-    pair_rows_[0] = static_cast<std::int32_t>(a);
-    pair_rows_[1] = static_cast<std::int32_t>(b);
+    pair_terms_[0] = make_term(quads_, a, noise_);
+    pair_terms_[1] = make_term(quads_, b, noise_);
     Eigen::Isometry3d polished = *motion;
-    const bool fitted = fit(terms_, pair_rows_, rig_, config_, Residuals::places_and_directions, polished, workspace_);
+    const bool fitted = fit_sample(pair_terms_, pair_rows_, rig_, config_, polished, workspace_);
     return fitted ? polished : *motion;
   }
 
@@ -192,8 +200,7 @@ class Search {
       const double distance = config_.inlier_distance * std::pow(config_.local_widening, 1.0 - share);
       select_inliers(preview_, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation), mask_);
       mask_to_rows(mask_, inlier_rows_);
-      for (std::int32_t& row : inlier_rows_) row = preview_rows_[static_cast<std::size_t>(row)];
-      if (!fit(terms_, inlier_rows_, rig_, config_, Residuals::places_and_directions, motion, workspace_)) return std::nullopt;
+      if (!fit_sample(preview_terms_, inlier_rows_, rig_, config_, motion, workspace_)) return std::nullopt;
     }
     return motion;
   }
@@ -213,17 +220,18 @@ class Search {
     needed_ = std::max(config_.min_hypotheses, draws < config_.max_hypotheses ? static_cast<int>(std::ceil(draws)) : config_.max_hypotheses);
   }
 
-  const std::vector<FitTerm>& terms_;
   const QuadObservations& quads_;
   const StereoRig& rig_;
   const PoseConfig& config_;
+  NoiseModel noise_;
   std::mt19937_64 random_;
   ConstraintLimits limits_;
   ScoringArrays scored_, preview_;
   std::vector<std::int32_t> preview_rows_, inlier_rows_;
-  std::vector<std::int32_t> pair_rows_ = std::vector<std::int32_t>(2);
+  std::vector<FitTerm> preview_terms_, pair_terms_ = std::vector<FitTerm>(2);
+  const std::vector<std::int32_t> pair_rows_ = {0, 1};
   std::vector<std::uint8_t> mask_;
-  FitWorkspace workspace_;
+  SampleWorkspace workspace_;
   double min_distance_squared_ = 0;
   double best_raw_ = 1;
   int needed_ = std::numeric_limits<int>::max();
@@ -232,9 +240,9 @@ class Search {
 
 }  // namespace
 
-Consensus find_consensus(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig,
-                         const PoseConfig& config, std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial) {
-  return Search(terms, quads, rig, config, seed).run(initial);
+Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
+                         const std::optional<Eigen::Isometry3d>& initial) {
+  return Search(quads, rig, config, seed).run(initial);
 }
 
 }  // namespace quadedge::pose

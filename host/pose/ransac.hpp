@@ -23,7 +23,7 @@ struct Consensus {
 /// subset of config.preview quads, as many from each cell of config.scoring_cell px as it has: a motion is judged by the area that it
 /// explains, not by the edges that this area happens to hold (a moving thing may be covered with most of them).
 /// Proposition 2 takes the rotation about the line through the pair from one tangent in space, whose
-/// depth slope is the least certain thing about an edge; fit() on the two quads alone, which knows that, follows it. (On generated
+/// depth slope is the least certain thing about an edge; fit_sample() on the two quads alone, which knows that, follows it. (On generated
 /// quads with a direction noise of 0.6 degrees it takes the median error elsewhere in the image from 28 to 7 px.)
 /// A correct sample is still some pixels off elsewhere: samples are compared with the inlier distance widened by
 /// config.local_widening, and each that beats all samples before it is optimised locally: fits over its inliers in the subset,
@@ -32,7 +32,7 @@ struct Consensus {
 /// rejected draws count, so fewer than two quads, or quads of which no pair passes, end the search at once or after the draws.
 /// \param seed all randomness; the same seed gives the same bits.
 /// \param initial another hypothesis, scored first (a predicted pose, the frame-to-frame pose), current_from_previous.
-Consensus find_consensus(const std::vector<FitTerm>& terms, const QuadObservations& quads, const StereoRig& rig,
-                         const PoseConfig& config, std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial);
+Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
+                         const std::optional<Eigen::Isometry3d>& initial);
 
 }  // namespace quadedge::pose

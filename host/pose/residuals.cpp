@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "pose/angles.hpp"
-#include "pose/row_blocks.hpp"
 
 namespace quadedge::pose {
 
@@ -16,32 +15,26 @@ double NoiseModel::on_epipolar_line(double epipolar_sine) const {
   return 1.0 / std::sqrt(by_across * by_across + by_along);
 }
 
-std::vector<FitTerm> build_terms(const QuadObservations& quads, const NoiseModel& noise) {
-  std::vector<FitTerm> terms(quads.size());
+FitTerm make_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise) {
   const double plane_weight = 1.0 / (std::sqrt(2.0) * noise.direction);  // directions of both times are noisy
-  const auto build = [&](std::size_t i) {
-    const StereoMeasurement &before = quads.previous[i], &after = quads.current[i];
-    FitTerm& term = terms[i];
-    term.ray = before.ray;
-    term.inverse_depth = before.inverse_depth;
-    term.inverse_depth_sigma = before.inverse_depth_per_pixel * noise.on_epipolar_line(before.epipolar_sine);
-    term.inverse_depth_per_pixel = before.inverse_depth_per_pixel;
-    term.inverse_depth_bar_per_pixel = after.inverse_depth_per_pixel;
-    const double cosine = quads.scoring.left_cos[i], sine = quads.scoring.left_sin[i];
-    term.across = Eigen::Vector2d(-sine, cosine) / noise.across;
-    term.along = Eigen::Vector2d(cosine, sine) / noise.along;
-    term.place = {after.ray.x(), after.ray.y()};
-    term.inverse_depth_bar = after.inverse_depth;
-    term.inverse_depth_bar_weight = 1.0 / (after.inverse_depth_per_pixel * noise.on_epipolar_line(after.epipolar_sine));
-    term.tangent = before.direction + before.slope * before.ray;
-    term.slope_sigma = before.slope_per_radian * noise.direction;
-    term.left_normal = after.left_normal * plane_weight;
-    term.right_normal = after.right_normal * plane_weight;
-  };
-  for_row_blocks(quads.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) build(i);
-  });
-  return terms;
+  const StereoMeasurement &before = quads.previous[quad], &after = quads.current[quad];
+  FitTerm term;
+  term.ray = before.ray;
+  term.inverse_depth = before.inverse_depth;
+  term.inverse_depth_sigma = before.inverse_depth_per_pixel * noise.on_epipolar_line(before.epipolar_sine);
+  term.inverse_depth_per_pixel = before.inverse_depth_per_pixel;
+  term.inverse_depth_bar_per_pixel = after.inverse_depth_per_pixel;
+  const double cosine = quads.scoring.left_cos[quad], sine = quads.scoring.left_sin[quad];
+  term.across = Eigen::Vector2d(-sine, cosine) / noise.across;
+  term.along = Eigen::Vector2d(cosine, sine) / noise.along;
+  term.place = {after.ray.x(), after.ray.y()};
+  term.inverse_depth_bar = after.inverse_depth;
+  term.inverse_depth_bar_weight = 1.0 / (after.inverse_depth_per_pixel * noise.on_epipolar_line(after.epipolar_sine));
+  term.tangent = before.direction + before.slope * before.ray;
+  term.slope_sigma = before.slope_per_radian * noise.direction;
+  term.left_normal = after.left_normal * plane_weight;
+  term.right_normal = after.right_normal * plane_weight;
+  return term;
 }
 
 bool linearise(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& current_from_previous, double depth,

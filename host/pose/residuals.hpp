@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <vector>
+#include <cstddef>
 
 #include "pose/quads.hpp"
 #include "quadedge/camera.hpp"
@@ -41,7 +41,8 @@ struct FitTerm {
   Eigen::Vector3d left_normal, right_normal;  ///< current viewing planes of the tangent over the direction's sigma, current left frame
 };
 
-std::vector<FitTerm> build_terms(const QuadObservations& quads, const NoiseModel& noise);
+/// \param quad its row in `quads`
+FitTerm make_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise);
 
 /// Residuals of one quad at a pose and a depth, with derivatives by (rotation, translation) of a LEFT perturbation of
 /// current_from_previous, exp(w) R and exp(w) T + v to first order, and by the unknowns of the quad itself.

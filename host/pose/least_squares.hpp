@@ -1,0 +1,63 @@
+#pragma once
+/// \file least_squares.hpp  What robust least squares on SE(3) share: a step, its application, Student-t weights and their scale.
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace quadedge::pose {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kPlaceSize = 3, kDirectionSize = 2;  ///< residuals per block
+/// Medians of the chi-squared distribution with 3 and 2 degrees of freedom.
+constexpr double kPlaceMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
+/// Variances are not believed to be smaller than this share of the assumed ones (noise-free data).
+constexpr double kSmallestScale = 1e-6;
+/// A scale is the median of about so many errors.
+constexpr std::size_t kScaleErrors = 4000;
+/// Smallest ratio of the normal equations' pivots, after scaling their diagonal to one, that counts as solvable.
+constexpr double kSmallestPivot = 1e-12;
+
+/// exp(rotation) and translation applied from the left.
+Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous);
+
+/// Weight of the Student-t distribution for a block of `size` residuals with squared error `error` at variance `scale`.
+inline double student_weight(double error, double scale, double size, double dof) { return (dof + size) / (dof + error / scale); }
+
+/// Variance of blocks of residuals over the assumed one, from the median of the first `count` squared errors.
+/// \param sorted a buffer that is kept between calls
+inline double measured_scale(const std::vector<double>& errors, std::size_t count, double median_of_one, std::vector<double>& sorted) {
+  const std::size_t every = std::max<std::size_t>(1, count / kScaleErrors);
+  sorted.clear();
+  for (std::size_t k = 0; k < count; k += every) sorted.push_back(errors[k]);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return std::max(*middle / median_of_one, kSmallestScale);
+}
+
+/// Gauss-Newton's normal equations.
+template <int Size>
+struct Normal {
+  Eigen::Matrix<double, Size, Size> matrix = Eigen::Matrix<double, Size, Size>::Zero();
+  Eigen::Matrix<double, Size, 1> gradient = Eigen::Matrix<double, Size, 1>::Zero();
+};
+
+/// Solves A x = -g; false where A is singular.
+template <int Size>
+bool solve(const Normal<Size>& normal, Eigen::Matrix<double, Size, 1>& step) {
+  const Eigen::Matrix<double, Size, 1> diagonal = normal.matrix.diagonal();
+  if (!(diagonal.minCoeff() > 0)) return false;
+  const Eigen::Matrix<double, Size, 1> scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix<double, Size, Size> scaled = scale.asDiagonal() * normal.matrix * scale.asDiagonal();
+  const Eigen::LDLT<Eigen::Matrix<double, Size, Size>> factors(scaled);
+  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kSmallestPivot)) return false;
+  step = scale.asDiagonal() * factors.solve(-(scale.asDiagonal() * normal.gradient));
+  return step.allFinite();
+}
+
+}  // namespace quadedge::pose

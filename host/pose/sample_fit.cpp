@@ -1,0 +1,100 @@
+#include "pose/sample_fit.hpp"
+
+#include <cmath>
+
+namespace quadedge::pose {
+
+namespace {
+
+/// A block of residuals whose own unknown, with a standard normal prior, has been eliminated: error^T error is the block's cost.
+template <int Rows, int Columns>
+struct Eliminated {
+  Eigen::Matrix<double, Rows, 1> error;
+  Eigen::Matrix<double, Rows, Columns> by_pose;
+  double unknown = 0;  ///< its best value
+};
+
+/// Minimises |r + h (z - at)|^2 + z^2 over z. With S = I + h h^T the cost is e^T S^-1 e, e = r - h at; multiplying by S^-1/2 leaves
+/// a plain sum of squares.
+template <int Rows, int Columns>
+void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matrix<double, Rows, Columns>& by_pose,
+               const Eigen::Matrix<double, Rows, 1>& by_unknown, double at, Eliminated<Rows, Columns>& result) {
+  const double square = by_unknown.squaredNorm();
+  const double shrink = 1.0 / (1.0 + square);
+  const double root = square > 0 ? (1.0 - std::sqrt(shrink)) / square : 0.0;
+  const Eigen::Matrix<double, Rows, 1> error = residual - by_unknown * at;
+  const double along = by_unknown.dot(error);
+  result.unknown = -shrink * along;
+  result.error = error - by_unknown * (root * along);
+  const Eigen::Matrix<double, 1, Columns> projected = root * (by_unknown.transpose() * by_pose);
+  result.by_pose = by_pose - by_unknown * projected;
+}
+
+struct QuadTerms {
+  Eliminated<3, 6> place;
+  Eliminated<2, 3> direction;
+};
+
+bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth, QuadTerms& result) {
+  Linearisation linear;
+  if (!linearise(term, left, pose, depth, linear)) return false;
+  eliminate<3, 6>(linear.place, linear.place_by_pose, linear.place_by_depth, depth, result.place);
+  eliminate<2, 3>(linear.direction, linear.direction_by_rotation, linear.direction_by_slope, 0.0, result.direction);
+  return true;
+}
+
+/// Adds weight * J^T J and weight * J^T e of `Rows` residuals that depend on the first `Columns` unknowns. Plain loops: as Eigen products
+/// this function takes minutes to compile.
+template <int Rows, int Columns>
+void add_rows(const Eliminated<Rows, Columns>& block, double weight, Normal<6>& normal) {
+  const double *by_unknowns = block.by_pose.data(), *errors = block.error.data();
+  for (int c = 0; c < Columns; ++c) {
+    for (int k = 0; k < Rows; ++k) {
+      const double weighted = weight * by_unknowns[Rows * c + k];
+      normal.gradient(c) += weighted * errors[k];
+      for (int r = 0; r < Columns; ++r) normal.matrix(r, c) += weighted * by_unknowns[Rows * r + k];
+    }
+  }
+}
+
+}  // namespace
+
+bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,
+                Eigen::Isometry3d& current_from_previous, SampleWorkspace& workspace) {
+  if (rows.empty()) return false;
+  workspace.depth.assign(rows.size(), 0.0);
+  workspace.place_error.assign(rows.size(), 0.0);
+  workspace.direction_error.assign(rows.size(), 0.0);
+  double place_scale = 1, direction_scale = 1;
+  QuadTerms quad;
+  const auto evaluate_row = [&](std::size_t k) {
+    if (!evaluate(terms[static_cast<std::size_t>(rows[k])], rig.left, current_from_previous, workspace.depth[k], quad)) return false;
+    workspace.place_error[k] = quad.place.error.squaredNorm();
+    workspace.direction_error[k] = quad.direction.error.squaredNorm();
+    workspace.depth[k] = quad.place.unknown;
+    return true;
+  };
+  const auto measure_scales = [&] {
+    place_scale = measured_scale(workspace.place_error, rows.size(), kPlaceMedian, workspace.sorted);
+    direction_scale = measured_scale(workspace.direction_error, rows.size(), kDirectionMedian, workspace.sorted);
+  };
+  for (std::size_t k = 0; k < rows.size(); ++k) evaluate_row(k);
+  measure_scales();
+  for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
+    Normal<6> normal;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (!evaluate_row(k)) continue;
+      const double dof = config.student_dof;
+      add_rows(quad.place, student_weight(workspace.place_error[k], place_scale, kPlaceSize, dof) / place_scale, normal);
+      add_rows(quad.direction, student_weight(workspace.direction_error[k], direction_scale, kDirectionSize, dof) / direction_scale, normal);
+    }
+    Vector6d step;
+    if (!solve(normal, step)) return false;
+    current_from_previous = perturb(step, current_from_previous);
+    if (-normal.gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
+    measure_scales();
+  }
+  return true;
+}
+
+}  // namespace quadedge::pose

@@ -1,0 +1,154 @@
+#include "pose/scatter.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "pose/row_blocks.hpp"
+
+namespace quadedge::pose {
+
+namespace {
+
+/// Cells whose errors may be alike: from one vote cell, doubled so often. From `kLeftOut` on, what the fit has taken from a cell counts.
+constexpr int kCellSizes = 5, kLeftOut = 2;
+/// A cell that holds more than this share of the information cannot be left out.
+constexpr double kLargestShare = 0.5;
+
+/// Square cells of an image.
+struct CellGrid {
+  CellGrid(const PinholeCamera& camera, double side_px)
+      : side(side_px), columns(cells(camera.width)), lines(cells(camera.height)) {}
+
+  int cells(double length) const { return static_cast<int>(std::ceil(length / side)) + 1; }
+  std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines); }
+  /// Of a place in the image [px]; places outside belong to the nearest cell.
+  std::size_t at(float x, float y) const {
+    const auto clamped = [&](float place, int count) {
+      return std::clamp(static_cast<int>(static_cast<double>(place) / side), 0, count - 1);
+    };
+    return static_cast<std::size_t>(clamped(y, lines) * columns + clamped(x, columns));
+  }
+
+  double side;  ///< px
+  int columns, lines;
+};
+
+/// What the covariance is made of.
+struct CovarianceSums {
+  Matrix6d normal = Matrix6d::Zero(), scatter = Matrix6d::Zero();
+  double weights = 0, curvature = 0, used = 0;
+  std::vector<Matrix6d> cell_normal;  ///< the part of `normal` from each of the smallest cells that are left out
+
+  CovarianceSums& operator+=(const CovarianceSums& other) {
+    normal += other.normal;
+    scatter += other.scatter;
+    weights += other.weights;
+    curvature += other.curvature;
+    used += other.used;
+    for (std::size_t i = 0; i < cell_normal.size(); ++i) cell_normal[i] += other.cell_normal[i];
+    return *this;
+  }
+};
+
+/// Sum over the cells of the squares of gradient contributions, over what the normal equations expect of it.
+double scatter_factor(const std::vector<Vector6d>& cells, const Matrix6d& inverse) {
+  double sum = 0;
+  for (const Vector6d& cell : cells) sum += cell.dot(inverse * cell);
+  return sum / 6.0;
+}
+
+/// The same for cells large enough to draw the fit to themselves: by how much the pose changes when each cell in turn is left out
+/// (jackknife). Zero where a cell holds too much of the information to be left out.
+double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vector<Matrix6d>& normals, const Matrix6d& normal,
+                        const Matrix6d& inverse) {
+  double sum = 0;
+  for (std::size_t i = 0; i < gradients.size(); ++i) {
+    if (gradients[i].isZero(0)) continue;
+    if (inverse.cwiseProduct(normals[i]).sum() > 6.0 * kLargestShare) return 0;
+    const Vector6d change = (normal - normals[i]).ldlt().solve(gradients[i]);
+    sum += change.dot(normal * change);
+  }
+  return sum / 6.0;
+}
+
+/// Adds up the cells of `from` into the cells of twice the side.
+template <typename Sum>
+std::vector<Sum> merged(const std::vector<Sum>& cells, const CellGrid& from, const CellGrid& to) {
+  std::vector<Sum> result(to.size(), Sum::Zero());
+  for (int line = 0; line < from.lines; ++line)
+    for (int column = 0; column < from.columns; ++column)
+      result[static_cast<std::size_t>(line / 2 * to.columns + column / 2)] += cells[static_cast<std::size_t>(line * from.columns + column)];
+  return result;
+}
+
+struct Factors {
+  double smallest_cells, largest;
+};
+
+/// Factor with the smallest cells, or with none where that is larger; and the largest one of all sizes, at which the errors' likeness has
+/// been seen whole.
+/// \param gradients of the quads `rows`
+Factors cell_factors(const std::vector<Vector6d>& gradients, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
+                     const PinholeCamera& camera, double cell_side, const CovarianceSums& sums, const Matrix6d& inverse) {
+  const double freedom = sums.used / std::max(sums.used - 2.0, 1.0);  // six parameters take the residuals of two quads
+  CellGrid grid(camera, cell_side);
+  std::vector<Vector6d> cells(grid.size(), Vector6d::Zero());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(rows[k]);
+    cells[grid.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += gradients[k];
+  }
+  std::vector<Matrix6d> normals = sums.cell_normal;
+  Factors result{};
+  result.largest = freedom * inverse.cwiseProduct(sums.scatter).sum() / 6.0;
+  for (int size = 0; size < kCellSizes; ++size) {
+    if (size > 0) {
+      const CellGrid next(camera, 2 * grid.side);
+      cells = merged(cells, grid, next);
+      if (size > kLeftOut) normals = merged(normals, grid, next);
+      grid = next;
+    }
+    const double factor =
+        size < kLeftOut ? freedom * scatter_factor(cells, inverse) : jackknife_factor(cells, normals, sums.normal, inverse);
+    result.largest = std::max(result.largest, factor);
+    if (size == 0) result.smallest_cells = result.largest;
+  }
+  return result;
+}
+
+}  // namespace
+
+Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads, const StereoRig& rig,
+                        const PoseConfig& config, const Eigen::Isometry3d& current_from_previous, double offset, double place_scale,
+                        ScatterWorkspace& workspace) {
+  const CellGrid left_out(rig.left, config.vote_cell * (1 << kLeftOut));
+  CovarianceSums zero;
+  zero.cell_normal.assign(left_out.size(), Matrix6d::Zero());
+  workspace.gradients.resize(rows.size());
+  const StudentWeights weights{place_scale, config.student_dof};
+  CovarianceSums sums = sum_row_blocks(rows.size(), zero, [&](std::size_t begin, std::size_t end, CovarianceSums& sum) {
+    PlaceContributions lanes;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t lane = k % kPlaceLanes;
+      if (lane == 0) contributions_by_pose(terms, current_from_previous, offset, weights, k, lanes);
+      const Vector6d gradient = lanes.gradient(lane);
+      workspace.gradients[k] = gradient;
+      const std::size_t i = static_cast<std::size_t>(rows[k]);
+      sum.cell_normal[left_out.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += lanes.matrix(lane);
+      sum.scatter += gradient * gradient.transpose();
+      const double weight = student_weight(terms.error[k], place_scale, kPlaceSize, config.student_dof);
+      sum.weights += weight;
+      sum.curvature += weight * (1.0 - 2.0 * weight * terms.error[k] / (place_scale * kPlaceSize * (config.student_dof + kPlaceSize)));
+      sum.used += 1;
+    }
+  });
+  for (const Matrix6d& cell : sums.cell_normal) sums.normal += cell;
+
+  // The normal equations hold the weights; the curvature of the Student-t cost is smaller by the mean of d(w e)/de over w.
+  const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
+  const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kPlaceSize);
+  const Factors factors = cell_factors(workspace.gradients, rows, quads, rig.left, config.vote_cell, sums, inverse);
+  return {inverse, factors.largest / (flattening * flattening), factors.smallest_cells / (flattening * flattening)};
+}
+
+}  // namespace quadedge::pose
