@@ -10,8 +10,8 @@
 // Reference: host/reference/candidate_filters.cpp.
 
 kernel void candidate_filters(global const int* first, global const int* target, const int rows, const int row_step,
-                              const int capacity, global const float* patches_a, global const int* patch_of_a,
-                              global const uchar* sift_a, global const int* sift_of_a, global const float* patches_b,
+                              const int capacity, global const char* patches_a, global const int* patch_of_a,
+                              global const uchar* sift_a, global const int* sift_of_a, global const char* patches_b,
                               global const int* patch_of_b, global const uchar* sift_b, global const int* sift_of_b, const float ncc_min,
                               const float sift_max, const float ncc_nearly_best, const float sift_nearly_best,
                               const int ncc_order, const int sift_order, const int all_scores, global float* ncc,
@@ -19,7 +19,7 @@ kernel void candidate_filters(global const int* first, global const int* target,
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int begin = first[row], end = min(first[row + 1], capacity);
-  global const float* patch = patches_a + EDGE_FLOATS * (size_t)patch_of_a[row * row_step];
+  global const char* patch = patches_a + PATCH_BYTES * (size_t)patch_of_a[row * row_step];
   global const uchar* descriptor = sift_a + EDGE_BYTES * (size_t)sift_of_a[row * row_step];
 
   // Which of the two similarities is computed first does not change who survives; only a tap needs both for all.
@@ -27,7 +27,7 @@ kernel void candidate_filters(global const int* first, global const int* target,
   for (int c = begin; c < end; ++c) {
     const int j = target[c];
     int sides;
-    const float similarity = patch_ncc_pairing(patch, patches_b + EDGE_FLOATS * (size_t)patch_of_b[j], &sides);
+    const float similarity = patch_ncc_pairing(patch, patches_b + PATCH_BYTES * (size_t)patch_of_b[j], &sides);
     const int ncc_fails = similarity < ncc_min;
     int sift_fails = 0;
     float distance = 0.0f;

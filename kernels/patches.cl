@@ -1,6 +1,6 @@
-// patches.cl: two side patches of 7 x 7 samples per edge, mean-free with unit norm (SPEC section 2).
+// patches.cl: two side patches of 7 x 7 samples per edge, mean-free, in 8 bits with their norms (SPEC section 2).
 //
-// In: corners of the image (corners.cl), edges (x, y [px], direction [rad]). Out: 112 floats per edge, laid out as in
+// In: corners of the image (corners.cl), edges (x, y [px], direction [rad]). Out: 128 bytes per edge, laid out as in
 // host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
 //   ITEMS_PER_EDGE 1: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
@@ -13,45 +13,83 @@
 #ifndef GROUP
 #define GROUP 64
 #endif
-#define EDGE_FLOATS 112
-#define FLAT_SQUARES 1e-10f
+#define PATCH_BYTES 128
+#define INVERSE_NORMS 112  // where they begin
+#define FLAT_CONTRAST 1e-5f
+// Added and taken away again it leaves the nearest integer, halves to the even one: 1.5 * 2^23 has no room for a fraction.
+#define NO_FRACTION 12582912.0f
 
-// A flat patch becomes zeros.
-inline float scale_of(const float squares) { return squares < FLAT_SQUARES ? 0.0f : 1.0f / sqrt(squares); }
+#if ITEMS_PER_EDGE == 1
+#define SIDES float2  // a value of both sides
+#else
+#define SIDES float   // of the work-item's side
+#endif
+
+// A patch becomes integers, at most 127 of magnitude; a flat one becomes zeros. Their squares add up to less than 2^24: floats hold
+// these sums exactly.
+inline SIDES scale_of(const SIDES largest) { return largest < FLAT_CONTRAST ? (SIDES)(0.0f) : 127.0f / largest; }
+inline SIDES inverse_norm(const SIDES squares) { return squares == 0.0f ? (SIDES)(0.0f) : 1.0f / sqrt(squares); }
 
 #if ITEMS_PER_EDGE == 1
 
+inline float16 both_used(const float16 v) { return (float16)(used_lanes(v.lo), used_lanes(v.hi)); }
+
+// The largest lane of either side; no value is negative.
+inline float2 largest_lanes(const float16 v) {
+  const float8 four = max(v.s012389ab, v.s4567cdef);
+  const float4 two = max(four.s0145, four.s2367);
+  return max(two.even, two.odd);
+}
+
+// Sums of the lanes of either side.
+inline float2 sums_of_lanes(const float16 v) {
+  const float8 four = v.s012389ab + v.s4567cdef;
+  const float4 two = four.s0145 + four.s2367;
+  return two.even + two.odd;
+}
+
 kernel void side_patches(global const uint* corners, const int width, const int height, global const float* xs,
                          global const float* ys, global const float* directions, const int count, const float offset,
-                         global float* patches) {
+                         global char* patches) {
   const int edge = (int)get_global_id(0);
   if (edge >= count) return;
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
-  global float* patch = patches + (size_t)edge * EDGE_FLOATS;
+  global char* patch = patches + (size_t)edge * PATCH_BYTES;
   const float x = xs[edge], y = ys[edge];
   float16 rows[PATCH_SIDE];
   cut_two_patches(corners, width, height, patch_frame(x, y, cosine, sine, 1.0f, offset),
                   patch_frame(x, y, cosine, sine, -1.0f, offset), rows);
-  float16 squares = 0.0f;
-  for (int i = 0; i < PATCH_SIDE; ++i) squares += rows[i] * rows[i];
-  const float16 scale = (float16)((float8)(scale_of(sum_used(squares.lo))), (float8)(scale_of(sum_used(squares.hi))));
+  float16 largest = 0.0f, squares = 0.0f;
+  for (int i = 0; i < PATCH_SIDE; ++i) largest = max(largest, fabs(rows[i]));
+  const float2 scales = scale_of(largest_lanes(both_used(largest)));
+  const float16 scale = (float16)((float8)(scales.x), (float8)(scales.y));
   for (int i = 0; i < PATCH_SIDE; ++i) {
-    const float16 row = rows[i] * scale;
-    vstore16((float16)(used_lanes(row.lo), used_lanes(row.hi)), i, patch);
+    const float16 row = both_used((rows[i] * scale + NO_FRACTION) - NO_FRACTION);
+    squares += row * row;
+    ((global char16*)patch)[i] = convert_char16(row);
   }
+  vstore4((float4)(inverse_norm(sums_of_lanes(squares)), 0.0f, 0.0f), 0, (global float*)(patch + INVERSE_NORMS));
 }
 
 #else
 
-// Sum over the seven used lanes of a side in the order of sum_used(); all work-items of the group must call it.
-inline float sum_lanes(local float* shared, const float value) {
+// The largest of the seven used lanes.
+inline float largest_used(const float8 v) {
+  const float8 used = used_lanes(v);
+  const float4 four = max(used.lo, used.hi);
+  const float2 two = max(four.lo, four.hi);
+  return max(two.x, two.y);
+}
+
+// The eight lanes of the work-item's side, where `value` counts for the seven used ones and 0 for the last; all work-items of the
+// group must call it.
+inline float8 side_lanes(local float* shared, const float value) {
   const int item = (int)get_local_id(0), lane = item & 7;
-  local float* first = shared + (item - lane);
   barrier(CLK_LOCAL_MEM_FENCE);
   shared[item] = lane < PATCH_SIDE ? value : 0.0f;
   barrier(CLK_LOCAL_MEM_FENCE);
-  return ((first[0] + first[4]) + (first[2] + first[6])) + ((first[1] + first[5]) + (first[3] + first[7]));
+  return vload8(item >> 3, shared);
 }
 
 inline float corner_byte(const uint corners, const uint shift) { return (float)(int)(corners >> shift & 255u); }
@@ -59,7 +97,7 @@ inline float corner_byte(const uint corners, const uint shift) { return (float)(
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void side_patches(global const uint* corners, const int width, const int height, global const float* xs,
                   global const float* ys, global const float* directions, const int count, const float offset,
-                  global float* patches) {
+                  global char* patches) {
   local float shared[GROUP];
   const int item = (int)get_local_id(0), lane = item & 7, side = item >> 3 & 1;
   const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
@@ -91,16 +129,22 @@ void side_patches(global const uint* corners, const int width, const int height,
     rows[i] -= middle;
     sum += rows[i];
   }
-  const float mean = sum_lanes(shared, sum) * (1.0f / PATCH_SAMPLES);
-  float squares = 0.0f;
+  const float mean = sum_used(side_lanes(shared, sum)) * (1.0f / PATCH_SAMPLES);
+  float largest = 0.0f, squares = 0.0f;
   for (int i = 0; i < PATCH_SIDE; ++i) {
     rows[i] -= mean;
+    largest = max(largest, fabs(rows[i]));
+  }
+  const float scale = scale_of(largest_used(side_lanes(shared, largest)));
+  for (int i = 0; i < PATCH_SIDE; ++i) {
+    rows[i] = (rows[i] * scale + NO_FRACTION) - NO_FRACTION;
     squares += rows[i] * rows[i];
   }
-  const float scale = scale_of(sum_lanes(shared, squares));
+  const float inverse = inverse_norm(sum_used(side_lanes(shared, squares)));
   if (wanted >= count) return;
-  global float* patch = patches + (size_t)edge * EDGE_FLOATS + 8 * side + lane;
-  for (int i = 0; i < PATCH_SIDE; ++i) patch[16 * i] = lane < PATCH_SIDE ? rows[i] * scale : 0.0f;
+  global char* patch = patches + (size_t)edge * PATCH_BYTES;
+  for (int i = 0; i < PATCH_SIDE; ++i) patch[16 * i + 8 * side + lane] = lane < PATCH_SIDE ? (char)rows[i] : (char)0;
+  if (lane < 2) ((global float*)(patch + INVERSE_NORMS))[2 * lane + side] = lane == 0 ? inverse : 0.0f;
 }
 
 #endif

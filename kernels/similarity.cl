@@ -1,42 +1,48 @@
 // similarity.cl: how alike two edges are (SPEC section 2). Plain functions for the filters; name this file before theirs.
 //
-// The layouts are those of patches.cl (112 floats per edge) and sift.cl (256 bytes per edge).
+// The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
 // Reference: patch_similarity() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
 
-#define EDGE_FLOATS 112
+#define PATCH_BYTES 128
+#define INVERSE_NORMS 112  // where they begin
 #define EDGE_BYTES 256
 
-// Sum over eight lanes, halves first.
-inline float similarity_sum(const float8 v) {
-  const float4 four = v.lo + v.hi;
-  const float2 two = four.lo + four.hi;
-  return two.x + two.y;
+// The four products of side patches: dark-dark, bright-bright, dark-bright, bright-dark.
+inline float4 patch_scores(global const char* a, global const char* b) {
+  // A product of two samples fits 16 bits, and so does the sum of two, at most 2 * 127^2.
+  short16 of_a[7], of_b[7];
+#pragma unroll
+  for (int row = 0; row < 7; ++row) {
+    of_a[row] = convert_short16(((global const char16*)a)[row]);
+    of_b[row] = convert_short16(((global const char16*)b)[row]);
+  }
+  int16 alike = convert_int16(of_a[6] * of_b[6]), crossed = convert_int16(of_a[6] * of_b[6].s89abcdef01234567);
+#pragma unroll
+  for (int row = 0; row < 6; row += 2) {
+    alike += convert_int16(of_a[row] * of_b[row] + of_a[row + 1] * of_b[row + 1]);
+    crossed += convert_int16(of_a[row] * of_b[row].s89abcdef01234567 + of_a[row + 1] * of_b[row + 1].s89abcdef01234567);
+  }
+  const int8 same_sides = (int8)(alike.s0123 + alike.s4567, alike.s89ab + alike.scdef);
+  const int8 other_sides = (int8)(crossed.s0123 + crossed.s4567, crossed.s89ab + crossed.scdef);
+  const int8 twos = (int8)(same_sides.even + same_sides.odd, other_sides.even + other_sides.odd);
+  const float2 inverse_a = vload2(0, (global const float*)(a + INVERSE_NORMS));
+  const float2 inverse_b = vload2(0, (global const float*)(b + INVERSE_NORMS));
+  return convert_float4(twos.even + twos.odd) * inverse_a.xyxy * inverse_b.xyyx;
 }
 
 // NCC of two edges: the highest of the four products of side patches. Its pairing: 0 dark-dark, 1 bright-bright,
 // 2 dark-bright, 3 bright-dark, the first one on a tie.
-inline float patch_ncc_pairing(global const float* a, global const float* b, int* pairing) {
-  float16 alike = 0.0f, crossed = 0.0f;
-  for (int row = 0; row < 7; ++row) {
-    const float16 of_a = vload16(row, a), of_b = vload16(row, b);
-    alike = fma(of_a, of_b, alike);
-    crossed = fma(of_a, of_b.s89abcdef01234567, crossed);
-  }
-  const float scores[4] = {similarity_sum(alike.lo), similarity_sum(alike.hi), similarity_sum(crossed.lo), similarity_sum(crossed.hi)};
-  float best = scores[0];
-  int which = 0;
-  for (int k = 1; k < 4; ++k) {
-    which = scores[k] > best ? k : which;
-    best = max(best, scores[k]);
-  }
-  *pairing = which;
+inline float patch_ncc_pairing(global const char* a, global const char* b, int* pairing) {
+  const float4 scores = patch_scores(a, b);
+  const float best = max(max(scores.x, scores.y), max(scores.z, scores.w));
+  *pairing = scores.x == best ? 0 : scores.y == best ? 1 : scores.z == best ? 2 : 3;
   return best;
 }
 
 // Only the NCC.
-inline float patch_ncc(global const float* a, global const float* b) {
-  int pairing;
-  return patch_ncc_pairing(a, b, &pairing);
+inline float patch_ncc(global const char* a, global const char* b) {
+  const float4 scores = patch_scores(a, b);
+  return max(max(scores.x, scores.y), max(scores.z, scores.w));
 }
 
 // Sum of squares from its two running forms in 16 bits: `total` modulo 65536 and `high`, the sum of the squares' upper bytes.

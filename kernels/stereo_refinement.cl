@@ -6,6 +6,10 @@
 // and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
+// Layout of patches.cl.
+#define PATCH_BYTES 128
+#define INVERSE_NORMS 112
+
 // Candidates that shift onto the line within so many px of one another are one: neighbours on a curve, which the refinement leads to the
 // same place. Twin: kSamePlace in host/reference/stereo_refinement.cpp.
 #define SAME_PLACE 0.5f
@@ -26,25 +30,26 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
   return fabs(shift) < max_shift ? s + shift * along : s;
 }
 
-// The higher NCC of the two side patches of a left edge, mean-free with unit norm, and those cut at two places of the right image.
+// The higher NCC of the two side patches of a left edge and those cut at two places of the right image.
 inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,
-                         const PatchFrame bright, global const float* side_patches) {
+                         const PatchFrame bright, global const char* side_patches) {
   float16 rows[PATCH_SIDE], squares = 0.0f, products = 0.0f;
   cut_two_patches(corners, width, height, dark, bright, rows);
   for (int k = 0; k < PATCH_SIDE; ++k) {
     squares += rows[k] * rows[k];
-    products += rows[k] * vload16(k, side_patches);
+    products += rows[k] * convert_float16(((global const char16*)side_patches)[k]);
   }
   const float dark_norm = sqrt(sum_used(squares.lo)), bright_norm = sqrt(sum_used(squares.hi));
-  return fmax(dark_norm < 1e-10f ? 0.0f : sum_used(products.lo) / dark_norm,
-              bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) / bright_norm);
+  const float2 inverse_norms = vload2(0, (global const float*)(side_patches + INVERSE_NORMS));
+  return fmax(dark_norm < 1e-10f ? 0.0f : sum_used(products.lo) * inverse_norms.x / dark_norm,
+              bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) * inverse_norms.y / bright_norm);
 }
 
 kernel void stereo_refinement(global const int* first, global const int* target, global const float* ncc, const int capacity,
                               const int left_count,
                               global const uint* left_corners, const int left_width, const int left_height,
                               global const uint* right_corners, const int right_width, const int right_height,
-                              global const float* left_patches,
+                              global const char* left_patches,
                               global const float* left_x, global const float* left_y, global const float* left_direction,
                               global const float* right_x, global const float* right_y, global const float* right_direction,
                               global const float* geometry, const float patch_offset, const float shift_min_sine,
@@ -63,7 +68,7 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   const float edge_stiffness = stiffness * line_sine * line_sine;
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
-  global const float* side_patches = left_patches + (size_t)i * (16 * PATCH_SIDE);
+  global const char* side_patches = left_patches + (size_t)i * PATCH_BYTES;
   float8 fixed[PATCH_SIDE], derivative[PATCH_SIDE], values[PATCH_SIDE];
   float fixed_norm = 0.0f;
   int ready = 0;

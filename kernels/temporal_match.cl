@@ -16,8 +16,8 @@
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
 inline int alike_near(const float x, const float y, const float direction, global const float* xs, global const float* ys,
                       global const float* directions, global const int* numbers, global const int* cell_first,
-                      const int columns, const int rows, const float radius, const float orientation, global const float* patch,
-                      global const float* patches, global const int* patch_numbers, const float ncc_min,
+                      const int columns, const int rows, const float radius, const float orientation, global const char* patch,
+                      global const char* patches, global const int* patch_numbers, const float ncc_min,
                       const float ncc_nearly_best, int* target, float* ncc) {
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
   const int first_column = cell_of(x - radius, CELL_WIDTH, columns), last_column = cell_of(x + radius, CELL_WIDTH, columns);
@@ -36,7 +36,7 @@ inline int alike_near(const float x, const float y, const float direction, globa
   int alike = 0;
   float best = 0.0f;
   for (int c = 0; c < near; ++c) {
-    const float similarity = patch_ncc(patch, patches + EDGE_FLOATS * (size_t)patch_numbers[target[c]]);
+    const float similarity = patch_ncc(patch, patches + PATCH_BYTES * (size_t)patch_numbers[target[c]]);
     if (similarity < ncc_min) continue;
     target[alike] = target[c];
     ncc[alike++] = similarity;
@@ -81,9 +81,9 @@ kernel void temporal_match(const int rows, const int row_step, global const floa
                            global const int* left_cell_first, const int left_columns, const int left_cell_rows,
                            global const float* right_xs, global const float* right_ys, global const float* right_directions,
                            global const int* right_numbers, global const int* right_cell_first, const int right_columns,
-                           const int right_cell_rows, global const float* base_left_patches, global const int* base_left_index,
-                           global const float* base_right_patches, global const float* left_patches,
-                           global const int* left_index, global const float* right_patches, global const int* itself,
+                           const int right_cell_rows, global const char* base_left_patches, global const int* base_left_index,
+                           global const char* base_right_patches, global const char* left_patches,
+                           global const int* left_index, global const char* right_patches, global const int* itself,
                            global const float* current, const int stride, const float radius, const float orientation,
                            const float ncc_min, const float ncc_nearly_best, const float distance_weight,
                            const float cluster_gap, const float cluster_orientation, global int* result) {
@@ -95,11 +95,11 @@ kernel void temporal_match(const int rows, const int row_step, global const floa
   const float x = left_predicted_x[i], y = left_predicted_y[i];
   const int left = alike_near(x, y, left_predicted_direction[i], left_xs, left_ys, left_directions, left_numbers,
                               left_cell_first, left_columns, left_cell_rows, radius, orientation,
-                              base_left_patches + EDGE_FLOATS * (size_t)base_left_index[i], left_patches, left_index, ncc_min,
+                              base_left_patches + PATCH_BYTES * (size_t)base_left_index[i], left_patches, left_index, ncc_min,
                               ncc_nearly_best, left_target, left_ncc);
   const int right = alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs, right_ys,
                                right_directions, right_numbers, right_cell_first, right_columns, right_cell_rows, radius,
-                               orientation, base_right_patches + EDGE_FLOATS * (size_t)i, right_patches, itself, ncc_min,
+                               orientation, base_right_patches + PATCH_BYTES * (size_t)i, right_patches, itself, ncc_min,
                                ncc_nearly_best, right_target, right_ncc);
   const int flags = (left > 0 ? LEFT_ALIVE : 0) | (right > 0 ? RIGHT_ALIVE : 0) | (left < 0 || right < 0 ? OVERFLOW : 0);
   int agreeing = 0, winner = -1;

@@ -9,6 +9,7 @@
 #include "opencl/kernel_sources.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/image.hpp"
+#include "reference/patches.hpp"
 #include "stages/edge_description.hpp"
 
 struct TestEdges {
@@ -30,7 +31,7 @@ inline TestEdges random_edges(int width, int height, int count, unsigned seed, d
 
 struct TestDescriptions {
   std::string name;  ///< device and variant
-  std::vector<float> patches;
+  std::vector<std::int8_t> patches;
   std::vector<std::uint8_t> sift;
 };
 
@@ -55,13 +56,13 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
       stages::EdgeDescription describer(context, image.width, image.height, {}, {}, {{stage, variant.name}});
       TestDescriptions found[2];
       for (auto& run : found) {
-        opencl::Buffer<cl_float> patches;
+        opencl::Buffer<cl_char> patches;
         opencl::Buffer<cl_uchar> sift;
         describer.prepare(pixels);
         describer.prepare_sift(pixels);
         describer.cut_patches(x, y, direction, static_cast<int>(count), patches);
         describer.describe_sift(x, y, direction, static_cast<int>(count), sift);
-        run = {device.info().name + " " + variant.name, patches.read(count * 112), sift.read(count * 256)};
+        run = {device.info().name + " " + variant.name, patches.read(count * reference::kEdgePatchBytes), sift.read(count * 256)};
       }
       CHECK(found[0].patches == found[1].patches);
       CHECK(found[0].sift == found[1].sift);
@@ -69,6 +70,29 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
     }
   }
   return all;
+}
+
+/// How far the samples of two sets of side patches are from one another. A sample that lies at the middle between two integers may be
+/// rounded up by one and down by the other, which compute in different precision or from turned coordinates.
+struct RoundedApart {
+  int largest = 0;             ///< difference of two samples
+  std::size_t samples = 0, differing = 0;
+};
+inline RoundedApart rounded_apart(const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {
+  using namespace quadedge::reference;
+  RoundedApart result;
+  for (std::size_t edge = 0; edge + kEdgePatchBytes <= a.size(); edge += kEdgePatchBytes) {
+    for (const int side : {0, 1}) {
+      const auto of_a = stored_side(a.data() + edge, side), of_b = stored_side(b.data() + edge, side);
+      for (std::size_t k = 0; k < of_a.size(); ++k) {
+        const int difference = std::abs(static_cast<int>(of_a[k]) - static_cast<int>(of_b[k]));
+        result.largest = std::max(result.largest, difference);
+        result.differing += difference > 0 ? 1 : 0;
+        ++result.samples;
+      }
+    }
+  }
+  return result;
 }
 
 /// Builds `source` behind common.cl and similarity.cl.

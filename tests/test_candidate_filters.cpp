@@ -13,22 +13,23 @@ namespace {
 constexpr int kNcc = 5, kSift = 4;  // orders as in the stereo cascade; nearly best follow at 6 and 7
 
 /// Descriptions made to measure. Edges of the first set have the unit vector e0 as dark patch and no bright one (flat), SIFT all zero
-/// on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt(1 - c^2) e1 and one byte d.
+/// on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt((1 - c^2) / 3) (e1 + e2 + e3), which 8 bits
+/// hold to 0.004 and c = 0.5 exactly, and one byte d.
 struct Measured {
   reference::EdgeDescriptions a, b;
   explicit Measured(int first_edges) {
     for (int i = 0; i < first_edges; ++i) {
-      a.patches.resize(a.patches.size() + 112, 0.0f);
-      a.patches[a.patches.size() - 112] = 1.0f;
+      a.patches.resize(a.patches.size() + reference::kEdgePatchBytes, 0);
+      reference::store_side({1}, 0, a.patches.data() + a.patches.size() - reference::kEdgePatchBytes);
       a.sift.resize(a.sift.size() + 256, 0);
     }
   }
   /// `bright`: the similar side is the second set's bright one.
   int add(double ncc, int distance, bool bright = false) {
-    const std::size_t patch = b.patches.size() + (bright ? 8 : 0), sift = b.sift.size();
-    b.patches.resize(b.patches.size() + 112, 0.0f);
-    b.patches[patch] = static_cast<float>(ncc);
-    b.patches[patch + 1] = static_cast<float>(std::sqrt(1 - ncc * ncc));
+    const std::size_t sift = b.sift.size();
+    b.patches.resize(b.patches.size() + reference::kEdgePatchBytes, 0);
+    const double other = std::sqrt((1 - ncc * ncc) / 3);
+    reference::store_side({ncc, other, other, other}, bright ? 1 : 0, b.patches.data() + b.patches.size() - reference::kEdgePatchBytes);
     b.sift.resize(sift + 256, 0);
     b.sift[sift + 7] = static_cast<std::uint8_t>(distance);
     std::fill_n(b.sift.begin() + static_cast<std::ptrdiff_t>(sift) + 128, 128, static_cast<std::uint8_t>(255));
@@ -48,7 +49,7 @@ void on_devices(const reference::Candidates& lists, const reference::EdgeDescrip
     INFO(name << (all_scores ? ", all scores" : ""));
     stages::CandidateFilters stage(context, variants);
     auto device = upload(context, lists);
-    opencl::Buffer<cl_float> patches_a, patches_b;
+    opencl::Buffer<cl_char> patches_a, patches_b;
     opencl::Buffer<cl_uchar> sift_a, sift_b;
     patches_a.write(context, a.patches);
     patches_b.write(context, b.patches);
@@ -125,7 +126,7 @@ TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][m
 TEST_CASE("candidate filters: rows are judged alone, also empty ones and every second edge", "[filters][matching][device][oclgrind]") {
   Measured edges(5);
   // Edge 2 is the opposite of the others: what is like them is unlike it. Rows 0, 1, 2 belong to edges 0, 2, 4.
-  edges.a.patches[2 * 112] = -1.0f;
+  reference::store_side({-1}, 0, edges.a.patches.data() + 2 * reference::kEdgePatchBytes);
   const int good = edges.add(0.96875, 40), bad = edges.add(-0.9375, 40);
   reference::Candidates lists;
   lists.target = {good, bad, good, bad};
@@ -143,17 +144,11 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
   const auto describe = [&](int count) {
     reference::EdgeDescriptions set;
     for (int i = 0; i < count; ++i) {
-      for (int side = 0; side < 2; ++side) {
-        double values[49], squares = 0;
-        for (double& v : values) {
-          v = random(-0.5, 1);
-          squares += v * v;
-        }
-        const std::size_t first = set.patches.size() - (side == 0 ? 0 : 112);
-        set.patches.resize(first + 112, 0.0f);
-        for (std::size_t k = 0; k < 49; ++k) {
-          set.patches[first + 16 * (k / 7) + 8 * static_cast<std::size_t>(side) + k % 7] = static_cast<float>(values[k] / std::sqrt(squares));
-        }
+      set.patches.resize(set.patches.size() + reference::kEdgePatchBytes, 0);
+      for (const int side : {0, 1}) {
+        reference::PatchValues values;
+        for (double& v : values) v = random(-0.5, 1);
+        reference::store_side(values, side, set.patches.data() + set.patches.size() - reference::kEdgePatchBytes);
       }
       for (int k = 0; k < 256; ++k) set.sift.push_back(static_cast<std::uint8_t>(random(0, 60)));
     }
@@ -174,7 +169,7 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
     INFO(state);
     CHECK(seen[state] > 10);
   }
-  // Same summation order in the same precision, exact integers: the same bits, so no band is needed.
+  // Exact integers, multiplied in the same order and precision: the same bits, so no band is needed.
   on_devices(lists, a, b, limits, 1, true, [&](const auto& scores, const auto&) {
     CHECK(scores.ncc == truth.ncc);
     CHECK(scores.pairing == truth.pairing);

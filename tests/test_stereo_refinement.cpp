@@ -52,8 +52,12 @@ struct Scene {
   }
   static constexpr double kDisparity = 6.3;
 
+  std::vector<std::int8_t> left_patches() const {
+    return reference::side_patches(left_image.view(), left.x, left.y, left.direction, patches);
+  }
   reference::RefinedCandidates refine(reference::CandidateScores& result) const {
-    return reference::stereo_refinement(left_image.view(), right_image.view(), left, right, geometry, lists, config, kOffset, result);
+    return reference::stereo_refinement(left_image.view(), right_image.view(), left_patches(), left, right, geometry, lists, config, kOffset,
+                                        result);
   }
   /// Every variant and device: living candidates within 1e-2 px and 5e-3 of likeness of the reference. The same may be rejected on
   /// one side only where a move lies within rounding of its limit: at most 1 % of them.
@@ -65,14 +69,15 @@ struct Scene {
       stages::StereoRefinement stage(context, config, kOffset, variants);
       auto device = upload(context, lists);
       upload(context, scores, device);
-      opencl::Buffer<cl_float> packed, left_patches;
+      opencl::Buffer<cl_float> packed;
+      opencl::Buffer<cl_char> device_patches;
       stages::DeviceRefined found;
       packed.write(context, geometry.packed());
-      left_patches.write(context, reference::side_patches(left_image.view(), left.x, left.y, left.direction, patches));
+      device_patches.write(context, left_patches());
       stages::PixelCorners left_corners(context), right_corners(context);
       left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
       right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
-      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), left_patches, packed, device, found);
+      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches, packed, device, found);
       const auto states = device.rejected_by.read(places.size());
       const auto device_places = found.place.read(places.size()), device_likeness = found.likeness.read(places.size());
       std::size_t other_state = 0;

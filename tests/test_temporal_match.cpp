@@ -15,25 +15,23 @@ namespace {
 constexpr int kWidth = 97, kHeight = 61;
 
 /// A patch pair near one of a few prototypes, so that many edges look alike.
-void add_patches(Random& random, std::vector<float>& patches) {
+void add_patches(Random& random, std::vector<std::int8_t>& patches) {
   const int kind = static_cast<int>(random(0, 2.99));
   const std::size_t first = patches.size();
-  patches.resize(first + reference::kEdgePatchFloats, 0.0f);
-  for (const std::size_t side : {0U, 1U}) {
-    double squares = 0;
-    for (std::size_t k = 0; k < 49; ++k) {
-      const double value = std::sin(0.3 * (kind + 1) * static_cast<double>(k + 5 * side)) + random(-0.5, 0.5);
-      patches[first + 16 * (k / 7) + 8 * side + k % 7] = static_cast<float>(value);
-      squares += value * value;
+  patches.resize(first + reference::kEdgePatchBytes, 0);
+  for (const int side : {0, 1}) {
+    reference::PatchValues values;
+    for (int k = 0; k < reference::kPatchSamples; ++k) {
+      values[static_cast<std::size_t>(k)] = std::sin(0.3 * (kind + 1) * (k + 5 * side)) + random(-0.5, 0.5);
     }
-    for (std::size_t k = 0; k < 49; ++k) patches[first + 16 * (k / 7) + 8 * side + k % 7] /= static_cast<float>(std::sqrt(squares));
+    reference::store_side(values, side, patches.data() + first);
   }
 }
 
 /// A base rig and a current one whose edges lie about the predicted places; `shuffled` numbers of the left edges.
 struct Scene {
   StereoEdges base, current;
-  std::vector<float> base_left, base_right, left, right;  ///< patches: left ones by left edge, right ones by stereo edge
+  std::vector<std::int8_t> base_left, base_right, left, right;  ///< patches: left ones by left edge, right ones by stereo edge
   stages::TemporalSearch search;
   TemporalConfig config;
 
@@ -55,7 +53,7 @@ struct Scene {
       search.right.direction.push_back(base.right_direction[i]);
     }
   }
-  static void fill(Random& random, int count, StereoEdges& edges, std::vector<float>& of_left, std::vector<float>& of_right) {
+  static void fill(Random& random, int count, StereoEdges& edges, std::vector<std::int8_t>& of_left, std::vector<std::int8_t>& of_right) {
     for (int i = 0; i < count; ++i) {
       // 7 shares no factor with the numbers of edges used: every left edge once.
       edges.left_index.push_back(count == 0 ? 0 : 7 * i % count);
@@ -87,11 +85,11 @@ struct Scene {
     return rows;
   }
   /// Patches by stereo edge, as the reference wants them; SIFT takes no part.
-  static reference::EdgeDescriptions described(const std::vector<float>& patches, const std::vector<std::int32_t>& numbers) {
+  static reference::EdgeDescriptions described(const std::vector<std::int8_t>& patches, const std::vector<std::int32_t>& numbers) {
     reference::EdgeDescriptions set;
     for (const auto number : numbers) {
-      const auto begin = patches.begin() + static_cast<std::ptrdiff_t>(number) * reference::kEdgePatchFloats;
-      set.patches.insert(set.patches.end(), begin, begin + reference::kEdgePatchFloats);
+      const auto begin = patches.begin() + static_cast<std::ptrdiff_t>(number) * reference::kEdgePatchBytes;
+      set.patches.insert(set.patches.end(), begin, begin + reference::kEdgePatchBytes);
     }
     set.sift.assign(256 * numbers.size(), 0);
     return set;
@@ -115,8 +113,8 @@ struct Scene {
     result.quads = reference::temporal_best(lefts, left_scores, agreement, current, config, search);
     return result;
   }
-  static void upload_rig(opencl::Context& context, const StereoEdges& edges, const std::vector<float>& of_left, const std::vector<float>& of_right,
-                         stages::DeviceStereoEdges& rig) {
+  static void upload_rig(opencl::Context& context, const StereoEdges& edges, const std::vector<std::int8_t>& of_left,
+                         const std::vector<std::int8_t>& of_right, stages::DeviceStereoEdges& rig) {
     rig.count = rig.stride = static_cast<int>(edges.size());
     std::vector<float> packed;
     for (const auto* block : {&edges.left_x, &edges.left_y, &edges.left_direction}) packed.insert(packed.end(), block->begin(), block->end());

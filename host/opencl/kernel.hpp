@@ -29,6 +29,7 @@ struct TypeName;
 template <> struct TypeName<cl_int> { static constexpr const char* value = "int"; };
 template <> struct TypeName<cl_uint> { static constexpr const char* value = "uint"; };
 template <> struct TypeName<cl_float> { static constexpr const char* value = "float"; };
+template <> struct TypeName<cl_char> { static constexpr const char* value = "char"; };
 template <> struct TypeName<cl_uchar> { static constexpr const char* value = "uchar"; };
 template <> struct TypeName<cl_ushort> { static constexpr const char* value = "ushort"; };
 

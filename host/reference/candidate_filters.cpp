@@ -16,7 +16,7 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
   scores.sift.resize(total);
   scores.pairing.resize(total);
   scores.rejected_by.assign(total, 0);
-  const auto patch = [](const EdgeDescriptions& set, std::size_t i) { return set.patches.data() + i * kEdgePatchFloats; };
+  const auto patch = [](const EdgeDescriptions& set, std::size_t i) { return set.patches.data() + i * kEdgePatchBytes; };
   const auto sift = [](const EdgeDescriptions& set, std::size_t i) { return set.sift.data() + i * kEdgeSiftBytes; };
   const int nearly_best_order = std::max(limits.ncc_order, limits.sift_order) + 1;
 

@@ -9,9 +9,9 @@
 
 namespace quadedge::reference {
 
-/// Patches (112 floats per edge, reference/patches.hpp) and SIFT descriptors (256 bytes per edge, reference/sift.hpp).
+/// Patches (128 bytes per edge, reference/patches.hpp) and SIFT descriptors (256 bytes per edge, reference/sift.hpp).
 struct EdgeDescriptions {
-  std::vector<float> patches;
+  std::vector<std::int8_t> patches;
   std::vector<std::uint8_t> sift;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace quadedge::reference {
 namespace {
@@ -18,10 +19,15 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (bottom - top);
 }
 
-/// One patch around (x, y) with its unit tangent (c, s); `patch`: its first row.
-void sample_patch(const ImageView& image, double x, double y, double c, double s, float* patch) {
+constexpr int kInverseNorms = 2 * kPatchLanes * kPatchSide;  // where they begin
+
+/// Place of sample k = 7 i + j.
+int place(int side, int k) { return kPatchLanes * (2 * (k / kPatchSide) + side) + k % kPatchSide; }
+
+/// One mean-free patch around (x, y) with its unit tangent (c, s).
+PatchValues sample_patch(const ImageView& image, double x, double y, double c, double s) {
   constexpr int kHalf = kPatchSide / 2;
-  std::array<double, kPatchSamples> values;
+  PatchValues values;
   for (int i = 0; i < kPatchSide; ++i) {
     for (int j = 0; j < kPatchSide; ++j) {
       const double along = i - kHalf, across = j - kHalf;
@@ -33,48 +39,63 @@ void sample_patch(const ImageView& image, double x, double y, double c, double s
   double mean = 0;
   for (double& value : values) mean += value -= middle;
   mean /= kPatchSamples;
-  double squares = 0;
-  for (double& value : values) {
-    value -= mean;
-    squares += value * value;
-  }
-  const double scale = squares < kFlatPatchSquares ? 0.0 : 1.0 / std::sqrt(squares);
-  for (int i = 0; i < kPatchSide; ++i) {
-    for (int j = 0; j < kPatchSide; ++j) patch[2 * kPatchLanes * i + j] = static_cast<float>(values[i * kPatchSide + j] * scale);
-  }
+  for (double& value : values) value -= mean;
+  return values;
 }
 
-float dot(const float* a, const float* b) {
-  std::array<float, kPatchLanes> lane{};
-  for (int i = 0; i < kPatchSide; ++i) {
-    for (int l = 0; l < kPatchLanes; ++l) lane[l] = std::fma(a[2 * kPatchLanes * i + l], b[2 * kPatchLanes * i + l], lane[l]);
-  }
-  return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+float side_ncc(const std::int8_t* a, int side_a, const std::int8_t* b, int side_b) {
+  int products = 0;
+  for (int k = 0; k < kPatchSamples; ++k) products += a[place(side_a, k)] * b[place(side_b, k)];
+  return static_cast<float>(products) * inverse_norm(a, side_a) * inverse_norm(b, side_b);
 }
 
 }  // namespace
 
-std::vector<float> side_patches(const ImageView& image, const std::vector<float>& xs, const std::vector<float>& ys,
-                                const std::vector<float>& directions, const PatchesConfig& config) {
-  std::vector<float> patches(xs.size() * kEdgePatchFloats);
+void store_side(const PatchValues& values, int side, std::int8_t* edge) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  const double scale = largest < kFlatPatchContrast ? 0.0 : kPatchLargest / largest;
+  int squares = 0;
+  for (int k = 0; k < kPatchSamples; ++k) {
+    const int sample = static_cast<int>(std::nearbyint(values[k] * scale));
+    edge[place(side, k)] = static_cast<std::int8_t>(sample);
+    squares += sample * sample;
+  }
+  const float inverse = squares == 0 ? 0.0f : 1.0f / std::sqrt(static_cast<float>(squares));
+  std::memcpy(edge + kInverseNorms + side * sizeof(float), &inverse, sizeof(float));
+}
+
+PatchValues stored_side(const std::int8_t* edge, int side) {
+  PatchValues values;
+  for (int k = 0; k < kPatchSamples; ++k) values[k] = edge[place(side, k)];
+  return values;
+}
+
+float inverse_norm(const std::int8_t* edge, int side) {
+  float inverse;
+  std::memcpy(&inverse, edge + kInverseNorms + side * sizeof(float), sizeof(float));
+  return inverse;
+}
+
+std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<float>& xs, const std::vector<float>& ys,
+                                      const std::vector<float>& directions, const PatchesConfig& config) {
+  std::vector<std::int8_t> patches(xs.size() * kEdgePatchBytes);
   for (std::size_t e = 0; e < xs.size(); ++e) {
     const double c = std::cos(static_cast<double>(directions[e])), s = std::sin(static_cast<double>(directions[e]));
     const double to_dark_x = config.offset * s, to_dark_y = -config.offset * c;
-    float* edge = patches.data() + e * kEdgePatchFloats;
-    sample_patch(image, xs[e] + to_dark_x, ys[e] + to_dark_y, c, s, edge);
-    sample_patch(image, xs[e] - to_dark_x, ys[e] - to_dark_y, c, s, edge + kPatchLanes);
+    std::int8_t* edge = patches.data() + e * kEdgePatchBytes;
+    store_side(sample_patch(image, xs[e] + to_dark_x, ys[e] + to_dark_y, c, s), 0, edge);
+    store_side(sample_patch(image, xs[e] - to_dark_x, ys[e] - to_dark_y, c, s), 1, edge);
   }
   return patches;
 }
 
-PatchSimilarity patch_similarity(const float* a, const float* b) {
-  const float* a_bright = a + kPatchLanes;
-  const float* b_bright = b + kPatchLanes;
-  const std::array<float, 4> scores = {dot(a, b), dot(a_bright, b_bright), dot(a, b_bright), dot(a_bright, b)};
+PatchSimilarity patch_similarity(const std::int8_t* a, const std::int8_t* b) {
+  const std::array<float, 4> scores = {side_ncc(a, 0, b, 0), side_ncc(a, 1, b, 1), side_ncc(a, 0, b, 1), side_ncc(a, 1, b, 0)};
   const auto best = std::max_element(scores.begin(), scores.end());
   return {*best, static_cast<SidePairing>(best - scores.begin())};
 }
 
-float patch_ncc(const float* a, const float* b) { return patch_similarity(a, b).ncc; }
+float patch_ncc(const std::int8_t* a, const std::int8_t* b) { return patch_similarity(a, b).ncc; }
 
 }  // namespace quadedge::reference

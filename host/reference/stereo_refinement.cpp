@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/photometric.hpp"
+#include "reference/patches.hpp"
 
 namespace quadedge::reference {
 namespace {
@@ -27,10 +27,10 @@ double epipolar_shift(const EpipolarLine& line, double x, double y, double direc
   return std::abs(shift) < max_shift ? s + shift * along : s;
 }
 
-RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image, const EdgeSet& left,
-                                    const EdgeSet& right, const stages::EpipolarGeometry& geometry,
-                                    const Candidates& candidates, const StereoConfig& config, double patch_offset,
-                                    CandidateScores& scores) {
+RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image,
+                                    const std::vector<std::int8_t>& left_patches, const EdgeSet& left, const EdgeSet& right,
+                                    const stages::EpipolarGeometry& geometry, const Candidates& candidates, const StereoConfig& config,
+                                    double patch_offset, CandidateScores& scores) {
   RefinedCandidates refined{std::vector<double>(candidates.target.size(), 0.0), std::vector<double>(candidates.target.size(), 0.0)};
   const RefinementSettings settings{config.refine_steps, config.refine_tolerance, config.refine_huber, config.refine_clamp};
   for (std::size_t i = 0; i < left.size(); ++i) {
@@ -38,7 +38,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
     const double cosine = std::cos(left.direction[i]), sine = std::sin(left.direction[i]);
     const double line_sine = left_epipolar_sine(geometry, left.x[i], left.y[i], left.direction[i]);
     const double stiffness = std::pow(config.refine_noise / config.refine_prior * line_sine, 2);
-    const auto left_frame = [&](double side) { return patch_frame(left.x[i], left.y[i], cosine, sine, side, patch_offset); };
+    const PatchFrame left_frame = patch_frame(left.x[i], left.y[i], cosine, sine, 0, 0);
     const auto begin = static_cast<std::size_t>(candidates.first[i]), end = static_cast<std::size_t>(candidates.first[i + 1]);
     for (std::size_t c = begin; c < end; ++c) {
       if (scores.rejected_by[c] != 0) continue;
@@ -57,20 +57,21 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       const auto right_frame = [&](double place, double side) {
         return patch_frame(line.x + place * line.ex, line.y + place * line.ey, cosine, sine, side, patch_offset);
       };
-      const PatchValues on_edge = cut_patch(left_image, left_frame(0), 0, 0);
+      const PatchValues on_edge = cut_patch(left_image, left_frame, 0, 0);
       const auto found = align_edge(right_image, right_frame(s, 0), line.ex, line.ey, on_edge,
-                                    patch_derivative(left_image, left_frame(0), line.ex, line.ey), stiffness, settings);
+                                    patch_derivative(left_image, left_frame, line.ex, line.ey), stiffness, settings);
       if (!found) {
         scores.rejected_by[c] = kStereoRefinementOrder;
         continue;
       }
       refined.place[c] = s + found->move;
-      const auto similarity = [&](double side) {
-        return patch_ncc(cut_patch(left_image, left_frame(side), 0, 0), cut_patch(right_image, right_frame(refined.place[c], side), 0, 0));
+      const auto similarity = [&](int side) {
+        return patch_ncc(stored_side(left_patches.data() + i * kEdgePatchBytes, side),
+                         cut_patch(right_image, right_frame(refined.place[c], side == 0 ? 1 : -1), 0, 0));
       };
       // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
       const double centre = patch_ncc(on_edge, found->values);
-      const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(similarity(-1), similarity(1)) : -1;
+      const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(similarity(0), similarity(1)) : -1;
       refined.likeness[c] = 0.5 * (centre + beside);
     }
     // The others stay where they are and join their neighbour's cluster, where they count for its direction and cannot represent it.

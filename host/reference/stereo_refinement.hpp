@@ -25,11 +25,13 @@ struct RefinedCandidates {
 /// Where SPEC aligns a side patch, the patch on the edge itself is aligned here, at equal contrast: it holds the edge's own profile,
 /// and the flank that another surface owns weighs little. A prior holds it around the detected place, as tightly as an edge is
 /// known along this line: refine_prior / sin(angle between edge and line).
+/// `left_patches`: the side patches of the left edges, see reference/patches.hpp.
 ///
 /// Neighbours on one curve shift to the same place: of candidates within 0.3 px the one nearest to the line is refined,
 /// and the others get its place and a likeness below -1.
-RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image, const EdgeSet& left,
-                                      const EdgeSet& right, const stages::EpipolarGeometry& geometry,
+RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image,
+                                      const std::vector<std::int8_t>& left_patches, const EdgeSet& left, const EdgeSet& right,
+                                      const stages::EpipolarGeometry& geometry,
                                       const Candidates& candidates, const StereoConfig& config, double patch_offset,
                                       CandidateScores& scores);
 

@@ -77,7 +77,7 @@ class DeviceFrontend : public Frontend {
   DevicePlaces predicted_[2];  ///< left, right
   DevicePointIndex left_index_, right_index_;
   bool indexed_ = false;                    ///< of the current frame
-  opencl::Buffer<cl_float> right_patches_;  ///< of every edge of the right image
+  opencl::Buffer<cl_char> right_patches_;   ///< of every edge of the right image
   opencl::Buffer<cl_uchar> left_sift_{context_, 0}, right_sift_{context_, 0};  ///< of every edge, where the stereo cascade asks for SIFT
   DevicePlaces described_places_;
   opencl::Buffer<cl_int> itself_;           ///< 0, 1, 2 ...

@@ -73,10 +73,10 @@ void EdgeDescription::prepare_sift(const opencl::Buffer<cl_uchar>& image) {
 
 void EdgeDescription::cut_patches(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
                                   const opencl::Buffer<cl_float>& direction, int count,
-                                  opencl::Buffer<cl_float>& patches) {
+                                  opencl::Buffer<cl_char>& patches) {
   context_.begin_stage("patches");
   const auto edges = static_cast<std::size_t>(count);
-  patches.ensure(context_, edges * reference::kEdgePatchFloats);
+  patches.ensure(context_, edges * reference::kEdgePatchBytes);
   patches_kernel_({edges * patches_items_, patches_local_}, corners_.values(), width_, height_, x, y, direction, count, patch_offset_,
                   patches);
 }

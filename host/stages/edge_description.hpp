@@ -26,10 +26,10 @@ class EdgeDescription {
 
   /// Side patches at any `count` places and directions in the prepared image.
   void cut_patches(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
-                   const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_float>& patches);
+                   const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_char>& patches);
 
   /// Side patches of the edges detected in the prepared image; after DeviceEdges::read_count().
-  void cut_patches(const DeviceEdges& edges, opencl::Buffer<cl_float>& patches) {
+  void cut_patches(const DeviceEdges& edges, opencl::Buffer<cl_char>& patches) {
     cut_patches(edges.x, edges.y, edges.direction, edges.host_count, patches);
   }
 
@@ -62,7 +62,7 @@ class EdgeDescription {
   opencl::Buffer<cl_float> blurred_down_, blurred_;  ///< height x stride
   opencl::Buffer<cl_float> magnitude_, angle_;       ///< (height + 2 padding) x stride
 
-  opencl::Kernel<In<cl_uint>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_float, Out<cl_float>>
+  opencl::Kernel<In<cl_uint>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_float, Out<cl_char>>
       patches_kernel_;
   opencl::Kernel<In<cl_uchar>, cl_int, cl_int, cl_int, Out<cl_float>> blur_down_kernel_;
   opencl::Kernel<In<cl_float>, cl_int, cl_int, Out<cl_float>> blur_along_kernel_;

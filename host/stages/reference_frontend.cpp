@@ -78,13 +78,13 @@ void ReferenceFrontend::process(const StereoFrame& frame) {
 
   const auto candidates = reference::stereo_candidates(left_edges_, right_edges_, epipolar_);
   auto scores = reference::candidate_filters(candidates, left, right, stereo_limits(config_.stereo));
-  const auto refined = reference::stereo_refinement(now_.left.view(), now_.right.view(), left_edges_, right_edges_, epipolar_,
-                                                    candidates, config_.stereo, config_.patches.offset, scores);
+  const auto refined = reference::stereo_refinement(now_.left.view(), now_.right.view(), left.patches, left_edges_, right_edges_,
+                                                    epipolar_, candidates, config_.stereo, config_.patches.offset, scores);
   const auto clusters = reference::stereo_clusters(candidates, scores, refined, right_edges_, config_.stereo);
   current_ = reference::stereo_mutual(clusters, reference::stereo_best(clusters, config_.stereo), left_edges_, epipolar_,
                                       config_.stereo);
 
-  now_.left_descriptions = {rows_of(left.patches, current_.left_index, reference::kEdgePatchFloats),
+  now_.left_descriptions = {rows_of(left.patches, current_.left_index, reference::kEdgePatchBytes),
                             rows_of(left.sift, current_.left_index, reference::kEdgeSiftBytes)};
   now_.right_descriptions = {
       reference::side_patches(now_.right.view(), current_.right_x, current_.right_y, current_.right_direction, config_.patches),

@@ -25,7 +25,7 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
 }
 
 void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
-                           const DeviceEdges& right, const opencl::Buffer<cl_float>& left_patches,
+                           const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches,
                            const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined) {
   context_.begin_stage("stereo_refinement");
   refined.place.ensure(context_, static_cast<std::size_t>(candidates.capacity));

@@ -27,7 +27,7 @@ class StereoRefinement {
   /// Living candidates get a place and a likeness; those that diverge are rejected. Both images prepared for sampling;
   /// `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.
   void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left, const DeviceEdges& right,
-           const opencl::Buffer<cl_float>& left_patches, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
+           const opencl::Buffer<cl_char>& left_patches, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
 
  private:
   template <class T>
@@ -40,7 +40,7 @@ class StereoRefinement {
   float patch_offset_;
   std::size_t local_size_;
   opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
-                 In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
+                 In<cl_char>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
                  cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>,
                  Out<cl_float>>
       kernel_;

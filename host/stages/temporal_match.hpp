@@ -50,8 +50,8 @@ class TemporalMatch {
   std::vector<cl_int> rows_;
   opencl::Kernel<cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
                  In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_int>, In<cl_float>, In<cl_float>, In<cl_int>,
-                 In<cl_float>, In<cl_int>, In<cl_float>, cl_int, cl_float, cl_float, cl_float, cl_float, cl_float, cl_float, cl_float,
+                 In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_char>, In<cl_int>, In<cl_char>, In<cl_char>, In<cl_int>,
+                 In<cl_char>, In<cl_int>, In<cl_float>, cl_int, cl_float, cl_float, cl_float, cl_float, cl_float, cl_float, cl_float,
                  Out<cl_int>>
       kernel_;
 };
