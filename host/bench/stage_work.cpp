@@ -26,9 +26,9 @@ StageWork edges_work(const FrameSize& frame, const EdgesConfig& config) {
 
 /// SPEC section 2: bilinear samples, mean-free, scaled to 8 bits, with their norm.
 StageWork patches_work(const FrameSize& frame) {
-  const double sample = 4 + 8 + 2 + 3;  // place, bilinear, mean, norm
+  const double sample = 4 + 8 + 2 + 2 + 2 + 2;  // place, bilinear, mean, largest, scale and round, norm
   return {frame.pixels + frame.edges * (kPlaceBytes + reference::kEdgePatchBytes),
-          frame.edges * 2 * reference::kPatchSide * reference::kPatchLanes * sample};
+          frame.edges * 2 * reference::kPatchSamples * sample};
 }
 
 /// SPEC section 2: a blur of 13 taps along both axes and a gradient per pixel, 2 x 11 x 11 samples per edge into 4 x 4 x 8 bins.
