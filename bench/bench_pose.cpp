@@ -66,8 +66,8 @@ void two_quads(benchmark::State& state) {
   for (auto unused : state) {
     (void)unused;
     const std::size_t a = i % input.quads.size(), b = (i * 7 + 1) % input.quads.size();
-    benchmark::DoNotOptimize(pose::solve_two_quads({input.quads.previous_points[a], input.quads.previous_points[b]},
-                                                   {input.quads.current_points[a], input.quads.current_points[b]}, max_cosine));
+    benchmark::DoNotOptimize(pose::solve_two_quads({input.quads.previous[a].oriented_point(), input.quads.previous[b].oriented_point()},
+                                                   {input.quads.current[a].oriented_point(), input.quads.current[b].oriented_point()}, max_cosine));
     ++i;
   }
 }
@@ -86,23 +86,26 @@ BENCHMARK(scoring)->Arg(512)->Arg(4000)->Arg(40000);
 
 void ransac(benchmark::State& state) {
   const auto& input = quads_of(state.range(0));
+  pose::ConsensusWorkspace workspace;
   for (auto unused : state) {
     (void)unused;
     benchmark::DoNotOptimize(
-        pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt));
+        pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt, workspace));
   }
 }
 BENCHMARK(ransac)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);
 
 void refinement(benchmark::State& state) {
   const auto& input = quads_of(state.range(0));
+  pose::ConsensusWorkspace search;
   const auto consensus =
-      pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt);
+      pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt, search);
   pose::RefinementWorkspace workspace;
+  std::vector<std::uint8_t> inlier;
   for (auto unused : state) {
     (void)unused;
     benchmark::DoNotOptimize(
-        pose::refine(input.quads, input.sequence.rig(), input.config.pose, consensus.current_from_previous, 0, workspace));
+        pose::refine(input.quads, input.sequence.rig(), input.config.pose, consensus.current_from_previous, 0, workspace, inlier));
   }
 }
 BENCHMARK(refinement)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);

@@ -161,8 +161,6 @@ inline void append(quadedge::pose::QuadObservations& quads, const quadedge::pose
   const auto both = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   both(quads.previous, others.previous);
   both(quads.current, others.current);
-  both(quads.previous_points, others.previous_points);
-  both(quads.current_points, others.current_points);
   both(quads.ncc, others.ncc);
   both(quads.rivals, others.rivals);
   both(quads.match, others.match);

@@ -24,6 +24,14 @@ pose::OrientedPoint random_point(std::mt19937& random) {
           Eigen::Vector3d(uniform(random), uniform(random), uniform(random)).normalized()};
 }
 
+pose::StereoMeasurement measured_as(const pose::OrientedPoint& point) {
+  pose::StereoMeasurement result;
+  result.ray = point.point / point.point.z();
+  result.inverse_depth = 1.0 / point.point.z();
+  result.direction = point.tangent;
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("A histogram counts every value once, also those outside", "[matching]") {
@@ -163,8 +171,8 @@ TEST_CASE("Pairs of true quads give the true motion, and wrong ones lower the pr
     pose::OrientedPoint now{motion * before.point, motion.linear() * before.tangent};
     const bool wrong = q % 4 == 3;
     if (wrong) now = random_point(random);
-    quads.previous_points.push_back(before);
-    quads.current_points.push_back(now);
+    quads.previous.push_back(measured_as(before));
+    quads.current.push_back(measured_as(now));
     usable.push_back(q);
     veridical.push_back(wrong ? 0 : 1);
   }
@@ -188,7 +196,7 @@ TEST_CASE("Pairs of true quads give the true motion, and wrong ones lower the pr
   CHECK(length.other.total() == measured.table[0].pairs - measured.table[0].veridical);
 
   // Were all of them wrong, no motion would be near.
-  for (auto& point : quads.current_points) point = random_point(random);
+  for (auto& after : quads.current) after = measured_as(random_point(random));
   const auto wrong = measure_pairs(quads, usable, std::vector<std::uint8_t>(400, 0), config.pose, 1, motion, cues);
   CHECK(wrong.table[6].veridical == 0);
   CHECK(wrong.accuracy[0].rotation_deg > 20);

@@ -36,8 +36,9 @@ TEST_CASE("key rig: parallax is the median distance of both ends", "[odometry][k
   current.left_y[2] -= 20;  // 20 px
   TemporalMatches quads;
   for (int i = 0; i < 3; ++i) quads.append(i, i, current, 0.9f, 0);
-  CHECK(odometry::median_parallax(row_of_edges(3), quads) == Approx(5));
-  CHECK(odometry::median_parallax(row_of_edges(3), {}) == 0);
+  std::vector<double> distances;
+  CHECK(odometry::median_parallax(row_of_edges(3), quads, distances) == Approx(5));
+  CHECK(odometry::median_parallax(row_of_edges(3), {}, distances) == 0);
 }
 
 TEST_CASE("key rig: remembers its frame and place", "[odometry][key_rig]") {

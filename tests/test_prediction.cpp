@@ -29,7 +29,11 @@ StereoEdges edges_of(const StereoRig& rig, const std::vector<pose::OrientedPoint
 
 stages::TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std::optional<Eigen::Isometry3d>& motion, double radius,
                                int step) {
-  return odometry::predict_places(rig, edges, pose::measure_edges(rig, edges, 0.07), motion, radius, step);
+  pose::MeasuredEdges measured;
+  pose::measure_edges(rig, edges, 0.07, measured);
+  stages::TemporalSearch search;
+  odometry::predict_places(rig, edges, measured, motion, radius, step, search);
+  return search;
 }
 
 }  // namespace

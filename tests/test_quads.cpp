@@ -56,9 +56,9 @@ TEST_CASE("Quads take the detected places, keep their match's row and leave out 
     CHECK(quads.rivals[k] == static_cast<int>(i) % 3);
     CHECK(quads.ncc[k] == Approx(static_cast<double>(i) / 20.0).margin(1e-6));
     const Eigen::Vector3d after = motion * truth[i].point;
-    CHECK((quads.previous_points[k].point - truth[i].point).norm() < 1e-4 * truth[i].point.norm());
-    CHECK((quads.current_points[k].point - after).norm() < 1e-4 * after.norm());
-    CHECK((quads.previous_points[k].tangent - truth[i].tangent).norm() < 1e-3);
+    CHECK((quads.previous[k].oriented_point().point - truth[i].point).norm() < 1e-4 * truth[i].point.norm());
+    CHECK((quads.current[k].oriented_point().point - after).norm() < 1e-4 * after.norm());
+    CHECK((quads.previous[k].oriented_point().tangent - truth[i].tangent).norm() < 1e-3);
     CHECK(static_cast<double>(quads.scoring.left_x[k]) == Approx(rig.left.project(after).x()).margin(1e-3));
   }
 }

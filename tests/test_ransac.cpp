@@ -18,7 +18,8 @@ generated::Problem drive() {
 
 Consensus search(const generated::Problem& problem, const generated::Generated& g, const quadedge::PoseConfig& config,
                  std::uint64_t seed = 42, const std::optional<Eigen::Isometry3d>& initial = std::nullopt) {
-  return find_consensus(g.quads, problem.rig, config, seed, initial);
+  ConsensusWorkspace workspace;
+  return find_consensus(g.quads, problem.rig, config, seed, initial, workspace);
 }
 
 }  // namespace
@@ -78,7 +79,7 @@ TEST_CASE("The search ends with no, one and two quads, and with quads of which n
   // Every distance doubled: constraint 1 fails for each pair.
   problem.quads = 50;
   auto g = generated::generate(problem, 42);
-  for (OrientedPoint& p : g.quads.current_points) p.point *= 2.0;
+  for (StereoMeasurement& after : g.quads.current) after.inverse_depth *= 0.5;
   const Consensus found = search(problem, g, config);
   CHECK_FALSE(found.found);
   CHECK(found.draws == config.max_draws);
@@ -137,8 +138,8 @@ TEST_CASE("Without local optimisation the motion is the one of two quads as they
   for (std::size_t a = 0; a < noisy.quads.size() && !of_a_pair; ++a) {
     for (std::size_t b = 0; b < noisy.quads.size() && !of_a_pair; ++b) {
       if (a == b) continue;
-      const auto motion = solve_two_quads({noisy.quads.previous_points[a], noisy.quads.previous_points[b]},
-                                          {noisy.quads.current_points[a], noisy.quads.current_points[b]}, max_cosine);
+      const auto motion = solve_two_quads({noisy.quads.previous[a].oriented_point(), noisy.quads.previous[b].oriented_point()},
+                                          {noisy.quads.current[a].oriented_point(), noisy.quads.current[b].oriented_point()}, max_cosine);
       of_a_pair = motion && motion->matrix() == plain.current_from_previous.matrix();
     }
   }

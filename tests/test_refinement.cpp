@@ -8,9 +8,10 @@ using namespace quadedge::pose;
 namespace {
 
 Refined refined_by(const QuadObservations& quads, const quadedge::StereoRig& rig, const quadedge::PoseConfig& config,
-               const Eigen::Isometry3d& initial, double offset_variance = 0) {
+                   const Eigen::Isometry3d& initial, double offset_variance = 0) {
   RefinementWorkspace workspace;
-  return quadedge::pose::refine(quads, rig, config, initial, offset_variance, workspace);
+  std::vector<std::uint8_t> inlier;
+  return refine(quads, rig, config, initial, offset_variance, workspace, inlier);
 }
 
 generated::Problem drive() {

@@ -11,7 +11,7 @@ namespace {
 double plain_cost(const generated::Generated& g, const quadedge::StereoRig& rig, const Eigen::Isometry3d& motion, double threshold) {
   double sum = 0;
   for (std::size_t i = 0; i < g.quads.size(); ++i) {
-    const Eigen::Vector3d left = motion * g.quads.previous_points[i].point, right = rig.right_from_left * left;
+    const Eigen::Vector3d left = motion * g.quads.previous[i].oriented_point().point, right = rig.right_from_left * left;
     double cost = threshold * threshold;
     if (left.z() > 0 && right.z() > 0) {
       const auto& s = g.quads.scoring;

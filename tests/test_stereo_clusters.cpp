@@ -95,7 +95,8 @@ struct Scene {
       stages::DeviceStereoEdges result;
       stage.run(device_left, device_right, describe_right, packed, lists, device_refined,
                 clusters, result);
-      const StereoEdges found = result.read();
+      StereoEdges found;
+      result.read(found);
       std::size_t same = 0, j = 0;
       for (std::size_t i = 0; i < truth.size(); ++i) {
         while (j < found.size() && found.left_index[j] < truth.left_index[i]) ++j;

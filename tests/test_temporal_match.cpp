@@ -12,6 +12,13 @@ using namespace matching;
 
 namespace {
 
+/// What the matching in time left, with the rows that kept a candidate in each image before the agreement.
+struct MatchedRows {
+  TemporalMatches quads;
+  int left_alive = 0, right_alive = 0;
+};
+
+
 constexpr int kWidth = 97, kHeight = 61;
 
 /// A patch pair near one of a few prototypes, so that many edges look alike.
@@ -124,7 +131,7 @@ struct Scene {
     rig.right_patches.write(context, of_right);
   }
   /// What every variant but the lists finds on every device.
-  void on_devices(const std::function<void(const std::optional<stages::MatchedRows>&)>& check) const {
+  void on_devices(const std::function<void(const std::optional<MatchedRows>&)>& check) const {
     for_each_variant("temporal_match", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
       stages::TemporalMatch stage(context, config, variants);
       if (!stage.serves(search)) return;
@@ -142,7 +149,14 @@ struct Scene {
       std::iota(numbers.begin(), numbers.end(), 0);
       opencl::Buffer<cl_int> itself;
       itself.write(context, numbers);
-      check(stage.run(left_places, right_places, search, device_base, device_current, left_index, right_index, itself, current));
+      MatchedRows matched;
+      const auto alive = stage.run(left_places, right_places, search, device_base, device_current, left_index, right_index, itself, current,
+                                   matched.quads);
+      if (alive) {
+        matched.left_alive = alive->left;
+        matched.right_alive = alive->right;
+      }
+      check(alive ? std::optional(matched) : std::nullopt);
     });
   }
   std::size_t compare_devices() const {

@@ -65,8 +65,8 @@ PairMeasurement measure_pairs(const pose::QuadObservations& quads, const std::ve
       const std::size_t a = usable[draw(random, usable.size())], b = usable[draw(random, usable.size())];
       if (a == b) continue;
       const bool both = veridical[a] != 0 && veridical[b] != 0;
-      const pose::OrientedPair previous{quads.previous_points[a], quads.previous_points[b]};
-      const pose::OrientedPair current{quads.current_points[a], quads.current_points[b]};
+      const pose::OrientedPair previous{quads.previous[a].oriented_point(), quads.previous[b].oriented_point()};
+      const pose::OrientedPair current{quads.current[a].oriented_point(), quads.current[b].oriented_point()};
       const auto check = pose::check_constraints(previous, current, limits);
       const auto values = constraint_values(previous, current);
       std::optional<MotionError> error;

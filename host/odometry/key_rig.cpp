@@ -11,8 +11,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 }  // namespace
 
-double median_parallax(const StereoEdges& key, const TemporalMatches& quads) {
-  std::vector<double> distances;
+double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std::vector<double>& distances) {
+  distances.clear();
   for (std::size_t row = 0; row < quads.size(); ++row) {
     const auto i = static_cast<std::size_t>(quads.previous[row]);
     distances.push_back(std::hypot(quads.left_x[row] - key.left_x[i], quads.left_y[row] - key.left_y[i]));

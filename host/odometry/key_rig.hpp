@@ -18,7 +18,8 @@ struct KeyRigState {
 };
 
 /// Median distance in the left image between both ends of the quads [px]; 0 without quads.
-double median_parallax(const StereoEdges& key, const TemporalMatches& quads);
+/// \param distances a buffer that is kept between calls
+double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std::vector<double>& distances);
 
 /// Remembers which frame is the key rig and how well it began.
 class KeyRig {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "odometry/disparity_offset.hpp"
+#include "odometry/pool.hpp"
 #include "pose/motion.hpp"
 #include "quadedge/config.hpp"
 #include "stages/frontend.hpp"
@@ -22,6 +23,8 @@ struct MotionStep {
 
   bool ok() const { return motion.status == pose::MotionStatus::ok; }
 };
+/// A step whose arrays serve again.
+using StepHandle = Pool<MotionStep>::Handle;
 
 /// What is known of the current frame's motion before its edges are matched with earlier ones.
 struct MotionPrior {
@@ -40,8 +43,8 @@ class MotionSearch {
   MotionSearch(const StereoRig& rig, const Config& config, stages::Frontend& frontend, const DisparityOffset& offset)
       : rig_(rig), config_(config), frontend_(frontend), offset_(offset) {}
 
-  /// The motion of the frontend's current rig; its status says whether there is one.
-  MotionStep find(const MotionPrior& prior);
+  /// The motion of the frontend's current rig; its status says whether there is one. The search must outlive the handle.
+  StepHandle find(const MotionPrior& prior);
 
  private:
   /// A base's measured edges, kept while the rig and its calibration stay.
@@ -52,22 +55,34 @@ class MotionSearch {
   };
   const pose::MeasuredEdges& measured(stages::Base base, const MotionPrior& prior);
 
-  MotionStep scout(const MotionPrior& prior, double radius);
-  MotionStep look_anywhere(const MotionPrior& prior);
-  MotionStep look_beside(const MotionStep& seen, const MotionPrior& prior);
-  MotionStep suggest_anywhere(TemporalMatches matches, const MotionPrior& prior);
-  double explained_area(const MotionStep& step, const stages::PlacedEdges& predicted) const;
-  MotionStep confirm(MotionStep scouted, const MotionPrior& prior);
-  bool is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior) const;
-  MotionStep match(stages::Base base, Eigen::Isometry3d motion, const MotionPrior& prior);
-  MotionStep estimate(stages::Base base, TemporalMatches matches, const std::optional<Eigen::Isometry3d>& prediction,
-                      const PoseConfig& limits, const MotionPrior& prior);
+  StepHandle new_step(stages::Base base);
+  StepHandle scout(const MotionPrior& prior, double radius);
+  StepHandle look_anywhere(const MotionPrior& prior);
+  StepHandle look_beside(const MotionStep& seen, const MotionPrior& prior);
+  void suggest_anywhere(const MotionPrior& prior, MotionStep& step);
+  double explained_area(const MotionStep& step, const stages::PlacedEdges& predicted);
+  StepHandle scout_and_confirm(const MotionPrior& prior, double radius);
+  StepHandle confirm(const Eigen::Isometry3d& motion, const MotionPrior& prior);
+  bool is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior);
+  StepHandle match(stages::Base base, Eigen::Isometry3d motion, const MotionPrior& prior);
+  void estimate(const std::optional<Eigen::Isometry3d>& prediction, const PoseConfig& limits, const MotionPrior& prior, MotionStep& step);
 
   StereoRig rig_;
   Config config_;
   stages::Frontend& frontend_;
   const DisparityOffset& offset_;
   MeasuredBase measured_key_, measured_previous_;
+
+  // Buffers that are kept from frame to frame.
+  Pool<MotionStep> steps_;
+  stages::TemporalSearch search_, settled_;
+  pose::QuadBuilder builder_;
+  pose::MotionEstimator estimator_;
+  std::vector<std::uint8_t> agrees_;
+  struct Cell {
+    double edges = 0, explained = 0;
+  };
+  std::vector<Cell> cells_;
 };
 
 }  // namespace quadedge::odometry

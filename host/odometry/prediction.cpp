@@ -19,14 +19,18 @@ void place(stages::PlacedEdges& places, std::size_t i, const std::optional<pose:
 
 }  // namespace
 
-stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
-                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step) {
-  stages::TemporalSearch search;
+void predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
+                    const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step, stages::TemporalSearch& search) {
   search.radius = static_cast<float>(radius);
   search.step = step;
-  search.left = {previous.left_x, previous.left_y, previous.left_direction};
-  search.right = {previous.right_x, previous.right_y, previous.right_direction};
-  if (!current_from_previous) return search;
+  search.scout = false;
+  search.left.x = previous.left_x;
+  search.left.y = previous.left_y;
+  search.left.direction = previous.left_direction;
+  search.right.x = previous.right_x;
+  search.right.y = previous.right_y;
+  search.right.direction = previous.right_direction;
+  if (!current_from_previous) return;
   const Eigen::Isometry3d right_from_previous = rig.right_from_left * *current_from_previous;
   const auto predict = [&](std::size_t i) {
     std::optional<pose::OrientedPoint> point;
@@ -38,7 +42,6 @@ stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& p
   pose::for_row_blocks((previous.size() + every - 1) / every, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) predict(row * every);
   });
-  return search;
 }
 
 int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places) {

@@ -16,8 +16,9 @@ namespace quadedge::odometry {
 /// \param current_from_previous left cameras, metres
 /// \param measured the previous edges, see pose::measure_edges()
 /// \param radius px; \param step every step-th edge is looked for
-stages::TemporalSearch predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
-                                      const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step);
+/// \param search what is replaced
+void predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
+                    const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step, stages::TemporalSearch& search);
 
 /// Places inside a camera's image.
 int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places);

@@ -91,7 +91,7 @@ class StereoOdometry::Implementation {
   const Config& config() const { return config_; }
 
  private:
-  odometry::MotionStep find_motion(FrameResult& result);
+  odometry::StepHandle find_motion(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
   void become_base(const FrameResult& result);
@@ -109,7 +109,6 @@ class StereoOdometry::Implementation {
   bool has_base_ = false;          ///< a frame that the next one is matched with
   bool keep_pending_ = false;      ///< the current frame is the next one's base
   bool key_pending_ = false;       ///< and its key rig
-  stages::Base last_base_ = stages::Base::previous;  ///< of the last matches
   int base_frame_ = 0;
   Eigen::Isometry3d base_from_key_ = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 6> base_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
@@ -123,8 +122,8 @@ class StereoOdometry::Implementation {
   std::optional<Unplaced> unplaced_;
   bool base_to_key_pending_ = false;  ///< the base becomes the key rig before the current frame is kept
 
-  TemporalMatches last_matches_;
-  std::vector<std::uint8_t> last_inlier_;
+  odometry::StepHandle last_step_;  ///< of the current frame; null where none was tried
+  std::vector<double> distances_;    ///< buffer of median_parallax()
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
@@ -132,8 +131,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   check_image(frame.right, rig_.right, !rig_.right_undistortion.empty(), "right");
   StageClock latency, clock;
   ++frame_;
-  last_matches_ = {};
-  last_inlier_.clear();
+  last_step_ = nullptr;
   FrameResult result;
   result.stamp_ns = frame.stamp_ns;
 
@@ -160,7 +158,8 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     key_rig_.start(frame_, result.world_from_left);
     become_base(result);
   } else {
-    odometry::MotionStep step = find_motion(result);
+    last_step_ = find_motion(result);
+    const odometry::MotionStep& step = *last_step_;
     result.counts.temporal_left = frontend_->counts().temporal_left;
     result.counts.temporal_right = frontend_->counts().temporal_right;
     result.counts.quads = static_cast<int>(step.matches.size());
@@ -170,12 +169,6 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     } else {
       lose(lost_status(step.motion.status), pose::to_string(step.motion.status), result);
     }
-    last_inlier_.assign(step.matches.size(), 0);
-    for (std::size_t q = 0; q < step.quads.size(); ++q) {
-      last_inlier_[static_cast<std::size_t>(step.quads.match[q])] = step.motion.inlier.empty() ? 0 : step.motion.inlier[q];
-    }
-    last_base_ = step.base;
-    last_matches_ = std::move(step.matches);
     result.stages.push_back({"pose", clock.lap()});
   }
   world_from_last_ = result.world_from_left;
@@ -195,7 +188,7 @@ std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motio
 }
 
 /// The motion since the base or the key rig; after a loss, else the one since the frame that was lost, from which tracking restarts.
-odometry::MotionStep StereoOdometry::Implementation::find_motion(FrameResult& result) {
+odometry::StepHandle StereoOdometry::Implementation::find_motion(FrameResult& result) {
   odometry::MotionPrior prior;
   prior.seed = config_.seed + static_cast<std::uint64_t>(frame_);
   prior.prediction = predicted_motion();
@@ -206,13 +199,13 @@ odometry::MotionStep StereoOdometry::Implementation::find_motion(FrameResult& re
   } else {
     prior.base_from_key = base_from_key_;
   }
-  odometry::MotionStep step = search_.find(prior);
-  if (step.ok() || !unplaced_) return step;
+  odometry::StepHandle step = search_.find(prior);
+  if (step->ok() || !unplaced_) return step;
   prior.base = stages::Base::previous;
   prior.previous_frame = unplaced_->frame;
   prior.prediction = std::nullopt;
-  odometry::MotionStep restart = search_.find(prior);
-  if (!restart.ok()) return step;
+  odometry::StepHandle restart = search_.find(prior);
+  if (!restart->ok()) return step;
   result.message += std::string(result.message.empty() ? "" : "; ") + "restarted from frame " + std::to_string(unplaced_->frame) +
                     ", whose place is a guess";
   key_rig_.start(unplaced_->frame, unplaced_->world_from_left);
@@ -232,7 +225,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   odometry::KeyRigState state;
   state.quads = static_cast<int>(step.matches.size());
   state.inlier_share = step.motion.share;
-  state.median_parallax = odometry::median_parallax(frontend_->base(step.base), step.matches);
+  state.median_parallax = odometry::median_parallax(frontend_->base(step.base), step.matches, distances_);
   state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();
   state.frames = frame_ - key_rig_.frame();
   result.disparity_offset = offset_.value() + step.motion.offset;
@@ -290,10 +283,14 @@ FrameDetails StereoOdometry::Implementation::details() const {
   FrameDetails details;
   details.left_edges = frontend_->edges(false);
   details.right_edges = frontend_->edges(true);
-  details.previous_stereo = frontend_->base(last_base_);
+  details.previous_stereo = frontend_->base(last_step_ ? last_step_->base : stages::Base::previous);
   details.stereo = frontend_->current();
-  details.quads = last_matches_;
-  details.quad_inlier = last_inlier_;
+  if (!last_step_) return details;
+  const odometry::MotionStep& step = *last_step_;
+  details.quads = step.matches;
+  details.quad_inlier.assign(step.matches.size(), 0);
+  for (std::size_t q = 0; q < step.motion.inlier.size(); ++q)
+    details.quad_inlier[static_cast<std::size_t>(step.quads.match[q])] = step.motion.inlier[q];
   return details;
 }
 

@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "pose/angles.hpp"
-#include "pose/ransac.hpp"
-#include "pose/refinement.hpp"
 
 namespace quadedge::pose {
 
@@ -41,42 +39,48 @@ const char* to_string(MotionStatus status) {
 MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
                                const std::optional<Eigen::Isometry3d>& initial, double offset_variance) {
   MotionEstimate estimate;
+  MotionEstimator().estimate(rig, quads, config, seed, initial, offset_variance, estimate);
+  return estimate;
+}
+
+void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
+                               const std::optional<Eigen::Isometry3d>& initial, double offset_variance, MotionEstimate& estimate) {
+  std::vector<std::uint8_t> inlier = std::move(estimate.inlier);
+  estimate = {};
+  estimate.inlier = std::move(inlier);
   estimate.inlier.assign(quads.size(), 0);
-  if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return estimate;
+  if (quads.size() < static_cast<std::size_t>(config.min_inliers)) return;
 
   estimate.status = MotionStatus::no_consensus;
-  const Consensus consensus = find_consensus(quads, rig, config, seed, initial);
+  const Consensus consensus = find_consensus(quads, rig, config, seed, initial, consensus_);
   estimate.hypotheses = consensus.hypotheses;
   estimate.draws = consensus.draws;
-  if (!consensus.found) return estimate;
+  if (!consensus.found) return;
 
   Eigen::Isometry3d pose = consensus.current_from_previous;
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   bool solved = true;
   if (config.refine) {
-    RefinementWorkspace workspace;
-    Refined refined = refine(quads, rig, config, pose, offset_variance, workspace);
+    const Refined refined = refine(quads, rig, config, pose, offset_variance, refinement_, estimate.inlier);
     pose = refined.current_from_previous;
     covariance = refined.covariance;
     solved = refined.solved;
     estimate.offset = refined.offset;
     estimate.offset_variance = refined.offset_variance;
-    estimate.inlier = std::move(refined.inlier);
     estimate.inliers = refined.inliers;
   } else {
     estimate.inliers = select_inliers(quads.scoring, LaterCameras(rig, pose), config.inlier_distance,
                                       radians(config.inlier_orientation), estimate.inlier);
   }
   estimate.share = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
-  if (estimate.inliers < config.min_inliers || estimate.share < config.min_inlier_share) return estimate;
+  if (estimate.inliers < config.min_inliers || estimate.share < config.min_inlier_share) return;
   if (!solved || spread(quads, estimate.inlier, rig.left) < config.min_spread) {
     estimate.status = MotionStatus::badly_spread;
-    return estimate;
+    return;
   }
   estimate.status = MotionStatus::ok;
   estimate.current_from_previous = pose;
   estimate.covariance = covariance;
-  return estimate;
 }
 
 }  // namespace quadedge::pose

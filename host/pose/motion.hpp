@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "pose/quads.hpp"
+#include "pose/ransac.hpp"
+#include "pose/refinement.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
@@ -43,5 +45,17 @@ struct MotionEstimate {
 /// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to frame.
 MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
                                const std::optional<Eigen::Isometry3d>& initial = std::nullopt, double offset_variance = 0);
+
+/// estimate_motion() with buffers that are kept between calls.
+class MotionEstimator {
+ public:
+  /// \param estimate is replaced
+  void estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
+                const std::optional<Eigen::Isometry3d>& initial, double offset_variance, MotionEstimate& estimate);
+
+ private:
+  ConsensusWorkspace consensus_;
+  RefinementWorkspace refinement_;
+};
 
 }  // namespace quadedge::pose

@@ -72,7 +72,7 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   result.slope = -normal.dot(result.direction) / along_ray;
   const double by_right = normal_turn.dot(result.direction + result.slope * result.ray) / along_ray;
   const double by_left = normal.dot(image_step(rig.left, {-left_edge.y(), left_edge.x()})) * left_scale / along_ray;
-  result.slope_per_radian = std::hypot(by_right, by_left);
+  result.slope_per_radian = std::sqrt(by_right * by_right + by_left * by_left);
   if (!std::isfinite(result.slope) || !std::isfinite(result.slope_per_radian)) return std::nullopt;
   return result;
 }

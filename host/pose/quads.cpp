@@ -31,6 +31,10 @@ void ScoringArrays::reserve(std::size_t rows) {
   for (auto column : kColumns) (this->*column).reserve(rows);
 }
 
+void ScoringArrays::clear() {
+  for (auto column : kColumns) (this->*column).clear();
+}
+
 void ScoringArrays::append_row(const ScoringArrays& other, std::size_t row) {
   for (auto column : kColumns) (this->*column).push_back((other.*column)[row]);
 }
@@ -42,8 +46,6 @@ void ScoringArrays::resize(std::size_t rows) {
 void QuadObservations::resize(std::size_t quads) {
   previous.resize(quads);
   current.resize(quads);
-  previous_points.resize(quads);
-  current_points.resize(quads);
   scoring.resize(quads);
   ncc.resize(quads);
   rivals.resize(quads);
@@ -55,8 +57,6 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
                            const QuadLimits& limits) {
   previous[i] = before;
   current[i] = after;
-  previous_points[i] = before.oriented_point();
-  current_points[i] = after.oriented_point();
   const double doubt = before.slope_per_radian * limits.direction_sigma / limits.slope_prior;
   const Eigen::Vector3d tangent = (before.direction + before.slope / (1.0 + doubt * doubt) * before.ray).normalized();
   const double values[] = {before.ray.x(), before.ray.y(), before.inverse_depth, tangent.x(), tangent.y(), tangent.z(),
@@ -82,41 +82,43 @@ bool QuadObservations::append(const StereoRig& rig, const StereoObservation& pre
   return true;
 }
 
-MeasuredEdges measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle) {
-  MeasuredEdges measured(edges.size());
+void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle, MeasuredEdges& measured) {
+  measured.resize(edges.size());
   for_row_blocks(edges.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) measured[i] = measure(rig, observation(edges, i), min_epipolar_angle);
   });
-  return measured;
 }
 
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits) {
-  return build_quads(rig, measure_edges(rig, previous, limits.min_epipolar_angle), current, matches, limits);
+  MeasuredEdges measured;
+  measure_edges(rig, previous, limits.min_epipolar_angle, measured);
+  QuadObservations quads;
+  QuadBuilder().build(rig, measured, current, matches, limits, quads);
+  return quads;
 }
 
-QuadObservations build_quads(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
-                             const TemporalMatches& matches, const QuadLimits& limits) {
+void QuadBuilder::build(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current, const TemporalMatches& matches,
+                        const QuadLimits& limits, QuadObservations& quads) {
   const auto before = [&](std::size_t i) -> const auto& { return previous[static_cast<std::size_t>(matches.previous[i])]; };
   const auto edge_after = [&](std::size_t i) { return observation(current, static_cast<std::size_t>(matches.current[i])); };
-  MeasuredEdges after(matches.size());
+  after_.resize(matches.size());
   for_row_blocks(matches.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (before(i)) after[i] = measure(rig, edge_after(i), limits.min_epipolar_angle);
-  });
-  std::vector<std::size_t> rows;
-  rows.reserve(matches.size());
-  for (std::size_t i = 0; i < matches.size(); ++i)
-    if (after[i]) rows.push_back(i);
-  QuadObservations quads;
-  quads.resize(rows.size());
-  for_row_blocks(rows.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) {
-      const std::size_t i = rows[q];
-      quads.set(q, *before(i), *after[i], edge_after(i), matches.ncc[i], matches.rivals[i], static_cast<std::int32_t>(i), limits);
+    for (std::size_t i = begin; i < end; ++i) {
+      after_[i] = std::nullopt;
+      if (before(i)) after_[i] = measure(rig, edge_after(i), limits.min_epipolar_angle);
     }
   });
-  return quads;
+  rows_.clear();
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (after_[i]) rows_.push_back(i);
+  quads.resize(rows_.size());
+  for_row_blocks(rows_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      const std::size_t i = rows_[q];
+      quads.set(q, *before(i), *after_[i], edge_after(i), matches.ncc[i], matches.rivals[i], static_cast<std::int32_t>(i), limits);
+    }
+  });
 }
 
 }  // namespace quadedge::pose

@@ -32,6 +32,7 @@ struct ScoringArrays {
 
   std::size_t size() const { return ray_x.size(); }
   void reserve(std::size_t rows);
+  void clear();
   void resize(std::size_t rows);
   /// Appends row `row` of `other`.
   void append_row(const ScoringArrays& other, std::size_t row);
@@ -41,7 +42,6 @@ struct ScoringArrays {
 /// All arrays have one row per quad; every point lies in front of both cameras of its rig.
 struct QuadObservations {
   std::vector<StereoMeasurement> previous, current;        ///< in the left camera's frame of their time
-  std::vector<OrientedPoint> previous_points, current_points;  ///< the same as point and unit tangent, metres
   ScoringArrays scoring;
   std::vector<float> ncc;                ///< similarity, higher is better
   std::vector<std::int32_t> rivals;      ///< how many other matches the previous edge has (0: unambiguous)
@@ -62,7 +62,7 @@ struct QuadObservations {
 using MeasuredEdges = std::vector<std::optional<StereoMeasurement>>;
 
 /// \param min_epipolar_angle see measure() [rad]
-MeasuredEdges measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle);
+void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle, MeasuredEdges& measured);
 
 /// All quads of two rigs: the stereo edges that `matches` pairs, each at its detected place. Across the edge, where a quad is
 /// measured, detection is more exact than the photometric refinement of the match (KITTI 06, frame to frame: 1.6 cm per frame
@@ -70,8 +70,16 @@ MeasuredEdges measure_edges(const StereoRig& rig, const StereoEdges& edges, doub
 /// Matches without depth are left out, QuadObservations::match says which row a quad came from.
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits);
-/// The same with the previous edges measured beforehand.
-QuadObservations build_quads(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
-                             const TemporalMatches& matches, const QuadLimits& limits);
+
+/// build_quads() with the previous edges measured beforehand, and with buffers that are kept between calls.
+class QuadBuilder {
+ public:
+  void build(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current, const TemporalMatches& matches,
+             const QuadLimits& limits, QuadObservations& quads);
+
+ private:
+  MeasuredEdges after_;
+  std::vector<std::size_t> rows_;
+};
 
 }  // namespace quadedge::pose

@@ -5,13 +5,11 @@
 #include <limits>
 #include <numeric>
 #include <random>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "pose/angles.hpp"
 #include "pose/constraints.hpp"
-#include "pose/sample_fit.hpp"
 #include "pose/scoring.hpp"
 #include "pose/two_quads.hpp"
 
@@ -27,7 +25,8 @@ std::size_t below(std::mt19937_64& random, std::size_t count) {
 /// Quads in the order in which they are trusted; sorted as far as asked for.
 class TrustOrder {
  public:
-  explicit TrustOrder(const QuadObservations& quads) : quads_(quads), order_(quads.size()) {
+  TrustOrder(const QuadObservations& quads, std::vector<std::int32_t>& order) : quads_(quads), order_(order) {
+    order_.resize(quads.size());
     std::iota(order_.begin(), order_.end(), 0);
   }
 
@@ -53,58 +52,66 @@ class TrustOrder {
   }
 
   const QuadObservations& quads_;
-  std::vector<std::int32_t> order_;
+  std::vector<std::int32_t>& order_;
   std::size_t sorted_ = 0;
 };
 
 /// `size` different rows of 0 .. count - 1 in random order.
-std::vector<std::int32_t> random_subset(std::mt19937_64& random, std::size_t count, std::size_t size) {
-  std::vector<std::int32_t> rows(count);
+void random_subset(std::mt19937_64& random, std::size_t count, std::size_t size, std::vector<std::int32_t>& rows) {
+  rows.resize(count);
   std::iota(rows.begin(), rows.end(), 0);
   size = std::min(size, count);
   for (std::size_t i = 0; i < size; ++i) std::swap(rows[i], rows[i + below(random, count - i)]);
   rows.resize(size);
-  return rows;
+}
+
+/// Sorts the quads by the square cell of the current left image that they lie in: cells line by line, those without quads left out, quads
+/// of a cell in their order.
+void sort_into_cells(const ScoringArrays& quads, double side, ConsensusWorkspace& workspace) {
+  const auto number = [&](float place) { return static_cast<std::int32_t>(std::floor(static_cast<double>(place) / side)); };
+  const auto [left, right] = std::minmax_element(quads.left_x.begin(), quads.left_x.end());
+  const auto [top, bottom] = std::minmax_element(quads.left_y.begin(), quads.left_y.end());
+  const std::int32_t first_column = number(*left), first_line = number(*top);
+  const std::int32_t columns = number(*right) - first_column + 1, lines = number(*bottom) - first_line + 1;
+  auto &cell_of = workspace.cell_of, &first = workspace.cell_first;
+  cell_of.resize(quads.size());
+  first.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines) + 1, 0);
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    cell_of[i] = (number(quads.left_y[i]) - first_line) * columns + number(quads.left_x[i]) - first_column;
+    ++first[static_cast<std::size_t>(cell_of[i]) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  workspace.cells.clear();
+  for (std::size_t c = 0; c + 1 < first.size(); ++c)
+    if (first[c + 1] > first[c]) workspace.cells.push_back({static_cast<std::size_t>(first[c]), static_cast<std::size_t>(first[c + 1] - first[c])});
+  workspace.members.resize(quads.size());
+  for (std::size_t i = 0; i < quads.size(); ++i)
+    workspace.members[static_cast<std::size_t>(first[static_cast<std::size_t>(cell_of[i])]++)] = static_cast<std::int32_t>(i);
 }
 
 /// At most `size` different rows, the same number from each square cell of the current left image: as many as the median cell has, or
 /// all that a cell has. So a thing counts by the area that it covers, not by the edges it is covered with. Cells and rows come in random
 /// order.
-std::vector<std::int32_t> balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double cell, std::size_t size) {
-  if (quads.size() == 0) return {};
-  const auto number = [&](float place) { return static_cast<std::int32_t>(std::floor(static_cast<double>(place) / cell)); };
-  // Rows sorted by their cell.
-  struct Placed {
-    std::int32_t line, column, row;
-  };
-  std::vector<Placed> placed(quads.size());
-  for (std::size_t i = 0; i < quads.size(); ++i) placed[i] = {number(quads.left_y[i]), number(quads.left_x[i]), static_cast<std::int32_t>(i)};
-  const auto key = [](const Placed& p) { return std::tie(p.line, p.column, p.row); };
-  std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) { return key(a) < key(b); });
-  struct Cell {
-    std::size_t begin, size;
-  };
-  std::vector<Cell> cells;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (i == 0 || placed[i].line != placed[i - 1].line || placed[i].column != placed[i - 1].column) cells.push_back({i, 0});
-    ++cells.back().size;
-  }
+void balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double side, std::size_t size, ConsensusWorkspace& workspace) {
+  auto& rows = workspace.scored_rows;
+  rows.clear();
+  if (quads.size() == 0) return;
+  sort_into_cells(quads, side, workspace);
+  auto &cells = workspace.cells;
+  auto& held = workspace.cell_sizes;
   for (std::size_t i = 0; i < cells.size(); ++i) std::swap(cells[i], cells[i + below(random, cells.size() - i)]);
-  std::vector<std::size_t> held;
-  for (const Cell& members : cells) held.push_back(members.size);
+  held.clear();
+  for (const auto& cell : cells) held.push_back(cell.size);
   const auto median = held.begin() + static_cast<std::ptrdiff_t>(held.size() / 2);
   std::nth_element(held.begin(), median, held.end());
-  std::vector<std::int32_t> rows;
-  rows.reserve(std::min(size, quads.size()));
   for (std::size_t round = 0; round < *median && rows.size() < size; ++round) {
-    for (const Cell& members : cells) {
-      if (members.size <= round || rows.size() == size) continue;
-      Placed* const first = placed.data() + members.begin;
-      std::swap(first[round], first[round + below(random, members.size - round)]);
-      rows.push_back(first[round].row);
+    for (const auto& cell : cells) {
+      if (cell.size <= round || rows.size() == size) continue;
+      std::int32_t* const first = workspace.members.data() + cell.begin;
+      std::swap(first[round], first[round + below(random, cell.size - round)]);
+      rows.push_back(first[round]);
     }
   }
-  return rows;
 }
 
 /// Indices of the non-zero bytes, ascending.
@@ -116,23 +123,24 @@ void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_
 
 class Search {
  public:
-  Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed)
-      : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), limits_(config) {
-    std::vector<std::int32_t> rows;
+  Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed, ConsensusWorkspace& workspace)
+      : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), limits_(config), work_(workspace) {
+    const auto scored = static_cast<std::size_t>(config.scored), preview = static_cast<std::size_t>(config.preview);
     if (config.scoring_cell > 0) {
-      rows = balanced_subset(random_, quads.scoring, config.scoring_cell, static_cast<std::size_t>(config.scored));
+      balanced_subset(random_, quads.scoring, config.scoring_cell, scored, work_);
     } else {
-      rows = random_subset(random_, quads.size(), static_cast<std::size_t>(config.scored));
+      random_subset(random_, quads.size(), scored, work_.scored_rows);
     }
-    preview_rows_.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), static_cast<std::size_t>(config.preview))));
-    for (auto [numbers, arrays] : {std::pair(&rows, &scored_), std::pair(&preview_rows_, &preview_)}) {
+    auto &scored_rows = work_.scored_rows, &preview_rows = work_.preview_rows;
+    preview_rows.assign(scored_rows.begin(), scored_rows.begin() + static_cast<std::ptrdiff_t>(std::min(scored_rows.size(), preview)));
+    for (auto [numbers, arrays] : {std::pair(&scored_rows, &work_.scored), std::pair(&preview_rows, &work_.preview)}) {
       std::sort(numbers->begin(), numbers->end());
+      arrays->clear();
       arrays->reserve(numbers->size());
       for (std::int32_t row : *numbers) arrays->append_row(quads.scoring, static_cast<std::size_t>(row));
     }
-    preview_terms_.reserve(preview_rows_.size());
-    for (std::int32_t row : preview_rows_) preview_terms_.push_back(make_term(quads, static_cast<std::size_t>(row), noise_));
-    inlier_rows_.reserve(preview_rows_.size());
+    work_.preview_terms.clear();
+    for (std::int32_t row : preview_rows) work_.preview_terms.push_back(make_term(quads, static_cast<std::size_t>(row), noise_));
     const double diagonal = std::hypot(rig.left.width, rig.left.height);
     min_distance_squared_ = std::pow(config.min_pair_distance * diagonal, 2);
   }
@@ -145,7 +153,7 @@ class Search {
 
  private:
   void sample() {
-    TrustOrder order(quads_);
+    TrustOrder order(quads_, work_.order);
     // The pool grows linearly from the smallest subset worth sampling to all quads over the first max_hypotheses draws.
     const double first_pool = std::min<double>(static_cast<double>(order.size()), config_.min_inliers);
     const double growth = (static_cast<double>(order.size()) - first_pool) / config_.max_hypotheses;
@@ -165,8 +173,8 @@ class Search {
     const double dx = static_cast<double>(quads_.scoring.left_x[a]) - static_cast<double>(quads_.scoring.left_x[b]);
     const double dy = static_cast<double>(quads_.scoring.left_y[a]) - static_cast<double>(quads_.scoring.left_y[b]);
     if (dx * dx + dy * dy < min_distance_squared_) return std::nullopt;
-    OrientedPair before{quads_.previous_points[a], quads_.previous_points[b]};
-    OrientedPair after{quads_.current_points[a], quads_.current_points[b]};
+    OrientedPair before{quads_.previous[a].oriented_point(), quads_.previous[b].oriented_point()};
+    OrientedPair after{quads_.current[a].oriented_point(), quads_.current[b].oriented_point()};
     const ConstraintCheck check = check_constraints(before, after, limits_);
     if (!check.all()) return std::nullopt;
     if (check.swapped) {
@@ -175,16 +183,16 @@ class Search {
     }
     auto motion = solve_two_quads(before, after, limits_.max_cosine);
     if (!motion || config_.local_rounds == 0) return motion;
-    pair_terms_[0] = make_term(quads_, a, noise_);
-    pair_terms_[1] = make_term(quads_, b, noise_);
+    work_.pair_terms[0] = make_term(quads_, a, noise_);
+    work_.pair_terms[1] = make_term(quads_, b, noise_);
     Eigen::Isometry3d polished = *motion;
-    const bool fitted = fit_sample(pair_terms_, pair_rows_, rig_, config_, polished, workspace_);
+    const bool fitted = fit_sample(work_.pair_terms, pair_rows_, rig_, config_, polished, work_.fit);
     return fitted ? polished : *motion;
   }
 
   void consider(const Eigen::Isometry3d& motion) {
     ++best_.hypotheses;
-    const double raw = truncated_cost(preview_, LaterCameras(rig_, motion), config_.local_widening * config_.inlier_distance);
+    const double raw = truncated_cost(work_.preview, LaterCameras(rig_, motion), config_.local_widening * config_.inlier_distance);
     if (best_.found && raw >= best_raw_) return;
     best_raw_ = raw;
     accept(motion);
@@ -198,23 +206,23 @@ class Search {
     for (int round = 0; round < rounds; ++round) {
       const double share = rounds > 1 ? static_cast<double>(round) / (rounds - 1) : 1.0;
       const double distance = config_.inlier_distance * std::pow(config_.local_widening, 1.0 - share);
-      select_inliers(preview_, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation), mask_);
-      mask_to_rows(mask_, inlier_rows_);
-      if (!fit_sample(preview_terms_, inlier_rows_, rig_, config_, motion, workspace_)) return std::nullopt;
+      select_inliers(work_.preview, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation), work_.mask);
+      mask_to_rows(work_.mask, work_.inlier_rows);
+      if (!fit_sample(work_.preview_terms, work_.inlier_rows, rig_, config_, motion, work_.fit)) return std::nullopt;
     }
     return motion;
   }
 
   void accept(const Eigen::Isometry3d& motion) {
     const LaterCameras cameras(rig_, motion);
-    const double cost = truncated_cost(scored_, cameras, config_.inlier_distance);
+    const double cost = truncated_cost(work_.scored, cameras, config_.inlier_distance);
     if (best_.found && cost >= best_.cost) return;
     best_.found = true;
     best_.cost = cost;
     best_.current_from_previous = motion;
     const int inliers =
-        select_inliers(scored_, cameras, config_.inlier_distance, radians(config_.inlier_orientation), mask_);
-    const double share = static_cast<double>(inliers) / static_cast<double>(scored_.size());
+        select_inliers(work_.scored, cameras, config_.inlier_distance, radians(config_.inlier_orientation), work_.mask);
+    const double share = static_cast<double>(inliers) / static_cast<double>(work_.scored.size());
     const double miss = std::log1p(-std::min(share * share, 1.0 - std::numeric_limits<double>::epsilon()));
     const double draws = std::log1p(-config_.confidence) / miss;
     needed_ = std::max(config_.min_hypotheses, draws < config_.max_hypotheses ? static_cast<int>(std::ceil(draws)) : config_.max_hypotheses);
@@ -226,12 +234,8 @@ class Search {
   NoiseModel noise_;
   std::mt19937_64 random_;
   ConstraintLimits limits_;
-  ScoringArrays scored_, preview_;
-  std::vector<std::int32_t> preview_rows_, inlier_rows_;
-  std::vector<FitTerm> preview_terms_, pair_terms_ = std::vector<FitTerm>(2);
+  ConsensusWorkspace& work_;
   const std::vector<std::int32_t> pair_rows_ = {0, 1};
-  std::vector<std::uint8_t> mask_;
-  SampleWorkspace workspace_;
   double min_distance_squared_ = 0;
   double best_raw_ = 1;
   int needed_ = std::numeric_limits<int>::max();
@@ -241,8 +245,8 @@ class Search {
 }  // namespace
 
 Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
-                         const std::optional<Eigen::Isometry3d>& initial) {
-  return Search(quads, rig, config, seed).run(initial);
+                         const std::optional<Eigen::Isometry3d>& initial, ConsensusWorkspace& workspace) {
+  return Search(quads, rig, config, seed, workspace).run(initial);
 }
 
 }  // namespace quadedge::pose

@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "pose/residuals.hpp"
+#include "pose/sample_fit.hpp"
 
 namespace quadedge::pose {
 
@@ -16,6 +18,22 @@ struct Consensus {
   double cost = 1;             ///< truncated_cost() over the scored quads
   int hypotheses = 0;          ///< motions scored, an initial guess included
   int draws = 0;               ///< pairs drawn, rejected ones included
+};
+
+/// Buffers of find_consensus(), kept between calls.
+struct ConsensusWorkspace {
+  struct Cell {
+    std::size_t begin, size;
+  };
+  std::vector<std::int32_t> cell_of, cell_first, members;  ///< quads by cell
+  std::vector<Cell> cells;
+  std::vector<std::size_t> cell_sizes;
+  std::vector<std::int32_t> scored_rows, preview_rows, order;
+  ScoringArrays scored, preview;
+  std::vector<FitTerm> preview_terms, pair_terms = std::vector<FitTerm>(2);
+  std::vector<std::int32_t> inlier_rows;
+  std::vector<std::uint8_t> mask;
+  SampleWorkspace fit;
 };
 
 /// Samples pairs of quads, best first (fewest rivals, then highest NCC, then lowest index; the pool grows with the draws as in
@@ -33,6 +51,6 @@ struct Consensus {
 /// \param seed all randomness; the same seed gives the same bits.
 /// \param initial another hypothesis, scored first (a predicted pose, the frame-to-frame pose), current_from_previous.
 Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
-                         const std::optional<Eigen::Isometry3d>& initial);
+                         const std::optional<Eigen::Isometry3d>& initial, ConsensusWorkspace& workspace);
 
 }  // namespace quadedge::pose

@@ -87,7 +87,7 @@ bool fit_offset(const PoseConfig& config, const Scatter& scatter, double varianc
 }
 
 Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& initial,
-               double offset_variance, RefinementWorkspace& workspace) {
+               double offset_variance, RefinementWorkspace& workspace, std::vector<std::uint8_t>& inlier) {
   Refined result;
   result.current_from_previous = initial;
   auto &rows = workspace.rows, &last_rows = workspace.last_rows;
@@ -96,10 +96,10 @@ Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseCo
   // Every n-th quad finds the pose, all of them make it exact.
   const std::size_t every = std::max<std::size_t>(1, quads.size() / kScoutingQuads);
   const auto select = [&](std::size_t step) {
-    select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
+    select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, inlier);
     rows.clear();
-    for (std::size_t i = 0; i < result.inlier.size(); i += step)
-      if (result.inlier[i] != 0) rows.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < inlier.size(); i += step)
+      if (inlier[i] != 0) rows.push_back(static_cast<std::int32_t>(i));
   };
   const auto take_selected = [&] {
     std::swap(rows, last_rows);
@@ -143,7 +143,7 @@ Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseCo
     }
   }
   result.inliers =
-      select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, result.inlier);
+      select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, inlier);
   return result;
 }
 

@@ -38,4 +38,17 @@ Sum sum_row_blocks(std::size_t rows, const Sum& zero, Body&& body) {
   return total;
 }
 
+/// The same for sums that hold memory, which `blocks` and `total` keep between calls.
+template <class Sum, class Body>
+void sum_row_blocks(std::size_t rows, const Sum& zero, std::vector<Sum>& blocks, Sum& total, Body&& body) {
+  const std::size_t count = block_count(rows);
+  if (blocks.size() < count) blocks.resize(count, zero);
+  for_row_blocks(rows, [&](std::size_t block, std::size_t begin, std::size_t end) {
+    blocks[block] = zero;
+    body(begin, end, blocks[block]);
+  });
+  total = zero;
+  for (std::size_t block = 0; block < count; ++block) total += blocks[block];
+}
+
 }  // namespace quadedge::pose

@@ -34,23 +34,6 @@ struct CellGrid {
   int columns, lines;
 };
 
-/// What the covariance is made of.
-struct CovarianceSums {
-  Matrix6d normal = Matrix6d::Zero(), scatter = Matrix6d::Zero();
-  double weights = 0, curvature = 0, used = 0;
-  std::vector<Matrix6d> cell_normal;  ///< the part of `normal` from each of the smallest cells that are left out
-
-  CovarianceSums& operator+=(const CovarianceSums& other) {
-    normal += other.normal;
-    scatter += other.scatter;
-    weights += other.weights;
-    curvature += other.curvature;
-    used += other.used;
-    for (std::size_t i = 0; i < cell_normal.size(); ++i) cell_normal[i] += other.cell_normal[i];
-    return *this;
-  }
-};
-
 /// Sum over the cells of the squares of gradient contributions, over what the normal equations expect of it.
 double scatter_factor(const std::vector<Vector6d>& cells, const Matrix6d& inverse) {
   double sum = 0;
@@ -72,14 +55,14 @@ double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vecto
   return sum / 6.0;
 }
 
-/// Adds up the cells of `from` into the cells of twice the side.
+/// Adds up cells into cells of twice the side, which replace them.
 template <typename Sum>
-std::vector<Sum> merged(const std::vector<Sum>& cells, const CellGrid& from, const CellGrid& to) {
-  std::vector<Sum> result(to.size(), Sum::Zero());
+void merge(const CellGrid& from, const CellGrid& to, std::vector<Sum>& cells, std::vector<Sum>& larger) {
+  larger.assign(to.size(), Sum::Zero());
   for (int line = 0; line < from.lines; ++line)
     for (int column = 0; column < from.columns; ++column)
-      result[static_cast<std::size_t>(line / 2 * to.columns + column / 2)] += cells[static_cast<std::size_t>(line * from.columns + column)];
-  return result;
+      larger[static_cast<std::size_t>(line / 2 * to.columns + column / 2)] += cells[static_cast<std::size_t>(line * from.columns + column)];
+  std::swap(cells, larger);
 }
 
 struct Factors {
@@ -88,24 +71,25 @@ struct Factors {
 
 /// Factor with the smallest cells, or with none where that is larger; and the largest one of all sizes, at which the errors' likeness has
 /// been seen whole.
-/// \param gradients of the quads `rows`
-Factors cell_factors(const std::vector<Vector6d>& gradients, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
-                     const PinholeCamera& camera, double cell_side, const CovarianceSums& sums, const Matrix6d& inverse) {
+Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservations& quads, const PinholeCamera& camera, double cell_side,
+                     const ScatterSums& sums, const Matrix6d& inverse, ScatterWorkspace& workspace) {
   const double freedom = sums.used / std::max(sums.used - 2.0, 1.0);  // six parameters take the residuals of two quads
   CellGrid grid(camera, cell_side);
-  std::vector<Vector6d> cells(grid.size(), Vector6d::Zero());
+  auto& cells = workspace.cells;
+  auto& normals = workspace.normals;
+  cells.assign(grid.size(), Vector6d::Zero());
+  normals = sums.cell_normal;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(rows[k]);
-    cells[grid.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += gradients[k];
+    cells[grid.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += workspace.gradients[k];
   }
-  std::vector<Matrix6d> normals = sums.cell_normal;
   Factors result{};
   result.largest = freedom * inverse.cwiseProduct(sums.scatter).sum() / 6.0;
   for (int size = 0; size < kCellSizes; ++size) {
     if (size > 0) {
       const CellGrid next(camera, 2 * grid.side);
-      cells = merged(cells, grid, next);
-      if (size > kLeftOut) normals = merged(normals, grid, next);
+      merge(grid, next, cells, workspace.larger_cells);
+      if (size > kLeftOut) merge(grid, next, normals, workspace.larger_normals);
       grid = next;
     }
     const double factor =
@@ -122,11 +106,11 @@ Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>
                         const PoseConfig& config, const Eigen::Isometry3d& current_from_previous, double offset, double place_scale,
                         ScatterWorkspace& workspace) {
   const CellGrid left_out(rig.left, config.vote_cell * (1 << kLeftOut));
-  CovarianceSums zero;
-  zero.cell_normal.assign(left_out.size(), Matrix6d::Zero());
+  workspace.zero.cell_normal.assign(left_out.size(), Matrix6d::Zero());
   workspace.gradients.resize(rows.size());
   const StudentWeights weights{place_scale, config.student_dof};
-  CovarianceSums sums = sum_row_blocks(rows.size(), zero, [&](std::size_t begin, std::size_t end, CovarianceSums& sum) {
+  ScatterSums& sums = workspace.total;
+  sum_row_blocks(rows.size(), workspace.zero, workspace.blocks, sums, [&](std::size_t begin, std::size_t end, ScatterSums& sum) {
     PlaceContributions lanes;
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t lane = k % kPlaceLanes;
@@ -147,7 +131,7 @@ Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>
   // The normal equations hold the weights; the curvature of the Student-t cost is smaller by the mean of d(w e)/de over w.
   const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
   const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kPlaceSize);
-  const Factors factors = cell_factors(workspace.gradients, rows, quads, rig.left, config.vote_cell, sums, inverse);
+  const Factors factors = cell_factors(rows, quads, rig.left, config.vote_cell, sums, inverse, workspace);
   return {inverse, factors.largest / (flattening * flattening), factors.smallest_cells / (flattening * flattening)};
 }
 

@@ -10,9 +10,30 @@
 
 namespace quadedge::pose {
 
+/// What the covariance is made of, in sums over quads.
+struct ScatterSums {
+  Matrix6d normal = Matrix6d::Zero(), scatter = Matrix6d::Zero();
+  double weights = 0, curvature = 0, used = 0;
+  std::vector<Matrix6d> cell_normal;  ///< the part of `normal` from each of the smallest cells that are left out
+
+  ScatterSums& operator+=(const ScatterSums& other) {
+    normal += other.normal;
+    scatter += other.scatter;
+    weights += other.weights;
+    curvature += other.curvature;
+    used += other.used;
+    for (std::size_t i = 0; i < cell_normal.size(); ++i) cell_normal[i] += other.cell_normal[i];
+    return *this;
+  }
+};
+
 /// Buffers of measure_scatter(), kept between calls.
 struct ScatterWorkspace {
-  std::vector<Vector6d> gradients;  ///< one per quad
+  std::vector<Vector6d> gradients;                  ///< one per quad
+  std::vector<Vector6d> cells, larger_cells;        ///< sums of gradients
+  std::vector<Matrix6d> normals, larger_normals;    ///< what the cells add to the normal equations
+  ScatterSums zero, total;
+  std::vector<ScatterSums> blocks;
 };
 
 /// How well quads tell a pose.

@@ -81,7 +81,7 @@ void DeviceFrontend::process(const StereoFrame& frame) {
   refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges, rig.left_patches, geometry_,
                   candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, right_.description, geometry_, candidates_, refined_, clusters_, rig);
-  current_ = rig.read();
+  rig.read(current_);
   rig.has_sift = false;
   indexed_ = false;
   if (tap_ != nullptr) tap_stereo();
@@ -140,7 +140,7 @@ void DeviceFrontend::match_side(int side, Base base, const TemporalSearch& searc
   if (tap_ != nullptr) tap_temporal(side, search);
 }
 
-TemporalMatches DeviceFrontend::match_by_lists(Base base, const TemporalSearch& search) {
+void DeviceFrontend::match_by_lists(Base base, const TemporalSearch& search, TemporalMatches& matches) {
   match_side(0, base, search, temporal_left_);
   match_side(1, base, search, temporal_right_);
   counts_.temporal_left = temporal_left_.living_rows();
@@ -150,10 +150,10 @@ TemporalMatches DeviceFrontend::match_by_lists(Base base, const TemporalSearch& 
     tap_->temporal_filter(reference::kAgreementOrder, kTemporalFilters[reference::kAgreementOrder], 0,
                           temporal_left_.alive_after(reference::kAgreementOrder, nullptr));
   }
-  return temporal_quads_.collect(rigs_[now_], current_, search, predicted_[0], temporal_left_);
+  matches = temporal_quads_.collect(rigs_[now_], current_, search, predicted_[0], temporal_left_);
 }
 
-TemporalMatches DeviceFrontend::match(Base base, const TemporalSearch& search) {
+void DeviceFrontend::match(Base base, const TemporalSearch& search, TemporalMatches& matches) {
   index_current();
   predicted_[0].write(context_, search.left);
   predicted_[1].write(context_, search.right);
@@ -161,19 +161,18 @@ TemporalMatches DeviceFrontend::match(Base base, const TemporalSearch& search) {
     tap_->temporal_search({search.left.x, search.left.y, search.left.direction}, {search.right.x, search.right.y, search.right.direction},
                           search.radius, search.step);
   } else if (temporal_match_.serves(search)) {
-    if (auto matched = temporal_match_.run(predicted_[0], predicted_[1], search, rig_of(base), rigs_[now_], left_index_, right_index_, itself_,
-                                           current_)) {
-      counts_.temporal_left = matched->left_alive;
-      counts_.temporal_right = matched->right_alive;
-      return std::move(matched->quads);
+    if (const auto alive = temporal_match_.run(predicted_[0], predicted_[1], search, rig_of(base), rigs_[now_], left_index_, right_index_,
+                                               itself_, current_, matches)) {
+      counts_.temporal_left = alive->left;
+      counts_.temporal_right = alive->right;
+      return;
     }
   }
-  TemporalMatches matches = match_by_lists(base, search);
+  match_by_lists(base, search, matches);
   if (tap_ != nullptr) tap_->quads(matches);
-  return matches;
 }
 
-TemporalMatches DeviceFrontend::match_anywhere(Base base) {
+void DeviceFrontend::match_anywhere(Base base, TemporalMatches& matches) {
   const DeviceStereoEdges& before = rig_of(base);
   const DeviceStereoEdges& current = rigs_[now_];
   const int before_step = reference::wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);
@@ -182,7 +181,7 @@ TemporalMatches DeviceFrontend::match_anywhere(Base base) {
   const int before_rows = wide_description_.describe(small_, before, before_step, wide_before_);
   wide_description_.prepare(current.left_image.pixels, small_);
   const int rows = wide_description_.describe(small_, current, step, wide_now_);
-  return wide_matching_.run({before, before_step, before_rows, wide_before_}, {current, step, rows, wide_now_}, current_);
+  matches = wide_matching_.run({before, before_step, before_rows, wide_before_}, {current, step, rows, wide_now_}, current_);
 }
 
 EdgeSet DeviceFrontend::edges(bool right) {

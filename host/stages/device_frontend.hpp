@@ -26,8 +26,8 @@ class DeviceFrontend : public Frontend {
   void process(const StereoFrame& frame) override;
   void keep(bool as_key) override;
   void previous_to_key() override;
-  TemporalMatches match(Base base, const TemporalSearch& search) override;
-  TemporalMatches match_anywhere(Base base) override;
+  void match(Base base, const TemporalSearch& search, TemporalMatches& matches) override;
+  void match_anywhere(Base base, TemporalMatches& matches) override;
   EdgeSet edges(bool right) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
@@ -48,7 +48,7 @@ class DeviceFrontend : public Frontend {
   /// SIFT descriptors of a rig's stereo edges, unless it has them; `edges`: the same on the host.
   void describe_by_sift(DeviceStereoEdges& rig, const StereoEdges& edges);
   void match_side(int side, Base base, const TemporalSearch& search, DeviceCandidates& candidates);
-  TemporalMatches match_by_lists(Base base, const TemporalSearch& search);
+  void match_by_lists(Base base, const TemporalSearch& search, TemporalMatches& matches);
   void tap_stereo();
   void tap_candidates_without_limits();
   void tap_temporal(int side, const TemporalSearch& search);

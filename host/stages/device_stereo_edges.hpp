@@ -26,9 +26,8 @@ struct DeviceStereoEdges {
   int count = 0;
 
   /// Copies the rows to the host; waits for the device once.
-  StereoEdges read() const {
+  void read(StereoEdges& edges) const {
     const auto size = static_cast<std::size_t>(count), step = static_cast<std::size_t>(stride);
-    StereoEdges edges;
     for (auto [buffer, values] : {std::pair(&left_index, &edges.left_index), std::pair(&right_index, &edges.right_index)}) {
       values->resize(size);
       buffer->read_later(values->data(), size);
@@ -40,7 +39,6 @@ struct DeviceStereoEdges {
     }
     edges.ncc.resize(size);
     ncc.read(edges.ncc.data(), size);
-    return edges;
   }
 };
 

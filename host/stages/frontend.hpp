@@ -33,9 +33,20 @@ class Frontend {
   /// The previous rig becomes the key rig too.
   virtual void previous_to_key() = 0;
   /// Stage 6: quads between a base and the current rig. `search` has one entry per stereo edge of the base.
-  virtual TemporalMatches match(Base base, const TemporalSearch& search) = 0;
+  /// Replaces `matches`, as match_anywhere() does.
+  virtual void match(Base base, const TemporalSearch& search, TemporalMatches& matches) = 0;
   /// Quads between a part of a base's edges and the current rig, found anywhere in the left image by what surrounds them.
-  virtual TemporalMatches match_anywhere(Base base) = 0;
+  virtual void match_anywhere(Base base, TemporalMatches& matches) = 0;
+  TemporalMatches match(Base base, const TemporalSearch& search) {
+    TemporalMatches matches;
+    match(base, search, matches);
+    return matches;
+  }
+  TemporalMatches match_anywhere(Base base) {
+    TemporalMatches matches;
+    match_anywhere(base, matches);
+    return matches;
+  }
 
   const StereoEdges& current() const { return current_; }
   const StereoEdges& base(Base base) const { return base == Base::key ? key_ : previous_; }

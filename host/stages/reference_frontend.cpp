@@ -115,7 +115,7 @@ reference::Candidates ReferenceFrontend::side_candidates(int side, const Tempora
   return reference::temporal_candidates(side == 0 ? search.left : search.right, current, index, search.radius, static_cast<float>(config_.temporal.orientation * kDegree), search.step);
 }
 
-TemporalMatches ReferenceFrontend::match(Base base, const TemporalSearch& search) {
+void ReferenceFrontend::match(Base base, const TemporalSearch& search, TemporalMatches& matches) {
   const RigMemory& before = base == Base::key ? key_memory_ : before_;
   const auto limits = temporal_limits(config_.temporal, search);
   const auto left = side_candidates(0, search), right = side_candidates(1, search);
@@ -124,17 +124,17 @@ TemporalMatches ReferenceFrontend::match(Base base, const TemporalSearch& search
   counts_.temporal_left = living_rows(left, left_scores);
   counts_.temporal_right = living_rows(right, right_scores);
   const auto agreement = reference::temporal_agreement(left, left_scores, right, right_scores);
-  return reference::temporal_best(left, left_scores, agreement, current_, config_.temporal, search);
+  matches = reference::temporal_best(left, left_scores, agreement, current_, config_.temporal, search);
 }
 
-TemporalMatches ReferenceFrontend::match_anywhere(Base base_name) {
+void ReferenceFrontend::match_anywhere(Base base_name, TemporalMatches& matches) {
   const RigMemory& before = base_name == Base::key ? key_memory_ : before_;
   const auto describe_some = [](const Image& image, const StereoEdges& edges, int wanted) {
     const int step = reference::wide_step(edges.size(), wanted);
     return reference::WideEdges{edges, step, reference::wide_descriptions(reference::shrink(image.view()), edges, step)};
   };
-  return reference::wide_matches(describe_some(before.left, base(base_name), config_.temporal.wide_edges),
-                                 describe_some(now_.left, current_, 2 * config_.temporal.wide_edges), config_.temporal);
+  matches = reference::wide_matches(describe_some(before.left, base(base_name), config_.temporal.wide_edges),
+                                    describe_some(now_.left, current_, 2 * config_.temporal.wide_edges), config_.temporal);
 }
 
 }  // namespace quadedge::stages

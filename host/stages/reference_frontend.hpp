@@ -15,8 +15,8 @@ class ReferenceFrontend : public Frontend {
   void process(const StereoFrame& frame) override;
   void keep(bool as_key) override;
   void previous_to_key() override;
-  TemporalMatches match(Base base, const TemporalSearch& search) override;
-  TemporalMatches match_anywhere(Base base) override;
+  void match(Base base, const TemporalSearch& search, TemporalMatches& matches) override;
+  void match_anywhere(Base base, TemporalMatches& matches) override;
   EdgeSet edges(bool right) override { return right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
 

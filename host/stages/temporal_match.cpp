@@ -28,10 +28,10 @@ TemporalMatch::TemporalMatch(opencl::Context& context, const TemporalConfig& con
   if (fused_) kernel_ = {context, context.program({"similarity.cl", "point_index.cl", "temporal_match.cl"}, variant.defines), "temporal_match"};
 }
 
-std::optional<MatchedRows> TemporalMatch::run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted,
+std::optional<AliveRows> TemporalMatch::run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted,
                                               const TemporalSearch& search, const DeviceStereoEdges& base,
                                               const DeviceStereoEdges& current, const DevicePointIndex& left, const DevicePointIndex& right,
-                                              const opencl::Buffer<cl_int>& itself, const StereoEdges& edges) {
+                                              const opencl::Buffer<cl_int>& itself, const StereoEdges& edges, TemporalMatches& matches) {
   context_.begin_stage("temporal_match");
   const int count = (left_predicted.count + search.step - 1) / search.step;
   const auto rows = static_cast<std::size_t>(count);
@@ -46,16 +46,17 @@ std::optional<MatchedRows> TemporalMatch::run(const DevicePlaces& left_predicted
           static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree), result_);
   rows_.resize(kRowInts * rows);
   result_.read(rows_.data(), rows_.size());
-  MatchedRows matched;
+  matches.clear();
+  AliveRows alive;
   for (std::size_t row = 0; row < rows; ++row) {
     const cl_int* values = rows_.data() + kRowInts * row;
     if ((values[3] & kOverflow) != 0) return std::nullopt;
-    matched.left_alive += (values[3] & kLeftAlive) != 0 ? 1 : 0;
-    matched.right_alive += (values[3] & kRightAlive) != 0 ? 1 : 0;
+    alive.left += (values[3] & kLeftAlive) != 0 ? 1 : 0;
+    alive.right += (values[3] & kRightAlive) != 0 ? 1 : 0;
     if (values[0] < 0) continue;
-    matched.quads.append(static_cast<std::int32_t>(row) * search.step, values[0], edges, from_bits(values[2]), values[1]);
+    matches.append(static_cast<std::int32_t>(row) * search.step, values[0], edges, from_bits(values[2]), values[1]);
   }
-  return matched;
+  return alive;
 }
 
 }  // namespace quadedge::stages

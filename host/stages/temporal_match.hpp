@@ -16,10 +16,9 @@
 
 namespace quadedge::stages {
 
-/// What the matching in time left, with the rows that kept a candidate in each image before the agreement.
-struct MatchedRows {
-  TemporalMatches quads;
-  int left_alive = 0, right_alive = 0;
+/// Rows that kept a candidate in each image before the agreement.
+struct AliveRows {
+  int left = 0, right = 0;
 };
 
 /// SPEC section 4 for searches without SIFT. Variants of the stage "temporal_match".
@@ -30,11 +29,12 @@ class TemporalMatch {
   /// Whether the chosen variant is a fused kernel at all, and the limits leave SIFT out.
   bool serves(const TemporalSearch& search) const { return fused_ && temporal_limits(config_, search).sift_max == 0; }
 
-  /// Matches and reads the rows back; `edges` holds the current stereo edges on the host. `itself`: 0, 1, 2 ...
+  /// Matches and reads the rows back into `matches`; `edges` holds the current stereo edges on the host. `itself`: 0, 1, 2 ...
   /// \returns nothing where a row has more candidates than the kernel has room for: then lists have to be used
-  std::optional<MatchedRows> run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted, const TemporalSearch& search,
+  std::optional<AliveRows> run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted, const TemporalSearch& search,
                                  const DeviceStereoEdges& base, const DeviceStereoEdges& current, const DevicePointIndex& left,
-                                 const DevicePointIndex& right, const opencl::Buffer<cl_int>& itself, const StereoEdges& edges);
+                                 const DevicePointIndex& right, const opencl::Buffer<cl_int>& itself, const StereoEdges& edges,
+                                 TemporalMatches& matches);
 
  private:
   template <class T>

@@ -45,6 +45,11 @@ struct TemporalMatches {
   std::vector<std::int32_t> rivals;    ///< how many other clusters the previous edge has (0: unambiguous)
 
   std::size_t size() const { return previous.size(); }
+  /// Keeps the memory.
+  void clear() {
+    for (auto* values : {&previous, &current, &rivals}) values->clear();
+    for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
+  }
   /// Adds a match with stereo edge `current_edge` of `edges`, at its places.
   void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity, std::int32_t rival_count) {
     const auto j = static_cast<std::size_t>(current_edge);

@@ -1,0 +1,32 @@
+#pragma once
+/// \file pool.hpp  Objects that keep their memory from frame to frame.
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace quadedge::odometry {
+
+/// Objects that are given back instead of destroyed. Must outlive all that it hands out; one thread at a time.
+template <class T>
+class Pool {
+ public:
+  struct GiveBack {
+    Pool* pool = nullptr;
+    void operator()(T* object) const { pool->spare_.emplace_back(object); }
+  };
+  using Handle = std::unique_ptr<T, GiveBack>;
+
+  /// As it was given back, or a new one.
+  Handle take() {
+    if (spare_.empty()) return Handle(new T(), GiveBack{this});
+    Handle object(spare_.back().release(), GiveBack{this});
+    spare_.pop_back();
+    return object;
+  }
+
+ private:
+  std::vector<std::unique_ptr<T>> spare_;
+};
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,64 @@
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "frontends.hpp"
+#include "quadedge/odometry.hpp"
+
+namespace {
+
+/// Arrays that grow with the image or its edges are larger; what a frame leaves in its result is smaller.
+constexpr std::size_t kLarge = 4096;
+std::atomic<bool> counting{false};
+std::atomic<int> count{0};
+
+void* allocate(std::size_t size) {
+  if (size >= kLarge && counting) ++count;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+TEST_CASE("odometry: once every buffer has had its largest content, tracking allocates no more arrays", "[odometry][device]") {
+  const matching::RenderedScene scene("room", 240, 150, 8);
+  for (const auto& name : all_devices()) {
+    quadedge::Device device(name);
+    quadedge::StereoOdometry odometry(scene.rig, device, scene.config);
+    // To and fro, so that the same motions come again with other key rigs.
+    const auto there_and_back = [&] {
+      int tracked = 0;
+      for (std::size_t i = 0; i + 1 < 8; ++i) tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
+      for (std::size_t i = 7; i > 0; --i) tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
+      return tracked;
+    };
+    for (int cycle = 0; cycle < 5; ++cycle) there_and_back();
+    count = 0;
+    counting = true;
+    const int tracked = there_and_back();
+    counting = false;
+    CHECK(tracked == 14);
+    CHECK(count == 0);
+  }
+}
+
+TEST_CASE("odometry: the allocations of the first frames are seen", "[odometry][device]") {
+  const matching::RenderedScene scene("room", 240, 150, 2);
+  quadedge::Device device(all_devices().front());
+  quadedge::StereoOdometry odometry(scene.rig, device, scene.config);
+  count = 0;
+  counting = true;
+  odometry.track(scene.frame(0));
+  odometry.track(scene.frame(1));
+  counting = false;
+  CHECK(count > 50);
+}
