@@ -5,6 +5,7 @@
 // Needs similarity.cl and point_index.cl. In: predicted places of the base's stereo edges in both current images (NaN: none), the
 // current stereo edges of both sides in the order of their point indices, side patches with the number of each stereo edge's patch.
 // Out per row, which belongs to base edge row * row_step: {current edge or -1, rivals, score as bits, flags}.
+// With LANES (16) a work-item tests as many points of the index at once, and asks for memory ahead: for CPUs.
 // Reference: host/reference/temporal_candidates.cpp, candidate_filters.cpp, temporal_quads.cpp.
 
 // Candidates of a row and side that there is room for; a row with more says so and has no result.
@@ -12,6 +13,16 @@
 #define LEFT_ALIVE 1
 #define RIGHT_ALIVE 2
 #define OVERFLOW 4
+
+// Brings a patch's two cache lines near where the compiler targets a CPU; OpenCL's own prefetch() does nothing there (PoCL).
+inline void ask_for_patch(global const char* patch) {
+#if defined(__x86_64__) || defined(__aarch64__)
+  __builtin_prefetch(patch);
+  __builtin_prefetch(patch + 64);
+#else
+  (void)patch;
+#endif
+}
 
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
 inline int alike_near(const float x, const float y, const float direction, global const float* xs, global const float* ys,
@@ -22,10 +33,29 @@ inline int alike_near(const float x, const float y, const float direction, globa
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
   const int first_column = cell_of(x - radius, CELL_WIDTH, columns), last_column = cell_of(x + radius, CELL_WIDTH, columns);
   const int last_row = cell_of(y + radius, CELL_HEIGHT, rows);
+#ifdef LANES
+  const int total = cell_first[columns * rows];
+#endif
   int near = 0;
   for (int row = cell_of(y - radius, CELL_HEIGHT, rows); row <= last_row; ++row) {
     const int end = cell_first[row * columns + last_column + 1];
-    for (int k = cell_first[row * columns + first_column]; k < end; ++k) {
+    int k = cell_first[row * columns + first_column];
+#ifdef LANES
+    // The same tests in the same arithmetic: by how much each fails at most. Points beyond the cells are read and left out.
+    for (const int last = min(end - 1, total - LANES); k <= last && near <= MOST - LANES; k += LANES) {
+      float excess[LANES];
+      for (int lane = 0; lane < LANES; ++lane) {
+        const float dx = xs[k + lane] - x, dy = ys[k + lane] - y;
+        excess[lane] = fmax(dx * dx + dy * dy - radius * radius, angle_between(directions[k + lane], direction) - orientation);
+      }
+      const int lanes = min(LANES, end - k);
+      for (int lane = 0; lane < lanes; ++lane) {  // what does not pass is overwritten by what comes next
+        target[near] = numbers[k + lane];
+        near += excess[lane] <= 0.0f;
+      }
+    }
+#endif
+    for (; k < end; ++k) {
       const float dx = xs[k] - x, dy = ys[k] - y;
       if (dx * dx + dy * dy > radius * radius) continue;
       if (angle_between(directions[k], direction) > orientation) continue;
@@ -33,6 +63,10 @@ inline int alike_near(const float x, const float y, const float direction, globa
       target[near++] = numbers[k];
     }
   }
+#ifdef LANES
+  // The patches stand all over the memory: all are asked for before the first is needed.
+  for (int c = 0; c < near; ++c) ask_for_patch(patches + PATCH_BYTES * (size_t)patch_numbers[target[c]]);
+#endif
   int alike = 0;
   float best = 0.0f;
   for (int c = 0; c < near; ++c) {

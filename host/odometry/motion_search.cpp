@@ -36,7 +36,6 @@ StepHandle MotionSearch::new_step(stages::Base base) {
   StepHandle step = steps_.take();
   step->base = base;
   step->matches.clear();
-  step->quads.resize(0);
   step->motion.status = pose::MotionStatus::too_few_quads;
   step->support = step->area = 0;
   return step;

@@ -194,7 +194,7 @@ struct Sums {
 template <std::size_t Values>
 Sums<Values> sum_all(PlaceTerms& terms, const Shared& shared, decltype(sum_by_pose)& sum_block) {
   const Columns columns(terms);
-  return sum_row_blocks(terms.depth.size(), Sums<Values>(), [&](std::size_t begin, std::size_t end, Sums<Values>& sum) {
+  return sum_row_blocks(terms.padded_size(), Sums<Values>(), [&](std::size_t begin, std::size_t end, Sums<Values>& sum) {
     sum_block(columns, terms.depth.data(), terms.error.data(), begin, end, shared, sum.values);
   });
 }
@@ -216,8 +216,9 @@ void PlaceTerms::assign(const QuadObservations& quads, const std::vector<std::in
                         const NoiseModel& noise) {
   static_assert(kBlockRows % kPlaceLanes == 0);
   size_ = rows.size();
-  const std::size_t padded = (size_ + kPlaceLanes - 1) / kPlaceLanes * kPlaceLanes;
-  for (auto& column : columns_) column.resize(padded);
+  const std::size_t padded = padded_size();
+  for (auto& column : columns_)
+    if (column.size() < padded) column.resize(padded);
   depth.assign(padded, 0.0);
   error.assign(padded, 0.0);
   for_row_blocks(padded, [&](std::size_t, std::size_t begin, std::size_t end) {

@@ -29,6 +29,8 @@ class PlaceTerms {
   void assign(const QuadObservations& quads, const std::vector<std::int32_t>& rows, const PinholeCamera& left, const NoiseModel& noise);
 
   std::size_t size() const { return size_; }
+  /// With the rows of zeros at the end.
+  std::size_t padded_size() const { return (size_ + kPlaceLanes - 1) / kPlaceLanes * kPlaceLanes; }
   const double* column(Column which) const { return columns_[which].data(); }
 
   std::vector<double> depth;  ///< each quad's own unknown, see linearise()

@@ -102,7 +102,7 @@ void QuadBuilder::build(const StereoRig& rig, const MeasuredEdges& previous, con
                         const QuadLimits& limits, QuadObservations& quads) {
   const auto before = [&](std::size_t i) -> const auto& { return previous[static_cast<std::size_t>(matches.previous[i])]; };
   const auto edge_after = [&](std::size_t i) { return observation(current, static_cast<std::size_t>(matches.current[i])); };
-  after_.resize(matches.size());
+  if (after_.size() < matches.size()) after_.resize(matches.size());
   for_row_blocks(matches.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       after_[i] = std::nullopt;
