@@ -2,7 +2,7 @@
 //
 // Needs similarity.cl. In: candidate lists; patches and SIFT descriptors of both sets of edges, with the numbers under which an
 // edge's own stand there.
-// Out per candidate: NCC, SIFT distance, side pairing, and `rejected_by`, the order of the filter that rejected it (0: alive);
+// Out per candidate: NCC, SIFT distance, and `rejected_by`, the order of the filter that rejected it (0: alive);
 // per row the number of survivors.
 // One work-item = one row. Row r belongs to edge r * row_step of the first set.
 // sift_max = 0: SIFT takes no part.
@@ -15,7 +15,7 @@ kernel void candidate_filters(global const int* first, global const int* target,
                               global const int* patch_of_b, global const uchar* sift_b, global const int* sift_of_b, const float ncc_min,
                               const float sift_max, const float ncc_nearly_best, const float sift_nearly_best,
                               const int ncc_order, const int sift_order, const int all_scores, global float* ncc,
-                              global float* sift, global uchar* pairing, global uchar* rejected_by, global int* alive) {
+                              global float* sift, global uchar* rejected_by, global int* alive) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int begin = first[row], end = min(first[row + 1], capacity);
@@ -26,8 +26,7 @@ kernel void candidate_filters(global const int* first, global const int* target,
   float best_ncc = 0.0f;
   for (int c = begin; c < end; ++c) {
     const int j = target[c];
-    int sides;
-    const float similarity = patch_ncc_pairing(patch, patches_b + PATCH_BYTES * (size_t)patch_of_b[j], &sides);
+    const float similarity = patch_ncc(patch, patches_b + PATCH_BYTES * (size_t)patch_of_b[j]);
     const int ncc_fails = similarity < ncc_min;
     int sift_fails = 0;
     float distance = 0.0f;
@@ -37,7 +36,6 @@ kernel void candidate_filters(global const int* first, global const int* target,
     }
     ncc[c] = similarity;
     sift[c] = distance;
-    pairing[c] = (uchar)sides;
     int state = 0;
     if (ncc_fails && sift_fails) state = min(ncc_order, sift_order);
     else if (ncc_fails) state = ncc_order;

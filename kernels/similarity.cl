@@ -1,7 +1,7 @@
 // similarity.cl: how alike two edges are (SPEC section 2). Plain functions for the filters; name this file before theirs.
 //
 // The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
-// Reference: patch_similarity() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
+// Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
 
 #define PATCH_BYTES 128
 #define INVERSE_NORMS 112  // where they begin
@@ -30,16 +30,7 @@ inline float4 patch_scores(global const char* a, global const char* b) {
   return convert_float4(twos.even + twos.odd) * inverse_a.xyxy * inverse_b.xyyx;
 }
 
-// NCC of two edges: the highest of the four products of side patches. Its pairing: 0 dark-dark, 1 bright-bright,
-// 2 dark-bright, 3 bright-dark, the first one on a tie.
-inline float patch_ncc_pairing(global const char* a, global const char* b, int* pairing) {
-  const float4 scores = patch_scores(a, b);
-  const float best = max(max(scores.x, scores.y), max(scores.z, scores.w));
-  *pairing = scores.x == best ? 0 : scores.y == best ? 1 : scores.z == best ? 2 : 3;
-  return best;
-}
-
-// Only the NCC.
+// NCC of two edges: the highest of the four products of side patches.
 inline float patch_ncc(global const char* a, global const char* b) {
   const float4 scores = patch_scores(a, b);
   return max(max(scores.x, scores.y), max(scores.z, scores.w));

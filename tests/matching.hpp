@@ -94,7 +94,6 @@ inline stages::DeviceCandidates upload(opencl::Context& context, const reference
   device.first.write(context, lists.first);
   device.target.write(context, lists.target);
   device.rejected_by.fill(0, lists.target.size());
-  device.pairing.fill(0, lists.target.size());
   device.ncc.fill(0, lists.target.size());
   device.sift.fill(0, lists.target.size());
   return device;
@@ -104,14 +103,12 @@ inline stages::DeviceCandidates upload(opencl::Context& context, const reference
 inline void upload(opencl::Context& context, const reference::CandidateScores& scores, stages::DeviceCandidates& device) {
   device.ncc.write(context, scores.ncc);
   device.sift.write(context, scores.sift);
-  device.pairing.write(context, scores.pairing);
   device.rejected_by.write(context, scores.rejected_by);
 }
 
 /// Scores of candidates that no filter has touched yet.
 inline reference::CandidateScores fresh_scores(std::size_t candidates) {
-  return {std::vector<float>(candidates, 0.9f), std::vector<float>(candidates, 10.0f), std::vector<std::uint8_t>(candidates, 0),
-          std::vector<std::uint8_t>(candidates, 0)};
+  return {std::vector<float>(candidates, 0.9f), std::vector<float>(candidates, 10.0f), std::vector<std::uint8_t>(candidates, 0)};
 }
 
 using Variants = std::map<std::string, std::string>;

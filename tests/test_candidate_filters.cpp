@@ -72,7 +72,7 @@ void on_devices(const reference::Candidates& lists, const reference::EdgeDescrip
               {limits.ncc_min, limits.sift_max, limits.ncc_nearly_best, limits.sift_nearly_best, limits.ncc_order, limits.sift_order},
               row_step, all_scores, device);
     const auto size = lists.target.size();
-    check({device.ncc.read(size), device.sift.read(size), device.pairing.read(size), device.rejected_by.read(size)},
+    check({device.ncc.read(size), device.sift.read(size), device.rejected_by.read(size)},
           device.alive.read(static_cast<std::size_t>(device.rows)));
   });
 }
@@ -118,7 +118,6 @@ TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][m
   lists.first = {0, 4};
   check_states(lists, edges, limits_of(0.5f, 200, 0.5f, 0.5f), {0, 0, 0, 0});
   const auto scores = reference::candidate_filters(lists, edges.a, edges.b, limits_of(0.5f, 200, 0.5f, 0.5f));
-  CHECK(scores.pairing == std::vector<std::uint8_t>{0, 0, 0, 2});  // dark-dark, and dark-bright
   CHECK(scores.ncc == std::vector<float>{0.5f, 0.5f, 1, 1});
   CHECK(scores.sift == std::vector<float>{200, 200, 100, 100});
 }
@@ -172,7 +171,6 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
   // Exact integers, multiplied in the same order and precision: the same bits, so no band is needed.
   on_devices(lists, a, b, limits, 1, true, [&](const auto& scores, const auto&) {
     CHECK(scores.ncc == truth.ncc);
-    CHECK(scores.pairing == truth.pairing);
     CHECK(scores.rejected_by == truth.rejected_by);
     float largest = 0;
     for (std::size_t c = 0; c < truth.sift.size(); ++c) largest = std::max(largest, std::abs(scores.sift[c] - truth.sift[c]));

@@ -10,7 +10,6 @@
 using namespace quadedge;
 using reference::kEdgePatchBytes;
 using reference::kPatchSamples;
-using reference::SidePairing;
 
 namespace {
 
@@ -183,7 +182,7 @@ TEST_CASE("patches: beyond the border the outermost pixels repeat", "[patches]")
   }
 }
 
-TEST_CASE("patches: the similarity is the best pairing of sides, the first one on a tie", "[patches]") {
+TEST_CASE("patches: the similarity is that of the best pairing of sides", "[patches]") {
   // Four patches without anything in common: unit vectors along different axes.
   const auto edge = [](int dark, int bright) {
     std::vector<std::int8_t> patches(kEdgePatchBytes, 0);
@@ -194,17 +193,14 @@ TEST_CASE("patches: the similarity is the best pairing of sides, the first one o
     }
     return patches;
   };
-  const auto pairing = [](const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {
-    const auto best = reference::patch_similarity(a.data(), b.data());
-    CHECK(best.ncc == 1.0f);
-    return best.pairing;
+  const auto ncc = [&](int dark_a, int bright_a, int dark_b, int bright_b) {
+    return reference::patch_ncc(edge(dark_a, bright_a).data(), edge(dark_b, bright_b).data());
   };
-  CHECK(pairing(edge(0, 1), edge(0, 3)) == SidePairing::dark_dark);
-  CHECK(pairing(edge(0, 48), edge(2, 48)) == SidePairing::bright_bright);
-  CHECK(pairing(edge(7, 1), edge(2, 7)) == SidePairing::dark_bright);
-  CHECK(pairing(edge(0, 17), edge(17, 3)) == SidePairing::bright_dark);
-  CHECK(pairing(edge(5, 6), edge(5, 6)) == SidePairing::dark_dark);
-  CHECK(pairing(edge(5, 6), edge(6, 5)) == SidePairing::dark_bright);
+  CHECK(ncc(0, 1, 0, 3) == 1.0f);
+  CHECK(ncc(0, 48, 2, 48) == 1.0f);
+  CHECK(ncc(7, 1, 2, 7) == 1.0f);
+  CHECK(ncc(0, 17, 17, 3) == 1.0f);
+  CHECK(ncc(5, 6, 7, 8) == 0.0f);
 }
 
 TEST_CASE("patches: every device and variant equals the reference", "[patches][device][oclgrind]") {
@@ -278,25 +274,18 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
     auto& context = *device.context();
     const auto program = build_with_similarity(
         context,
-        "kernel void score(global const char* patches, global float* scores, global int* pairings) {\n"
+        "kernel void score(global const char* patches, global float* scores) {\n"
         "  const int a = (int)get_global_id(0), b = (int)get_global_id(1), k = b * (int)get_global_size(0) + a;\n"
-        "  int pairing;\n"
-        "  scores[k] = patch_ncc_pairing(patches + a * 128, patches + b * 128, &pairing);\n"
-        "  pairings[k] = pairing;\n"
+        "  scores[k] = patch_ncc(patches + a * 128, patches + b * 128);\n"
         "}\n");
-    const opencl::Kernel<opencl::In<cl_char>, opencl::Out<cl_float>, opencl::Out<cl_int>> score(context, program, "score");
+    const opencl::Kernel<opencl::In<cl_char>, opencl::Out<cl_float>> score(context, program, "score");
     opencl::Buffer<cl_char> input;
     opencl::Buffer<cl_float> scores(context, 3600);
-    opencl::Buffer<cl_int> pairings(context, 3600);
     input.write(context, patches);
-    score({60, 60, 1, 1}, input, scores, pairings);
+    score({60, 60, 1, 1}, input, scores);
     const auto found = scores.read(3600);
-    const auto which = pairings.read(3600);
     for (std::size_t k = 0; k < 3600; ++k) {
-      const auto expected = reference::patch_similarity(patches.data() + k % 60 * kEdgePatchBytes,
-                                                        patches.data() + k / 60 * kEdgePatchBytes);
-      CHECK(found[k] == expected.ncc);
-      CHECK(which[k] == static_cast<int>(expected.pairing));
+      CHECK(found[k] == reference::patch_ncc(patches.data() + k % 60 * kEdgePatchBytes, patches.data() + k / 60 * kEdgePatchBytes));
     }
   }
 }

@@ -14,7 +14,6 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
   const std::size_t total = candidates.target.size();
   scores.ncc.resize(total);
   scores.sift.resize(total);
-  scores.pairing.resize(total);
   scores.rejected_by.assign(total, 0);
   const auto patch = [](const EdgeDescriptions& set, std::size_t i) { return set.patches.data() + i * kEdgePatchBytes; };
   const auto sift = [](const EdgeDescriptions& set, std::size_t i) { return set.sift.data() + i * kEdgeSiftBytes; };
@@ -26,15 +25,13 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
     float best_ncc = 0;
     for (std::size_t c = begin; c < end; ++c) {
       const auto j = static_cast<std::size_t>(candidates.target[c]);
-      const auto similarity = patch_similarity(patch(a, i), patch(b, j));
-      scores.ncc[c] = similarity.ncc;
-      scores.pairing[c] = static_cast<std::uint8_t>(similarity.pairing);
+      scores.ncc[c] = patch_ncc(patch(a, i), patch(b, j));
       scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
       int rejected = 0;
-      if (similarity.ncc < limits.ncc_min) rejected = limits.ncc_order;
+      if (scores.ncc[c] < limits.ncc_min) rejected = limits.ncc_order;
       if (limits.sift_max > 0 && scores.sift[c] > limits.sift_max) rejected = rejected == 0 ? limits.sift_order : std::min(rejected, limits.sift_order);
       scores.rejected_by[c] = static_cast<std::uint8_t>(rejected);
-      if (rejected == 0) best_ncc = std::max(best_ncc, similarity.ncc);
+      if (rejected == 0) best_ncc = std::max(best_ncc, scores.ncc[c]);
     }
     float best_sift = INFINITY;
     for (std::size_t c = begin; c < end; ++c) {

@@ -21,7 +21,6 @@ using stages::FilterLimits;
 struct CandidateScores {
   std::vector<float> ncc;                  ///< highest of the four side pairings
   std::vector<float> sift;                 ///< smallest of the four L2 distances
-  std::vector<std::uint8_t> pairing;       ///< SidePairing of the NCC
   std::vector<std::uint8_t> rejected_by;   ///< order of the filter that rejected the candidate, 0: alive
 };
 

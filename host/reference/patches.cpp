@@ -90,12 +90,8 @@ std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<
   return patches;
 }
 
-PatchSimilarity patch_similarity(const std::int8_t* a, const std::int8_t* b) {
-  const std::array<float, 4> scores = {side_ncc(a, 0, b, 0), side_ncc(a, 1, b, 1), side_ncc(a, 0, b, 1), side_ncc(a, 1, b, 0)};
-  const auto best = std::max_element(scores.begin(), scores.end());
-  return {*best, static_cast<SidePairing>(best - scores.begin())};
+float patch_ncc(const std::int8_t* a, const std::int8_t* b) {
+  return std::max({side_ncc(a, 0, b, 0), side_ncc(a, 1, b, 1), side_ncc(a, 0, b, 1), side_ncc(a, 1, b, 0)});
 }
-
-float patch_ncc(const std::int8_t* a, const std::int8_t* b) { return patch_similarity(a, b).ncc; }
 
 }  // namespace quadedge::reference

@@ -40,20 +40,8 @@ PatchValues stored_side(const std::int8_t* edge, int side);
 /// 1 / norm of those integers.
 float inverse_norm(const std::int8_t* edge, int side);
 
-/// Which sides of two edges are compared; the numbers are those of kernels/similarity.cl.
-enum class SidePairing : int { dark_dark = 0, bright_bright = 1, dark_bright = 2, bright_dark = 3 };
-
-/// Highest NCC over the four pairings of sides, and the first pairing that reaches it.
-struct PatchSimilarity {
-  float ncc;
-  SidePairing pairing;
-};
-
-/// Similarity of two edges from their patches (`kEdgePatchBytes` each): sums of products in integers, which are exact, multiplied in
-/// single precision by 1 / norm of `a` and then of `b`, so that the kernels give the same bits.
-PatchSimilarity patch_similarity(const std::int8_t* a, const std::int8_t* b);
-
-/// Only the NCC of patch_similarity().
+/// NCC of two edges from their patches (`kEdgePatchBytes` each), the highest over the four pairings of sides: sums of products in integers,
+/// which are exact, multiplied in single precision by 1 / norm of `a` and then of `b`, so that the kernels give the same bits.
 float patch_ncc(const std::int8_t* a, const std::int8_t* b);
 
 }  // namespace quadedge::reference

@@ -27,8 +27,8 @@ struct RefinedCandidates {
 /// known along this line: refine_prior / sin(angle between edge and line).
 /// `left_patches`: the side patches of the left edges, see reference/patches.hpp.
 ///
-/// Neighbours on one curve shift to the same place: of candidates within 0.3 px the one nearest to the line is refined,
-/// and the others get its place and a likeness below -1.
+/// Neighbours on one curve shift to the same place: of candidates within 0.5 px the one whose sides are most alike is refined; the others
+/// stay where they are and get a likeness below -1.
 RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image,
                                       const std::vector<std::int8_t>& left_patches, const EdgeSet& left, const EdgeSet& right,
                                       const stages::EpipolarGeometry& geometry,

@@ -17,7 +17,7 @@ void CandidateFilters::run(const DescribedEdges& a, const DescribedEdges& b, con
   kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.rows,
           row_step, candidates.capacity, a.patches, a.patch_of, a.sift, a.sift_of, b.patches, b.patch_of, b.sift, b.sift_of, limits.ncc_min, limits.sift_max,
           limits.ncc_nearly_best, limits.sift_nearly_best, limits.ncc_order, limits.sift_order, all_scores ? 1 : 0,
-          candidates.ncc, candidates.sift, candidates.pairing, candidates.rejected_by, candidates.alive);
+          candidates.ncc, candidates.sift, candidates.rejected_by, candidates.alive);
 }
 
 }  // namespace quadedge::stages

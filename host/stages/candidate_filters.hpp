@@ -23,7 +23,7 @@ class CandidateFilters {
  public:
   CandidateFilters(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
-  /// Fills ncc, sift, pairing and rejected_by of every candidate. Row r belongs to edge r * row_step of the first set.
+  /// Fills ncc, sift and rejected_by of every candidate. Row r belongs to edge r * row_step of the first set.
   /// `all_scores`: also computes what is not needed to decide (for a tap).
   void run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step, bool all_scores,
            DeviceCandidates& candidates);
@@ -37,8 +37,8 @@ class CandidateFilters {
   opencl::Context& context_;
   std::size_t local_size_;
   opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_int>, In<cl_char>,
-                 In<cl_int>, In<cl_uchar>, In<cl_int>, cl_float, cl_float, cl_float, cl_float, cl_int, cl_int, cl_int, Out<cl_float>, Out<cl_float>, Out<cl_uchar>,
-                 Out<cl_uchar>, Out<cl_int>>
+                 In<cl_int>, In<cl_uchar>, In<cl_int>, cl_float, cl_float, cl_float, cl_float, cl_int, cl_int, cl_int, Out<cl_float>,
+                 Out<cl_float>, Out<cl_uchar>, Out<cl_int>>
       kernel_;
 };
 

@@ -17,7 +17,6 @@ struct DeviceCandidates {
   opencl::Buffer<cl_int> total;          ///< {candidates that fit, candidates cut off}
   opencl::Buffer<cl_int> target;         ///< index of the other edge
   opencl::Buffer<cl_float> ncc, sift;    ///< similarity and distance
-  opencl::Buffer<cl_uchar> pairing;      ///< side pairing of the NCC
   opencl::Buffer<cl_uchar> rejected_by;  ///< order of the filter that rejected the candidate, 0: alive
   opencl::Buffer<cl_int> alive;          ///< survivors of the filters per row
   int rows = 0;
@@ -31,7 +30,6 @@ struct DeviceCandidates {
     target.ensure(context, size);
     ncc.ensure(context, size);
     sift.ensure(context, size);
-    pairing.ensure(context, size);
     rejected_by.ensure(context, size);
   }
 
