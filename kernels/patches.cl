@@ -4,14 +4,11 @@
 // host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
 //   ITEMS_PER_EDGE 1: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
-//   GROUP floats.
-// Needs direction.cl and photometric.cl before it. Reference: host/reference/patches.cpp.
+//   EXCHANGE_FLOATS floats.
+// Needs direction.cl, photometric.cl and photometric_lanes.cl before it. Reference: host/reference/patches.cpp.
 
 #ifndef ITEMS_PER_EDGE
 #define ITEMS_PER_EDGE 1
-#endif
-#ifndef GROUP
-#define GROUP 64
 #endif
 #define PATCH_BYTES 128
 #define INVERSE_NORMS 112  // where they begin
@@ -82,65 +79,27 @@ inline float largest_used(const float8 v) {
   return max(two.x, two.y);
 }
 
-// The eight lanes of the work-item's side, where `value` counts for the seven used ones and 0 for the last; all work-items of the
-// group must call it.
-inline float8 side_lanes(local float* shared, const float value) {
-  const int item = (int)get_local_id(0), lane = item & 7;
-  barrier(CLK_LOCAL_MEM_FENCE);
-  shared[item] = lane < PATCH_SIDE ? value : 0.0f;
-  barrier(CLK_LOCAL_MEM_FENCE);
-  return vload8(item >> 3, shared);
-}
-
-inline float corner_byte(const uint corners, const uint shift) { return (float)(int)(corners >> shift & 255u); }
-
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void side_patches(global const uint* corners, const int width, const int height, global const float* xs,
                   global const float* ys, global const float* directions, const int count, const float offset,
                   global char* patches) {
-  local float shared[GROUP];
-  const int item = (int)get_local_id(0), lane = item & 7, side = item >> 3 & 1;
+  local float memory[EXCHANGE_FLOATS];
+  Exchange exchange = {memory, 0};
+  const int lane = lane_of_item(), side = patch_in_group() & 1;
   const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
   const int edge = min(wanted, count - 1);  // surplus work-items work along with the last edge for the barriers
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
-  const PatchFrame frame = patch_frame(xs[edge], ys[edge], cosine, sine, side == 0 ? 1.0f : -1.0f, offset);
-  const float across = lane < PATCH_SIDE ? (float)(lane - PATCH_SIDE / 2) : 0.0f;
-  const int base_x = (int)frame.x - PATCH_REACH, base_y = (int)frame.y - PATCH_REACH;
-  const float middle_x = (frame.x - (float)base_x) - across * sine, middle_y = (frame.y - (float)base_y) + across * cosine;
-  const int origin = base_y * width + base_x;
   float rows[PATCH_SIDE];
-  for (int i = 0; i < PATCH_SIDE; ++i) {
-    const float along = (float)(i - PATCH_SIDE / 2);
-    const float u = clamp(middle_x + along * cosine, (float)-base_x, (float)(width - 1 - base_x));
-    const float v = clamp(middle_y + along * sine, (float)-base_y, (float)(height - 1 - base_y));
-    const int u0 = (int)u, v0 = (int)v;
-    const float fx = u - (float)u0, fy = v - (float)v0;
-    const uint four = corners[origin + v0 * width + u0];
-    const float a = corner_byte(four, 0), b = corner_byte(four, 8), c = corner_byte(four, 16), d = corner_byte(four, 24);
-    const float top = a + fx * (b - a), bottom = c + fx * (d - c);
-    rows[i] = top + fy * (bottom - top);
-  }
-  shared[item] = rows[PATCH_SIDE / 2];
-  barrier(CLK_LOCAL_MEM_FENCE);
-  const float middle = shared[item - lane + PATCH_SIDE / 2];
-  float sum = 0.0f;
-  for (int i = 0; i < PATCH_SIDE; ++i) {
-    rows[i] -= middle;
-    sum += rows[i];
-  }
-  const float mean = sum_used(side_lanes(shared, sum)) * (1.0f / PATCH_SAMPLES);
+  cut_column(corners, width, height, patch_frame(xs[edge], ys[edge], cosine, sine, side == 0 ? 1.0f : -1.0f, offset), 1, &exchange, rows);
   float largest = 0.0f, squares = 0.0f;
-  for (int i = 0; i < PATCH_SIDE; ++i) {
-    rows[i] -= mean;
-    largest = max(largest, fabs(rows[i]));
-  }
-  const float scale = scale_of(largest_used(side_lanes(shared, largest)));
+  for (int i = 0; i < PATCH_SIDE; ++i) largest = max(largest, fabs(rows[i]));
+  const float scale = scale_of(largest_used(patch_lanes(&exchange, largest)));
   for (int i = 0; i < PATCH_SIDE; ++i) {
     rows[i] = (rows[i] * scale + NO_FRACTION) - NO_FRACTION;
     squares += rows[i] * rows[i];
   }
-  const float inverse = inverse_norm(sum_used(side_lanes(shared, squares)));
+  const float inverse = inverse_norm(sum_lanes(&exchange, squares));
   if (wanted >= count) return;
   global char* patch = patches + (size_t)edge * PATCH_BYTES;
   for (int i = 0; i < PATCH_SIDE; ++i) patch[16 * i + 8 * side + lane] = lane < PATCH_SIDE ? (char)rows[i] : (char)0;

@@ -1,34 +1,15 @@
 // stereo_refinement.cl: filter 8a and 8b of the stereo cascade: epipolar shift, then photometric refinement along the line.
 //
-// Needs direction.cl, epipolar.cl and photometric.cl. In: both images as corners, edges, the left edges' side patches (patches.cl),
-// candidate lists.
+// Needs direction.cl, epipolar.cl, photometric.cl and candidate_places.cl. In: both images as corners, edges, the left edges' side
+// patches (patches.cl), candidate lists.
 // Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity), how alike both places look,
-// and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge.
+// and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge; stereo_refinement_lanes.cl has
+// eight per edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
 // Layout of patches.cl.
 #define PATCH_BYTES 128
 #define INVERSE_NORMS 112
-
-// Candidates that shift onto the line within so many px of one another are one: neighbours on a curve, which the refinement leads to the
-// same place. Twin: kSamePlace in host/reference/stereo_refinement.cpp.
-#define SAME_PLACE 0.5f
-#define STOOD_FOR 255  // in rejected_by, for a while: another candidate is refined for this one
-
-// Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its place s.
-inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
-                            const float min_sine, const float max_shift) {
-  const float dx = x - line.x, dy = y - line.y;
-  const float s = dx * line.ex + dy * line.ey;
-  const float distance = -dx * line.ey + dy * line.ex;
-  float cosine;
-  const float sine = sine_cosine(direction, &cosine);
-  const float across = -cosine * line.ey + sine * line.ex;  // sine of the angle between line and tangent
-  const float along = cosine * line.ex + sine * line.ey;
-  if (fabs(across) <= min_sine) return s;
-  const float shift = -distance / across;
-  return fabs(shift) < max_shift ? s + shift * along : s;
-}
 
 // The higher NCC of the two side patches of a left edge and those cut at two places of the right image.
 inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,
@@ -72,18 +53,11 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   float8 fixed[PATCH_SIDE], derivative[PATCH_SIDE], values[PATCH_SIDE];
   float fixed_norm = 0.0f;
   int ready = 0;
-  // Of candidates at one place the one whose sides are most alike stays.
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
     const int j = target[c];
-    const float s = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
-    place[c] = s;
-    for (int k = begin; k < c; ++k) {
-      if (rejected_by[k] != 0 || fabs(place[k] - s) >= SAME_PLACE) continue;
-      const int better = ncc[c] > ncc[k];
-      rejected_by[better ? k : c] = STOOD_FOR;
-      if (!better) break;
-    }
+    place[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+    settle_place(begin, c, ncc, place, rejected_by);
   }
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
@@ -120,15 +94,5 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     }
     likeness[c] = 0.5f * (on_edge + beside);
   }
-  // The others stay where they are and join their neighbour's cluster, where they count for its direction and cannot represent it.
-  for (int c = begin; c < end; ++c) {
-    if (rejected_by[c] != STOOD_FOR) continue;
-    int nearest = -1;
-    for (int k = begin; k < end; ++k) {
-      if (rejected_by[k] == 0 && likeness[k] >= -1.0f && (nearest < 0 || fabs(place[k] - place[c]) < fabs(place[nearest] - place[c]))) nearest = k;
-    }
-    rejected_by[c] = nearest < 0 ? (uchar)rejected_order : 0;
-    if (nearest < 0) continue;
-    likeness[c] = likeness[nearest] - 3.0f;
-  }
+  join_neighbours(begin, end, rejected_order, place, rejected_by, likeness);
 }

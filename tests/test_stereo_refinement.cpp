@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include "matching.hpp"
@@ -51,6 +52,25 @@ struct Scene {
     scores = fresh_scores(left.size());
   }
   static constexpr double kDisparity = 6.3;
+
+  /// Rows of none to six candidates instead: the edge's own and copies of it along the line, some of them at one place.
+  void crowd() {
+    const float offsets[] = {0.0f, 0.2f, 3.0f, 3.3f, -2.0f, 6.0f};
+    const EdgeSet own = right;
+    right.x.clear(), right.y.clear(), right.direction.clear();
+    lists = {};
+    lists.first = {0};
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      for (std::size_t k = 0; k < i % 7; ++k) {
+        lists.target.push_back(static_cast<std::int32_t>(right.x.size()));
+        right.x.push_back(own.x[i] - offsets[k]), right.y.push_back(own.y[i]), right.direction.push_back(own.direction[i]);
+      }
+      lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
+    }
+    right.strength.assign(right.x.size(), 10.0f);
+    scores = fresh_scores(right.x.size());
+    for (std::size_t c = 0; c < scores.ncc.size(); ++c) scores.ncc[c] = 0.8f + 0.01f * static_cast<float>(c * 7 % 5);
+  }
 
   std::vector<std::int8_t> left_patches() const {
     return reference::side_patches(left_image.view(), left.x, left.y, left.direction, patches);
@@ -194,7 +214,19 @@ TEST_CASE("stereo refinement: devices agree with the reference", "[stereo][match
   scene.compare_devices();
 }
 
-TEST_CASE("stereo refinement: few candidates, and none", "[stereo][matching][device][oclgrind]") {
+TEST_CASE("stereo refinement: rows of several candidates, some at one place", "[stereo][matching][device]") {
+  Scene scene(300, 5);
+  scene.crowd();
+  auto result = scene.scores;
+  const auto likeness = scene.refine(result).likeness;
+  CHECK(std::count_if(likeness.begin(), likeness.end(), [](double value) { return value < -1; }) > 100);
+  scene.compare_devices();
+}
+
+TEST_CASE("stereo refinement: few candidates, several in a row, and none", "[stereo][matching][device][oclgrind]") {
   Scene(3).compare_devices();
+  Scene several(11);
+  several.crowd();
+  several.compare_devices();
   Scene(0).compare_devices();
 }

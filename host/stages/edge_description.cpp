@@ -30,7 +30,7 @@ EdgeDescription::EdgeDescription(opencl::Context& context, int width, int height
   const auto& patches_variant = opencl::choose_variant("patches", context, variants);
   patches_local_ = static_cast<std::size_t>(patches_variant.local_size);
   patches_items_ = items_per_edge(patches_variant);
-  const auto patches_program = context.program({"direction.cl", "photometric.cl", "patches.cl"}, patches_variant.defines);
+  const auto patches_program = context.program({"direction.cl", "photometric.cl", "photometric_lanes.cl", "patches.cl"}, patches_variant.defines);
   patches_kernel_ = {context, patches_program, "side_patches"};
 
   const auto& sift_variant = opencl::choose_variant("sift", context, variants);

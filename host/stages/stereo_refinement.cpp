@@ -9,6 +9,7 @@ namespace quadedge::stages {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr std::size_t kLanes = 8;  ///< work-items per edge; twin: LANES in kernels/photometric_lanes.cl
 
 }  // namespace
 
@@ -19,8 +20,12 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
       patch_offset_(static_cast<float>(patch_offset)) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
+  const bool lanes = variant.defines.count("GROUP") != 0;
+  items_per_edge_ = lanes ? kLanes : 1;
   const auto program =
-      context.program({"direction.cl", "epipolar.cl", "photometric.cl", "stereo_refinement.cl"}, variant.defines);
+      lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl", "candidate_places.cl", "stereo_refinement_lanes.cl"},
+                              variant.defines)
+            : context.program({"direction.cl", "epipolar.cl", "photometric.cl", "candidate_places.cl", "stereo_refinement.cl"}, variant.defines);
   kernel_ = {context, program, "stereo_refinement"};
 }
 
@@ -30,7 +35,7 @@ void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& r
   context_.begin_stage("stereo_refinement");
   refined.place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
   refined.likeness.ensure(context_, static_cast<std::size_t>(candidates.capacity));
-  kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, candidates.first, candidates.target, candidates.ncc, candidates.capacity,
+  kernel_({static_cast<std::size_t>(candidates.rows) * items_per_edge_, local_size_}, candidates.first, candidates.target, candidates.ncc, candidates.capacity,
           candidates.rows, left_image.values(), left_image.width(), left_image.height(), right_image.values(), right_image.width(),
           right_image.height(), left_patches, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
           static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),

@@ -38,7 +38,7 @@ class StereoRefinement {
   opencl::Context& context_;
   StereoConfig config_;
   float patch_offset_;
-  std::size_t local_size_;
+  std::size_t local_size_, items_per_edge_;
   opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
                  In<cl_char>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
                  cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>,

@@ -1,0 +1,154 @@
+// photometric_lanes.cl: photometric.cl with one work-item per lane of a patch, which holds the seven samples of its column.
+// Functions only. Needs photometric.cl; every result is the same bits as there.
+//
+// Eight neighbouring work-items share a patch; a group of GROUP works on GROUP / LANES patches. The eighth lane's samples have no
+// meaning, it works along. All work-items of a group must call the functions that take an Exchange: they contain barriers. Where a
+// function takes `wanted`, a patch without it only attends the barriers.
+
+#ifndef GROUP
+#define GROUP 64
+#endif
+#define LANES 8
+#define EXCHANGE_FLOATS (4 * GROUP)
+
+// What work-items tell one another, two floats each, through local memory. The halves serve in turn, so that one barrier an
+// exchange is enough: before a half is written again, everyone has passed the other's barrier and thus read it.
+typedef struct {
+  local float* memory;  // EXCHANGE_FLOATS
+  int turn;             // half to be written next
+} Exchange;
+
+// Returns what all have told: `a` of work-item k at k, `b` at GROUP + k. To be read before the next exchange.
+inline local const float* tell(Exchange* exchange, const float a, const float b) {
+  const int item = (int)get_local_id(0);
+  local float* told = exchange->memory + exchange->turn * 2 * GROUP;
+  exchange->turn ^= 1;
+  told[item] = a;
+  told[GROUP + item] = b;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  return told;
+}
+
+inline int lane_of_item(void) { return (int)get_local_id(0) & (LANES - 1); }
+inline int patch_in_group(void) { return (int)get_local_id(0) / LANES; }
+
+// The lanes of the work-item's patch.
+inline float8 patch_lanes(Exchange* exchange, const float value) { return vload8(patch_in_group(), tell(exchange, value, 0.0f)); }
+
+// Sums over the used lanes of the work-item's patch.
+inline float sum_lanes(Exchange* exchange, const float value) { return sum_used(patch_lanes(exchange, value)); }
+inline float2 sum_two_lanes(Exchange* exchange, const float a, const float b) {
+  local const float* told = tell(exchange, a, b);
+  return (float2)(sum_used(vload8(patch_in_group(), told)), sum_used(vload8(patch_in_group(), told + GROUP)));
+}
+
+// Whether any patch of the group told an `a` other than 0; its first lane speaks for it.
+inline int any_patch(local const float* told) {
+  int any = 0;
+  for (int k = 0; k < GROUP; k += LANES) any |= told[k] != 0.0f;
+  return any;
+}
+
+inline float corner_byte(const uint corners, const uint shift) { return (float)(int)(corners >> shift & 255u); }
+
+// A column of cut_patch().
+inline void cut_column(global const uint* corners, const int width, const int height, const PatchFrame frame, const int wanted,
+                       Exchange* exchange, float* column) {
+  const int lane = lane_of_item();
+  if (wanted) {
+    const float across = lane < PATCH_SIDE ? (float)(lane - PATCH_SIDE / 2) : 0.0f;
+    const int base_x = (int)frame.x - PATCH_REACH, base_y = (int)frame.y - PATCH_REACH;
+    const float middle_x = (frame.x - (float)base_x) - across * frame.sine, middle_y = (frame.y - (float)base_y) + across * frame.cosine;
+    const float low_x = (float)-base_x, high_x = (float)(width - 1 - base_x);
+    const float low_y = (float)-base_y, high_y = (float)(height - 1 - base_y);
+    const int origin = base_y * width + base_x;
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) {
+      const float along = (float)(i - PATCH_SIDE / 2);
+      const float u = clamp(middle_x + along * frame.cosine, low_x, high_x);
+      const float v = clamp(middle_y + along * frame.sine, low_y, high_y);
+      const int u0 = (int)u, v0 = (int)v;
+      const float fx = u - (float)u0, fy = v - (float)v0;
+      const uint four = corners[origin + v0 * width + u0];
+      const float a = corner_byte(four, 0), b = corner_byte(four, 8), c = corner_byte(four, 16), d = corner_byte(four, 24);
+      const float top = a + fx * (b - a), bottom = c + fx * (d - c);
+      column[i] = top + fy * (bottom - top);
+    }
+  }
+  const float middle = tell(exchange, wanted ? column[PATCH_SIDE / 2] : 0.0f, 0.0f)[LANES * patch_in_group() + PATCH_SIDE / 2];
+  float sum = 0.0f;
+  if (wanted) {
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) {
+      column[i] -= middle;
+      sum += column[i];
+    }
+  }
+  const float mean = sum_lanes(exchange, sum) * (1.0f / PATCH_SAMPLES);
+  if (wanted) {
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) column[i] -= mean;
+  }
+}
+
+// A column of patch_derivative().
+inline void derivative_column(global const uint* corners, const int width, const int height, const PatchFrame frame, const float ex,
+                              const float ey, const int wanted, Exchange* exchange, float* column) {
+  PatchFrame ahead = frame, behind = frame;
+  ahead.x += 0.5f * ex;
+  ahead.y += 0.5f * ey;
+  behind.x -= 0.5f * ex;
+  behind.y -= 0.5f * ey;
+  float subtracted[PATCH_SIDE] = {0.0f};
+  cut_column(corners, width, height, ahead, wanted, exchange, column);
+  cut_column(corners, width, height, behind, wanted, exchange, subtracted);
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) column[i] -= subtracted[i];
+}
+
+// Sum of products of two columns.
+inline float column_product(const float* a, const float* b) {
+  float sum = 0.0f;
+#pragma unroll
+  for (int i = 0; i < PATCH_SIDE; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// align_edge(); patches of the group that end early wait for the others. ALIGN_LEFT where not `wanted`.
+inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
+                         const float ey, const float* fixed, const float fixed_norm, const float* derivative, const float stiffness,
+                         const RefinementSettings settings, const int wanted, Exchange* exchange, float* values, float* move) {
+  float alpha = 0.0f;
+  int status = wanted ? ALIGN_MOVED : ALIGN_LEFT, going = wanted;
+  for (int step = 0; step < settings.steps; ++step) {
+    if (!any_patch(tell(exchange, going ? 1.0f : 0.0f, 0.0f))) break;
+    PatchFrame moved = moving;
+    moved.x += alpha * ex;
+    moved.y += alpha * ey;
+    cut_column(corners, width, height, moved, going, exchange, values);
+    const float norm = sqrt(sum_lanes(exchange, column_product(values, values)));
+    const float gain = clamp(fixed_norm / fmax(norm, 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
+    float curvatures = 0.0f, slopes = 0.0f;
+#pragma unroll
+    for (int i = 0; i < PATCH_SIDE; ++i) {
+      const float residual = fixed[i] - gain * values[i];
+      const float weighted = settings.huber / max(fabs(residual), settings.huber) * derivative[i];
+      curvatures += weighted * derivative[i];
+      slopes += weighted * residual;
+    }
+    const float2 sums = sum_two_lanes(exchange, curvatures, slopes);
+    if (!going) continue;
+    const float curvature = stiffness + sums.x;
+    const float change = curvature < 1e-6f ? 0.0f : (sums.y - stiffness * alpha) / curvature;
+    alpha += change;
+    if (!(fabs(alpha) <= settings.clamp)) {
+      status = ALIGN_LEFT;
+      going = 0;
+    } else if (fabs(change) < settings.tolerance) {
+      status = ALIGN_SETTLED;
+      going = 0;
+    }
+  }
+  *move = alpha;
+  return status;
+}
