@@ -17,11 +17,11 @@ class Pool {
   };
   using Handle = std::unique_ptr<T, GiveBack>;
 
-  /// As it was given back, or a new one.
+  /// What was given back longest ago, as it was, or a new one: so each step of a frame finds what the same step of the frame before has left.
   Handle take() {
     if (spare_.empty()) return Handle(new T(), GiveBack{this});
-    Handle object(spare_.back().release(), GiveBack{this});
-    spare_.pop_back();
+    Handle object(spare_.front().release(), GiveBack{this});
+    spare_.erase(spare_.begin());
     return object;
   }
 

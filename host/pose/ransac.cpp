@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -22,37 +23,43 @@ std::size_t below(std::mt19937_64& random, std::size_t count) {
   return static_cast<std::size_t>(((random() >> 32) * static_cast<std::uint64_t>(count)) >> 32);
 }
 
-/// Quads in the order in which they are trusted; sorted as far as asked for.
+/// A number's bits as an integer that compares like the number.
+std::uint32_t ordered_bits(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
+}
+
+/// Quads in the order in which they are trusted: fewest rivals, then highest NCC, then lowest index. Sorted as far as asked for.
 class TrustOrder {
  public:
-  TrustOrder(const QuadObservations& quads, std::vector<std::int32_t>& order) : quads_(quads), order_(order) {
+  using Entry = ConsensusWorkspace::Trusted;
+
+  TrustOrder(const QuadObservations& quads, std::vector<Entry>& order) : order_(order) {
     order_.resize(quads.size());
-    std::iota(order_.begin(), order_.end(), 0);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      const auto rivals = static_cast<std::uint64_t>(static_cast<std::uint32_t>(quads.rivals[i]));
+      order_[i] = {rivals << 32 | ~ordered_bits(quads.ncc[i]), static_cast<std::int32_t>(i)};
+    }
   }
 
   /// Makes the first `count` places right.
   void sort_first(std::size_t count) {
     if (count <= sorted_) return;
+    const auto before = [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; };
     const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
-    sorted_ = std::min(order_.size(), std::max(count, 2 * sorted_));
+    sorted_ = std::min(order_.size(), std::max(count, kGrowth * sorted_));
     const auto end = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
-    const auto before = [this](std::int32_t a, std::int32_t b) { return is_before(a, b); };
     std::nth_element(begin, end, order_.end(), before);
     std::sort(begin, end, before);
   }
   std::size_t size() const { return order_.size(); }
-  std::size_t operator[](std::size_t place) const { return static_cast<std::size_t>(order_[place]); }
+  std::size_t operator[](std::size_t place) const { return static_cast<std::size_t>(order_[place].row); }
 
  private:
-  bool is_before(std::int32_t a, std::int32_t b) const {
-    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    if (quads_.rivals[i] != quads_.rivals[j]) return quads_.rivals[i] < quads_.rivals[j];
-    if (quads_.ncc[i] != quads_.ncc[j]) return quads_.ncc[i] > quads_.ncc[j];
-    return a < b;
-  }
+  static constexpr std::size_t kGrowth = 4;  ///< every time that more is asked for, all that is left is gone through
 
-  const QuadObservations& quads_;
-  std::vector<std::int32_t>& order_;
+  std::vector<Entry>& order_;
   std::size_t sorted_ = 0;
 };
 

@@ -28,7 +28,13 @@ struct ConsensusWorkspace {
   std::vector<std::int32_t> cell_of, cell_first, members;  ///< quads by cell
   std::vector<Cell> cells;
   std::vector<std::size_t> cell_sizes;
-  std::vector<std::int32_t> scored_rows, preview_rows, order;
+  /// A quad and how far behind others it stands.
+  struct Trusted {
+    std::uint64_t key;
+    std::int32_t row;
+  };
+  std::vector<Trusted> order;
+  std::vector<std::int32_t> scored_rows, preview_rows;
   ScoringArrays scored, preview;
   std::vector<FitTerm> preview_terms, pair_terms = std::vector<FitTerm>(2);
   std::vector<std::int32_t> inlier_rows;
