@@ -45,6 +45,11 @@ inline float16 two_corner_bytes(const uint16 corners, const uint shift) {
   return convert_float16(as_int16(corners >> shift & (uint16)(255u)));
 }
 
+// Whether no sample of a patch can leave the image, given the pixel PATCH_REACH up and left of its centre: then nothing has to be clamped.
+inline int lies_inside(const int base_x, const int base_y, const int width, const int height) {
+  return base_x >= 0 && base_y >= 0 && base_x + 2 * PATCH_REACH < width && base_y + 2 * PATCH_REACH < height;
+}
+
 // Mean-free grey levels of a patch moved by (dx, dy); coordinates outside the image are clamped to the border.
 inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame, const float dx,
                       const float dy, float8* rows) {
@@ -57,12 +62,16 @@ inline void cut_patch(global const uint* corners, const int width, const int hei
   const float8 low_x = (float)-base_x, high_x = (float)(width - 1 - base_x);
   const float8 low_y = (float)-base_y, high_y = (float)(height - 1 - base_y);
   const int8 stride = width, origin = base_y * width + base_x;
+  const int inside = lies_inside(base_x, base_y, width, height);
   float8 sum = 0.0f;
 #pragma unroll
   for (int i = 0; i < PATCH_SIDE; ++i) {
     const float along = (float)(i - PATCH_SIDE / 2);
-    const float8 u = clamp(middle_x + along * frame.cosine, low_x, high_x);
-    const float8 v = clamp(middle_y + along * frame.sine, low_y, high_y);
+    float8 u = middle_x + along * frame.cosine, v = middle_y + along * frame.sine;
+    if (!inside) {
+      u = clamp(u, low_x, high_x);
+      v = clamp(v, low_y, high_y);
+    }
     const int8 u0 = convert_int8(u), v0 = convert_int8(v);
     const float8 fx = u - convert_float8(u0), fy = v - convert_float8(v0);
     const int8 k = origin + v0 * stride + u0;
@@ -95,12 +104,16 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
   const float16 middle_y = (float16)((low.y - (float)low_y) + across * low.cosine, (high.y - (float)high_y) + across * low.cosine);
   const float16 first_x = (float16)((float8)(-low_x), (float8)(-high_x)), first_y = (float16)((float8)(-low_y), (float8)(-high_y));
   const float16 last_x = (float)(width - 1) + first_x, last_y = (float)(height - 1) + first_y;
+  const int inside = lies_inside(low_x, low_y, width, height) && lies_inside(high_x, high_y, width, height);
   const int16 stride = width, origin = (int16)((int8)(low_y * width + low_x), (int8)(high_y * width + high_x));
 #pragma unroll
   for (int i = 0; i < PATCH_SIDE; ++i) {
     const float along = (float)(i - PATCH_SIDE / 2);
-    const float16 u = clamp(middle_x + along * low.cosine, first_x, last_x);
-    const float16 v = clamp(middle_y + along * low.sine, first_y, last_y);
+    float16 u = middle_x + along * low.cosine, v = middle_y + along * low.sine;
+    if (!inside) {
+      u = clamp(u, first_x, last_x);
+      v = clamp(v, first_y, last_y);
+    }
     const int16 u0 = convert_int16(u), v0 = convert_int16(v);
     const float16 fx = u - convert_float16(u0), fy = v - convert_float16(v0);
     const int16 k = origin + v0 * stride + u0;
