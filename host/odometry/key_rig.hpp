@@ -2,6 +2,7 @@
 /// \file key_rig.hpp  The key stereo rig that frames are located against, and when it is worn (paper section 6, SPEC section 7).
 
 #include <Eigen/Geometry>
+#include <vector>
 
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"

@@ -2,7 +2,9 @@
 /// \file motion_search.hpp  From the current stereo edges to the motion since an earlier rig: where to look, and what to believe.
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "odometry/disparity_offset.hpp"
 #include "odometry/pool.hpp"

@@ -15,7 +15,6 @@
 namespace quadedge {
 namespace {
 
-
 /// Milliseconds since the last lap, steady clock.
 class StageClock {
  public:

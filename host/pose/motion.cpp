@@ -1,6 +1,8 @@
 #include "pose/motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pose/angles.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "pose/angles.hpp"
 
