@@ -1,10 +1,9 @@
-/// \file bench_pose.cpp  The host's part of a frame on quads of one frame of the built-in sequence: two-quad solver, scoring, RANSAC,
-/// refinement. The quads come from the plain C++ reference, so that no OpenCL device is needed.
+/// \file bench_pose.cpp  The host's part of a frame on quads of one frame of the built-in sequence: two-quad solver,
+/// scoring, RANSAC, refinement. The quads come from the plain C++ reference, so that no OpenCL device is needed.
 #include <benchmark/benchmark.h>
-
 #include <optional>
 
-#include "bench/frontend_agreement.hpp"
+#include "benchmark/frontend_agreement.hpp"
 #include "pose/motion.hpp"
 #include "pose/ransac.hpp"
 #include "pose/refinement.hpp"
@@ -32,11 +31,13 @@ struct Quads {
       frames[i].right = sequence.render(i, true).image;
     }
     Device device("reference");
-    const auto seen = bench::run_frontend(*stages::make_frontend(sequence.rig(), device, config), frames[0], frames[1], config);
+    const auto seen =
+        bench::run_frontend(*frontend::make_frontend(sequence.rig(), device, config), frames[0], frames[1], config);
     TemporalMatches matches;
     for (std::size_t i = 0; i < wanted; ++i) {
       const std::size_t q = i % seen.quads.size();
-      matches.append(seen.quads.previous[q], seen.quads.current[q], seen.current, seen.quads.ncc[q], seen.quads.rivals[q]);
+      matches.append(seen.quads.previous[q], seen.quads.current[q], seen.current, seen.quads.ncc[q],
+                     seen.quads.rivals[q]);
     }
     quads = pose::build_quads(sequence.rig(), seen.previous, seen.current, matches, pose::QuadLimits(config));
     motion = sequence.world_from_left(1).inverse() * sequence.world_from_left(0);
@@ -66,8 +67,9 @@ void two_quads(benchmark::State& state) {
   for (auto unused : state) {
     (void)unused;
     const std::size_t a = i % input.quads.size(), b = (i * 7 + 1) % input.quads.size();
-    benchmark::DoNotOptimize(pose::solve_two_quads({input.quads.previous[a].oriented_point(), input.quads.previous[b].oriented_point()},
-                                                   {input.quads.current[a].oriented_point(), input.quads.current[b].oriented_point()}, max_cosine));
+    benchmark::DoNotOptimize(pose::solve_two_quads(
+        {input.quads.previous[a].oriented_point(), input.quads.previous[b].oriented_point()},
+        {input.quads.current[a].oriented_point(), input.quads.current[b].oriented_point()}, max_cosine));
     ++i;
   }
 }
@@ -89,8 +91,8 @@ void ransac(benchmark::State& state) {
   pose::ConsensusWorkspace workspace;
   for (auto unused : state) {
     (void)unused;
-    benchmark::DoNotOptimize(
-        pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt, workspace));
+    benchmark::DoNotOptimize(pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose,
+                                                  input.config.seed, std::nullopt, workspace));
   }
 }
 BENCHMARK(ransac)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);
@@ -98,14 +100,14 @@ BENCHMARK(ransac)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);
 void refinement(benchmark::State& state) {
   const auto& input = quads_of(state.range(0));
   pose::ConsensusWorkspace search;
-  const auto consensus =
-      pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed, std::nullopt, search);
+  const auto consensus = pose::find_consensus(input.quads, input.sequence.rig(), input.config.pose, input.config.seed,
+                                              std::nullopt, search);
   pose::RefinementWorkspace workspace;
   std::vector<std::uint8_t> inlier;
   for (auto unused : state) {
     (void)unused;
-    benchmark::DoNotOptimize(
-        pose::refine(input.quads, input.sequence.rig(), input.config.pose, consensus.current_from_previous, 0, workspace, inlier));
+    benchmark::DoNotOptimize(pose::refine(input.quads, input.sequence.rig(), input.config.pose,
+                                          consensus.current_from_previous, 0, workspace, inlier));
   }
 }
 BENCHMARK(refinement)->Arg(4000)->Arg(40000)->Unit(benchmark::kMillisecond);

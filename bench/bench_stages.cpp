@@ -1,14 +1,14 @@
-/// \file bench_stages.cpp  Kernel time of every stage by OpenCL events, for each kernel variant, on the device of QUADEDGE_DEVICE
+/// \file bench_stages.cpp  Kernel time of every stage by OpenCL events, for each kernel variant, on the device of
+/// QUADEDGE_DEVICE
 /// ("auto" without it): bench_stages --benchmark_filter=edges
-#include <benchmark/benchmark.h>
-
 #include <algorithm>
+#include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <iostream>
 #include <string>
 #include <vector>
 
-#include "bench/frontend_agreement.hpp"
+#include "benchmark/frontend_agreement.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
@@ -47,19 +47,19 @@ std::string device_choice() {
 }
 
 /// The second frame again and again with one variant of one stage; only that stage's kernels count.
-void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant, const std::vector<std::string>& booked_as) {
+void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant,
+               const std::vector<std::string>& booked_as) {
   Device device(device_choice(), "", true);
   Config config = scene().config;
   config.variants[stage] = variant;
-  const auto frontend = stages::make_frontend(scene().sequence.rig(), device, config);
+  const auto frontend = frontend::make_frontend(scene().sequence.rig(), device, config);
   bench::run_frontend(*frontend, scene().frames[0], scene().frames[1], config);  // to get warm
   const auto& second = scene().frames[1];
   device.context()->take_profile();
   for (auto unused : state) {
     (void)unused;
     frontend->process({second.stamp_ns, second.left.view(), second.right.view()});
-    frontend->match(stages::Base::previous,
-                    bench::search_in_place(frontend->base(stages::Base::previous), config.temporal, false));
+    frontend->match(Base::previous, bench::search_in_place(frontend->base(Base::previous), config.temporal, false));
     double ms = 0;
     for (const auto& [name, time] : device.context()->take_profile()) {
       if (std::find(booked_as.begin(), booked_as.end(), name) != booked_as.end()) ms += time;

@@ -1,5 +1,6 @@
-/// \file core_latency.cpp  Latency per frame on the built-in sequence with nothing but quadedge_core: for a machine that has an OpenCL
-/// device and little else. Prints JSON; `quadedge bench` measures more where the whole program can run.
+/// \file core_latency.cpp  Latency per frame on the built-in sequence with nothing but quadedge_core: for a machine
+/// that has an OpenCL device and little else. Prints JSON; `quadedge bench` measures more where the whole program can
+/// run.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -39,17 +40,25 @@ Settings parse(int count, char** values) {
     const std::string name = values[i];
     if (i + 1 >= count) throw UsageError(name + ": a value is missing");
     const std::string value = values[i + 1];
-    if (name == "--device") settings.device = value;
-    else if (name == "--frames") settings.frames = std::atoi(value.c_str());
-    else if (name == "--warm-up") settings.warm_up = std::atoi(value.c_str());
-    else if (name == "--scene") settings.scene.scene = value;
-    else if (name == "--threshold") settings.threshold = std::atof(value.c_str());
+    if (name == "--device")
+      settings.device = value;
+    else if (name == "--frames")
+      settings.frames = std::atoi(value.c_str());
+    else if (name == "--warm-up")
+      settings.warm_up = std::atoi(value.c_str());
+    else if (name == "--scene")
+      settings.scene.scene = value;
+    else if (name == "--threshold")
+      settings.threshold = std::atof(value.c_str());
     else if (name == "--size") {
-      if (std::sscanf(value.c_str(), "%dx%d", &settings.scene.width, &settings.scene.height) != 2) throw UsageError("--size " + value + ": expected WxH");
+      if (std::sscanf(value.c_str(), "%dx%d", &settings.scene.width, &settings.scene.height) != 2)
+        throw UsageError("--size " + value + ": expected WxH");
       settings.scene.focal = 0.575 * settings.scene.width;
-    } else throw UsageError("unknown option " + name);
+    } else
+      throw UsageError("unknown option " + name);
   }
-  if (settings.frames < 1 || settings.warm_up < 0) throw UsageError("--frames: expected 1 or more, --warm-up: 0 or more");
+  if (settings.frames < 1 || settings.warm_up < 0)
+    throw UsageError("--frames: expected 1 or more, --warm-up: 0 or more");
   settings.scene.frames = 1 + settings.warm_up + settings.frames;
   return settings;
 }
@@ -61,8 +70,8 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 void print_latency(const char* name, std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  std::printf("  \"%s\": {\"median\": %.3f, \"p90\": %.3f, \"p99\": %.3f, \"max\": %.3f},\n", name, quantile(values, 0.5), quantile(values, 0.9),
-              quantile(values, 0.99), values.back());
+  std::printf("  \"%s\": {\"median\": %.3f, \"p90\": %.3f, \"p99\": %.3f, \"max\": %.3f},\n", name,
+              quantile(values, 0.5), quantile(values, 0.9), quantile(values, 0.99), values.back());
 }
 
 struct Frames {
@@ -81,7 +90,8 @@ Frames render(const SyntheticSequence& sequence) {
 }
 
 /// Tracks all frames; returns the first one and those after the warm-up.
-std::vector<FrameResult> track(const Settings& settings, const SyntheticSequence& sequence, const Frames& frames, StereoOdometry& odometry) {
+std::vector<FrameResult> track(const Settings& settings, const SyntheticSequence& sequence, const Frames& frames,
+                               StereoOdometry& odometry) {
   std::vector<FrameResult> results;
   for (int i = 0; i < sequence.frames(); ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -121,15 +131,18 @@ int measure(const Settings& settings) {
     for (const auto& stage : profiled_results[i].stages)
       if (stage.stage.rfind("device ", 0) == 0) kernels[stage.stage.substr(7)].push_back(stage.ms);
 
-  std::printf("{\n  \"device\": \"%s\",\n  \"driver\": \"%s\",\n  \"size\": [%d, %d],\n  \"frames\": %d, \"tracked\": %d,\n", device.info().name.c_str(),
-              device.info().driver.c_str(), settings.scene.width, settings.scene.height, settings.frames, tracked);
-  std::printf("  \"edges\": [%d, %d], \"stereo_edges\": %d, \"quads\": %d,\n", last.counts.edges_left, last.counts.edges_right,
-              last.counts.stereo_edges, last.counts.quads);
-  std::printf("  \"start_ms\": %.1f, \"kernel_build_ms\": %.1f, \"first_frame_ms\": %.3f,\n", start_ms, odometry.kernel_build_ms(),
-              results.front().latency_ms);
+  std::printf(
+      "{\n  \"device\": \"%s\",\n  \"driver\": \"%s\",\n  \"size\": [%d, %d],\n  \"frames\": %d, \"tracked\": %d,\n",
+      device.info().name.c_str(), device.info().driver.c_str(), settings.scene.width, settings.scene.height,
+      settings.frames, tracked);
+  std::printf("  \"edges\": [%d, %d], \"stereo_edges\": %d, \"quads\": %d,\n", last.counts.edges_left,
+              last.counts.edges_right, last.counts.stereo_edges, last.counts.quads);
+  std::printf("  \"start_ms\": %.1f, \"kernel_build_ms\": %.1f, \"first_frame_ms\": %.3f,\n", start_ms,
+              odometry.kernel_build_ms(), results.front().latency_ms);
   print_latency("latency_ms", latency);
   for (auto& [stage, times] : kernels) print_latency(("kernels " + stage + " ms").c_str(), times);
-  std::printf("  \"device_mb\": %.1f,\n  \"end_error_m\": %.6f\n}\n", static_cast<double>(odometry.device_bytes()) / 1048576, error);
+  std::printf("  \"device_mb\": %.1f,\n  \"end_error_m\": %.6f\n}\n",
+              static_cast<double>(odometry.device_bytes()) / 1048576, error);
   return tracked == settings.frames ? 0 : 1;
 }
 

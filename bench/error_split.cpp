@@ -1,6 +1,6 @@
-/// \file error_split.cpp  Where the error of a pose comes from: tracks a rendered scene, then estimates each motion again with one kind
-/// of measurement after the other replaced by the truth, or with one part of the method changed. Nothing true reaches the odometry that is run; its
-/// quads are taken and changed afterwards.
+/// \file error_split.cpp  Where the error of a pose comes from: tracks a rendered scene, then estimates each motion
+/// again with one kind of measurement after the other replaced by the truth, or with one part of the method changed.
+/// Nothing true reaches the odometry that is run; its quads are taken and changed afterwards.
 ///
 ///   error_split room --frames 60          prints a Markdown table
 
@@ -44,7 +44,8 @@ struct Errors {
   }
   void print() const {
     if (frames == 0) return;
-    std::printf("| %s | %.2f | %.4f | %+.2f | %.0f |\n", name.c_str(), 1e3 * kDegreesPerRadian * std::sqrt(turn / frames), 1e3 * std::sqrt(shift / frames),
+    std::printf("| %s | %.2f | %.4f | %+.2f | %.0f |\n", name.c_str(),
+                1e3 * kDegreesPerRadian * std::sqrt(turn / frames), 1e3 * std::sqrt(shift / frames),
                 100 * length / length_sum, quads / frames);
   }
 };
@@ -71,7 +72,9 @@ void append(const StereoEdges& from, std::size_t i, StereoEdges& to) {
   to.ncc.push_back(from.ncc[i]);
 }
 
-evaluation::EdgePlaces left_places(const StereoEdges& edges) { return {edges.left_x, edges.left_y, edges.left_direction}; }
+evaluation::EdgePlaces left_places(const StereoEdges& edges) {
+  return {edges.left_x, edges.left_y, edges.left_direction};
+}
 
 /// Distance of a place from a true one, across an edge [px].
 double across(double x, double y, double true_x, double true_y, double direction) {
@@ -84,14 +87,18 @@ bool known(const Quads& q, std::size_t i) {
 }
 
 bool right(const Quads& q, std::size_t i) {
-  return across(q.before.right_x[i], q.before.right_y[i], q.before_right.x[i], q.before_right.y[i], q.before.right_direction[i]) < kWrong &&
+  return across(q.before.right_x[i], q.before.right_y[i], q.before_right.x[i], q.before_right.y[i],
+                q.before.right_direction[i]) < kWrong &&
          across(q.now.left_x[i], q.now.left_y[i], q.now_left.x[i], q.now_left.y[i], q.now.left_direction[i]) < kWrong &&
-         across(q.now.right_x[i], q.now.right_y[i], q.now_right.x[i], q.now_right.y[i], q.now.right_direction[i]) < kWrong;
+         across(q.now.right_x[i], q.now.right_y[i], q.now_right.x[i], q.now_right.y[i], q.now.right_direction[i]) <
+             kWrong;
 }
 
 Quads select(const Quads& all, const std::function<bool(const Quads&, std::size_t)>& wanted) {
   Quads kept;
-  const auto place = [](const TruePlaces& from, std::size_t i, TruePlaces& to) { to.push(from.x[i], from.y[i], from.state[i], from.contour[i] != 0); };
+  const auto place = [](const TruePlaces& from, std::size_t i, TruePlaces& to) {
+    to.push(from.x[i], from.y[i], from.state[i], from.contour[i] != 0);
+  };
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!wanted(all, i)) continue;
     append(all.before, i, kept.before);
@@ -128,7 +135,8 @@ void true_motion_of_edges(Quads& q) {
 void unbiased_disparities(Quads& q) {
   const auto shift = [](std::vector<float>& found, const std::vector<float>& truth) {
     double sum = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) sum += std::clamp(static_cast<double>(found[i]) - truth[i], -1.0, 1.0);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      sum += std::clamp(static_cast<double>(found[i]) - truth[i], -1.0, 1.0);
     for (float& x : found) x -= static_cast<float>(sum / static_cast<double>(found.size()));
   };
   shift(q.before.right_x, q.before_right.x);
@@ -138,15 +146,17 @@ void unbiased_disparities(Quads& q) {
 class Split {
  public:
   Split(const evaluation::MatchingSource& source, const Config& config) : source_(source), config_(config) {
-    for (const char* name : {"as the odometry has it", "estimated again, disparities taken as exact", "quads of known truth alone", "without wrong quads",
-                             "disparities without their mean error", "true disparities", "true motion of the left edges", "both true: the solver",
-                             "no robust weights", "as exact along an edge as across it",
-                             "no least squares: the best sample alone"}) {
+    for (const char* name :
+         {"as the odometry has it", "estimated again, disparities taken as exact", "quads of known truth alone",
+          "without wrong quads", "disparities without their mean error", "true disparities",
+          "true motion of the left edges", "both true: the solver", "no robust weights",
+          "as exact along an edge as across it", "no least squares: the best sample alone"}) {
       errors_.push_back({name});
     }
   }
 
-  void add(const FrameResult& result, const FrameDetails& details, const evaluation::FrameTruth& before, const evaluation::FrameTruth& now) {
+  void add(const FrameResult& result, const FrameDetails& details, const evaluation::FrameTruth& before,
+           const evaluation::FrameTruth& now) {
     truth_ = now.world_from_left->inverse() * *before.world_from_left;
     found_ = result.current_from_reference;
     seed_ = config_.seed + static_cast<std::uint64_t>(errors_[0].frames);
@@ -185,12 +195,15 @@ class Split {
   }
 
   void print() const {
-    std::printf("| measurements and method | rotation [mdeg] | translation [mm] | length [%%] | quads |\n|---|---|---|---|---|\n");
+    std::printf(
+        "| measurements and method | rotation [mdeg] | translation [mm] | length [%%] | quads "
+        "|\n|---|---|---|---|---|\n");
     for (const auto& row : errors_) row.print();
   }
 
  private:
-  Quads gather(const FrameDetails& details, const evaluation::FrameTruth& before, const evaluation::FrameTruth& now) const {
+  Quads gather(const FrameDetails& details, const evaluation::FrameTruth& before,
+               const evaluation::FrameTruth& now) const {
     Quads quads;
     for (std::size_t q = 0; q < details.quads.size(); ++q) {
       append(details.previous_stereo, static_cast<std::size_t>(details.quads.previous[q]), quads.before);
@@ -212,7 +225,8 @@ class Split {
       matches.append(n, n, quads.now, quads.now.ncc[i], 0);
     }
     const auto built = pose::build_quads(source_.rig(), quads.before, quads.now, matches, pose::QuadLimits(config));
-    const auto motion = pose::estimate_motion(source_.rig(), built, pose, seed_, start ? std::optional(found_) : std::nullopt);
+    const auto motion =
+        pose::estimate_motion(source_.rig(), built, pose, seed_, start ? std::optional(found_) : std::nullopt);
     if (motion.status == pose::MotionStatus::ok) errors_[row].add(motion.current_from_previous, truth_, quads.size());
   }
 
@@ -241,12 +255,14 @@ KeyRigErrors track(const evaluation::MatchingSource& source, Device& device, con
     errors.keys += result.new_key_rig ? 1 : 0;
     if (result.status != FrameStatus::tracked) continue;
     const auto& before = truths[static_cast<std::size_t>(result.reference_frame)];
-    errors.step.add(result.current_from_reference, truths.back().world_from_left->inverse() * *before.world_from_left, 0);
+    errors.step.add(result.current_from_reference, truths.back().world_from_left->inverse() * *before.world_from_left,
+                    0);
     errors.whole.add(result.world_from_left.inverse(), truths.back().world_from_left->inverse(), 0);
     if (split != nullptr) split->add(result, odometry.details(), before, truths.back());
     // Only the maps of key rigs are asked for again.
     for (int j = 0; j < i; ++j) {
-      if (j != result.reference_frame) truths[static_cast<std::size_t>(j)].left = truths[static_cast<std::size_t>(j)].right = {};
+      if (j != result.reference_frame)
+        truths[static_cast<std::size_t>(j)].left = truths[static_cast<std::size_t>(j)].right = {};
     }
   }
   return errors;
@@ -255,8 +271,8 @@ KeyRigErrors track(const evaluation::MatchingSource& source, Device& device, con
 void print_keys(const char* name, const KeyRigErrors& errors) {
   const auto degrees = [](const Errors& e) { return 1e3 * kDegreesPerRadian * std::sqrt(e.turn / e.frames); };
   const auto metres = [](const Errors& e) { return 1e3 * std::sqrt(e.shift / e.frames); };
-  std::printf("| %s | %d | %.2f | %.4f | %.2f | %.4f |\n", name, errors.keys, degrees(errors.step), metres(errors.step), degrees(errors.whole),
-              metres(errors.whole));
+  std::printf("| %s | %d | %.2f | %.4f | %.2f | %.4f |\n", name, errors.keys, degrees(errors.step), metres(errors.step),
+              degrees(errors.whole), metres(errors.whole));
 }
 
 }  // namespace
@@ -280,9 +296,12 @@ int main(int argc, char** argv) {
     const KeyRigErrors with = track(*source, device, config, &split);
     config.odometry.key_rig = false;
     const KeyRigErrors without = track(*source, device, config, nullptr);
-    std::printf("%s, %d frames: root mean square errors of the motions since the key rig\n\n", scene.scene.c_str(), scene.frames);
+    std::printf("%s, %d frames: root mean square errors of the motions since the key rig\n\n", scene.scene.c_str(),
+                scene.frames);
     split.print();
-    std::printf("\n| reference | key rigs | step: rotation [mdeg] | translation [mm] | whole way: rotation [mdeg] | translation [mm] |\n|---|---|---|---|---|---|\n");
+    std::printf(
+        "\n| reference | key rigs | step: rotation [mdeg] | translation [mm] | whole way: rotation [mdeg] | "
+        "translation [mm] |\n|---|---|---|---|---|---|\n");
     print_keys("key rigs", with);
     print_keys("the frame before", without);
     return 0;

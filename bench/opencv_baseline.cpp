@@ -9,12 +9,12 @@
 namespace quadedge::bench {
 namespace {
 
-constexpr float kRatio = 0.8F;              ///< Lowe's: best descriptor distance over the second best
-constexpr double kEpipolarDistance = 1.0;   ///< of a right key point from its line [px]
-constexpr double kReprojection = 1.0;       ///< of a PnP inlier [px]
-constexpr int kIterations = 1000;           ///< of RANSAC at most
+constexpr float kRatio = 0.8F;             ///< Lowe's: best descriptor distance over the second best
+constexpr double kEpipolarDistance = 1.0;  ///< of a right key point from its line [px]
+constexpr double kReprojection = 1.0;      ///< of a PnP inlier [px]
+constexpr int kIterations = 1000;          ///< of RANSAC at most
 constexpr double kConfidence = 0.999;
-constexpr int kMinInliers = 12;             ///< fewer are no pose, as in pose.min_inliers
+constexpr int kMinInliers = 12;  ///< fewer are no pose, as in pose.min_inliers
 
 /// Key points of one image with their descriptors, one row each.
 struct Features {
@@ -55,7 +55,9 @@ Eigen::Matrix3d fundamental_matrix(const StereoRig& rig) {
 class OpencvBaseline::Implementation {
  public:
   explicit Implementation(const StereoRig& rig)
-      : rig_(rig), fundamental_(fundamental_matrix(rig)), left_projection_(projection(rig.left, Eigen::Isometry3d::Identity())),
+      : rig_(rig),
+        fundamental_(fundamental_matrix(rig)),
+        left_projection_(projection(rig.left, Eigen::Isometry3d::Identity())),
         right_projection_(projection(rig.right, rig.right_from_left)) {
     cv::eigen2cv(rig.left.matrix(), left_matrix_);
   }
@@ -90,18 +92,21 @@ Features OpencvBaseline::Implementation::detect(const ImageView& recorded, const
     pinhole = reference::undistort(recorded, table);
     view = pinhole.view();
   }
-  const cv::Mat image(view.height, view.width, CV_8UC1, const_cast<std::uint8_t*>(view.pixels), static_cast<std::size_t>(view.stride));
+  const cv::Mat image(view.height, view.width, CV_8UC1, const_cast<std::uint8_t*>(view.pixels),
+                      static_cast<std::size_t>(view.stride));
   Features features;
   sift_->detectAndCompute(image, cv::noArray(), features.points, features.descriptors);
   return features;
 }
 
-OpencvBaseline::Implementation::StereoPoints OpencvBaseline::Implementation::triangulate(const Features& left, const Features& right) const {
+OpencvBaseline::Implementation::StereoPoints OpencvBaseline::Implementation::triangulate(const Features& left,
+                                                                                         const Features& right) const {
   StereoPoints result;
   std::vector<cv::Point2d> left_pixels, right_pixels;
   std::vector<int> rows;
   for (const auto& pair : match(left.descriptors, right.descriptors)) {
-    const cv::Point2f a = left.points[static_cast<std::size_t>(pair.queryIdx)].pt, b = right.points[static_cast<std::size_t>(pair.trainIdx)].pt;
+    const cv::Point2f a = left.points[static_cast<std::size_t>(pair.queryIdx)].pt,
+                      b = right.points[static_cast<std::size_t>(pair.trainIdx)].pt;
     const Eigen::Vector3d line = fundamental_ * Eigen::Vector3d(a.x, a.y, 1);
     if (std::abs(line.dot(Eigen::Vector3d(b.x, b.y, 1))) > kEpipolarDistance * line.head<2>().norm()) continue;
     left_pixels.push_back(a);
@@ -113,7 +118,8 @@ OpencvBaseline::Implementation::StereoPoints OpencvBaseline::Implementation::tri
   cv::triangulatePoints(left_projection_, right_projection_, left_pixels, right_pixels, homogeneous);
   homogeneous.convertTo(homogeneous, CV_64F);
   for (int i = 0; i < homogeneous.cols; ++i) {
-    const cv::Vec4d h(homogeneous.at<double>(0, i), homogeneous.at<double>(1, i), homogeneous.at<double>(2, i), homogeneous.at<double>(3, i));
+    const cv::Vec4d h(homogeneous.at<double>(0, i), homogeneous.at<double>(1, i), homogeneous.at<double>(2, i),
+                      homogeneous.at<double>(3, i));
     const Eigen::Vector3d point(h[0] / h[3], h[1] / h[3], h[2] / h[3]);
     if (!point.allFinite() || point.z() <= 0 || (rig_.right_from_left * point).z() <= 0) continue;
     result.points.emplace_back(point.x(), point.y(), point.z());
@@ -122,7 +128,8 @@ OpencvBaseline::Implementation::StereoPoints OpencvBaseline::Implementation::tri
   return result;
 }
 
-bool OpencvBaseline::Implementation::find_motion(const Features& left, BaselineResult& result, Eigen::Isometry3d& motion) const {
+bool OpencvBaseline::Implementation::find_motion(const Features& left, BaselineResult& result,
+                                                 Eigen::Isometry3d& motion) const {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
   for (const auto& pair : match(previous_.descriptors, left.descriptors)) {
@@ -133,7 +140,9 @@ bool OpencvBaseline::Implementation::find_motion(const Features& left, BaselineR
   if (result.matches < kMinInliers) return false;
   cv::Mat turn, shift;
   std::vector<int> inliers;
-  if (!cv::solvePnPRansac(points, pixels, left_matrix_, cv::noArray(), turn, shift, false, kIterations, kReprojection, kConfidence, inliers)) return false;
+  if (!cv::solvePnPRansac(points, pixels, left_matrix_, cv::noArray(), turn, shift, false, kIterations, kReprojection,
+                          kConfidence, inliers))
+    return false;
   result.inliers = static_cast<int>(inliers.size());
   if (result.inliers < kMinInliers) return false;
   std::vector<cv::Point3d> inlier_points;
@@ -156,7 +165,8 @@ bool OpencvBaseline::Implementation::find_motion(const Features& left, BaselineR
 
 BaselineResult OpencvBaseline::Implementation::track(const StereoFrame& frame) {
   BaselineResult result;
-  const Features left = detect(frame.left, rig_.left_undistortion), right = detect(frame.right, rig_.right_undistortion);
+  const Features left = detect(frame.left, rig_.left_undistortion),
+                 right = detect(frame.right, rig_.right_undistortion);
   Eigen::Isometry3d motion = last_motion_;
   result.tracked = !has_previous_ || find_motion(left, result, motion);
   if (has_previous_) {

@@ -1,6 +1,6 @@
 #pragma once
-/// \file opencv_baseline.hpp  What a user would write with OpenCV in an afternoon: SIFT, stereo matching, PnP with RANSAC, from frame to
-/// frame. The yardstick that QuadEdge's accuracy is shown beside; no part of the product.
+/// \file opencv_baseline.hpp  What a user would write with OpenCV in an afternoon: SIFT, stereo matching, PnP with
+/// RANSAC, from frame to frame. The yardstick that QuadEdge's accuracy is shown beside; no part of the product.
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -18,10 +18,10 @@ struct BaselineResult {
   int stereo_points = 0, matches = 0, inliers = 0;
 };
 
-/// Stereo visual odometry from frame to frame: SIFT key points of both images, brute-force matching with Lowe's ratio test both between
-/// left and right (kept near the epipolar line and in front of both cameras, then triangulated) and between the frames before and
-/// now (left images), cv::solvePnPRansac, and cv::solvePnPRefineLM over its inliers. OpenCV's defaults but for the constants in the
-/// source. The same frames give the same poses.
+/// Stereo visual odometry from frame to frame: SIFT key points of both images, brute-force matching with Lowe's ratio
+/// test both between left and right (kept near the epipolar line and in front of both cameras, then triangulated) and
+/// between the frames before and now (left images), cv::solvePnPRansac, and cv::solvePnPRefineLM over its inliers.
+/// OpenCV's defaults but for the constants in the source. The same frames give the same poses.
 class OpencvBaseline {
  public:
   /// \throws DataError for an unusable rig.

@@ -1,5 +1,5 @@
-/// \file opencv_baseline_main.cpp  The OpenCV baseline as a program: reads what `quadedge run` reads, or a rendered scene, and writes
-/// trajectories that `quadedge evaluate trajectory` judges.
+/// \file opencv_baseline_main.cpp  The OpenCV baseline as a program: reads what `quadedge run` reads, or a rendered
+/// scene, and writes trajectories that `quadedge evaluate trajectory` judges.
 ///
 ///   opencv_baseline PATH -o OUT         a recorded sequence
 ///   opencv_baseline cables -o OUT       a rendered scene: room, cables

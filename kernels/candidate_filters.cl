@@ -12,10 +12,11 @@
 kernel void candidate_filters(global const int* first, global const int* target, const int rows, const int row_step,
                               const int capacity, global const char* patches_a, global const int* patch_of_a,
                               global const uchar* sift_a, global const int* sift_of_a, global const char* patches_b,
-                              global const int* patch_of_b, global const uchar* sift_b, global const int* sift_of_b, const float ncc_min,
-                              const float sift_max, const float ncc_nearly_best, const float sift_nearly_best,
-                              const int ncc_order, const int sift_order, const int all_scores, global float* ncc,
-                              global float* sift, global uchar* rejected_by, global int* alive) {
+                              global const int* patch_of_b, global const uchar* sift_b, global const int* sift_of_b,
+                              const float ncc_min, const float sift_max, const float ncc_nearly_best,
+                              const float sift_nearly_best, const int ncc_order, const int sift_order,
+                              const int all_scores, global float* ncc, global float* sift, global uchar* rejected_by,
+                              global int* alive) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int begin = first[row], end = min(first[row + 1], capacity);
@@ -37,9 +38,12 @@ kernel void candidate_filters(global const int* first, global const int* target,
     ncc[c] = similarity;
     sift[c] = distance;
     int state = 0;
-    if (ncc_fails && sift_fails) state = min(ncc_order, sift_order);
-    else if (ncc_fails) state = ncc_order;
-    else if (sift_fails) state = sift_order;
+    if (ncc_fails && sift_fails)
+      state = min(ncc_order, sift_order);
+    else if (ncc_fails)
+      state = ncc_order;
+    else if (sift_fails)
+      state = sift_order;
     rejected_by[c] = (uchar)state;
     if (state == 0) best_ncc = fmax(best_ncc, similarity);
   }
@@ -47,12 +51,15 @@ kernel void candidate_filters(global const int* first, global const int* target,
   float best_sift = INFINITY;
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != 0) continue;
-    if (ncc[c] < ncc_nearly_best * best_ncc) rejected_by[c] = (uchar)nearly_best_order;
-    else best_sift = fmin(best_sift, sift[c]);
+    if (ncc[c] < ncc_nearly_best * best_ncc)
+      rejected_by[c] = (uchar)nearly_best_order;
+    else
+      best_sift = fmin(best_sift, sift[c]);
   }
   int survivors = 0;
   for (int c = begin; c < end; ++c) {
-    if (rejected_by[c] == 0 && sift_max > 0.0f && sift_nearly_best * sift[c] > best_sift) rejected_by[c] = (uchar)(nearly_best_order + 1);
+    if (rejected_by[c] == 0 && sift_max > 0.0f && sift_nearly_best * sift[c] > best_sift)
+      rejected_by[c] = (uchar)(nearly_best_order + 1);
     if (rejected_by[c] == 0) ++survivors;
   }
   alive[row] = survivors;

@@ -24,7 +24,8 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
 
 // Candidate c against the earlier ones of its row, which begins at `begin`: of candidates at one place the one whose sides are most
 // alike stays, the others become STOOD_FOR. To be called in the order of the row.
-inline void settle_place(const int begin, const int c, global const float* ncc, global const float* place, global uchar* rejected_by) {
+inline void settle_place(const int begin, const int c, global const float* ncc, global const float* place,
+                         global uchar* rejected_by) {
   for (int k = begin; k < c; ++k) {
     if (rejected_by[k] != 0 || fabs(place[k] - place[c]) >= SAME_PLACE) continue;
     const int better = ncc[c] > ncc[k];
@@ -35,13 +36,15 @@ inline void settle_place(const int begin, const int c, global const float* ncc, 
 
 // After the refinement of a row: those stood for stay where they are and join their neighbour's cluster, where they count for its
 // direction and cannot represent it.
-inline void join_neighbours(const int begin, const int end, const int rejected_order, global const float* place, global uchar* rejected_by,
-                            global float* likeness) {
+inline void join_neighbours(const int begin, const int end, const int rejected_order, global const float* place,
+                            global uchar* rejected_by, global float* likeness) {
   for (int c = begin; c < end; ++c) {
     if (rejected_by[c] != STOOD_FOR) continue;
     int nearest = -1;
     for (int k = begin; k < end; ++k) {
-      if (rejected_by[k] == 0 && likeness[k] >= -1.0f && (nearest < 0 || fabs(place[k] - place[c]) < fabs(place[nearest] - place[c]))) nearest = k;
+      if (rejected_by[k] == 0 && likeness[k] >= -1.0f &&
+          (nearest < 0 || fabs(place[k] - place[c]) < fabs(place[nearest] - place[c])))
+        nearest = k;
     }
     rejected_by[c] = nearest < 0 ? (uchar)rejected_order : 0;
     if (nearest < 0) continue;

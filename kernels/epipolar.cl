@@ -1,4 +1,4 @@
-// epipolar.cl: the epipolar line of a left pixel (host/stages/epipolar_geometry.hpp, SPEC section 3). Functions only. Needs direction.cl.
+// epipolar.cl: the epipolar line of a left pixel (host/common/epipolar_geometry.hpp, doc/method.md section 3). Functions only. Needs direction.cl.
 
 // Offsets into the packed EpipolarGeometry.
 #define GEOMETRY_T 9
@@ -12,10 +12,10 @@
 
 // A half line in the right image: from the point of infinite depth towards nearer points.
 typedef struct {
-  float x, y;            // point of infinite depth, px
-  float ex, ey;          // unit direction of growing disparity
-  float s_max;           // px from that point to the nearest allowed depth
-  int valid;             // 0 where the point at infinity lies behind the right camera
+  float x, y;    // point of infinite depth, px
+  float ex, ey;  // unit direction of growing disparity
+  float s_max;   // px from that point to the nearest allowed depth
+  int valid;     // 0 where the point at infinity lies behind the right camera
 } EpipolarLine;
 
 inline EpipolarLine epipolar_line(global const float* g, const float x, const float y) {

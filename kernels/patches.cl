@@ -1,6 +1,6 @@
-// patches.cl: two side patches of 7 x 7 samples per edge, mean-free, in 8 bits with their norms (SPEC section 2).
+// patches.cl: two side patches of 7 x 7 samples per edge, mean-free, in 8 bits with their norms (doc/method.md section 2).
 //
-// In: corners of the image (corners.cl), edges (x, y [px], direction [rad]). Out: 128 bytes per edge, laid out as in
+// In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]). Out: 128 bytes per edge, laid out as in
 // host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
 //   ITEMS_PER_EDGE 1: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
@@ -19,7 +19,7 @@
 #if ITEMS_PER_EDGE == 1
 #define SIDES float2  // a value of both sides
 #else
-#define SIDES float   // of the work-item's side
+#define SIDES float  // of the work-item's side
 #endif
 
 // A patch becomes integers, at most 127 of magnitude; a flat one becomes zeros. Their squares add up to less than 2^24: floats hold
@@ -79,10 +79,9 @@ inline float largest_used(const float8 v) {
   return max(two.x, two.y);
 }
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
-void side_patches(global const uint* corners, const int width, const int height, global const float* xs,
-                  global const float* ys, global const float* directions, const int count, const float offset,
-                  global char* patches) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(
+    global const uint* corners, const int width, const int height, global const float* xs, global const float* ys,
+    global const float* directions, const int count, const float offset, global char* patches) {
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), side = patch_in_group() & 1;
@@ -91,7 +90,8 @@ void side_patches(global const uint* corners, const int width, const int height,
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
   float rows[PATCH_SIDE];
-  cut_column(corners, width, height, patch_frame(xs[edge], ys[edge], cosine, sine, side == 0 ? 1.0f : -1.0f, offset), 1, &exchange, rows);
+  cut_column(corners, width, height, patch_frame(xs[edge], ys[edge], cosine, sine, side == 0 ? 1.0f : -1.0f, offset), 1,
+             &exchange, rows);
   float largest = 0.0f, squares = 0.0f;
   for (int i = 0; i < PATCH_SIDE; ++i) largest = max(largest, fabs(rows[i]));
   const float scale = scale_of(largest_used(patch_lanes(&exchange, largest)));

@@ -1,5 +1,5 @@
 // photometric.cl: patches on and beside an edge, and their photometric alignment. Functions only.
-// Needs direction.cl. Images come as the corners of corners.cl.
+// Needs direction.cl. Images come as the corners of pixel_corners.cl.
 //
 // A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the bright side. The
 // eighth lane is a sample again, finite and without meaning; sums leave it out.
@@ -9,9 +9,7 @@
 #define PATCH_SAMPLES 49
 #define PATCH_REACH 8  // px, more than half the diagonal of a patch
 
-inline float8 used_lanes(const float8 v) {
-  return as_float8(as_int8(v) & (int8)(-1, -1, -1, -1, -1, -1, -1, 0));
-}
+inline float8 used_lanes(const float8 v) { return as_float8(as_int8(v) & (int8)(-1, -1, -1, -1, -1, -1, -1, 0)); }
 
 // Sum of the seven used lanes, always in this order.
 inline float sum_used(const float8 v) {
@@ -51,8 +49,8 @@ inline int lies_inside(const int base_x, const int base_y, const int width, cons
 }
 
 // Mean-free grey levels of a patch moved by (dx, dy); coordinates outside the image are clamped to the border.
-inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame, const float dx,
-                      const float dy, float8* rows) {
+inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                      const float dx, const float dy, float8* rows) {
   const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
   const float x = frame.x + dx, y = frame.y + dy;
   // Relative to this pixel all samples inside the image have positive coordinates, so that truncating rounds down.
@@ -100,9 +98,12 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
   const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
   const int low_x = (int)low.x - PATCH_REACH, low_y = (int)low.y - PATCH_REACH;
   const int high_x = (int)high.x - PATCH_REACH, high_y = (int)high.y - PATCH_REACH;
-  const float16 middle_x = (float16)((low.x - (float)low_x) - across * low.sine, (high.x - (float)high_x) - across * low.sine);
-  const float16 middle_y = (float16)((low.y - (float)low_y) + across * low.cosine, (high.y - (float)high_y) + across * low.cosine);
-  const float16 first_x = (float16)((float8)(-low_x), (float8)(-high_x)), first_y = (float16)((float8)(-low_y), (float8)(-high_y));
+  const float16 middle_x =
+      (float16)((low.x - (float)low_x) - across * low.sine, (high.x - (float)high_x) - across * low.sine);
+  const float16 middle_y =
+      (float16)((low.y - (float)low_y) + across * low.cosine, (high.y - (float)high_y) + across * low.cosine);
+  const float16 first_x = (float16)((float8)(-low_x), (float8)(-high_x)),
+                first_y = (float16)((float8)(-low_y), (float8)(-high_y));
   const float16 last_x = (float)(width - 1) + first_x, last_y = (float)(height - 1) + first_y;
   const int inside = lies_inside(low_x, low_y, width, height) && lies_inside(high_x, high_y, width, height);
   const int16 stride = width, origin = (int16)((int8)(low_y * width + low_x), (int8)(high_y * width + high_x));
@@ -117,9 +118,10 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
     const int16 u0 = convert_int16(u), v0 = convert_int16(v);
     const float16 fx = u - convert_float16(u0), fy = v - convert_float16(v0);
     const int16 k = origin + v0 * stride + u0;
-    const uint16 four = (uint16)(corners[k.s0], corners[k.s1], corners[k.s2], corners[k.s3], corners[k.s4], corners[k.s5],
-                                 corners[k.s6], corners[k.s7], corners[k.s8], corners[k.s9], corners[k.sa], corners[k.sb],
-                                 corners[k.sc], corners[k.sd], corners[k.se], corners[k.sf]);
+    const uint16 four =
+        (uint16)(corners[k.s0], corners[k.s1], corners[k.s2], corners[k.s3], corners[k.s4], corners[k.s5],
+                 corners[k.s6], corners[k.s7], corners[k.s8], corners[k.s9], corners[k.sa], corners[k.sb],
+                 corners[k.sc], corners[k.sd], corners[k.se], corners[k.sf]);
     const float16 a = two_corner_bytes(four, 0), b = two_corner_bytes(four, 8);
     const float16 c = two_corner_bytes(four, 16), d = two_corner_bytes(four, 24);
     const float16 top = a + fx * (b - a), bottom = c + fx * (d - c);
@@ -132,7 +134,8 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
     rows[i] -= middle;
     sum += rows[i];
   }
-  const float16 mean = (float16)((float8)(sum_used(sum.lo) * (1.0f / PATCH_SAMPLES)), (float8)(sum_used(sum.hi) * (1.0f / PATCH_SAMPLES)));
+  const float16 mean = (float16)((float8)(sum_used(sum.lo) * (1.0f / PATCH_SAMPLES)),
+                                 (float8)(sum_used(sum.hi) * (1.0f / PATCH_SAMPLES)));
 #pragma unroll
   for (int i = 0; i < PATCH_SIDE; ++i) rows[i] -= mean;
 }
@@ -188,9 +191,10 @@ inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
 
 // Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`; `derivative` is
 // that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start.
-inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
-                      const float ey, const float8* fixed, const float fixed_norm, const float8* derivative,
-                      const float stiffness, const RefinementSettings settings, float8* values, float* move) {
+inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving,
+                      const float ex, const float ey, const float8* fixed, const float fixed_norm,
+                      const float8* derivative, const float stiffness, const RefinementSettings settings,
+                      float8* values, float* move) {
   float alpha = 0.0f;
   int status = ALIGN_MOVED;
   for (int step = 0; step < settings.steps; ++step) {

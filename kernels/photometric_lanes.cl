@@ -33,7 +33,9 @@ inline int lane_of_item(void) { return (int)get_local_id(0) & (LANES - 1); }
 inline int patch_in_group(void) { return (int)get_local_id(0) / LANES; }
 
 // The lanes of the work-item's patch.
-inline float8 patch_lanes(Exchange* exchange, const float value) { return vload8(patch_in_group(), tell(exchange, value, 0.0f)); }
+inline float8 patch_lanes(Exchange* exchange, const float value) {
+  return vload8(patch_in_group(), tell(exchange, value, 0.0f));
+}
 
 // Sums over the used lanes of the work-item's patch.
 inline float sum_lanes(Exchange* exchange, const float value) { return sum_used(patch_lanes(exchange, value)); }
@@ -52,13 +54,14 @@ inline int any_patch(local const float* told) {
 inline float corner_byte(const uint corners, const uint shift) { return (float)(int)(corners >> shift & 255u); }
 
 // A column of cut_patch().
-inline void cut_column(global const uint* corners, const int width, const int height, const PatchFrame frame, const int wanted,
-                       Exchange* exchange, float* column) {
+inline void cut_column(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                       const int wanted, Exchange* exchange, float* column) {
   const int lane = lane_of_item();
   if (wanted) {
     const float across = lane < PATCH_SIDE ? (float)(lane - PATCH_SIDE / 2) : 0.0f;
     const int base_x = (int)frame.x - PATCH_REACH, base_y = (int)frame.y - PATCH_REACH;
-    const float middle_x = (frame.x - (float)base_x) - across * frame.sine, middle_y = (frame.y - (float)base_y) + across * frame.cosine;
+    const float middle_x = (frame.x - (float)base_x) - across * frame.sine,
+                middle_y = (frame.y - (float)base_y) + across * frame.cosine;
     const float low_x = (float)-base_x, high_x = (float)(width - 1 - base_x);
     const float low_y = (float)-base_y, high_y = (float)(height - 1 - base_y);
     const int origin = base_y * width + base_x;
@@ -70,12 +73,14 @@ inline void cut_column(global const uint* corners, const int width, const int he
       const int u0 = (int)u, v0 = (int)v;
       const float fx = u - (float)u0, fy = v - (float)v0;
       const uint four = corners[origin + v0 * width + u0];
-      const float a = corner_byte(four, 0), b = corner_byte(four, 8), c = corner_byte(four, 16), d = corner_byte(four, 24);
+      const float a = corner_byte(four, 0), b = corner_byte(four, 8), c = corner_byte(four, 16),
+                  d = corner_byte(four, 24);
       const float top = a + fx * (b - a), bottom = c + fx * (d - c);
       column[i] = top + fy * (bottom - top);
     }
   }
-  const float middle = tell(exchange, wanted ? column[PATCH_SIDE / 2] : 0.0f, 0.0f)[LANES * patch_in_group() + PATCH_SIDE / 2];
+  const float middle =
+      tell(exchange, wanted ? column[PATCH_SIDE / 2] : 0.0f, 0.0f)[LANES * patch_in_group() + PATCH_SIDE / 2];
   float sum = 0.0f;
   if (wanted) {
 #pragma unroll
@@ -92,8 +97,8 @@ inline void cut_column(global const uint* corners, const int width, const int he
 }
 
 // A column of patch_derivative().
-inline void derivative_column(global const uint* corners, const int width, const int height, const PatchFrame frame, const float ex,
-                              const float ey, const int wanted, Exchange* exchange, float* column) {
+inline void derivative_column(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                              const float ex, const float ey, const int wanted, Exchange* exchange, float* column) {
   PatchFrame ahead = frame, behind = frame;
   ahead.x += 0.5f * ex;
   ahead.y += 0.5f * ey;
@@ -115,9 +120,10 @@ inline float column_product(const float* a, const float* b) {
 }
 
 // align_edge(); patches of the group that end early wait for the others. ALIGN_LEFT where not `wanted`.
-inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving, const float ex,
-                         const float ey, const float* fixed, const float fixed_norm, const float* derivative, const float stiffness,
-                         const RefinementSettings settings, const int wanted, Exchange* exchange, float* values, float* move) {
+inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving,
+                         const float ex, const float ey, const float* fixed, const float fixed_norm,
+                         const float* derivative, const float stiffness, const RefinementSettings settings,
+                         const int wanted, Exchange* exchange, float* values, float* move) {
   float alpha = 0.0f;
   int status = wanted ? ALIGN_MOVED : ALIGN_LEFT, going = wanted;
   for (int step = 0; step < settings.steps; ++step) {

@@ -1,4 +1,4 @@
-// point_index.cl: a point index (host/stages/point_index.hpp) as kernels read it. Functions only.
+// point_index.cl: a point index (host/common/point_index.hpp) as kernels read it. Functions only.
 //
 // cell_first: starts of the cells, rows of `columns` cells. The points' values stand in the order of the index.
 

@@ -1,4 +1,4 @@
-// sift.cl: SIFT descriptors of both sides of an edge at one fixed scale (SPEC section 2; Lowe 2004, section 6).
+// sift.cl: SIFT descriptors of both sides of an edge at one fixed scale (doc/method.md section 2; Lowe 2004, section 6).
 //
 // The gradient of the blurred image is made once per image, in three passes over planes of `stride` floats per row. Pixel
 // (x, y) of the planes of the blur stands at y * stride + PAD + x; the maps also have PAD rows above and below, so that a
@@ -32,7 +32,7 @@
 #define NORM 512.0f
 
 // Normalised Gaussian weights of the middle tap and its six neighbours; variance 1.6^2 - 0.5^2.
-constant float kBlur[7] = {0.262488298f,  0.211400891f,   0.110432628f,  0.0374181004f,
+constant float kBlur[7] = {0.262488298f,   0.211400891f,   0.110432628f,   0.0374181004f,
                            0.00822355864f, 0.00117228061f, 0.000108391968f};
 // exp(-k^2 / 18) for k = -5 .. 5: the window's Gaussian has a standard deviation of 2 cells = 3 px. Padded for two vectors.
 constant float kWindow[16] = {0.249352209f, 0.411112291f, 0.60653066f, 0.800737403f, 0.945959469f, 1.0f,
@@ -106,10 +106,10 @@ inline float sum_lanes(const float8 v) {
 
 #define ROW (CELLS + 2)  // cells with a ring around them that takes what falls outside
 
-constant int8 kAngleMask[ANGLES] = {
-    (int8)(-1, 0, 0, 0, 0, 0, 0, 0), (int8)(0, -1, 0, 0, 0, 0, 0, 0), (int8)(0, 0, -1, 0, 0, 0, 0, 0),
-    (int8)(0, 0, 0, -1, 0, 0, 0, 0), (int8)(0, 0, 0, 0, -1, 0, 0, 0), (int8)(0, 0, 0, 0, 0, -1, 0, 0),
-    (int8)(0, 0, 0, 0, 0, 0, -1, 0), (int8)(0, 0, 0, 0, 0, 0, 0, -1)};
+constant int8 kAngleMask[ANGLES] = {(int8)(-1, 0, 0, 0, 0, 0, 0, 0), (int8)(0, -1, 0, 0, 0, 0, 0, 0),
+                                    (int8)(0, 0, -1, 0, 0, 0, 0, 0), (int8)(0, 0, 0, -1, 0, 0, 0, 0),
+                                    (int8)(0, 0, 0, 0, -1, 0, 0, 0), (int8)(0, 0, 0, 0, 0, -1, 0, 0),
+                                    (int8)(0, 0, 0, 0, 0, 0, -1, 0), (int8)(0, 0, 0, 0, 0, 0, 0, -1)};
 
 // Clip, normalise and round the histogram of one side.
 inline void store_descriptor(const float8* histogram, global uchar* descriptor) {
@@ -160,8 +160,9 @@ inline float8 two_bins(const float low, const float high, const int bin) {
 #define LANE(T, vectors, k) ((const T*)(vectors))[k]
 
 kernel void sift_describe(global const float* magnitude, global const float* angle, const int width, const int height,
-                          const int stride, global const float* xs, global const float* ys, global const float* directions,
-                          const int count, const float offset, global uchar* descriptors) {
+                          const int stride, global const float* xs, global const float* ys,
+                          global const float* directions, const int count, const float offset,
+                          global uchar* descriptors) {
   const int edge = (int)get_global_id(0);
   if (edge >= count) return;
   const float direction = directions[edge], x = xs[edge], y = ys[edge];
@@ -170,10 +171,10 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
   const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
   const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
   const float turn = direction * (ANGLES / (2.0f * PI_F));
-  const size_t dark_first = (size_t)(nearest(y + to_dark_y, height) + PAD - RADIUS) * stride +
-                              nearest(x + to_dark_x, width) + PAD - RADIUS;
-  const size_t bright_first = (size_t)(nearest(y - to_dark_y, height) + PAD - RADIUS) * stride +
-                            nearest(x - to_dark_x, width) + PAD - RADIUS;
+  const size_t dark_first =
+      (size_t)(nearest(y + to_dark_y, height) + PAD - RADIUS) * stride + nearest(x + to_dark_x, width) + PAD - RADIUS;
+  const size_t bright_first =
+      (size_t)(nearest(y - to_dark_y, height) + PAD - RADIUS) * stride + nearest(x - to_dark_x, width) + PAD - RADIUS;
 
   float8 dark[ROW * ROW], bright[ROW * ROW];
   for (int k = 0; k < ROW * ROW; ++k) dark[k] = bright[k] = 0.0f;
@@ -239,12 +240,13 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
 #define SIDES 2
 #define EDGES_PER_GROUP (GROUP / ITEMS_PER_EDGE)
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
-void sift_describe(global const float* magnitude, global const float* angle, const int width, const int height,
-                   const int stride, global const float* xs, global const float* ys, global const float* directions,
-                   const int count, const float offset, global uchar* descriptors) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
+    global const float* magnitude, global const float* angle, const int width, const int height, const int stride,
+    global const float* xs, global const float* ys, global const float* directions, const int count, const float offset,
+    global uchar* descriptors) {
   // What each sample of the window is, the same for both sides except the gradient.
-  local int2 corner[EDGES_PER_GROUP][WINDOW * WINDOW];  // cells across and along, the lower ones; outside the window: -9
+  local int2
+      corner[EDGES_PER_GROUP][WINDOW * WINDOW];  // cells across and along, the lower ones; outside the window: -9
   local float4 shares[EDGES_PER_GROUP][WINDOW * WINDOW];
   local float2 gradient[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];  // shares of the two angle bins
   local int lower_bin[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];
@@ -299,7 +301,8 @@ void sift_describe(global const float* magnitude, global const float* angle, con
     const float2 low_high = gradient[local_edge][side][k];
     const int lower = lower_bin[local_edge][side][k];
     bins += select(select((float8)(0.0f), (float8)(low_high.x), lanes == lower), (float8)(low_high.y),
-                   lanes == ((lower + 1) & (ANGLES - 1))) * weight;
+                   lanes == ((lower + 1) & (ANGLES - 1))) *
+            weight;
   }
   local float* all = histogram[local_edge][side];
   vstore8(bins, cell, all);

@@ -1,4 +1,4 @@
-// similarity.cl: how alike two edges are (SPEC section 2). Plain functions for the filters; name this file before theirs.
+// similarity.cl: how alike two edges are (doc/method.md section 2). Plain functions for the filters; name this file before theirs.
 //
 // The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
 // Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.

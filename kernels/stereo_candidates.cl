@@ -9,14 +9,17 @@
 // Candidates per row that the first sweep can note (kNoted in host/stages/stereo_candidates.cpp).
 #define NOTED 32
 
-// A position differs from its cell of the doubled grid by at most this [px] (kEdgeRowReach in host/reference/edges.hpp).
+// A position differs from its cell of the doubled grid by at most this [px] (kEdgeRowReach in host/reference/edge_detection.hpp).
 #define CELL_SLACK 0.5f
 
 // First index in [begin, end) whose x may reach `x`: positions within a row are ordered up to twice the slack.
 inline int lower_bound_x(global const float* xs, int begin, int end, const float x) {
   while (begin < end) {
     const int middle = (begin + end) / 2;
-    if (xs[middle] < x) begin = middle + 1; else end = middle;
+    if (xs[middle] < x)
+      begin = middle + 1;
+    else
+      end = middle;
   }
   return begin;
 }
@@ -24,22 +27,24 @@ inline int lower_bound_x(global const float* xs, int begin, int end, const float
 // What a right edge of a row has to be.
 typedef struct {
   EpipolarLine line;
-  float direction;              // of the left edge
-  float tau, orientation;       // largest distance from the line, largest turn
-  float s_low, s_high;          // places on the line
-  float nx, ny;                 // the line's normal
+  float direction;         // of the left edge
+  float tau, orientation;  // largest distance from the line, largest turn
+  float s_low, s_high;     // places on the line
+  float nx, ny;            // the line's normal
 } Wanted;
 
 inline int passes(const Wanted* wanted, const float x, const float y, const float direction) {
   const float dx = x - wanted->line.x, dy = y - wanted->line.y;
   const float s = dx * wanted->line.ex + dy * wanted->line.ey;
   const float distance = fabs(dx * wanted->nx + dy * wanted->ny);
-  return !(distance > wanted->tau || s < wanted->s_low || s > wanted->s_high) && !(angle_between(direction, wanted->direction) > wanted->orientation);
+  return !(distance > wanted->tau || s < wanted->s_low || s > wanted->s_high) &&
+         !(angle_between(direction, wanted->direction) > wanted->orientation);
 }
 
 // Visits the right edges [begin, end) of a row up to x = `to`; writes those that pass to target[] while fewer than `room` are written.
-inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys, global const float* directions, int begin,
-                     const int end, const int total, const float to, global int* target, const int room, int count) {
+inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys,
+                     global const float* directions, int begin, const int end, const int total, const float to,
+                     global int* target, const int room, int count) {
 #ifndef LANES
   (void)total;
 #else
@@ -51,7 +56,8 @@ inline int visit_row(const Wanted* wanted, global const float* xs, global const 
       const float s = dx * wanted->line.ex + dy * wanted->line.ey;
       const float distance = fabs(dx * wanted->nx + dy * wanted->ny);
       const float turn = angle_between(directions[begin + lane], wanted->direction);
-      excess[lane] = fmax(fmax(distance - wanted->tau, turn - wanted->orientation), fmax(wanted->s_low - s, s - wanted->s_high));
+      excess[lane] =
+          fmax(fmax(distance - wanted->tau, turn - wanted->orientation), fmax(wanted->s_low - s, s - wanted->s_high));
     }
     for (int lane = 0; lane < LANES; ++lane) lowest = fmin(lowest, excess[lane]);
     if (lowest <= 0.0f) {
@@ -88,8 +94,14 @@ inline int visit_candidates(const float x, const float y, const float direction,
   if (left_epipolar_sine(g, x, y, direction) < g[GEOMETRY_MIN_EPIPOLAR_SINE]) return 0;
   const EpipolarLine line = epipolar_line(g, x, y);
   if (!line.valid) return 0;
-  const Wanted wanted = {line, direction, g[GEOMETRY_EPIPOLAR_DISTANCE], g[GEOMETRY_ORIENTATION], -g[GEOMETRY_TOLERANCE],
-                         line.s_max + g[GEOMETRY_TOLERANCE], -line.ey, line.ex};
+  const Wanted wanted = {line,
+                         direction,
+                         g[GEOMETRY_EPIPOLAR_DISTANCE],
+                         g[GEOMETRY_ORIENTATION],
+                         -g[GEOMETRY_TOLERANCE],
+                         line.s_max + g[GEOMETRY_TOLERANCE],
+                         -line.ey,
+                         line.ex};
   const float ax = line.x + wanted.s_low * line.ex, bx = line.x + wanted.s_high * line.ex;
   const float ay = line.y + wanted.s_low * line.ey, by = line.y + wanted.s_high * line.ey;
   const float x_low = fmin(ax, bx) - wanted.tau, x_high = fmax(ax, bx) + wanted.tau;
@@ -108,25 +120,28 @@ inline int visit_candidates(const float x, const float y, const float direction,
     }
     const int end = right_row_first[row + 1];
     const int begin = lower_bound_x(right_x, right_row_first[row], end, from - 2.0f * CELL_SLACK);
-    count = visit_row(&wanted, right_x, right_y, right_direction, begin, end, total, to + 2.0f * CELL_SLACK, target, room, count);
+    count = visit_row(&wanted, right_x, right_y, right_direction, begin, end, total, to + 2.0f * CELL_SLACK, target,
+                      room, count);
   }
   return count;
 }
 
-kernel void stereo_candidates_count(global const float* left_x, global const float* left_y, global const float* left_direction,
-                                    const int left_count, global const float* right_x, global const float* right_y,
+kernel void stereo_candidates_count(global const float* left_x, global const float* left_y,
+                                    global const float* left_direction, const int left_count,
+                                    global const float* right_x, global const float* right_y,
                                     global const float* right_direction, global const int* right_row_first,
                                     const int right_height, global const float* geometry, global int* counts,
                                     global int* noted) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
-  counts[i] = visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction, right_row_first,
-                               right_height, geometry, noted + i * NOTED, NOTED);
+  counts[i] = visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction,
+                               right_row_first, right_height, geometry, noted + i * NOTED, NOTED);
 }
 
 // Copies what the first sweep noted; only rows with more candidates than that sweep again. Rows beyond the capacity stay empty: the host sees the total, makes room and runs again.
-kernel void stereo_candidates_fill(global const float* left_x, global const float* left_y, global const float* left_direction,
-                                   const int left_count, global const float* right_x, global const float* right_y,
+kernel void stereo_candidates_fill(global const float* left_x, global const float* left_y,
+                                   global const float* left_direction, const int left_count,
+                                   global const float* right_x, global const float* right_y,
                                    global const float* right_direction, global const int* right_row_first,
                                    const int right_height, global const float* geometry, global const int* first,
                                    const int capacity, global const int* noted, global int* target) {
@@ -138,6 +153,6 @@ kernel void stereo_candidates_fill(global const float* left_x, global const floa
     for (int k = 0; k < room; ++k) target[first[i] + k] = noted[i * NOTED + k];
     return;
   }
-  visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction, right_row_first, right_height,
-                   geometry, target + first[i], room);
+  visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction, right_row_first,
+                   right_height, geometry, target + first[i], room);
 }

@@ -13,11 +13,12 @@
 // differs by more than cluster_orientation, or cluster_size_max is reached. The most alike member stands for a cluster; best_cluster
 // is the most alike of those that reach likeness_min (-1: none). `order` is scratch.
 kernel void stereo_clusters(global const int* first, global const int* target, const int capacity, const int left_count,
-                            global const float* right_direction, global const uchar* rejected_by, global const float* place,
-                            global const float* likeness, const float cluster_gap, const float cluster_orientation,
-                            const int cluster_size_max, const float cluster_sigma, const float likeness_min, global int* order,
-                            global int* cluster_count, global float* cluster_place, global float* cluster_direction,
-                            global int* cluster_anchor, global float* cluster_likeness, global int* best_cluster) {
+                            global const float* right_direction, global const uchar* rejected_by,
+                            global const float* place, global const float* likeness, const float cluster_gap,
+                            const float cluster_orientation, const int cluster_size_max, const float cluster_sigma,
+                            const float likeness_min, global int* order, global int* cluster_count,
+                            global float* cluster_place, global float* cluster_direction, global int* cluster_anchor,
+                            global float* cluster_likeness, global int* best_cluster) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   const int begin = first[i], end = min(first[i + 1], capacity);
@@ -33,15 +34,18 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
   int from = begin;
   while (from < begin + alive) {
     int to = from + 1;
-    while (to < begin + alive && to - from < cluster_size_max && place[order[to]] - place[order[to - 1]] < cluster_gap &&
-           angle_between(right_direction[target[order[to]]], right_direction[target[order[to - 1]]]) <= cluster_orientation) {
+    while (to < begin + alive && to - from < cluster_size_max &&
+           place[order[to]] - place[order[to - 1]] < cluster_gap &&
+           angle_between(right_direction[target[order[to]]], right_direction[target[order[to - 1]]]) <=
+               cluster_orientation) {
       ++to;
     }
     float highest = likeness[order[from]];
     for (int k = from + 1; k < to; ++k) highest = fmax(highest, likeness[order[k]]);
     int chosen = -1;
     for (int k = from; k < to; ++k) {
-      if (likeness[order[k]] >= highest - LIKENESS_TIE && (chosen < 0 || target[order[k]] < target[chosen])) chosen = order[k];
+      if (likeness[order[k]] >= highest - LIKENESS_TIE && (chosen < 0 || target[order[k]] < target[chosen]))
+        chosen = order[k];
     }
     float cosine = 0.0f, sine = 0.0f;
     for (int k = from; k < to; ++k) {
@@ -67,15 +71,16 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
 
 // Mutual best in three launches over the left edges. Maxima and minima of integers do not depend on the order of the work-items.
 // 1: the highest likeness that any left edge offers to a right edge (positive floats order like their bits).
-kernel void stereo_claim(global const int* best_cluster, global const int* cluster_anchor, global const float* cluster_likeness,
-                         const int left_count, global int* claimed) {
+kernel void stereo_claim(global const int* best_cluster, global const int* cluster_anchor,
+                         global const float* cluster_likeness, const int left_count, global int* claimed) {
   const int i = (int)get_global_id(0);
   if (i >= left_count || best_cluster[i] < 0) return;
   atomic_max(claimed + cluster_anchor[best_cluster[i]], as_int(cluster_likeness[best_cluster[i]]));
 }
 // 2: the first left edge that offers it.
-kernel void stereo_owner(global const int* best_cluster, global const int* cluster_anchor, global const float* cluster_likeness,
-                         const int left_count, global const int* claimed, global int* owner) {
+kernel void stereo_owner(global const int* best_cluster, global const int* cluster_anchor,
+                         global const float* cluster_likeness, const int left_count, global const int* claimed,
+                         global int* owner) {
   const int i = (int)get_global_id(0);
   if (i >= left_count || best_cluster[i] < 0) return;
   const int anchor = cluster_anchor[best_cluster[i]];

@@ -26,17 +26,18 @@ inline float better_side(global const uint* corners, const int width, const int 
               bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) * inverse_norms.y / bright_norm);
 }
 
-kernel void stereo_refinement(global const int* first, global const int* target, global const float* ncc, const int capacity,
-                              const int left_count,
-                              global const uint* left_corners, const int left_width, const int left_height,
-                              global const uint* right_corners, const int right_width, const int right_height,
-                              global const char* left_patches,
-                              global const float* left_x, global const float* left_y, global const float* left_direction,
-                              global const float* right_x, global const float* right_y, global const float* right_direction,
+kernel void stereo_refinement(global const int* first, global const int* target, global const float* ncc,
+                              const int capacity, const int left_count, global const uint* left_corners,
+                              const int left_width, const int left_height, global const uint* right_corners,
+                              const int right_width, const int right_height, global const char* left_patches,
+                              global const float* left_x, global const float* left_y,
+                              global const float* left_direction, global const float* right_x,
+                              global const float* right_y, global const float* right_direction,
                               global const float* geometry, const float patch_offset, const float shift_min_sine,
                               const float shift_max, const float stiffness, const int steps, const float tolerance,
-                              const float huber, const float clamp_px, const float likeness_min, const int rejected_order,
-                              global uchar* rejected_by, global float* place, global float* likeness) {
+                              const float huber, const float clamp_px, const float likeness_min,
+                              const int rejected_order, global uchar* rejected_by, global float* place,
+                              global float* likeness) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   const int begin = first[i], end = min(first[i + 1], capacity);
@@ -64,16 +65,16 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     if (!ready) {
       cut_patch(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, fixed);
       fixed_norm = patch_norm(fixed);
-      patch_derivative(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), line.ex, line.ey,
-                       derivative);
+      patch_derivative(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), line.ex,
+                       line.ey, derivative);
       ready = 1;
     }
     float s = place[c];
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
-    const int aligned = align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed, fixed_norm,
-                                   derivative, edge_stiffness, settings, values, &move);
+    const int aligned = align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed,
+                                   fixed_norm, derivative, edge_stiffness, settings, values, &move);
     if (aligned == ALIGN_LEFT) {
       rejected_by[c] = (uchar)rejected_order;
       continue;
@@ -82,14 +83,15 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     place[c] = s;
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
     if (aligned == ALIGN_MOVED) {
-      cut_patch(right_corners, right_width, right_height, patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f,
-                values);
+      cut_patch(right_corners, right_width, right_height,
+                patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, values);
     }
     const float on_edge = rows_ncc(fixed, fixed_norm, values);
     // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
     float beside = -1.0f;
     if (0.5f * (on_edge + 1.0f) >= likeness_min) {
-      beside = better_side(right_corners, right_width, right_height, patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset),
+      beside = better_side(right_corners, right_width, right_height,
+                           patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset),
                            patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, patch_offset), side_patches);
     }
     likeness[c] = 0.5f * (on_edge + beside);

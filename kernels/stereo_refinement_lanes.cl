@@ -11,8 +11,8 @@
 #define INVERSE_NORMS 112
 
 // NCC of a side patch of the left edge, columns of 16 bytes apart, and the patch at `frame` of the right image.
-inline float side_ncc(global const uint* corners, const int width, const int height, const PatchFrame frame, global const char* side_patch,
-                      const float inverse_norm, const int wanted, Exchange* exchange) {
+inline float side_ncc(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                      global const char* side_patch, const float inverse_norm, const int wanted, Exchange* exchange) {
   float column[PATCH_SIDE] = {0.0f}, own[PATCH_SIDE];
   cut_column(corners, width, height, frame, wanted, exchange, column);
 #pragma unroll
@@ -22,18 +22,16 @@ inline float side_ncc(global const uint* corners, const int width, const int hei
   return norm < 1e-10f ? 0.0f : sums.y * inverse_norm / norm;
 }
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
-void stereo_refinement(global const int* first, global const int* target, global const float* ncc, const int capacity,
-                       const int left_count,
-                       global const uint* left_corners, const int left_width, const int left_height,
-                       global const uint* right_corners, const int right_width, const int right_height,
-                       global const char* left_patches,
-                       global const float* left_x, global const float* left_y, global const float* left_direction,
-                       global const float* right_x, global const float* right_y, global const float* right_direction,
-                       global const float* geometry, const float patch_offset, const float shift_min_sine,
-                       const float shift_max, const float stiffness, const int steps, const float tolerance,
-                       const float huber, const float clamp_px, const float likeness_min, const int rejected_order,
-                       global uchar* rejected_by, global float* place, global float* likeness) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement(
+    global const int* first, global const int* target, global const float* ncc, const int capacity,
+    const int left_count, global const uint* left_corners, const int left_width, const int left_height,
+    global const uint* right_corners, const int right_width, const int right_height, global const char* left_patches,
+    global const float* left_x, global const float* left_y, global const float* left_direction,
+    global const float* right_x, global const float* right_y, global const float* right_direction,
+    global const float* geometry, const float patch_offset, const float shift_min_sine, const float shift_max,
+    const float stiffness, const int steps, const float tolerance, const float huber, const float clamp_px,
+    const float likeness_min, const int rejected_order, global uchar* rejected_by, global float* place,
+    global float* likeness) {
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), first_item = LANES * patch_in_group();
@@ -54,7 +52,8 @@ void stereo_refinement(global const int* first, global const int* target, global
 
   for (int c = begin + lane; c < end; c += LANES) {
     const int j = target[c];
-    if (rejected_by[c] == 0) place[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+    if (rejected_by[c] == 0)
+      place[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
   }
   barrier(CLK_GLOBAL_MEM_FENCE);
   // From here on only the first lane reads and writes the row.
@@ -87,20 +86,24 @@ void stereo_refinement(global const int* first, global const int* target, global
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
-    const int aligned = align_columns(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed, fixed_norm, derivative,
-                                      edge_stiffness, settings, living, &exchange, values, &move);
+    const int aligned =
+        align_columns(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed, fixed_norm, derivative,
+                      edge_stiffness, settings, living, &exchange, values, &move);
     s += move;
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
-    cut_column(right_corners, right_width, right_height, patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f),
-               aligned == ALIGN_MOVED, &exchange, values);
+    cut_column(right_corners, right_width, right_height,
+               patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), aligned == ALIGN_MOVED, &exchange,
+               values);
     const float2 sums = sum_two_lanes(&exchange, column_product(values, values), column_product(fixed, values));
     const float norms = fixed_norm * sqrt(sums.x);
     const float on_edge = norms < 1e-10f ? 0.0f : sums.y / norms;
     // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
     const int alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= likeness_min;
-    const float dark = side_ncc(right_corners, right_width, right_height, patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset),
-                                side_patches, inverse_norms.x, alike, &exchange);
-    const float bright = side_ncc(right_corners, right_width, right_height, patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, patch_offset),
+    const float dark = side_ncc(right_corners, right_width, right_height,
+                                patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset), side_patches,
+                                inverse_norms.x, alike, &exchange);
+    const float bright = side_ncc(right_corners, right_width, right_height,
+                                  patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, patch_offset),
                                   side_patches + LANES, inverse_norms.y, alike, &exchange);
     if (!found) continue;
     if (aligned == ALIGN_LEFT) {

@@ -6,12 +6,13 @@
 // One work-item = one row. Two launches: count, then (after an exclusive scan) fill.
 // Reference: host/reference/temporal_candidates.cpp.
 
-inline int visit_near(const float x, const float y, const float direction, global const float* xs, global const float* ys,
-                      global const float* directions, global const int* numbers, global const int* cell_first,
-                      const int columns, const int rows, const float radius, const float orientation, global int* target,
-                      const int room) {
+inline int visit_near(const float x, const float y, const float direction, global const float* xs,
+                      global const float* ys, global const float* directions, global const int* numbers,
+                      global const int* cell_first, const int columns, const int rows, const float radius,
+                      const float orientation, global int* target, const int room) {
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
-  const int first_column = cell_of(x - radius, CELL_WIDTH, columns), last_column = cell_of(x + radius, CELL_WIDTH, columns);
+  const int first_column = cell_of(x - radius, CELL_WIDTH, columns),
+            last_column = cell_of(x + radius, CELL_WIDTH, columns);
   const int last_row = cell_of(y + radius, CELL_HEIGHT, rows);
   int count = 0;
   for (int row = cell_of(y - radius, CELL_HEIGHT, rows); row <= last_row; ++row) {
@@ -31,12 +32,13 @@ kernel void temporal_candidates_count(global const float* predicted_x, global co
                                       global const float* predicted_direction, const int rows, const int row_step,
                                       global const float* xs, global const float* ys, global const float* directions,
                                       global const int* numbers, global const int* cell_first, const int columns,
-                                      const int cell_rows, const float radius, const float orientation, global int* counts) {
+                                      const int cell_rows, const float radius, const float orientation,
+                                      global int* counts) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int i = row * row_step;
-  counts[row] = visit_near(predicted_x[i], predicted_y[i], predicted_direction[i], xs, ys, directions, numbers, cell_first,
-                           columns, cell_rows, radius, orientation, 0, 0);
+  counts[row] = visit_near(predicted_x[i], predicted_y[i], predicted_direction[i], xs, ys, directions, numbers,
+                           cell_first, columns, cell_rows, radius, orientation, 0, 0);
 }
 
 // Rows beyond the capacity stay empty: the host sees the total, makes room and runs again.

@@ -25,13 +25,15 @@ inline void ask_for_patch(global const char* patch) {
 }
 
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
-inline int alike_near(const float x, const float y, const float direction, global const float* xs, global const float* ys,
-                      global const float* directions, global const int* numbers, global const int* cell_first,
-                      const int columns, const int rows, const float radius, const float orientation, global const char* patch,
-                      global const char* patches, global const int* patch_numbers, const float ncc_min,
-                      const float ncc_nearly_best, int* target, float* ncc) {
+inline int alike_near(const float x, const float y, const float direction, global const float* xs,
+                      global const float* ys, global const float* directions, global const int* numbers,
+                      global const int* cell_first, const int columns, const int rows, const float radius,
+                      const float orientation, global const char* patch, global const char* patches,
+                      global const int* patch_numbers, const float ncc_min, const float ncc_nearly_best, int* target,
+                      float* ncc) {
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
-  const int first_column = cell_of(x - radius, CELL_WIDTH, columns), last_column = cell_of(x + radius, CELL_WIDTH, columns);
+  const int first_column = cell_of(x - radius, CELL_WIDTH, columns),
+            last_column = cell_of(x + radius, CELL_WIDTH, columns);
   const int last_row = cell_of(y + radius, CELL_HEIGHT, rows);
 #ifdef LANES
   const int total = cell_first[columns * rows];
@@ -46,7 +48,8 @@ inline int alike_near(const float x, const float y, const float direction, globa
       float excess[LANES];
       for (int lane = 0; lane < LANES; ++lane) {
         const float dx = xs[k + lane] - x, dy = ys[k + lane] - y;
-        excess[lane] = fmax(dx * dx + dy * dy - radius * radius, angle_between(directions[k + lane], direction) - orientation);
+        excess[lane] =
+            fmax(dx * dx + dy * dy - radius * radius, angle_between(directions[k + lane], direction) - orientation);
       }
       const int lanes = min(LANES, end - k);
       for (int lane = 0; lane < lanes; ++lane) {  // what does not pass is overwritten by what comes next
@@ -96,7 +99,8 @@ inline int count_clusters(const int* edges, const int count, global const float*
       for (int d = 0; d < c; ++d) {
         if (label[d] == label[c]) continue;
         const float dx = x[edges[c]] - x[edges[d]], dy = y[edges[c]] - y[edges[d]];
-        if (dx * dx + dy * dy >= gap * gap || angle_between(direction[edges[c]], direction[edges[d]]) > orientation) continue;
+        if (dx * dx + dy * dy >= gap * gap || angle_between(direction[edges[c]], direction[edges[d]]) > orientation)
+          continue;
         label[c] = label[d] = min(label[c], label[d]);
         changed = 1;
       }
@@ -111,11 +115,12 @@ kernel void temporal_match(const int rows, const int row_step, global const floa
                            global const float* left_predicted_y, global const float* left_predicted_direction,
                            global const float* right_predicted_x, global const float* right_predicted_y,
                            global const float* right_predicted_direction, global const float* left_xs,
-                           global const float* left_ys, global const float* left_directions, global const int* left_numbers,
-                           global const int* left_cell_first, const int left_columns, const int left_cell_rows,
-                           global const float* right_xs, global const float* right_ys, global const float* right_directions,
-                           global const int* right_numbers, global const int* right_cell_first, const int right_columns,
-                           const int right_cell_rows, global const char* base_left_patches, global const int* base_left_index,
+                           global const float* left_ys, global const float* left_directions,
+                           global const int* left_numbers, global const int* left_cell_first, const int left_columns,
+                           const int left_cell_rows, global const float* right_xs, global const float* right_ys,
+                           global const float* right_directions, global const int* right_numbers,
+                           global const int* right_cell_first, const int right_columns, const int right_cell_rows,
+                           global const char* base_left_patches, global const int* base_left_index,
                            global const char* base_right_patches, global const char* left_patches,
                            global const int* left_index, global const char* right_patches, global const int* itself,
                            global const float* current, const int stride, const float radius, const float orientation,
@@ -129,13 +134,14 @@ kernel void temporal_match(const int rows, const int row_step, global const floa
   const float x = left_predicted_x[i], y = left_predicted_y[i];
   const int left = alike_near(x, y, left_predicted_direction[i], left_xs, left_ys, left_directions, left_numbers,
                               left_cell_first, left_columns, left_cell_rows, radius, orientation,
-                              base_left_patches + PATCH_BYTES * (size_t)base_left_index[i], left_patches, left_index, ncc_min,
-                              ncc_nearly_best, left_target, left_ncc);
-  const int right = alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs, right_ys,
-                               right_directions, right_numbers, right_cell_first, right_columns, right_cell_rows, radius,
-                               orientation, base_right_patches + PATCH_BYTES * (size_t)i, right_patches, itself, ncc_min,
-                               ncc_nearly_best, right_target, right_ncc);
-  const int flags = (left > 0 ? LEFT_ALIVE : 0) | (right > 0 ? RIGHT_ALIVE : 0) | (left < 0 || right < 0 ? OVERFLOW : 0);
+                              base_left_patches + PATCH_BYTES * (size_t)base_left_index[i], left_patches, left_index,
+                              ncc_min, ncc_nearly_best, left_target, left_ncc);
+  const int right = alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs,
+                               right_ys, right_directions, right_numbers, right_cell_first, right_columns,
+                               right_cell_rows, radius, orientation, base_right_patches + PATCH_BYTES * (size_t)i,
+                               right_patches, itself, ncc_min, ncc_nearly_best, right_target, right_ncc);
+  const int flags =
+      (left > 0 ? LEFT_ALIVE : 0) | (right > 0 ? RIGHT_ALIVE : 0) | (left < 0 || right < 0 ? OVERFLOW : 0);
   int agreeing = 0, winner = -1;
   float highest = 0.0f, score = 0.0f;
   for (int c = 0; c < left; ++c) {
@@ -154,7 +160,7 @@ kernel void temporal_match(const int rows, const int row_step, global const floa
     highest = weighed;
     score = mean;
   }
-  const int clusters = count_clusters(left_target, agreeing, current, current + stride, current + 2 * stride, cluster_gap,
-                                      cluster_orientation);
+  const int clusters = count_clusters(left_target, agreeing, current, current + stride, current + 2 * stride,
+                                      cluster_gap, cluster_orientation);
   vstore4((int4)(winner, clusters - 1, as_int(score), flags), row, result);
 }

@@ -6,10 +6,10 @@
 // One work-item = one row. A living left candidate stays if the right list holds the same current edge alive; `score` becomes the mean
 // of both NCC.
 kernel void temporal_agreement(global const int* left_first, global const int* left_target, const int left_capacity,
-                               global const float* left_ncc, global uchar* left_rejected_by, global const int* right_first,
-                               global const int* right_target, const int right_capacity, global const float* right_ncc,
-                               global const uchar* right_rejected_by, const int rows, const int rejected_order,
-                               global float* score) {
+                               global const float* left_ncc, global uchar* left_rejected_by,
+                               global const int* right_first, global const int* right_target, const int right_capacity,
+                               global const float* right_ncc, global const uchar* right_rejected_by, const int rows,
+                               const int rejected_order, global float* score) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int left_end = min(left_first[row + 1], left_capacity), right_end = min(right_first[row + 1], right_capacity);
@@ -36,11 +36,12 @@ kernel void temporal_agreement(global const int* left_first, global const int* l
 // cluster_orientation. The member with the highest score wins; a score counts less by distance_weight (1 / px^2) for the squared
 // distance from the predicted left place.
 // Out per row: best (current edge, -1: none), rivals (other clusters) and score. `label` is scratch.
-kernel void temporal_best(global const int* first, global const int* target, const int capacity, const int rows, const int row_step,
-                          global const float* current, const int current_count, global const uchar* rejected_by,
-                          global const float* score, global const float* predicted_x, global const float* predicted_y,
-                          const float distance_weight, const float cluster_gap, const float cluster_orientation,
-                          global int* label, global int* best, global int* rivals, global float* best_score) {
+kernel void temporal_best(global const int* first, global const int* target, const int capacity, const int rows,
+                          const int row_step, global const float* current, const int current_count,
+                          global const uchar* rejected_by, global const float* score, global const float* predicted_x,
+                          global const float* predicted_y, const float distance_weight, const float cluster_gap,
+                          const float cluster_orientation, global int* label, global int* best, global int* rivals,
+                          global float* best_score) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int begin = first[row], end = min(first[row + 1], capacity);
@@ -67,8 +68,8 @@ kernel void temporal_best(global const int* first, global const int* target, con
         const float dx = LEFT_X(current, current_count, target[c]) - LEFT_X(current, current_count, target[d]);
         const float dy = LEFT_Y(current, current_count, target[c]) - LEFT_Y(current, current_count, target[d]);
         if (dx * dx + dy * dy >= cluster_gap * cluster_gap) continue;
-        if (angle_between(LEFT_DIRECTION(current, current_count, target[c]), LEFT_DIRECTION(current, current_count, target[d])) >
-            cluster_orientation) {
+        if (angle_between(LEFT_DIRECTION(current, current_count, target[c]),
+                          LEFT_DIRECTION(current, current_count, target[d])) > cluster_orientation) {
           continue;
         }
         label[c] = label[d] = min(label[c], label[d]);

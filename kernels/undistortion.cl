@@ -4,7 +4,8 @@
 // Out: pinhole image (count pixels, packed). One work-item = one pixel. Bilinear, border replicated, rounded half up.
 // Reference: host/reference/undistortion.cpp.
 kernel void undistort(global const uchar* source, const int source_width, const int source_height,
-                      global const float* source_x, global const float* source_y, global uchar* image, const int count) {
+                      global const float* source_x, global const float* source_y, global uchar* image,
+                      const int count) {
   const int i = (int)get_global_id(0);
   if (i >= count) return;
   const float x = clamp(source_x[i], 0.0f, (float)(source_width - 1));

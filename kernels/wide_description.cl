@@ -9,9 +9,9 @@
 #define SHRINK 3
 #define CELLS 4
 #define ANGLES 8
-#define HALF 7              // samples on either side of the middle one
+#define HALF 7  // samples on either side of the middle one
 #define SIDE (2 * HALF + 1)
-#define CELL_WIDTH 3.0f     // small pixels
+#define CELL_WIDTH 3.0f  // small pixels
 #define CLIP 0.2f
 #define NORM 512.0f
 
@@ -19,7 +19,7 @@
 constant float8 kCosine = (float8)(1.0f, 0.707106781f, 0.0f, -0.707106781f, -1.0f, -0.707106781f, 0.0f, 0.707106781f);
 constant float8 kSine = (float8)(0.0f, 0.707106781f, 1.0f, 0.707106781f, 0.0f, -0.707106781f, -1.0f, -0.707106781f);
 // exp(-k^2 / 72), k = 0 .. 7: the window's Gaussian has a standard deviation of 2 cells.
-constant float kWindow[HALF + 1] = {1.0f,          0.986207117f, 0.945959469f, 0.882496903f,
+constant float kWindow[HALF + 1] = {1.0f,         0.986207117f, 0.945959469f, 0.882496903f,
                                     0.800737403f, 0.706648277f, 0.60653066f,  0.50633562f};
 
 kernel void wide_shrink(global const uchar* image, const int width, const int small_width, const int small_height,
@@ -54,14 +54,16 @@ inline float wide_sum(const float8 v) {
   return two.x + two.y;
 }
 
-kernel void wide_describe(global const float* small, const int small_width, const int small_height, global const float* edges,
-                          const int stride, const int rows, const int step, global uchar* descriptors) {
+kernel void wide_describe(global const float* small, const int small_width, const int small_height,
+                          global const float* edges, const int stride, const int rows, const int step,
+                          global uchar* descriptors) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int edge = row * step;
   float cosine;
   const float sine = sine_cosine(edges[2 * stride + edge], &cosine);
-  const float x = (edges[edge] - 0.5f * (SHRINK - 1)) / SHRINK, y = (edges[stride + edge] - 0.5f * (SHRINK - 1)) / SHRINK;
+  const float x = (edges[edge] - 0.5f * (SHRINK - 1)) / SHRINK,
+              y = (edges[stride + edge] - 0.5f * (SHRINK - 1)) / SHRINK;
 
   float samples[(SIDE + 2) * (SIDE + 2)];
   for (int v = 0; v < SIDE + 2; ++v) {
@@ -84,7 +86,8 @@ kernel void wide_describe(global const float* small, const int small_width, cons
       const float8 bins = square > 0.0f ? part * part * part / square : 0.0f;
       for (int cell = 0; cell < CELLS; ++cell) line[cell] += wide_share(u - HALF, cell) * bins;
     }
-    for (int cell = 0; cell < CELLS * CELLS; ++cell) histogram[cell] += wide_share(v - HALF, cell / CELLS) * line[cell % CELLS];
+    for (int cell = 0; cell < CELLS * CELLS; ++cell)
+      histogram[cell] += wide_share(v - HALF, cell / CELLS) * line[cell % CELLS];
   }
   float squares = 0.0f;
   for (int cell = 0; cell < CELLS * CELLS; ++cell) squares += wide_sum(histogram[cell] * histogram[cell]);

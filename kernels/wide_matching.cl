@@ -8,10 +8,12 @@
 //   - a column farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test against a rival elsewhere).
 // One work-item = one row. Reference: host/reference/wide_matching.cpp.
 
-#define BLOCKS 8        // of 16 bytes
+#define BLOCKS 8          // of 16 bytes
 #define SQUARE 262144.0f  // 512^2
 
-typedef struct { float16 part[BLOCKS]; } Descriptor;
+typedef struct {
+  float16 part[BLOCKS];
+} Descriptor;
 
 inline Descriptor wide_load(global const uchar* bytes) {
   Descriptor result;
@@ -33,10 +35,11 @@ inline bool wide_apart(global const float* x, global const float* y, const int i
   return dx * dx + dy * dy > distance * distance;
 }
 
-kernel void wide_match(global const uchar* row_descriptors, global const float* row_edges, const int row_stride, const int rows,
-                       const int row_step, global const uchar* column_descriptors, global const float* column_edges,
-                       const int column_stride, const int columns, const int column_step, const float neighbourhood,
-                       const float ratio, global int* best, global float* likeness) {
+kernel void wide_match(global const uchar* row_descriptors, global const float* row_edges, const int row_stride,
+                       const int rows, const int row_step, global const uchar* column_descriptors,
+                       global const float* column_edges, const int column_stride, const int columns,
+                       const int column_step, const float neighbourhood, const float ratio, global int* best,
+                       global float* likeness) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   best[row] = -1;
@@ -57,7 +60,9 @@ kernel void wide_match(global const uchar* row_descriptors, global const float* 
   }
   const float limit = SQUARE - (SQUARE - highest) / (ratio * ratio);  // likeness of a rival that is too near
   for (int column = 0; column < columns; ++column) {
-    if (!wide_apart(column_edges, column_edges + column_stride, column * column_step, winner * column_step, neighbourhood)) continue;
+    if (!wide_apart(column_edges, column_edges + column_stride, column * column_step, winner * column_step,
+                    neighbourhood))
+      continue;
     if (wide_product(&mine, column_descriptors + (size_t)column * (16 * BLOCKS)) > limit) return;
   }
   best[row] = winner;

@@ -19,7 +19,8 @@ kernel void wide_transpose(global const uchar* descriptors, const int count, glo
   for (int lane = 0; lane < LANES; ++lane) {
     const int descriptor = block * LANES + lane;
     for (int k = 0; k < BYTES; ++k) {
-      blocks[(size_t)(block * BYTES + k) * LANES + lane] = descriptor < count ? descriptors[(size_t)descriptor * BYTES + k] : 0;
+      blocks[(size_t)(block * BYTES + k) * LANES + lane] =
+          descriptor < count ? descriptors[(size_t)descriptor * BYTES + k] : 0;
     }
   }
 }
@@ -53,11 +54,14 @@ inline float wide_highest(const float16 v) {
 }
 
 // The likeness above which a rival elsewhere is too near to one of `highest`.
-inline float wide_limit(const float highest, const float ratio) { return SQUARE - (SQUARE - highest) / (ratio * ratio); }
+inline float wide_limit(const float highest, const float ratio) {
+  return SQUARE - (SQUARE - highest) / (ratio * ratio);
+}
 
 // Whether a descriptor of the block reaches `limit` (or exceeds it, where `above`) farther than `distance` px from edge `from`.
-inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block, const int count,
-                           global const float* x, global const float* y, const int step, const int from, const float distance) {
+inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block,
+                           const int count, global const float* x, global const float* y, const int step,
+                           const int from, const float distance) {
   float of_lane[LANES];
   vstore16(products, 0, of_lane);
   for (int lane = 0; lane < LANES; ++lane) {
@@ -69,10 +73,11 @@ inline bool wide_elsewhere(const float16 products, const float limit, const bool
   return false;
 }
 
-kernel void wide_match(global const uchar* row_descriptors, global const uchar* row_blocks, global const float* row_edges,
-                       const int row_stride, const int rows, const int row_step, global const uchar* column_descriptors,
-                       global const uchar* column_blocks, global const float* column_edges, const int column_stride,
-                       const int columns, const int column_step, const float neighbourhood, const float ratio, global int* best,
+kernel void wide_match(global const uchar* row_descriptors, global const uchar* row_blocks,
+                       global const float* row_edges, const int row_stride, const int rows, const int row_step,
+                       global const uchar* column_descriptors, global const uchar* column_blocks,
+                       global const float* column_edges, const int column_stride, const int columns,
+                       const int column_step, const float neighbourhood, const float ratio, global int* best,
                        global float* likeness) {
   const int first = (int)get_global_id(0) * ROWS;
   if (first >= rows) return;
@@ -129,8 +134,8 @@ kernel void wide_match(global const uchar* row_descriptors, global const uchar* 
     for (int r = 0; r < ROWS; ++r) {
       const int row = min(first + r, rows - 1);
       if (alone[r] && wide_highest(products[r]) >= highest[r]) {
-        alone[r] = !wide_elsewhere(products[r], highest[r], false, block, rows, row_edges, row_edges + row_stride, row_step,
-                                   row * row_step, neighbourhood);
+        alone[r] = !wide_elsewhere(products[r], highest[r], false, block, rows, row_edges, row_edges + row_stride,
+                                   row_step, row * row_step, neighbourhood);
       }
     }
   }
@@ -141,9 +146,9 @@ kernel void wide_match(global const uchar* row_descriptors, global const uchar* 
     for (int k = 0; alone[r] && k < blocks; ++k) {
       const int block = all ? k : list[r][k];
       if (!all && listed_highest[r][k] <= limit) continue;
-      alone[r] = !wide_elsewhere(wide_product(mine + r * BYTES, column_blocks + (size_t)block * (BYTES * LANES)), limit, true, block,
-                                 columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step,
-                                 neighbourhood);
+      alone[r] = !wide_elsewhere(wide_product(mine + r * BYTES, column_blocks + (size_t)block * (BYTES * LANES)), limit,
+                                 true, block, columns, column_edges, column_edges + column_stride, column_step,
+                                 winner[r] * column_step, neighbourhood);
     }
     best[first + r] = alone[r] ? winner[r] : -1;
     likeness[first + r] = alone[r] ? highest[r] / SQUARE : 0.0f;

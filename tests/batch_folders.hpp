@@ -1,28 +1,29 @@
 #pragma once
 /// \file batch_folders.hpp  Small batches for tests: a folder of rendered sequences, and a batch that can be killed.
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include "program.hpp"
 
-/// Rendered sequences a/first, a/second and broken (without calibration.txt), made once per process. Do not change them.
+/// Rendered sequences a/first, a/second and broken (without calibration.txt), made once per process. Do not change
+/// them.
 inline const std::string& batch_root() {
   static const TemporaryFolder folder;
   static const std::string root = [] {
     for (const auto& [name, seed] : {std::pair<std::string, std::string>{"a/first", "1"}, {"a/second", "2"}}) {
       const std::string place = folder / ("root/" + name);
-      const auto result = run_program({"synth", place, "--frames", "4", "--size", "240x150", "--seed", seed, "--quiet"});
+      const auto result =
+          run_program({"synth", place, "--frames", "4", "--size", "240x150", "--seed", seed, "--quiet"});
       if (result.code != 0) throw std::runtime_error("synth failed: " + result.err);
     }
     std::filesystem::copy(folder / "root/a/first", folder / "root/broken", std::filesystem::copy_options::recursive);

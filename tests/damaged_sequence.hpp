@@ -11,7 +11,9 @@
 /// A copy of the small sequence that a test may damage.
 class DamagedSequence {
  public:
-  DamagedSequence() { std::filesystem::copy(small_sequence(), folder_ / "room", std::filesystem::copy_options::recursive); }
+  DamagedSequence() {
+    std::filesystem::copy(small_sequence(), folder_ / "room", std::filesystem::copy_options::recursive);
+  }
   std::string path() const { return folder_ / "room"; }
   std::string operator/(const std::string& name) const { return path() + "/" + name; }
   /// The n-th image of a folder in order of names.

@@ -1,13 +1,12 @@
 #pragma once
 /// \file dataset_files.hpp  Small recorded sets made for a test, and where the shared real data are.
 
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
-
-#include <catch2/catch.hpp>
 
 namespace dataset_files {
 
@@ -26,8 +25,10 @@ inline cv::Mat pattern(int width, int height, int type = CV_8UC1) {
   cv::Mat image(height, width, type);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width * image.channels(); ++x) {
-      if (image.depth() == CV_16U) image.ptr<std::uint16_t>(y)[x] = static_cast<std::uint16_t>(257 * ((7 * x + 31 * y) % 256));
-      else image.ptr<std::uint8_t>(y)[x] = static_cast<std::uint8_t>((7 * x + 31 * y) % 256);
+      if (image.depth() == CV_16U)
+        image.ptr<std::uint16_t>(y)[x] = static_cast<std::uint16_t>(257 * ((7 * x + 31 * y) % 256));
+      else
+        image.ptr<std::uint8_t>(y)[x] = static_cast<std::uint8_t>((7 * x + 31 * y) % 256);
     }
   }
   return image;
@@ -40,7 +41,8 @@ inline void write_image(const std::string& path, int width = 32, int height = 24
 
 /// Cuts a file to a part of its length.
 inline void truncate(const std::string& path, double part) {
-  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(part * static_cast<double>(std::filesystem::file_size(path))));
+  std::filesystem::resize_file(
+      path, static_cast<std::uintmax_t>(part * static_cast<double>(std::filesystem::file_size(path))));
 }
 
 /// The shared real data; empty (with a warning in the report) where QUADEDGE_DATA is not set.
@@ -67,21 +69,27 @@ inline std::string write_kitti(const std::string& root, int frames = 4, const st
   }
   write_text(folder + "/times.txt", times);
   write_text(root + "/poses/07.txt", poses);
-  write_text(folder + "/calib.txt",
-             "P0: 100 0 15 0 0 100 11 0 0 0 1 0\nP1: 100 0 15 -50 0 100 11 0 0 0 1 0\n"
-             "P2: 100 0 15 6 0 100 11 -1 0 0 1 0.01\nP3: 100 0 15 -44 0 100 11 2 0 0 1 0.01\nTr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  write_text(
+      folder + "/calib.txt",
+      "P0: 100 0 15 0 0 100 11 0 0 0 1 0\nP1: 100 0 15 -50 0 100 11 0 0 0 1 0\n"
+      "P2: 100 0 15 6 0 100 11 -1 0 0 1 0.01\nP3: 100 0 15 -44 0 100 11 2 0 0 1 0.01\nTr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
   return folder;
 }
 
 /// sensor.yaml of a EuRoC camera whose x axis is the body's y axis, `offset` m along it.
 inline std::string euroc_sensor(double offset, double k1 = -0.28) {
   return "sensor_type: camera\n# intrinsics: [0]\nT_BS:\n  cols: 4\n  rows: 4\n  data: [0.0, -1.0, 0.0, 0.0,\n"
-         "         1.0, 0.0, 0.0, " + std::to_string(offset) + ",\n         0.0, 0.0, 1.0, 0.0,\n         0.0, 0.0, 0.0, 1.0]\n"
-         "rate_hz: 20\nresolution: [32, 24]\ncamera_model: pinhole\nintrinsics: [30.0, 31.0, 15.5, 11.25] #fu, fv, cu, cv\n"
-         "distortion_model: radial-tangential\ndistortion_coefficients: [" + std::to_string(k1) + ", 0.07, 0.0, 0.0]\n";
+         "         1.0, 0.0, 0.0, " +
+         std::to_string(offset) +
+         ",\n         0.0, 0.0, 1.0, 0.0,\n         0.0, 0.0, 0.0, 1.0]\n"
+         "rate_hz: 20\nresolution: [32, 24]\ncamera_model: pinhole\nintrinsics: [30.0, 31.0, 15.5, 11.25] #fu, fv, cu, "
+         "cv\n"
+         "distortion_model: radial-tangential\ndistortion_coefficients: [" +
+         std::to_string(k1) + ", 0.07, 0.0, 0.0]\n";
 }
 
-/// EuRoC with `frames` frames 50 ms apart from 1403715273312143104 ns; the ground truth is 256 ns off, the body 1 m further per frame.
+/// EuRoC with `frames` frames 50 ms apart from 1403715273312143104 ns; the ground truth is 256 ns off, the body 1 m
+/// further per frame.
 inline std::string write_euroc(const std::string& root, int frames = 4) {
   const std::string folder = root + "/mav0";
   std::string list = "#timestamp [ns],filename\r\n", truth = "#timestamp, p_RS_R_x [m], ...\n";

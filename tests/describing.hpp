@@ -35,8 +35,8 @@ struct TestDescriptions {
   std::vector<std::uint8_t> sift;
 };
 
-/// Descriptions by every variant of `stage` ("patches" or "sift"; the other one by its default) on every device, each run
-/// twice on the same object: the second run must give the same bytes.
+/// Descriptions by every variant of `stage` ("patches" or "sift"; the other one by its default) on every device, each
+/// run twice on the same object: the second run must give the same bytes.
 inline std::vector<TestDescriptions> describe_everywhere(const std::string& stage, const quadedge::Image& image,
                                                          const TestEdges& edges) {
   using namespace quadedge;
@@ -62,7 +62,8 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
         describer.prepare_sift(pixels);
         describer.cut_patches(x, y, direction, static_cast<int>(count), patches);
         describer.describe_sift(x, y, direction, static_cast<int>(count), sift);
-        run = {device.info().name + " " + variant.name, patches.read(count * reference::kEdgePatchBytes), sift.read(count * 256)};
+        run = {device.info().name + " " + variant.name, patches.read(count * quadedge::kEdgePatchBytes),
+               sift.read(count * 256)};
       }
       CHECK(found[0].patches == found[1].patches);
       CHECK(found[0].sift == found[1].sift);
@@ -72,16 +73,17 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
   return all;
 }
 
-/// How far the samples of two sets of side patches are from one another. A sample that lies at the middle between two integers may be
-/// rounded up by one and down by the other, which compute in different precision or from turned coordinates.
+/// How far the samples of two sets of side patches are from one another. A sample that lies at the middle between two
+/// integers may be rounded up by one and down by the other, which compute in different precision or from turned
+/// coordinates.
 struct RoundedApart {
-  int largest = 0;             ///< difference of two samples
+  int largest = 0;  ///< difference of two samples
   std::size_t samples = 0, differing = 0;
 };
 inline RoundedApart rounded_apart(const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {
   using namespace quadedge::reference;
   RoundedApart result;
-  for (std::size_t edge = 0; edge + kEdgePatchBytes <= a.size(); edge += kEdgePatchBytes) {
+  for (std::size_t edge = 0; edge + quadedge::kEdgePatchBytes <= a.size(); edge += quadedge::kEdgePatchBytes) {
     for (const int side : {0, 1}) {
       const auto of_a = stored_side(a.data() + edge, side), of_b = stored_side(b.data() + edge, side);
       for (std::size_t k = 0; k < of_a.size(); ++k) {

@@ -9,8 +9,8 @@
 
 #include "quadedge/image.hpp"
 
-/// `inside(x, y)` decides which points of the plane have grey level `bright`, all others have `dark`. 256 samples per pixel on a
-/// lattice without rows or columns, so that nearly upright edges are rendered as finely as oblique ones.
+/// `inside(x, y)` decides which points of the plane have grey level `bright`, all others have `dark`. 256 samples per
+/// pixel on a lattice without rows or columns, so that nearly upright edges are rendered as finely as oblique ones.
 inline quadedge::Image render_shape(int width, int height, double dark, double bright,
                                     const std::function<bool(double, double)>& inside) {
   constexpr int kSamples = 256;
@@ -48,13 +48,15 @@ inline quadedge::Image textured_image(int width, int height, std::uint64_t seed 
   std::vector<double> grey(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128.0);
   const int discs = 12 + width * height / 500;
   for (int d = 0; d < discs; ++d) {
-    const double cx = uniform() * width, cy = uniform() * height, r = 3 + 22 * uniform() * uniform(), level = 30 + 200 * uniform();
+    const double cx = uniform() * width, cy = uniform() * height, r = 3 + 22 * uniform() * uniform(),
+                 level = 30 + 200 * uniform();
     const int x0 = std::max(0, static_cast<int>(cx - r - 1)), x1 = std::min(width - 1, static_cast<int>(cx + r + 2));
     const int y0 = std::max(0, static_cast<int>(cy - r - 1)), y1 = std::min(height - 1, static_cast<int>(cy + r + 2));
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
         const double cover = std::clamp(r - std::hypot(x - cx, y - cy) + 0.5, 0.0, 1.0);
-        double& value = grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+        double& value =
+            grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
         value += cover * (level - value);
       }
     }

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "frontend/frontend.hpp"
 #include "matching.hpp"
 #include "quadedge/synthetic.hpp"
-#include "stages/frontend.hpp"
 
 namespace matching {
 
@@ -36,7 +36,9 @@ struct RenderedScene {
       world_from_left.push_back(sequence.world_from_left(i));
     }
   }
-  StereoFrame frame(std::size_t i) const { return {static_cast<std::int64_t>(i) * 50000000, left[i].view(), right[i].view()}; }
+  StereoFrame frame(std::size_t i) const {
+    return {static_cast<std::int64_t>(i) * 50000000, left[i].view(), right[i].view()};
+  }
 };
 
 /// What a frontend makes of the first two frames.
@@ -47,44 +49,48 @@ struct FrontendResult {
 };
 
 /// Edges stay where they were in both images, `radius` px around.
-inline stages::TemporalSearch search_around(const StereoEdges& previous, float radius, int step = 1) {
-  return {{previous.left_x, previous.left_y, previous.left_direction}, {previous.right_x, previous.right_y, previous.right_direction}, radius, step};
+inline TemporalSearch search_around(const StereoEdges& previous, float radius, int step = 1) {
+  return {{previous.left_x, previous.left_y, previous.left_direction},
+          {previous.right_x, previous.right_y, previous.right_direction},
+          radius,
+          step};
 }
 
-inline FrontendResult run_frontend(const RenderedScene& scene, const std::string& device_name, const Variants& variants = {}, Tap* tap = nullptr,
-                                   float radius = 12, int step = 1) {
+inline FrontendResult run_frontend(const RenderedScene& scene, const std::string& device_name,
+                                   const Variants& variants = {}, Tap* tap = nullptr, float radius = 12, int step = 1) {
   Device device(device_name);
   Config config = scene.config;
   config.variants = variants;
-  const auto frontend = stages::make_frontend(scene.rig, device, config);
+  const auto frontend = frontend::make_frontend(scene.rig, device, config);
   frontend->set_tap(tap);
   frontend->process(scene.frame(0));
   frontend->keep(true);
   frontend->process(scene.frame(1));
   FrontendResult result;
-  result.quads = frontend->match(stages::Base::previous, search_around(frontend->base(stages::Base::previous), radius, step));
+  result.quads = frontend->match(Base::previous, search_around(frontend->base(Base::previous), radius, step));
   result.left_edges = frontend->edges(false);
   result.right_edges = frontend->edges(true);
-  result.previous = frontend->base(stages::Base::previous);
+  result.previous = frontend->base(Base::previous);
   result.current = frontend->current();
   return result;
 }
 
 inline bool same_bytes(const StereoEdges& a, const StereoEdges& b) {
-  return a.left_index == b.left_index && a.right_index == b.right_index && a.left_x == b.left_x && a.left_y == b.left_y &&
-         a.left_direction == b.left_direction && a.right_x == b.right_x && a.right_y == b.right_y &&
-         a.right_direction == b.right_direction && a.ncc == b.ncc;
+  return a.left_index == b.left_index && a.right_index == b.right_index && a.left_x == b.left_x &&
+         a.left_y == b.left_y && a.left_direction == b.left_direction && a.right_x == b.right_x &&
+         a.right_y == b.right_y && a.right_direction == b.right_direction && a.ncc == b.ncc;
 }
 inline bool same_bytes(const TemporalMatches& a, const TemporalMatches& b) {
-  return a.previous == b.previous && a.current == b.current && a.left_x == b.left_x && a.left_y == b.left_y && a.right_x == b.right_x &&
-         a.right_y == b.right_y && a.ncc == b.ncc && a.rivals == b.rivals;
+  return a.previous == b.previous && a.current == b.current && a.left_x == b.left_x && a.left_y == b.left_y &&
+         a.right_x == b.right_x && a.right_y == b.right_y && a.ncc == b.ncc && a.rivals == b.rivals;
 }
 inline bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
-  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength && a.row_first == b.row_first;
+  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
+         a.row_first == b.row_first;
 }
 inline bool same_bytes(const FrontendResult& a, const FrontendResult& b) {
-  return same_bytes(a.left_edges, b.left_edges) && same_bytes(a.right_edges, b.right_edges) && same_bytes(a.previous, b.previous) &&
-         same_bytes(a.current, b.current) && same_bytes(a.quads, b.quads);
+  return same_bytes(a.left_edges, b.left_edges) && same_bytes(a.right_edges, b.right_edges) &&
+         same_bytes(a.previous, b.previous) && same_bytes(a.current, b.current) && same_bytes(a.quads, b.quads);
 }
 
 }  // namespace matching

@@ -17,7 +17,9 @@ using quadedge::pose::OrientedPoint;
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53); }
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53);
+  }
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log(uniform(1e-300, 1.0)));
     return radius * std::cos(uniform(0.0, 6.283185307179586));
@@ -46,7 +48,8 @@ inline quadedge::StereoRig car_rig() {
   return rig;
 }
 
-/// A rig that nothing is simple about: different cameras and sizes, a base line mostly vertical, converging by some degrees.
+/// A rig that nothing is simple about: different cameras and sizes, a base line mostly vertical, converging by some
+/// degrees.
 inline quadedge::StereoRig crooked_rig() {
   quadedge::StereoRig rig;
   rig.left = {540, 545, 371, 230, 740, 460};
@@ -60,7 +63,8 @@ inline quadedge::StereoRig crooked_rig() {
 inline quadedge::pose::StereoObservation observe(const quadedge::StereoRig& rig, const OrientedPoint& p) {
   const Eigen::Vector3d in_right = rig.right_from_left * p.point;
   const double step = 1e-6;  // central difference of the projection along the tangent
-  const auto direction = [&](const quadedge::PinholeCamera& camera, const Eigen::Vector3d& point, const Eigen::Vector3d& tangent) {
+  const auto direction = [&](const quadedge::PinholeCamera& camera, const Eigen::Vector3d& point,
+                             const Eigen::Vector3d& tangent) {
     const Eigen::Vector3d d = step * point.z() * tangent;
     const Eigen::Vector2d motion = camera.project(point + d) - camera.project(point - d);
     return std::atan2(motion.y(), motion.x());
@@ -74,21 +78,24 @@ struct Noise {
   double across = 0, along = 0, direction = 0;
 };
 
-/// Adds noise as matching leaves it: the left place moves across and along the edge (unless `exact_left`), the right place follows on
-/// its epipolar line and has an error of its own along it, as large as an edge under that angle allows.
+/// Adds noise as matching leaves it: the left place moves across and along the edge (unless `exact_left`), the right
+/// place follows on its epipolar line and has an error of its own along it, as large as an edge under that angle
+/// allows.
 inline quadedge::pose::StereoObservation disturb(const quadedge::StereoRig& rig, const OrientedPoint& p,
                                                  const Noise& noise, bool exact_left, Random& random) {
   quadedge::pose::StereoObservation o = observe(rig, p);
   if (!exact_left) {
     const Eigen::Vector2d along(std::cos(o.left_direction), std::sin(o.left_direction));
-    o.left += noise.along * random.normal() * along + noise.across * random.normal() * Eigen::Vector2d(-along.y(), along.x());
+    o.left +=
+        noise.along * random.normal() * along + noise.across * random.normal() * Eigen::Vector2d(-along.y(), along.x());
   }
   const Eigen::Vector3d moved = rig.right_from_left * (p.point.z() * rig.left.ray(o.left));
   const Eigen::Vector3d farther = moved + 0.01 * (moved - rig.right_from_left.translation());
   o.right = rig.right.project(moved);
   const Eigen::Vector2d line = (rig.right.project(farther) - o.right).normalized();
   const double sine = line.x() * std::sin(o.right_direction) - line.y() * std::cos(o.right_direction);
-  const double information = noise.across > 0 ? std::pow(sine / noise.across, 2) + (1 - sine * sine) / std::pow(noise.along, 2) : 0;
+  const double information =
+      noise.across > 0 ? std::pow(sine / noise.across, 2) + (1 - sine * sine) / std::pow(noise.along, 2) : 0;
   if (information > 0) o.right += line * random.normal() / std::sqrt(information);
   o.left_direction += noise.direction * random.normal();
   o.right_direction += noise.direction * random.normal();
@@ -103,11 +110,11 @@ struct Problem {
   quadedge::StereoRig rig = car_rig();
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   int quads = 500;
-  double near = 5, far = 100;      ///< depths, uniform in the inverse [m]
-  double outliers = 0;             ///< share with a wrong current edge
+  double near = 5, far = 100;  ///< depths, uniform in the inverse [m]
+  double outliers = 0;         ///< share with a wrong current edge
   Noise noise;
-  double width_share = 1;          ///< of the image, from its left border, that is seen at first
-  int copies = 1;                  ///< quads come in rows of this many, half a pixel apart along the tangent, that share one error
+  double width_share = 1;  ///< of the image, from its left border, that is seen at first
+  int copies = 1;  ///< quads come in rows of this many, half a pixel apart along the tangent, that share one error
 };
 
 struct Generated {
@@ -115,7 +122,8 @@ struct Generated {
   std::vector<bool> correct;
 };
 
-inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, double far, Random& random, double width_share = 1) {
+inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, double far, Random& random,
+                                  double width_share = 1) {
   const Eigen::Vector2d pixel(random.uniform(0, width_share * rig.left.width), random.uniform(0, rig.left.height));
   const double depth = 1.0 / random.uniform(1.0 / far, 1.0 / near);
   return {depth * rig.left.ray(pixel), random.unit()};
@@ -131,7 +139,8 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
     const Eigen::Vector3d moved = problem.motion * p.point;
     if (moved.z() < 0.5 * problem.near) continue;
     const Eigen::Vector2d seen = problem.rig.left.project(moved);
-    if (seen.x() < 0 || seen.y() < 0 || seen.x() > problem.rig.left.width || seen.y() > problem.rig.left.height) continue;
+    if (seen.x() < 0 || seen.y() < 0 || seen.x() > problem.rig.left.width || seen.y() > problem.rig.left.height)
+      continue;
     const bool correct = random.uniform(0, 1) >= problem.outliers;
     const Random errors = random;  // copied, so that all copies of a quad share one error
     const double step = 0.5 * p.point.z() / problem.rig.left.fx;

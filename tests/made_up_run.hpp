@@ -18,7 +18,8 @@ inline Eigen::Isometry3d made_up_truth(std::int64_t stamp_ns) {
   return pose;
 }
 
-/// A made-up run of `frames` frames along a bent path whose estimate drifts by `drift` metres and as many radians per frame.
+/// A made-up run of `frames` frames along a bent path whose estimate drifts by `drift` metres and as many radians per
+/// frame.
 inline quadedge::report::RunRecord made_up_run(int frames, double drift) {
   quadedge::report::RunRecord run;
   run.input = {"made/up", "eth3d-slam", "made_up", frames, 640, 480};
@@ -48,7 +49,8 @@ inline quadedge::report::RunRecord made_up_run(int frames, double drift) {
 inline void write_member(const std::string& output, const std::string& name, const quadedge::report::RunRecord& run) {
   const std::string folder = quadedge::report::member_folder(output, name);
   dataset_files::write_text(folder + "/report.json", quadedge::report::report_json(run));
-  dataset_files::write_text(folder + "/member.json", quadedge::report::member_json({name, run.input.path, "eth3d-slam", "key", 0, "", 1}));
+  dataset_files::write_text(folder + "/member.json",
+                            quadedge::report::member_json({name, run.input.path, "eth3d-slam", "key", 0, "", 1}));
   quadedge::report::FramesCsv frames(folder + "/frames.csv");
   quadedge::Trajectory estimate, truth;
   for (const auto& frame : run.frames) {

@@ -13,8 +13,8 @@
 inline bool is_well_formed(const std::string& text) {
   const TemporaryFolder folder;
   std::ofstream(folder / "text.xml", std::ios::binary) << text;
-  const std::string command =
-      "python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' '" + (folder / "text.xml") + "' 2>/dev/null";
+  const std::string command = "python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' '" +
+                              (folder / "text.xml") + "' 2>/dev/null";
   return std::system(command.c_str()) == 0;
 }
 

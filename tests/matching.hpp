@@ -46,8 +46,8 @@ struct Edge {
   double x, y, direction;
 };
 
-/// Edges in the scan order of the cells of the doubled grid that are nearest to them, shifted inside `slack` px: two edges of
-/// neighbouring cells may stand in the other order than their x, as detected ones do.
+/// Edges in the scan order of the cells of the doubled grid that are nearest to them, shifted inside `slack` px: two
+/// edges of neighbouring cells may stand in the other order than their x, as detected ones do.
 inline EdgeSet make_edges(std::vector<Edge> edges, int height, double slack = 0, std::uint64_t seed = 1) {
   const auto cell = [](double v) { return std::lround(2 * v); };
   std::stable_sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) {
@@ -100,7 +100,8 @@ inline stages::DeviceCandidates upload(opencl::Context& context, const reference
 }
 
 /// Copies what the filters decided.
-inline void upload(opencl::Context& context, const reference::CandidateScores& scores, stages::DeviceCandidates& device) {
+inline void upload(opencl::Context& context, const reference::CandidateScores& scores,
+                   stages::DeviceCandidates& device) {
   device.ncc.write(context, scores.ncc);
   device.sift.write(context, scores.sift);
   device.rejected_by.write(context, scores.rejected_by);
@@ -108,18 +109,21 @@ inline void upload(opencl::Context& context, const reference::CandidateScores& s
 
 /// Scores of candidates that no filter has touched yet.
 inline reference::CandidateScores fresh_scores(std::size_t candidates) {
-  return {std::vector<float>(candidates, 0.9f), std::vector<float>(candidates, 10.0f), std::vector<std::uint8_t>(candidates, 0)};
+  return {std::vector<float>(candidates, 0.9f), std::vector<float>(candidates, 10.0f),
+          std::vector<std::uint8_t>(candidates, 0)};
 }
 
 using Variants = std::map<std::string, std::string>;
 
 /// Every variant of a stage on every device.
-inline void for_each_variant(const std::string& stage,
-                             const std::function<void(opencl::Context&, const Variants&, const std::string& name)>& visit) {
+inline void for_each_variant(
+    const std::string& stage,
+    const std::function<void(opencl::Context&, const Variants&, const std::string& name)>& visit) {
   for (const auto& index : all_devices()) {
     Device device(index);
     for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage == stage) visit(*device.context(), {{stage, variant.name}}, device.info().name + " " + variant.name);
+      if (variant.stage == stage)
+        visit(*device.context(), {{stage, variant.name}}, device.info().name + " " + variant.name);
     }
   }
 }
@@ -145,7 +149,8 @@ inline StereoRig crooked_rig() {
 
 /// A smooth texture, grey levels around 128, that can be evaluated anywhere.
 inline double smooth_grey(double x, double y) {
-  return 128 + 40 * std::sin(0.31 * x + 0.17 * y + 0.5) + 30 * std::sin(-0.23 * x + 0.29 * y + 1.7) + 15 * std::cos(0.41 * x - 0.11 * y);
+  return 128 + 40 * std::sin(0.31 * x + 0.17 * y + 0.5) + 30 * std::sin(-0.23 * x + 0.29 * y + 1.7) +
+         15 * std::cos(0.41 * x - 0.11 * y);
 }
 
 /// An image of grey(x, y) at every pixel centre, rounded to 8 bits.
@@ -153,14 +158,15 @@ inline Image image_of(int width, int height, const std::function<double(double, 
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image.pixels[static_cast<std::size_t>(y * width + x)] = static_cast<std::uint8_t>(std::clamp(std::lround(grey(x, y)), 0L, 255L));
+      image.pixels[static_cast<std::size_t>(y * width + x)] =
+          static_cast<std::uint8_t>(std::clamp(std::lround(grey(x, y)), 0L, 255L));
     }
   }
   return image;
 }
 
-/// Errors of photometric alignments on smooth_grey [px]. Rounding to 8 bits alone (0.29 grey levels in either image, 49 samples, slopes
-/// of about 8 grey levels per px, less in flat spots) makes 0.41 / (7 x 8) = 0.007 px.
+/// Errors of photometric alignments on smooth_grey [px]. Rounding to 8 bits alone (0.29 grey levels in either image, 49
+/// samples, slopes of about 8 grey levels per px, less in flat spots) makes 0.41 / (7 x 8) = 0.007 px.
 inline void check_subpixel(const std::vector<double>& errors) {
   double sum = 0, squares = 0, largest = 0;
   std::size_t within = 0;

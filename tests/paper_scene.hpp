@@ -1,5 +1,6 @@
 #pragma once
-/// \file paper_scene.hpp  A rectified rig before a plane, small enough for paper: every left point (x, y) is seen at (x - 10, y).
+/// \file paper_scene.hpp  A rectified rig before a plane, small enough for paper: every left point (x, y) is seen at (x
+/// - 10, y).
 
 #include <cmath>
 #include <vector>

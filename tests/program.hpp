@@ -1,12 +1,11 @@
 #pragma once
 /// \file program.hpp  Runs the quadedge program the way a user does.
 
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <sys/wait.h>
 #include <vector>
 
 #include "temporary_folder.hpp"
@@ -28,7 +27,8 @@ inline std::string read_text(const std::string& path) {
 /// Arguments are quoted here. The user's own QUADEDGE_DEVICE and saved kernel variants do not reach the program.
 inline ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
   const TemporaryFolder folder;
-  std::string command = "cd '" + folder.path() + "' && env -u QUADEDGE_DEVICE XDG_CONFIG_HOME='" + (folder / "configuration") + "' " + environment + " '" QUADEDGE_PROGRAM "'";
+  std::string command = "cd '" + folder.path() + "' && env -u QUADEDGE_DEVICE XDG_CONFIG_HOME='" +
+                        (folder / "configuration") + "' " + environment + " '" QUADEDGE_PROGRAM "'";
   for (const auto& argument : arguments) command += " '" + argument + "'";
   command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
   const int status = std::system(command.c_str());

@@ -1,12 +1,11 @@
 #pragma once
 /// \file temporary_folder.hpp  A folder that lives as long as its object.
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <unistd.h>
 
 class TemporaryFolder {
  public:

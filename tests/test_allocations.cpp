@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <atomic>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>
 
@@ -29,7 +28,8 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-TEST_CASE("odometry: once every buffer has had its largest content, tracking allocates no more arrays", "[odometry][device]") {
+TEST_CASE("odometry: once every buffer has had its largest content, tracking allocates no more arrays",
+          "[odometry][device]") {
   const matching::RenderedScene scene("room", 240, 150, 8);
   for (const auto& name : all_devices()) {
     quadedge::Device device(name);
@@ -37,8 +37,10 @@ TEST_CASE("odometry: once every buffer has had its largest content, tracking all
     // To and fro, so that the same motions come again with other key rigs.
     const auto there_and_back = [&] {
       int tracked = 0;
-      for (std::size_t i = 0; i + 1 < 8; ++i) tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
-      for (std::size_t i = 7; i > 0; --i) tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
+      for (std::size_t i = 0; i + 1 < 8; ++i)
+        tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
+      for (std::size_t i = 7; i > 0; --i)
+        tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
       return tracked;
     };
     for (int cycle = 0; cycle < 5; ++cycle) there_and_back();

@@ -71,10 +71,12 @@ TEST_CASE("batch report: shows every sequence, compares with baseline and peers,
   write_batch(folder / "today", {{"street", made_up_run(12, 0.01)}, {"hall", made_up_run(8, 0.02)}});
   write_batch(folder / "yesterday", {{"street", made_up_run(12, 0.02)}});
   const std::string broken = report::member_folder(folder / "today", "broken");
-  write_text(broken + "/member.json", report::member_json({"broken", "b", "kitti", "", 3, "calib.txt: <nothing> & so on", 1}));
+  write_text(broken + "/member.json",
+             report::member_json({"broken", "b", "kitti", "", 3, "calib.txt: <nothing> & so on", 1}));
   write_text(folder / "today/summary.json",
              report::summary_json(report::summarise(folder / "today", {"street", "broken", "hall"}, 50)));
-  cv::imwrite(report::member_folder(folder / "today", "street") + "/pictures/thumbnail_000005.jpg", dataset_files::pattern(480, 300));
+  cv::imwrite(report::member_folder(folder / "today", "street") + "/pictures/thumbnail_000005.jpg",
+              dataset_files::pattern(480, 300));
   // The peer is the truth itself, in another world: no error at all once it is aligned.
   Trajectory peer = read_tum(report::member_folder(folder / "today", "street") + "/groundtruth.txt");
   for (auto& pose : peer) pose.world_from_left = Eigen::Translation3d(5, 6, 7) * pose.world_from_left;
@@ -82,10 +84,12 @@ TEST_CASE("batch report: shows every sequence, compares with baseline and peers,
   write_tum(folder / "peers/street.txt", peer);
 
   const std::string plain = report::batch_report_html(folder / "today", "", {});
-  const std::string page = report::batch_report_html(folder / "today", folder / "yesterday", {{"Other & Co", folder / "peers"}});
+  const std::string page =
+      report::batch_report_html(folder / "today", folder / "yesterday", {{"Other & Co", folder / "peers"}});
   CHECK_THAT(plain, Contains("calib.txt: &lt;nothing&gt; &amp; so on") && !Contains("\n(") && !Contains("<nothing>"));
-  for (const char* label : {"x to the right [m]", "-y upward [m]", "APE translation [m]", "APE rotation [deg]", "RPE translation [m]",
-                            "RPE rotation [deg]", "latency [ms]", "edges per frame", "quads per frame", "time since the first frame [s]"}) {
+  for (const char* label :
+       {"x to the right [m]", "-y upward [m]", "APE translation [m]", "APE rotation [deg]", "RPE translation [m]",
+        "RPE rotation [deg]", "latency [ms]", "edges per frame", "quads per frame", "time since the first frame [s]"}) {
     INFO(label);
     CHECK(count(plain, label) >= 2);  // once per sequence that ran
   }

@@ -68,10 +68,13 @@ TEST_CASE("batch summary: pooled figures are those of all poses of all sequences
   CHECK(summary.latency.first == Approx(10));
   // The average gives both sequences the same weight, though one has nine poses and the other five.
   CHECK(summary.average->se3_aligned.ape_translation_m.mean ==
-        Approx((first.accuracy->se3_aligned.ape_translation_m.mean + second.accuracy->se3_aligned.ape_translation_m.mean) / 2));
+        Approx(
+            (first.accuracy->se3_aligned.ape_translation_m.mean + second.accuracy->se3_aligned.ape_translation_m.mean) /
+            2));
 }
 
-TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, also for failed and missing sequences", "[report]") {
+TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, also for failed and missing sequences",
+          "[report]") {
   const TemporaryFolder folder;
   const auto run = made_up_run(6, 0.02);
   write_member(folder.path(), "good", run);
@@ -104,13 +107,15 @@ TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, also for fai
   CHECK(bad.at("origin_aligned_ape_rotation_deg_mean").empty());
 
   const auto json = nlohmann::json::parse(report::summary_json(summary));
-  CHECK(json["sequences"][1]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"] == truth.ape_translation_m.mean);
+  CHECK(json["sequences"][1]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"] ==
+        truth.ape_translation_m.mean);
   CHECK(json["sequences"][0]["status"] == "failed");
-  CHECK(json["all"]["pooled"]["origin_aligned"]["ape_translation_m"]["mean"].get<double>() == Approx(truth.ape_translation_m.mean));
+  CHECK(json["all"]["pooled"]["origin_aligned"]["ape_translation_m"]["mean"].get<double>() ==
+        Approx(truth.ape_translation_m.mean));
   CHECK(json["exit_code"] == 3);
   const std::string markdown = report::summary_markdown(summary);
-  CHECK_THAT(markdown, Catch::Matchers::Contains("| bad | failed | 3 | calib.txt:1") && Catch::Matchers::Contains("SE(3)-aligned") &&
-                           Catch::Matchers::Contains("APE_R (deg)"));
+  CHECK_THAT(markdown, Catch::Matchers::Contains("| bad | failed | 3 | calib.txt:1") &&
+                           Catch::Matchers::Contains("SE(3)-aligned") && Catch::Matchers::Contains("APE_R (deg)"));
 }
 
 TEST_CASE("batch summary: too few tracked frames are worse than none lost and better than bad data", "[report]") {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/bench_comparison.hpp"
-#include "bench/latency.hpp"
+#include "benchmark/bench_comparison.hpp"
+#include "benchmark/latency.hpp"
 #include "frontends.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
@@ -17,8 +17,9 @@ namespace {
 /// One small benchmark, shared by the tests that look at its files.
 struct SharedBench {
   TemporaryFolder folder;
-  ProgramResult result = run_program({"bench", "--size", "160x100", "--edges", "1500", "--frames", "2", "--warm-up", "1", "--baseline",
-                                      "--json", folder / "bench.json", "--trace", folder / "trace.json", "--quiet"});
+  ProgramResult result =
+      run_program({"bench", "--size", "160x100", "--edges", "1500", "--frames", "2", "--warm-up", "1", "--baseline",
+                   "--json", folder / "bench.json", "--trace", folder / "trace.json", "--quiet"});
   json parsed() const { return json::parse(read_text(folder / "bench.json")); }
 };
 const SharedBench& shared_bench() {
@@ -32,7 +33,8 @@ void write(const std::string& path, const json& value) { std::ofstream(path) << 
 ProgramResult compare_with(const json& changed, const std::vector<std::string>& more = {}) {
   const TemporaryFolder folder;
   write(folder / "new.json", changed);
-  std::vector<std::string> arguments = {"bench", "--compare", shared_bench().folder / "bench.json", folder / "new.json"};
+  std::vector<std::string> arguments = {"bench", "--compare", shared_bench().folder / "bench.json",
+                                        folder / "new.json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_program(arguments);
 }
@@ -44,15 +46,48 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   INFO(bench.result.err);
   REQUIRE(bench.result.code == 0);
   const json result = bench.parsed();
-  for (const char* pointer :
-       {"/schema", "/bench_schema", "/version", "/commit", "/command", "/device/name", "/device/driver", "/device/platform",
-        "/device/opencl", "/variants/edges",
-        "/input/width", "/frames_measured", "/frames_tracked", "/frames_lost", "/warm_up", "/threads", "/edges_wanted",
-        "/latency_ms/median", "/latency_ms/p90", "/latency_ms/p99", "/latency_ms/max", "/latency_ms/first", "/edge_detection_ms/median",
-        "/edge_detection_ms/p90", "/stages_ms/stereo/median", "/kernels_ms/edges/median", "/kernels_ms/temporal_match/p90", "/start_ms/total",
-        "/start_ms/kernel_build", "/memory_mb/host_peak", "/memory_mb/device_peak", "/memory_mb/frames", "/moved_mb_per_frame/to_device",
-        "/moved_mb_per_frame/to_host", "/waits_per_frame", "/counts/edges_left", "/config/edges/threshold", "/baseline/opencv_sift_both_ms",
-        "/baseline/opencv_sepfilter_nine_ms", "/baseline/threads", "/baseline/frame_ratio", "/baseline/edges_ratio"}) {
+  for (const char* pointer : {"/schema",
+                              "/bench_schema",
+                              "/version",
+                              "/commit",
+                              "/command",
+                              "/device/name",
+                              "/device/driver",
+                              "/device/platform",
+                              "/device/opencl",
+                              "/variants/edges",
+                              "/input/width",
+                              "/frames_measured",
+                              "/frames_tracked",
+                              "/frames_lost",
+                              "/warm_up",
+                              "/threads",
+                              "/edges_wanted",
+                              "/latency_ms/median",
+                              "/latency_ms/p90",
+                              "/latency_ms/p99",
+                              "/latency_ms/max",
+                              "/latency_ms/first",
+                              "/edge_detection_ms/median",
+                              "/edge_detection_ms/p90",
+                              "/stages_ms/stereo/median",
+                              "/kernels_ms/edges/median",
+                              "/kernels_ms/temporal_match/p90",
+                              "/start_ms/total",
+                              "/start_ms/kernel_build",
+                              "/memory_mb/host_peak",
+                              "/memory_mb/device_peak",
+                              "/memory_mb/frames",
+                              "/moved_mb_per_frame/to_device",
+                              "/moved_mb_per_frame/to_host",
+                              "/waits_per_frame",
+                              "/counts/edges_left",
+                              "/config/edges/threshold",
+                              "/baseline/opencv_sift_both_ms",
+                              "/baseline/opencv_sepfilter_nine_ms",
+                              "/baseline/threads",
+                              "/baseline/frame_ratio",
+                              "/baseline/edges_ratio"}) {
     INFO(pointer);
     CHECK(result.contains(json::json_pointer(pointer)));
   }
@@ -61,7 +96,8 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   CHECK(result["input"]["frames"] == 4);
   CHECK(result["frames_tracked"] == 3);
   CHECK(result["edges_wanted"] == 1500);
-  CHECK(result["counts"]["edges_left"].get<double>() == Approx(1500).epsilon(0.05));  // chosen on the first frame, both images together
+  CHECK(result["counts"]["edges_left"].get<double>() ==
+        Approx(1500).epsilon(0.05));  // chosen on the first frame, both images together
   CHECK_THAT(result["command"].get<std::string>(), Contains("quadedge bench --size 160x100"));
   // At least both images go up, and a pixel is a byte.
   CHECK(result["moved_mb_per_frame"]["to_device"].get<double>() > 2 * 160 * 100 / (1024.0 * 1024.0));
@@ -72,13 +108,15 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   CHECK(result["baseline"]["frame_ratio"].get<double>() ==
         Approx(result["latency_ms"]["median"].get<double>() / result["baseline"]["opencv_sift_both_ms"].get<double>()));
   CHECK(result["baseline"]["edges_ratio"].get<double>() ==
-        Approx(result["edge_detection_ms"]["median"].get<double>() / result["baseline"]["opencv_sepfilter_nine_ms"].get<double>()));
+        Approx(result["edge_detection_ms"]["median"].get<double>() /
+               result["baseline"]["opencv_sepfilter_nine_ms"].get<double>()));
   CHECK_THAT(bench.result.out, Contains("kernel build") && Contains("frame / S") && Contains("(chosen)"));
   const json trace = json::parse(read_text(bench.folder / "trace.json"));
   CHECK(trace["traceEvents"].size() > 6);
 }
 
-TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise band, with 6 beyond it", "[cli][bench][device]") {
+TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise band, with 6 beyond it",
+          "[cli][bench][device]") {
   const json before = shared_bench().parsed();
   const auto same = compare_with(before);
   INFO(same.err);
@@ -118,7 +156,7 @@ TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise b
   CHECK(compare_with(lost).code == 6);
 
   json changed = before;
-  changed["variants"]["edges"] = "another";
+  changed["variants"]["edge_detection"] = "another";
   const auto noted = compare_with(changed);
   CHECK(noted.code == 0);
   CHECK_THAT(noted.out, Contains("variants/edges") && Contains("another"));
@@ -144,9 +182,12 @@ TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][b
 }
 
 TEST_CASE("bench: wrong options end with code 2", "[cli][bench]") {
-  for (const auto& arguments : std::vector<std::vector<std::string>>{
-           {"--frames", "0"}, {"--warm-up", "-1"}, {"--edges", "-2"}, {"--noise", "-1"}, {"--compare", "old.json"},
-           {"somewhere", "--size", "64x48"}}) {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{{"--frames", "0"},
+                                                                     {"--warm-up", "-1"},
+                                                                     {"--edges", "-2"},
+                                                                     {"--noise", "-1"},
+                                                                     {"--compare", "old.json"},
+                                                                     {"somewhere", "--size", "64x48"}}) {
     std::vector<std::string> all = {"bench"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     INFO(arguments[0]);
@@ -164,7 +205,7 @@ TEST_CASE("bench: the chosen threshold gives the wanted number of edges", "[benc
     for (const int wanted : {800, 3000}) {
       Config config = scene.config;
       config.edges.threshold = bench::threshold_for_edges(frame, wanted, device, config);
-      const auto frontend = stages::make_frontend(scene.rig, device, config);
+      const auto frontend = frontend::make_frontend(scene.rig, device, config);
       frontend->process(scene.frame(0));
       CHECK((frontend->counts().edges_left + frontend->counts().edges_right) / 2 == Approx(wanted).epsilon(0.02));
     }

@@ -12,24 +12,25 @@ namespace {
 
 constexpr int kNcc = 5, kSift = 4;  // orders as in the stereo cascade; nearly best follow at 6 and 7
 
-/// Descriptions made to measure. Edges of the first set have the unit vector e0 as dark patch and no bright one (flat), SIFT all zero
-/// on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt((1 - c^2) / 3) (e1 + e2 + e3), which 8 bits
-/// hold to 0.004 and c = 0.5 exactly, and one byte d.
+/// Descriptions made to measure. Edges of the first set have the unit vector e0 as dark patch and no bright one (flat),
+/// SIFT all zero on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt((1 - c^2) / 3)
+/// (e1 + e2 + e3), which 8 bits hold to 0.004 and c = 0.5 exactly, and one byte d.
 struct Measured {
   reference::EdgeDescriptions a, b;
   explicit Measured(int first_edges) {
     for (int i = 0; i < first_edges; ++i) {
-      a.patches.resize(a.patches.size() + reference::kEdgePatchBytes, 0);
-      reference::store_side({1}, 0, a.patches.data() + a.patches.size() - reference::kEdgePatchBytes);
+      a.patches.resize(a.patches.size() + kEdgePatchBytes, 0);
+      reference::store_side({1}, 0, a.patches.data() + a.patches.size() - kEdgePatchBytes);
       a.sift.resize(a.sift.size() + 256, 0);
     }
   }
   /// `bright`: the similar side is the second set's bright one.
   int add(double ncc, int distance, bool bright = false) {
     const std::size_t sift = b.sift.size();
-    b.patches.resize(b.patches.size() + reference::kEdgePatchBytes, 0);
+    b.patches.resize(b.patches.size() + kEdgePatchBytes, 0);
     const double other = std::sqrt((1 - ncc * ncc) / 3);
-    reference::store_side({ncc, other, other, other}, bright ? 1 : 0, b.patches.data() + b.patches.size() - reference::kEdgePatchBytes);
+    reference::store_side({ncc, other, other, other}, bright ? 1 : 0,
+                          b.patches.data() + b.patches.size() - kEdgePatchBytes);
     b.sift.resize(sift + 256, 0);
     b.sift[sift + 7] = static_cast<std::uint8_t>(distance);
     std::fill_n(b.sift.begin() + static_cast<std::ptrdiff_t>(sift) + 128, 128, static_cast<std::uint8_t>(255));
@@ -37,53 +38,57 @@ struct Measured {
   }
 };
 
-reference::FilterLimits limits_of(float ncc_min, float sift_max, float ncc_share, float sift_share, int ncc = kNcc, int sift = kSift) {
+FilterLimits limits_of(float ncc_min, float sift_max, float ncc_share, float sift_share, int ncc = kNcc,
+                       int sift = kSift) {
   return {ncc_min, sift_max, ncc_share, sift_share, ncc, sift};
 }
 
 /// What every variant on every device finds.
-void on_devices(const reference::Candidates& lists, const reference::EdgeDescriptions& a, const reference::EdgeDescriptions& b,
-                const reference::FilterLimits& limits, int row_step, bool all_scores,
+void on_devices(const reference::Candidates& lists, const reference::EdgeDescriptions& a,
+                const reference::EdgeDescriptions& b, const FilterLimits& limits, int row_step, bool all_scores,
                 const std::function<void(const reference::CandidateScores&, const std::vector<cl_int>& alive)>& check) {
-  for_each_variant("candidate_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    INFO(name << (all_scores ? ", all scores" : ""));
-    stages::CandidateFilters stage(context, variants);
-    auto device = upload(context, lists);
-    opencl::Buffer<cl_char> patches_a, patches_b;
-    opencl::Buffer<cl_uchar> sift_a, sift_b;
-    patches_a.write(context, a.patches);
-    patches_b.write(context, b.patches);
-    sift_a.write(context, a.sift);
-    opencl::Buffer<cl_int> itself, turned;
-    std::vector<cl_int> numbers(a.sift.size() + b.sift.size());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    itself.write(context, numbers);
-    // The second set's SIFT stands in the opposite order.
-    const auto last = static_cast<cl_int>(b.sift.size() / 256) - 1;
-    std::vector<std::uint8_t> sift_turned;
-    std::vector<cl_int> from_the_end;
-    for (cl_int k = last; k >= 0; --k) {
-      from_the_end.push_back(k);
-      sift_turned.insert(sift_turned.end(), b.sift.begin() + 256 * k, b.sift.begin() + 256 * (k + 1));
-    }
-    turned.write(context, from_the_end);
-    sift_b.write(context, sift_turned);
-    stage.run({patches_a, itself, sift_a, itself}, {patches_b, itself, sift_b, turned},
-              {limits.ncc_min, limits.sift_max, limits.ncc_nearly_best, limits.sift_nearly_best, limits.ncc_order, limits.sift_order},
-              row_step, all_scores, device);
-    const auto size = lists.target.size();
-    check({device.ncc.read(size), device.sift.read(size), device.rejected_by.read(size)},
-          device.alive.read(static_cast<std::size_t>(device.rows)));
-  });
+  for_each_variant("candidate_filters",
+                   [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+                     INFO(name << (all_scores ? ", all scores" : ""));
+                     stages::CandidateFilters stage(context, variants);
+                     auto device = upload(context, lists);
+                     opencl::Buffer<cl_char> patches_a, patches_b;
+                     opencl::Buffer<cl_uchar> sift_a, sift_b;
+                     patches_a.write(context, a.patches);
+                     patches_b.write(context, b.patches);
+                     sift_a.write(context, a.sift);
+                     opencl::Buffer<cl_int> itself, turned;
+                     std::vector<cl_int> numbers(a.sift.size() + b.sift.size());
+                     std::iota(numbers.begin(), numbers.end(), 0);
+                     itself.write(context, numbers);
+                     // The second set's SIFT stands in the opposite order.
+                     const auto last = static_cast<cl_int>(b.sift.size() / 256) - 1;
+                     std::vector<std::uint8_t> sift_turned;
+                     std::vector<cl_int> from_the_end;
+                     for (cl_int k = last; k >= 0; --k) {
+                       from_the_end.push_back(k);
+                       sift_turned.insert(sift_turned.end(), b.sift.begin() + 256 * k, b.sift.begin() + 256 * (k + 1));
+                     }
+                     turned.write(context, from_the_end);
+                     sift_b.write(context, sift_turned);
+                     stage.run({patches_a, itself, sift_a, itself}, {patches_b, itself, sift_b, turned},
+                               {limits.ncc_min, limits.sift_max, limits.ncc_nearly_best, limits.sift_nearly_best,
+                                limits.ncc_order, limits.sift_order},
+                               row_step, all_scores, device);
+                     const auto size = lists.target.size();
+                     check({device.ncc.read(size), device.sift.read(size), device.rejected_by.read(size)},
+                           device.alive.read(static_cast<std::size_t>(device.rows)));
+                   });
 }
 
 /// Reference and devices must reject exactly as `expected` says.
-void check_states(const reference::Candidates& lists, const Measured& edges, const reference::FilterLimits& limits,
+void check_states(const reference::Candidates& lists, const Measured& edges, const FilterLimits& limits,
                   const std::vector<std::uint8_t>& expected, int row_step = 1) {
   CHECK(reference::candidate_filters(lists, edges.a, edges.b, limits, row_step).rejected_by == expected);
   std::vector<cl_int> living;
   for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
-    living.push_back(static_cast<cl_int>(std::count(expected.begin() + lists.first[row], expected.begin() + lists.first[row + 1], 0)));
+    living.push_back(static_cast<cl_int>(
+        std::count(expected.begin() + lists.first[row], expected.begin() + lists.first[row + 1], 0)));
   }
   on_devices(lists, edges.a, edges.b, limits, row_step, true, [&](const auto& scores, const auto& alive) {
     CHECK(scores.rejected_by == expected);
@@ -98,14 +103,15 @@ void check_states(const reference::Candidates& lists, const Measured& edges, con
 
 }  // namespace
 
-TEST_CASE("candidate filters: thresholds and nearly best reject what they should on paper", "[filters][matching][device][oclgrind]") {
+TEST_CASE("candidate filters: thresholds and nearly best reject what they should on paper",
+          "[filters][matching][device][oclgrind]") {
   Measured edges(1);
   reference::Candidates lists;
   lists.target = {edges.add(0.96875, 100), edges.add(0.90625, 60), edges.add(0.59375, 50), edges.add(0.75, 201),
                   edges.add(0.59375, 201), edges.add(0.84375, 20), edges.add(0.9375, 160)};
   lists.first = {0, 7};
-  // NCC at least 0.6, SIFT at most 200; nearly best NCC 0.9 x 0.96875 = 0.872, which takes the one of SIFT 20 out before it can
-  // set the mark; best SIFT of the rest is 60, so distances over 60 / 0.5 = 120 go.
+  // NCC at least 0.6, SIFT at most 200; nearly best NCC 0.9 x 0.96875 = 0.872, which takes the one of SIFT 20 out
+  // before it can set the mark; best SIFT of the rest is 60, so distances over 60 / 0.5 = 120 go.
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f), {0, 0, kNcc, kSift, kSift, 6, 7});
   // The other order of the first two filters: who fails both is named after the earlier one.
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f, 3, 4), {0, 0, 3, 4, 3, 5, 6});
@@ -122,10 +128,11 @@ TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][m
   CHECK(scores.sift == std::vector<float>{200, 200, 100, 100});
 }
 
-TEST_CASE("candidate filters: rows are judged alone, also empty ones and every second edge", "[filters][matching][device][oclgrind]") {
+TEST_CASE("candidate filters: rows are judged alone, also empty ones and every second edge",
+          "[filters][matching][device][oclgrind]") {
   Measured edges(5);
   // Edge 2 is the opposite of the others: what is like them is unlike it. Rows 0, 1, 2 belong to edges 0, 2, 4.
-  reference::store_side({-1}, 0, edges.a.patches.data() + 2 * reference::kEdgePatchBytes);
+  reference::store_side({-1}, 0, edges.a.patches.data() + 2 * kEdgePatchBytes);
   const int good = edges.add(0.96875, 40), bad = edges.add(-0.9375, 40);
   reference::Candidates lists;
   lists.target = {good, bad, good, bad};
@@ -138,16 +145,17 @@ TEST_CASE("candidate filters: rows are judged alone, also empty ones and every s
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.4f), {});
 }
 
-TEST_CASE("candidate filters: devices decide like the reference on random descriptions", "[filters][matching][device]") {
+TEST_CASE("candidate filters: devices decide like the reference on random descriptions",
+          "[filters][matching][device]") {
   Random random(5);
   const auto describe = [&](int count) {
     reference::EdgeDescriptions set;
     for (int i = 0; i < count; ++i) {
-      set.patches.resize(set.patches.size() + reference::kEdgePatchBytes, 0);
+      set.patches.resize(set.patches.size() + kEdgePatchBytes, 0);
       for (const int side : {0, 1}) {
         reference::PatchValues values;
         for (double& v : values) v = random(-0.5, 1);
-        reference::store_side(values, side, set.patches.data() + set.patches.size() - reference::kEdgePatchBytes);
+        reference::store_side(values, side, set.patches.data() + set.patches.size() - kEdgePatchBytes);
       }
       for (int k = 0; k < 256; ++k) set.sift.push_back(static_cast<std::uint8_t>(random(0, 60)));
     }
@@ -173,7 +181,8 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
     CHECK(scores.ncc == truth.ncc);
     CHECK(scores.rejected_by == truth.rejected_by);
     float largest = 0;
-    for (std::size_t c = 0; c < truth.sift.size(); ++c) largest = std::max(largest, std::abs(scores.sift[c] - truth.sift[c]));
+    for (std::size_t c = 0; c < truth.sift.size(); ++c)
+      largest = std::max(largest, std::abs(scores.sift[c] - truth.sift[c]));
     CHECK(largest < 1e-4f);
   });
 }

@@ -70,11 +70,13 @@ TEST_CASE("batch: runs all sequences, names the broken one and ends with the wor
       CHECK(fs::file_size(folder + "/" + file) > 0);
     }
   }
-  for (const char* file : {"summary.csv", "summary.md", "config.toml"}) CHECK(fs::file_size(batch.out + "/" + file) > 100);
+  for (const char* file : {"summary.csv", "summary.md", "config.toml"})
+    CHECK(fs::file_size(batch.out + "/" + file) > 100);
   // The report is drawn with the summary, and again on request.
   CHECK_THAT(read_text(batch.out + "/report.html"), Contains("Trajectory from above") && Contains("calibration.txt"));
   const TemporaryFolder other;
-  const auto report = run_program({"report", batch.out, "--baseline", batch.out, "-o", other / "r.html", "--peer", "Us=" + batch.out});
+  const auto report =
+      run_program({"report", batch.out, "--baseline", batch.out, "-o", other / "r.html", "--peer", "Us=" + batch.out});
   CHECK(report.code == 0);
   CHECK_THAT(read_text(other / "r.html"), Contains("\n(=)") && Contains("Us over its 2 sequences"));
   CHECK(run_program({"report", batch.out, "-o", other / "r.html"}).code == 2);
@@ -86,7 +88,8 @@ TEST_CASE("batch: runs all sequences, names the broken one and ends with the wor
   CHECK(read_text(alone / "out/trajectory.txt") == read_text(batch.out + "/sequences/first/trajectory.txt"));
 }
 
-TEST_CASE("batch: finished sequences are not run again, unless input, configuration or the user ask for it", "[cli][device]") {
+TEST_CASE("batch: finished sequences are not run again, unless input, configuration or the user ask for it",
+          "[cli][device]") {
   const TemporaryFolder folder;
   fs::copy(batch_root() + "/a", folder / "data", fs::copy_options::recursive);
   const std::string out = folder / "out", first = out + "/sequences/first", second = out + "/sequences/second";
@@ -148,7 +151,8 @@ TEST_CASE("batch: killed at any moment it leaves nothing half-written, and ends 
     CHECK(read_text(out + "/unfinished/" + victim + "/frames.csv") == rows);
     CHECK_FALSE(fs::exists(out + "/sequences/" + victim));
     CHECK_FALSE(fs::exists(out + "/summary.json"));
-    for (const auto& entry : fs::directory_iterator(out + "/sequences")) CHECK(fs::exists(entry.path() / "member.json"));
+    for (const auto& entry : fs::directory_iterator(out + "/sequences"))
+      CHECK(fs::exists(entry.path() / "member.json"));
   }
   CHECK(fs::exists(out + "/sequences/first/report.json"));  // of the second start
   const auto times = write_times(out + "/sequences/first");
@@ -183,7 +187,8 @@ TEST_CASE("batch: single steps give what the whole gives", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const auto list = run_program({"batch", batch_root(), "--list"});
-  CHECK(list.out == "first\t" + batch_root() + "/a/first\nsecond\t" + batch_root() + "/a/second\nbroken\t" + batch_root() + "/broken\n");
+  CHECK(list.out == "first\t" + batch_root() + "/a/first\nsecond\t" + batch_root() + "/a/second\nbroken\t" +
+                        batch_root() + "/broken\n");
   CHECK(run_program({"batch", batch_root(), "-o", out, "--only", "first", "--quiet"}).code == 0);
   CHECK(run_program({"batch", batch_root(), "-o", out, "--gather"}).code == 3);
   CHECK(json_of(out + "/summary.json")["sequences"][1]["status"] == "not run");

@@ -22,7 +22,8 @@ TEST_CASE("synth: writes a sequence that check finds sound", "[cli]") {
   const auto check = run_program({"check", small_sequence()});
   INFO(check.out + check.err);
   CHECK(check.code == 0);
-  CHECK_THAT(check.out, Contains("eth3d-slam") && Contains("320") && Contains("200") && Contains("0 errors, 0 warnings"));
+  CHECK_THAT(check.out,
+             Contains("eth3d-slam") && Contains("320") && Contains("200") && Contains("0 errors, 0 warnings"));
 }
 
 TEST_CASE("synth: refuses a folder that exists unless forced", "[cli]") {
@@ -99,7 +100,8 @@ TEST_CASE("edges: a file that is no image is refused by name", "[cli]") {
 }
 
 TEST_CASE("evaluate trajectory: known errors are printed under both alignments", "[cli]") {
-  // Straight line along z, estimate 1 % too long: after alignment at the origin the translation error of pose k is 0.01 k.
+  // Straight line along z, estimate 1 % too long: after alignment at the origin the translation error of pose k is 0.01
+  // k.
   const TemporaryFolder folder;
   std::ofstream truth(folder / "truth.txt"), estimate(folder / "estimate.txt");
   for (int k = 0; k < 5; ++k) {
@@ -107,14 +109,17 @@ TEST_CASE("evaluate trajectory: known errors are printed under both alignments",
     estimate << k << " 0 0 " << 1.01 * k << " 0 0 0 1\n";
   }
   truth.close(), estimate.close();
-  const auto result = run_program({"evaluate", "trajectory", folder / "estimate.txt", folder / "truth.txt", "--json", folder / "e.json"});
+  const auto result = run_program(
+      {"evaluate", "trajectory", folder / "estimate.txt", folder / "truth.txt", "--json", folder / "e.json"});
   INFO(result.err);
   REQUIRE(result.code == 0);
   CHECK_THAT(result.out, Contains("origin-aligned") && Contains("SE(3)-aligned"));
   CHECK_THAT(result.out, Contains("APE translation [m]       0.0200000    0.0141421    0.0244949    0.0400000"));
   CHECK_THAT(result.out, Contains("RPE translation [m]       0.0100000    0.0000000    0.0100000    0.0100000"));
-  CHECK_THAT(read_text(folder / "e.json"), Contains("\"origin_aligned\"") && Contains("\"ape_translation_m\"") && Contains("per_pose"));
-  const auto again = run_program({"evaluate", "trajectory", folder / "estimate.txt", folder / "truth.txt", "--json", folder / "e.json"});
+  CHECK_THAT(read_text(folder / "e.json"),
+             Contains("\"origin_aligned\"") && Contains("\"ape_translation_m\"") && Contains("per_pose"));
+  const auto again = run_program(
+      {"evaluate", "trajectory", folder / "estimate.txt", folder / "truth.txt", "--json", folder / "e.json"});
   CHECK(again.code == 2);
 }
 
@@ -129,8 +134,10 @@ TEST_CASE("evaluate trajectory: KITTI rows are matched by number, and with timed
   }
   rows.close(), timed.close(), short_rows.close();
   const std::string zero = "APE translation [m]       0.0000000    0.0000000    0.0000000    0.0000000";
-  for (const auto& [estimate, truth] : {std::pair<std::string, std::string>{"rows.txt", "rows.txt"}, {"rows.txt", "timed.txt"},
-                                        {"timed.txt", "rows.txt"}, {"timed.txt", "timed.txt"}}) {
+  for (const auto& [estimate, truth] : {std::pair<std::string, std::string>{"rows.txt", "rows.txt"},
+                                        {"rows.txt", "timed.txt"},
+                                        {"timed.txt", "rows.txt"},
+                                        {"timed.txt", "timed.txt"}}) {
     const auto result = run_program({"evaluate", "trajectory", folder / estimate, folder / truth});
     INFO(estimate + " " + truth + result.err);
     CHECK(result.code == 0);
@@ -139,6 +146,7 @@ TEST_CASE("evaluate trajectory: KITTI rows are matched by number, and with timed
   const auto mismatch = run_program({"evaluate", "trajectory", folder / "timed.txt", folder / "short.txt"});
   check_refused(mismatch, "short.txt");
   CHECK_THAT(mismatch.err, Contains("3 rows") && Contains("5"));
-  const auto late = run_program({"evaluate", "trajectory", folder / "rows.txt", folder / "rows.txt", "--from-frame", "2"});
+  const auto late =
+      run_program({"evaluate", "trajectory", folder / "rows.txt", folder / "rows.txt", "--from-frame", "2"});
   CHECK_THAT(late.out, Contains("3 of "));
 }

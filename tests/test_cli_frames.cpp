@@ -81,7 +81,8 @@ TEST_CASE("run: too few tracked frames end with code 5 after everything is writt
 TEST_CASE("run: the same frame twice gives no motion", "[cli][device]") {
   const DamagedSequence sequence;
   for (const char* camera : {"rgb", "rgb2"}) {
-    std::filesystem::copy_file(sequence.image(camera, 0), sequence.image(camera, 1), std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(sequence.image(camera, 0), sequence.image(camera, 1),
+                               std::filesystem::copy_options::overwrite_existing);
   }
   const TemporaryFolder folder;
   const auto result = run_program({"run", sequence.path(), "-o", folder / "out", "--frames", "0:2"});

@@ -11,7 +11,7 @@ TEST_CASE("command line: every command's help shows two examples", "[cli]") {
     CHECK(result.code == 0);
     const auto examples = result.out.find("Examples:");
     REQUIRE(examples != std::string::npos);
-    const auto first = result.out.find("quadedge " , examples);
+    const auto first = result.out.find("quadedge ", examples);
     REQUIRE(first != std::string::npos);
     CHECK(result.out.find("quadedge ", first + 1) != std::string::npos);
   }
@@ -95,7 +95,8 @@ TEST_CASE("configuration file: the command line wins over it, and it over the de
   const TemporaryFolder folder;
   std::ofstream(folder / "config.toml") << "[edges]\nsigma = 1000  # far out of range\n";
   CHECK(run_program({"edges", folder / "absent.png", "--config", folder / "config.toml"}).code == 2);
-  const auto both = run_program({"edges", folder / "absent.png", "--config", folder / "config.toml", "--edges.sigma", "2"});
+  const auto both =
+      run_program({"edges", folder / "absent.png", "--config", folder / "config.toml", "--edges.sigma", "2"});
   CHECK(both.code == 3);
   CHECK_THAT(both.err, Contains("absent.png"));
 }

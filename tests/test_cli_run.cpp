@@ -12,7 +12,8 @@ namespace {
 /// One run of the small sequence, shared by the tests that only look at its files.
 struct SharedRun {
   TemporaryFolder folder;
-  ProgramResult result = run_program({"run", small_sequence(), "-o", folder / "out", "--draw", "2", "--trace", folder / "trace.json"});
+  ProgramResult result =
+      run_program({"run", small_sequence(), "-o", folder / "out", "--draw", "2", "--trace", folder / "trace.json"});
   std::string out(const std::string& name) const { return folder / ("out/" + name); }
 };
 const SharedRun& shared_run() {
@@ -61,8 +62,8 @@ TEST_CASE("run: trajectories begin at the identity and have one row per tracked 
 TEST_CASE("run: the report has every documented key", "[cli][device]") {
   const auto& run = shared_run();
   const auto report = nlohmann::json::parse(read_text(run.out("report.json")));
-  for (const char* key : {"schema", "version", "device", "variants", "input", "frames_tracked", "latency_ms", "stages_ms", "start_ms",
-                          "memory_mb", "counts", "accuracy"}) {
+  for (const char* key : {"schema", "version", "device", "variants", "input", "frames_tracked", "latency_ms",
+                          "stages_ms", "start_ms", "memory_mb", "counts", "accuracy"}) {
     INFO(key);
     CHECK(report.contains(key));
   }
@@ -78,7 +79,8 @@ TEST_CASE("run: the report has every documented key", "[cli][device]") {
   CHECK(report["counts"]["edges_left"].get<double>() > 100);
   for (const char* alignment : {"origin_aligned", "se3_aligned"}) {
     for (const char* error : {"ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m"}) {
-      for (const char* number : {"mean", "std", "rmse", "max"}) CHECK(report["accuracy"][alignment][error][number].is_number());
+      for (const char* number : {"mean", "std", "rmse", "max"})
+        CHECK(report["accuracy"][alignment][error][number].is_number());
     }
   }
   const auto& honesty = report["accuracy"]["normalised_error_squared"];
@@ -103,8 +105,10 @@ TEST_CASE("run: frames.csv has a row per frame whose stage times make up the lat
     REQUIRE(values.size() == names.size());
     double latency = 0, stages = 0;
     for (std::size_t column = 0; column < names.size(); ++column) {
-      if (names[column] == "latency_ms") latency = std::stod(values[column]);
-      else if (names[column].size() > 3 && names[column].rfind("_ms") == names[column].size() - 3 && !values[column].empty()) {
+      if (names[column] == "latency_ms")
+        latency = std::stod(values[column]);
+      else if (names[column].size() > 3 && names[column].rfind("_ms") == names[column].size() - 3 &&
+               !values[column].empty()) {
         stages += std::stod(values[column]);
       }
     }
@@ -140,7 +144,8 @@ TEST_CASE("run: the trace holds each frame with its stages inside", "[cli][devic
 TEST_CASE("run: the effective configuration reproduces the trajectory byte by byte", "[cli][device]") {
   const auto& run = shared_run();
   const TemporaryFolder folder;
-  const auto again = run_program({"run", small_sequence(), "-o", folder / "out", "--config", run.out("config.toml"), "--quiet"});
+  const auto again =
+      run_program({"run", small_sequence(), "-o", folder / "out", "--config", run.out("config.toml"), "--quiet"});
   INFO(again.err);
   REQUIRE(again.code == 0);
   CHECK(again.err.empty());
@@ -173,7 +178,8 @@ TEST_CASE("run: an output folder that cannot be written ends with code 3 and its
     CHECK(result.code == 3);
     CHECK_THAT(result.err, Contains(path));
   }
-  const auto full = run_program({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"});
+  const auto full =
+      run_program({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"});
   CHECK(full.code == 3);
   CHECK_THAT(full.err, Contains("/dev/full"));
 }
@@ -242,7 +248,8 @@ TEST_CASE("demo: tracks and evaluates the built-in sequence", "[cli][device]") {
   const auto result = run_program({"demo", "-o", folder / "demo", "--frames", "4", "--size", "320x200"});
   INFO(result.err);
   REQUIRE(result.code == 0);
-  CHECK_THAT(result.out, Contains("4 of 4 frames") && Contains("APE translation [m]") && Contains("RPE rotation [deg]"));
+  CHECK_THAT(result.out,
+             Contains("4 of 4 frames") && Contains("APE translation [m]") && Contains("RPE rotation [deg]"));
   for (const char* name : {"pictures/trajectory.png", "pictures/edges_000002.png", "pictures/quads_000002.png"}) {
     CHECK(fs::file_size(folder / ("demo/" + std::string(name))) > 1000);
   }

@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "bench/ceilings.hpp"
-#include "bench/frontend_agreement.hpp"
-#include "bench/variant_comparison.hpp"
-#include "bench/variants_file.hpp"
+#include "benchmark/ceilings.hpp"
+#include "benchmark/frontend_agreement.hpp"
+#include "benchmark/variant_comparison.hpp"
+#include "benchmark/variants_file.hpp"
 #include "devices.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
@@ -17,8 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> kSmall = {"--size", "160x100", "--edges", "0", "--repetitions", "1", "--quiet",
-                                         "--edges.max_edges", "20000"};  // tiles start work-items for every edge that may be
+const std::vector<std::string> kSmall = {
+    "--size", "160x100", "--edges",           "0",    "--repetitions",
+    "1",      "--quiet", "--edges.max_edges", "20000"};  // tiles start work-items for every edge that may be
 
 std::vector<std::string> compare_arguments(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"compare"};
@@ -36,18 +37,22 @@ DeviceInfo made_up_device() {
 }
 
 /// A run of the small sequence with a folder of saved variants.
-ProgramResult run_with_saved(const std::string& configuration, const std::string& out, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"run", small_sequence(), "-o", out, "--frames", "0:2", "--quiet", "--edges.max_edges", "20000"};
+ProgramResult run_with_saved(const std::string& configuration, const std::string& out,
+                             const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"run",     small_sequence(),    "-o",   out, "--frames", "0:2",
+                                        "--quiet", "--edges.max_edges", "20000"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_program(arguments, "XDG_CONFIG_HOME='" + configuration + "'");
 }
 
 }  // namespace
 
-TEST_CASE("compare: all variants of a stage are measured, agree, and the best are saved for run", "[cli][bench][device]") {
+TEST_CASE("compare: all variants of a stage are measured, agree, and the best are saved for run",
+          "[cli][bench][device]") {
   const TemporaryFolder folder;
-  const auto result = run_program(compare_arguments({"--stage", "edges", "--save", "--json", folder / "compare.json"}),
-                                  "XDG_CONFIG_HOME='" + folder.path() + "'");
+  const auto result =
+      run_program(compare_arguments({"--stage", "edge_detection", "--save", "--json", folder / "compare.json"}),
+                  "XDG_CONFIG_HOME='" + folder.path() + "'");
   INFO(result.err << result.out);
   REQUIRE(result.code == 0);
   const json comparison = json::parse(read_text(folder / "compare.json"));
@@ -55,11 +60,12 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   CHECK(comparison["ceilings"]["arithmetic_gflop_s"].get<double>() > 0);
   REQUIRE(comparison["stages"].size() == 1);
   const auto& stage = comparison["stages"][0];
-  CHECK(stage["stage"] == "edges");
+  CHECK(stage["stage"] == "edge_detection");
   REQUIRE(stage["variants"].size() == 3);
   int defaults = 0;
   for (const auto& variant : stage["variants"]) {
-    for (const char* key : {"name", "default", "agrees", "median_ms", "ratio_to_default", "bandwidth_share", "arithmetic_share"}) {
+    for (const char* key :
+         {"name", "default", "agrees", "median_ms", "ratio_to_default", "bandwidth_share", "arithmetic_share"}) {
       INFO(key);
       CHECK(variant.contains(key));
     }
@@ -76,19 +82,20 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   const Device device;
   const std::string file = folder / ("quadedge/" + bench::variants_file_name(device.info()));
   REQUIRE(fs::exists(file));
-  CHECK(json::parse(read_text(file))["variants"]["edges"] == stage["best"]);
+  CHECK(json::parse(read_text(file))["variants"]["edge_detection"] == stage["best"]);
   CHECK_THAT(result.out, Contains(file));
   const auto run = run_with_saved(folder.path(), folder / "out");
   INFO(run.err);
   REQUIRE(run.code == 0);
-  CHECK(json::parse(read_text(folder / "out/report.json"))["variants"]["edges"] == stage["best"]);
+  CHECK(json::parse(read_text(folder / "out/report.json"))["variants"]["edge_detection"] == stage["best"]);
 }
 
-TEST_CASE("compare: run takes saved variants, and the command line and --config win over them", "[cli][bench][device]") {
+TEST_CASE("compare: run takes saved variants, and the command line and --config win over them",
+          "[cli][bench][device]") {
   const TemporaryFolder folder;
   const Device device;
   bench::write_variants_file(folder / ("quadedge/" + bench::variants_file_name(device.info())), device.info(),
-                             {{"edges", "tile64"}, {"sift", "cells"}, {"patches", "lanes"}});
+                             {{"edge_detection", "tile64"}, {"sift", "cells"}, {"patches", "lanes"}});
   std::ofstream(folder / "config.toml") << "variant = [\"sift=edge\"]\n";
   const auto variants = [&](const std::string& name, const std::vector<std::string>& more) {
     const auto run = run_with_saved(folder.path(), folder / name, more);
@@ -97,13 +104,13 @@ TEST_CASE("compare: run takes saved variants, and the command line and --config 
     return json::parse(read_text(folder / (name + "/report.json")))["variants"];
   };
   auto found = variants("saved", {});
-  CHECK(found["edges"] == "tile64");
+  CHECK(found["edge_detection"] == "tile64");
   CHECK(found["sift"] == "cells");
   CHECK(found["patches"] == "lanes");
-  CHECK(variants("typed", {"--variant", "edges=strip"})["edges"] == "strip");
+  CHECK(variants("typed", {"--variant", "edge_detection=strip"})["edge_detection"] == "strip");
   found = variants("configured", {"--config", folder / "config.toml"});
   CHECK(found["sift"] == "edge");
-  CHECK(found["edges"] == "tile64");
+  CHECK(found["edge_detection"] == "tile64");
 }
 
 TEST_CASE("compare: run refuses a wrong or foreign file of variants by name", "[cli][bench][device]") {
@@ -121,13 +128,14 @@ TEST_CASE("compare: run refuses a wrong or foreign file of variants by name", "[
   refused("no JSON", "no file of kernel variants");
   json good = {{"content", "quadedge kernel variants"},
                {"schema", 1},
-               {"device", {{"name", device.info().name}, {"platform", device.info().platform}, {"driver", device.info().driver}}},
-               {"variants", {{"edges", "tile64"}}}};
+               {"device",
+                {{"name", device.info().name}, {"platform", device.info().platform}, {"driver", device.info().driver}}},
+               {"variants", {{"edge_detection", "tile64"}}}};
   json changed = good;
   changed["device"]["name"] = "another device";
   refused(changed.dump(), "another device");
   changed = good;
-  changed["variants"]["edges"] = "no such variant";
+  changed["variants"]["edge_detection"] = "no such variant";
   refused(changed.dump(), "no such variant");
   changed = good;
   changed["content"] = "something else";
@@ -143,7 +151,7 @@ TEST_CASE("compare: files of variants come back as they were written, and a miss
   const std::string path = folder / ("new/" + bench::variants_file_name(device));
   CHECK(bench::variants_file_name(device) == "variants-Device-R-1.json");
   CHECK(bench::read_variants_file(path, device).empty());
-  const std::map<std::string, std::string> variants = {{"edges", "tile64"}, {"sift", "edge"}};
+  const std::map<std::string, std::string> variants = {{"edge_detection", "tile64"}, {"sift", "edge"}};
   bench::write_variants_file(path, device, variants);
   CHECK(bench::read_variants_file(path, device) == variants);
   DeviceInfo other = device;
@@ -184,7 +192,8 @@ TEST_CASE("compare: the best variant agrees and is clearly faster than the defau
     return result;
   };
   bench::StageResult stage;
-  stage.variants = {variant("default", true, true, 1), variant("same", false, true, 0.98), variant("wrong", false, false, 0.1)};
+  stage.variants = {variant("default", true, true, 1), variant("same", false, true, 0.98),
+                    variant("wrong", false, false, 0.1)};
   CHECK(stage.best() == "default");
   stage.variants.push_back(variant("fast", false, true, 0.8));
   stage.variants.push_back(variant("faster", false, true, 0.7));

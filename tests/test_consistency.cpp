@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <random>
 
 #include "evaluation/consistency.hpp"
@@ -19,9 +18,11 @@ struct Run {
     std::mt19937_64 random(5);
     std::normal_distribution<double> normal;
     const Matrix6d root = real.llt().matrixL();
-    const Eigen::Isometry3d world = Eigen::Translation3d(4, 5, 6) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+    const Eigen::Isometry3d world =
+        Eigen::Translation3d(4, 5, 6) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
     for (int i = 0; i < frames; ++i) {
-      const Eigen::Isometry3d pose = Eigen::Translation3d(0.1 * i, 0, 1) * Eigen::AngleAxisd(0.02 * i, Eigen::Vector3d::UnitY());
+      const Eigen::Isometry3d pose =
+          Eigen::Translation3d(0.1 * i, 0, 1) * Eigen::AngleAxisd(0.02 * i, Eigen::Vector3d::UnitY());
       truth.push_back({50'000'000LL * i, world * pose});
       FrameResult result;
       result.stamp_ns = truth.back().stamp_ns;
@@ -52,7 +53,7 @@ TEST_CASE("consistency: honest covariances give 1, those of half the size 4", "[
   const Run honest(2000, covariance(), covariance());
   const auto one = evaluation::judge_covariances(honest.results, honest.truth);
   CHECK(one.poses == 1999);
-  CHECK(one.pose == Approx(1).margin(0.05));         // standard deviation of the mean: 0.013
+  CHECK(one.pose == Approx(1).margin(0.05));  // standard deviation of the mean: 0.013
   CHECK(one.rotation == Approx(1).margin(0.08));
   CHECK(one.translation == Approx(1).margin(0.08));
   const Run boasting(2000, covariance(), 0.25 * covariance());

@@ -8,7 +8,8 @@ using namespace quadedge::pose;
 namespace {
 
 OrientedPair moved(const OrientedPair& pair, const Eigen::Isometry3d& m) {
-  return {{m * pair.first.point, m.linear() * pair.first.tangent}, {m * pair.second.point, m.linear() * pair.second.tangent}};
+  return {{m * pair.first.point, m.linear() * pair.first.tangent},
+          {m * pair.second.point, m.linear() * pair.second.tangent}};
 }
 
 Eigen::Vector3d unit(double x, double y, double z) { return Eigen::Vector3d(x, y, z).normalized(); }
@@ -23,9 +24,11 @@ const ConstraintLimits kLimits{quadedge::PoseConfig{}};
 TEST_CASE("A rigidly moved pair passes all six constraints", "[pose][constraints]") {
   generated::Random random(6);
   for (int trial = 0; trial < 200; ++trial) {
-    const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()}, {random.uniform(1, 9) * random.unit(), random.unit()}};
+    const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()},
+                            {random.uniform(1, 9) * random.unit(), random.unit()}};
     const ConstraintCheck check = check_constraints(pair, moved(pair, random.motion(3.0, 5.0)), kLimits);
-    for (std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{5}}) CHECK(check.passed[i]);
+    for (std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{5}})
+      CHECK(check.passed[i]);
   }
   CHECK(check_constraints(example(), moved(example(), random.motion(3.0, 5.0)), kLimits).all());
 }
@@ -59,7 +62,8 @@ TEST_CASE("Each constraint fails alone, on its own side of its threshold", "[pos
   // T2 turned about D: only its angle with T1 changes.
   after = before;
   after.second.tangent = Eigen::AngleAxisd(-0.45, Eigen::Vector3d::UnitX()) * before.second.tangent;
-  CHECK(std::abs(after.first.tangent.dot(after.second.tangent) - before.first.tangent.dot(before.second.tangent)) > 0.32);
+  CHECK(std::abs(after.first.tangent.dot(after.second.tangent) - before.first.tangent.dot(before.second.tangent)) >
+        0.32);
   only_fails(after, 3);
 }
 
@@ -90,7 +94,8 @@ TEST_CASE("A flipped tangent fails the signed constraints", "[pose][constraints]
   CHECK_FALSE(check.passed[3]);
 }
 
-TEST_CASE("The quads swap roles where D runs along the first tangent, and fail where it runs along both", "[pose][constraints]") {
+TEST_CASE("The quads swap roles where D runs along the first tangent, and fail where it runs along both",
+          "[pose][constraints]") {
   OrientedPair pair = example();
   CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
   pair.first.tangent = unit(1, std::tan(13.0 * 3.14159265358979323846 / 180), 0);

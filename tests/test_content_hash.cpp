@@ -42,7 +42,10 @@ TEST_CASE("content hash: place and time of a recording do not count", "[data]") 
 TEST_CASE("content hash: every part of a recording that a run reads counts", "[data]") {
   const std::vector<std::pair<std::string, std::function<void(const std::string&)>>> changes = {
       {"camera", [](const std::string& room) { write_text(room + "/calibration2.txt", "42 43 14 12.5\n"); }},
-      {"extrinsics", [](const std::string& room) { write_text(room + "/extrinsics_1_2.txt", "1 0 0 -0.08\n0 1 0 0\n0 0 1 0.001\n"); }},
+      {"extrinsics",
+       [](const std::string& room) {
+         write_text(room + "/extrinsics_1_2.txt", "1 0 0 -0.08\n0 1 0 0\n0 0 1 0.001\n");
+       }},
       {"truth", [](const std::string& room) { write_text(room + "/groundtruth.txt", "12.025000001 1 0 0 0 0 0 1\n"); }},
       {"one pixel of one image",
        [](const std::string& room) {
@@ -50,7 +53,8 @@ TEST_CASE("content hash: every part of a recording that a run reads counts", "[d
          image.ptr(20)[50] ^= 1;
          cv::imwrite(room + "/rgb2/12.225000001.png", image);
        }},
-      {"images exchanged", [](const std::string& room) {
+      {"images exchanged",
+       [](const std::string& room) {
          fs::rename(room + "/rgb/12.025000001.png", room + "/rgb/spare.png");
          fs::copy(room + "/rgb2/12.125000001.png", room + "/rgb/12.025000001.png");
          fs::remove(room + "/rgb/spare.png");

@@ -66,11 +66,11 @@ TEST_CASE("Pooled cues add up and remember all thresholds", "[matching]") {
 
 TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   EdgeSet left, right;
-  add_edge(left, 30, 10);                  // true place (20, 10)
-  add_edge(left, 70, 40);                  // unpaired: nothing near (60, 40)
+  add_edge(left, 30, 10);                          // true place (20, 10)
+  add_edge(left, 70, 40);                          // unpaired: nothing near (60, 40)
   add_edge(right, 20.4F, 10.22F, kSteep + 0.05F);  // 0: veridical for 0
-  add_edge(right, 15, 10, kSteep - 0.3F);         // 1: on its line, 5 px off
-  add_edge(right, 50, 14);                        // 2: 4 px from its line
+  add_edge(right, 15, 10, kSteep - 0.3F);          // 1: on its line, 5 px off
+  add_edge(right, 50, 14);                         // 2: 4 px from its line
   Config config;
   config.stereo.max_disparity = 30;
   MatchingObserver observer(small_rig(), config, {}, true);
@@ -91,7 +91,8 @@ TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   const auto& line = *find_cue(measured.cues, CueTable::stereo, 1);
   CHECK(line.veridical.total() == 1);
   CHECK(in_bin(line.veridical, 0.22) == 1);
-  // The drawn pairs of edge 0: right edge 1 lies on the line, right edge 2 four pixels off; the veridical one is not among them.
+  // The drawn pairs of edge 0: right edge 1 lies on the line, right edge 2 four pixels off; the veridical one is not
+  // among them.
   CHECK(line.other.total() > kDrawnOthers / 3);
   CHECK(line.other.total() < kDrawnOthers);
   CHECK(in_bin(line.other, 0.01) + in_bin(line.other, 4.01) == line.other.total());
@@ -158,7 +159,8 @@ TEST_CASE("The measured values of the constraints decide as the constraints do",
   }
 }
 
-TEST_CASE("Pairs of true quads give the true motion, and wrong ones lower the precision and the accuracy", "[matching]") {
+TEST_CASE("Pairs of true quads give the true motion, and wrong ones lower the precision and the accuracy",
+          "[matching]") {
   std::mt19937 random(3);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = Eigen::AngleAxisd(0.05, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();

@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
@@ -166,11 +165,11 @@ TEST_CASE("dataset: a check lists everything that is wrong, not only the first t
   write_text(kitti + "/calib.txt", "P0: nonsense\n");
   write_text(folder / "poses/07.txt", "1 0 0\n");
   const DatasetCheck check = check_dataset(kitti);
-  for (const char* part : {"image_1/000001.png", "image_0/000000.png", "image_1: found 3 images", "calib.txt:1", "07.txt:1"}) {
+  for (const char* part :
+       {"image_1/000001.png", "image_0/000000.png", "image_1: found 3 images", "calib.txt:1", "07.txt:1"}) {
     INFO(part);
-    CHECK(std::count_if(check.errors.begin(), check.errors.end(), [&](const std::string& error) {
-            return error.find(part) != std::string::npos;
-          }) >= 1);
+    CHECK(std::count_if(check.errors.begin(), check.errors.end(),
+                        [&](const std::string& error) { return error.find(part) != std::string::npos; }) >= 1);
   }
 }
 

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <opencv2/imgproc.hpp>
 
 #include "dataset_files.hpp"

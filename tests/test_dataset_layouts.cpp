@@ -145,8 +145,9 @@ TEST_CASE("dataset: still pairs and the quad are recognised by their file names"
   CHECK(nominal.rig.baseline() == Approx(0.06));
   REQUIRE(nominal.notes.size() == 1);
   CHECK_THAT(nominal.notes[0], Contains("nominal"));
-  const std::string calibration = "cam0=[50 0 20; 0 51 15; 0 0 1]\ncam1=[50 0 23.5; 0 51 15; 0 0 1]\ndoffs=3.5\nbaseline=60\n"
-                                  "width=710\nheight=40\nndisp=64\n";
+  const std::string calibration =
+      "cam0=[50 0 20; 0 51 15; 0 0 1]\ncam1=[50 0 23.5; 0 51 15; 0 0 1]\ndoffs=3.5\nbaseline=60\n"
+      "width=710\nheight=40\nndisp=64\n";
   write_text(folder / "a/two_view_training/s/calib.txt", calibration);
   write_text(folder / "a/two_view_training_gt/s/disp0GT.pfm", "Pf");
   const Dataset calibrated = open_dataset(folder / "a/two_view_training/s/");
@@ -163,7 +164,8 @@ TEST_CASE("dataset: still pairs and the quad are recognised by their file names"
   CHECK(middlebury.rig.baseline() == Approx(0.06));
   CHECK(middlebury.max_disparity == Approx(67.5));
 
-  for (const char* name : {"Art/view1.png", "Art/view5.png", "Aloe/view1.png", "Aloe/view5.png"}) write_image(folder / name, 463, 370);
+  for (const char* name : {"Art/view1.png", "Art/view5.png", "Aloe/view1.png", "Aloe/view5.png"})
+    write_image(folder / name, 463, 370);
   write_text(folder / "Art/dmin.txt", "200\r\n");
   const Dataset art = open_dataset(folder / "Art");
   CHECK(art.format == "middlebury-2005");

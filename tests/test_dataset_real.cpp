@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -28,8 +27,9 @@ cv::Mat grey(const std::string& file, const UndistortionTable& table) {
   return pixels;
 }
 
-/// Corners searched in a band of rows of the right image by plain correlation, then triangulated with the rig: the share of
-/// the found ones that lie before both cameras and within 1.5 px of where the rig projects them, and how many there are.
+/// Corners searched in a band of rows of the right image by plain correlation, then triangulated with the rig: the
+/// share of the found ones that lie before both cameras and within 1.5 px of where the rig projects them, and how many
+/// there are.
 struct RigTest {
   double share = 0;
   int tracked = 0;
@@ -46,9 +46,11 @@ RigTest test_rig(const Dataset& set, std::size_t frame) {
   const Eigen::Isometry3d& right_from_left = set.rig.right_from_left;
   for (const auto& corner : from) {
     constexpr int kHalf = 7, kBand = 24;
-    const cv::Rect patch(static_cast<int>(corner.x) - kHalf, static_cast<int>(corner.y) - kHalf, 2 * kHalf + 1, 2 * kHalf + 1);
+    const cv::Rect patch(static_cast<int>(corner.x) - kHalf, static_cast<int>(corner.y) - kHalf, 2 * kHalf + 1,
+                         2 * kHalf + 1);
     if ((patch & cv::Rect(0, 0, left.cols, left.rows)) != patch) continue;
-    const cv::Rect band = cv::Rect(0, patch.y - kBand, right.cols, patch.height + 2 * kBand) & cv::Rect(0, 0, right.cols, right.rows);
+    const cv::Rect band =
+        cv::Rect(0, patch.y - kBand, right.cols, patch.height + 2 * kBand) & cv::Rect(0, 0, right.cols, right.rows);
     cv::Mat score;
     cv::matchTemplate(right(band), left(patch), score, cv::TM_CCOEFF_NORMED);
     double best = 0;
@@ -85,7 +87,8 @@ TEST_CASE("real data: KITTI has the published frames, rig and step lengths", "[d
   CHECK(set.rig.baseline() == Approx(0.5372).epsilon(1e-3));
   CHECK(set.max_disparity > 100);
   REQUIRE(set.truth.size() == 36);
-  const double length = (set.truth[35].world_from_left.translation() - set.truth[0].world_from_left.translation()).norm() / 35;
+  const double length =
+      (set.truth[35].world_from_left.translation() - set.truth[0].world_from_left.translation()).norm() / 35;
   CHECK(length == Approx(1.19).margin(0.01));
   CHECK(check_dataset(root, options).errors.empty());
   options.sequence = "01";
@@ -97,7 +100,8 @@ TEST_CASE("real data: KITTI has the published frames, rig and step lengths", "[d
 }
 
 TEST_CASE("real data: EuRoC stands still and its undistorted images fit the rig", "[dataset][real]") {
-  for (const auto& [name, frames] : {std::pair<const char*, std::size_t>{"euroc_v1_01_easy_at_rest", 40}, {"euroc_v1_01_easy_keyframes", 86}}) {
+  for (const auto& [name, frames] :
+       {std::pair<const char*, std::size_t>{"euroc_v1_01_easy_at_rest", 40}, {"euroc_v1_01_easy_keyframes", 86}}) {
     const std::string root = real_data(name);
     if (root.empty()) return;
     INFO(name);
@@ -147,8 +151,9 @@ TEST_CASE("real data: every still pair opens, and its rig puts matches before th
 }
 
 TEST_CASE("real data: disparity truth is positive and within the reader's range", "[dataset][real]") {
-  for (const char* folder : {"eth3d_two_view/two_view_training/terrace_2s", "middlebury_2014/Motorcycle-perfect-quarter",
-                             "middlebury_2005/Art", "middlebury_2005/Reindeer", "middlebury_2003/teddy", "middlebury_2006/Aloe"}) {
+  for (const char* folder :
+       {"eth3d_two_view/two_view_training/terrace_2s", "middlebury_2014/Motorcycle-perfect-quarter",
+        "middlebury_2005/Art", "middlebury_2005/Reindeer", "middlebury_2003/teddy", "middlebury_2006/Aloe"}) {
     const std::string root = real_data(folder);
     if (root.empty()) return;
     INFO(folder);
@@ -167,7 +172,8 @@ TEST_CASE("real data: disparity truth is positive and within the reader's range"
     REQUIRE(disparities.size() > 10'000);
     const auto [smallest, largest] = std::minmax_element(disparities.begin(), disparities.end());
     const double offset = set.rig.right.cx - set.rig.left.cx;
-    UNSCOPED_INFO("disparities " << *smallest << " to " << *largest << ", range " << set.max_disparity << ", offset " << offset);
+    UNSCOPED_INFO("disparities " << *smallest << " to " << *largest << ", range " << set.max_disparity << ", offset "
+                                 << offset);
     CHECK(*smallest + offset > 0);
     CHECK(*largest + offset <= set.max_disparity);
     CHECK(*largest + offset > 0.2 * set.max_disparity);  // the range is not absurdly wide either

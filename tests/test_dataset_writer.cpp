@@ -37,7 +37,8 @@ TEST_CASE("dataset: a rendered sequence comes back from disk as it was written",
     const auto& files = set.frames[static_cast<std::size_t>(i)];
     CHECK(files.stamp_ns == sequence.stamp_ns(i));
     CHECK((set.truth[static_cast<std::size_t>(i)].world_from_left.matrix() - sequence.world_from_left(i).matrix())
-              .cwiseAbs().maxCoeff() < 1e-14);
+              .cwiseAbs()
+              .maxCoeff() < 1e-14);
     const RenderedView left = sequence.render(i, false), right = sequence.render(i, true);
     CHECK(read_grey_image(files.left).pixels == left.image.pixels);
     CHECK(read_grey_image(files.right).pixels == right.image.pixels);

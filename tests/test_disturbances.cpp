@@ -1,4 +1,5 @@
-/// \file test_disturbances.cpp  Rendered sequences with light changes, blur, noise and a moving board, and what the odometry makes of them.
+/// \file test_disturbances.cpp  Rendered sequences with light changes, blur, noise and a moving board, and what the
+/// odometry makes of them.
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -64,8 +65,10 @@ Tracked track(const SyntheticOptions& options, Device& device) {
     const auto result = odometry.track({sequence.stamp_ns(i), left.view(), right.view()});
     stamps.push_back(sequence.stamp_ns(i));
     truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
-    if (is_tracked(result.status)) estimate.push_back({sequence.stamp_ns(i), result.world_from_left});
-    else ++tracked.lost;
+    if (is_tracked(result.status))
+      estimate.push_back({sequence.stamp_ns(i), result.world_from_left});
+    else
+      ++tracked.lost;
   }
   tracked.steps = evaluation::judge_steps(estimate, truth, stamps, {5e-3, 0.1, 0.25});
   return tracked;
@@ -102,7 +105,9 @@ TEST_CASE("disturbances: blur smooths along the motion and moves nothing", "[syn
     double places[3] = {0, 0, 0};
     for (int y = 0; y < options.height; ++y) {
       for (int x = 1; x + 1 < options.width; ++x) {
-        const auto at = [&](const Image& image, int column) { return static_cast<double>(image.pixels[static_cast<std::size_t>(y * options.width + column)]); };
+        const auto at = [&](const Image& image, int column) {
+          return static_cast<double>(image.pixels[static_cast<std::size_t>(y * options.width + column)]);
+        };
         for (int k = 0; k < 3; ++k) places[k] += std::pow(at(blurred.image, x) - at(sharp.image, x + k - 1), 2);
       }
     }
@@ -149,10 +154,11 @@ TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][devi
     double gain, right_gain, blur, noise, mover;
     int most_lost;  ///< of the four frames, in the room
   };
-  for (const Case& c : {Case{"half the light", 0.5, 1, 0, 1.5, 0, 0}, Case{"twice the light", 2, 1, 0, 1.5, 0, 0},
-                        Case{"right camera half exposed", 1, 0.5, 0, 1.5, 0, 0}, Case{"right camera twice exposed", 1, 2, 0, 1.5, 0, 0},
-                        Case{"blur of 5 px", 1, 1, 5, 1.5, 0, 0}, Case{"noise of 8 grey levels", 1, 1, 0, 8, 0, 0},
-                        Case{"a moving board over 30 %", 1, 1, 0, 1.5, 0.3, 0}}) {
+  for (const Case& c :
+       {Case{"half the light", 0.5, 1, 0, 1.5, 0, 0}, Case{"twice the light", 2, 1, 0, 1.5, 0, 0},
+        Case{"right camera half exposed", 1, 0.5, 0, 1.5, 0, 0}, Case{"right camera twice exposed", 1, 2, 0, 1.5, 0, 0},
+        Case{"blur of 5 px", 1, 1, 5, 1.5, 0, 0}, Case{"noise of 8 grey levels", 1, 1, 0, 8, 0, 0},
+        Case{"a moving board over 30 %", 1, 1, 0, 1.5, 0.3, 0}}) {
     for (const char* scene : {"room", "cables"}) {
       SyntheticOptions options = small_scene(scene);
       options.gain = c.gain;
@@ -162,7 +168,8 @@ TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][devi
       options.mover = c.mover;
       options.frames = 4;
       options.supersampling = 2;
-      if (c.mover > 0) {  // most edges are the board's at this size; on still smaller images too few of the cables' are told apart
+      if (c.mover > 0) {  // most edges are the board's at this size; on still smaller images too few of the cables' are
+                          // told apart
         const SyntheticOptions full;
         options.width = 640;
         options.height = 332;
@@ -170,7 +177,8 @@ TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][devi
         options.baseline = full.baseline;
       }
       const Tracked tracked = track(options, device);
-      INFO(scene << ", " << c.name << ": " << tracked.steps.right << " right, " << tracked.steps.wrong << " wrong, " << tracked.steps.lost << " lost");
+      INFO(scene << ", " << c.name << ": " << tracked.steps.right << " right, " << tracked.steps.wrong << " wrong, "
+                 << tracked.steps.lost << " lost");
       CHECK(tracked.steps.wrong == 0);
       if (std::string(scene) == "room") CHECK(tracked.lost <= c.most_lost);
     }

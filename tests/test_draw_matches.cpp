@@ -21,7 +21,8 @@ DrawnFrame small_frame() {
   DrawnFrame frame;
   frame.left = Image(kWidth, kHeight);
   frame.right = Image(kWidth, kHeight);
-  for (auto* image : {&frame.left, &frame.right}) std::fill(image->pixels.begin(), image->pixels.end(), static_cast<std::uint8_t>(100));
+  for (auto* image : {&frame.left, &frame.right})
+    std::fill(image->pixels.begin(), image->pixels.end(), static_cast<std::uint8_t>(100));
   const auto add = [&](float left_x, float y, float right_x, float true_x, MatchClass kind) {
     frame.matches.push_back({left_x, y, 1.5F, right_x, y, 1.5F, true_x, y, kind});
   };
@@ -68,14 +69,15 @@ TEST_CASE("Inaccurate and wrong matches are linked to their true place in the ri
   const auto match = at(picture, 150, 30, false);
   CHECK(colourfulness(match) > 100);
   CHECK(difference(match, at(picture, 100, 30, true)) < 10);
-  CHECK(colourfulness(at(picture, 120, 30, true)) > 50);   // on the way from 100 to 140
+  CHECK(colourfulness(at(picture, 120, 30, true)) > 50);  // on the way from 100 to 140
   CHECK(colourfulness(at(picture, 120, 30, false)) == 0);
   CHECK(colourfulness(at(picture, 60, 20, false)) == 0);
 }
 
 TEST_CASE("Coloured by class, every class has the same colour in both views and differs from the others", "[report]") {
   const cv::Mat picture = draw_all_matches(small_frame(), "paper", 1, 10);
-  const auto correct = at(picture, 60, 20, false), inaccurate = at(picture, 120, 60, false), wrong = at(picture, 150, 30, false);
+  const auto correct = at(picture, 60, 20, false), inaccurate = at(picture, 120, 60, false),
+             wrong = at(picture, 150, 30, false);
   CHECK(difference(correct, at(picture, 90, 40, false)) < 20);
   CHECK(difference(correct, at(picture, 80.5, 40, true)) < 20);
   CHECK(difference(inaccurate, at(picture, 105, 60, true)) < 20);
@@ -105,7 +107,8 @@ TEST_CASE("Pictures are made as small as a page can bear", "[report]") {
   cv::Mat noise(400, 600, CV_8UC3);
   std::mt19937 random(1);
   for (auto it = noise.begin<cv::Vec3b>(); it != noise.end<cv::Vec3b>(); ++it) {
-    *it = {static_cast<unsigned char>(random()), static_cast<unsigned char>(random()), static_cast<unsigned char>(random())};
+    *it = {static_cast<unsigned char>(random()), static_cast<unsigned char>(random()),
+           static_cast<unsigned char>(random())};
   }
   const auto generous = encode_jpeg(noise, 10'000'000), tight = encode_jpeg(noise, 30'000);
   CHECK(cv::imdecode(generous, cv::IMREAD_COLOR).cols == 600);
@@ -122,9 +125,11 @@ TEST_CASE("Drawings become files, one per class that occurs, and names that repe
   blind.name = "nothing drawn";
   write_match_drawings(folder / "new", {result, blind, result}, {});
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "new")) names.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "new"))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
-  CHECK(names == std::vector<std::string>{"a_b_c_2_all.png", "a_b_c_2_correct.png", "a_b_c_2_inaccurate.png", "a_b_c_2_wrong.png",
-                                          "a_b_c_all.png", "a_b_c_correct.png", "a_b_c_inaccurate.png", "a_b_c_wrong.png"});
+  CHECK(names == std::vector<std::string>{"a_b_c_2_all.png", "a_b_c_2_correct.png", "a_b_c_2_inaccurate.png",
+                                          "a_b_c_2_wrong.png", "a_b_c_all.png", "a_b_c_correct.png",
+                                          "a_b_c_inaccurate.png", "a_b_c_wrong.png"});
   CHECK(cv::imread(folder / "new/a_b_c_all.png").cols == 2 * kWidth * kScale + 6);
 }

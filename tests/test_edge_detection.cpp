@@ -9,7 +9,8 @@
 #include "edge_images.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
-#include "reference/edges.hpp"
+#include "reference/edge_detection.hpp"
+#include "reference/edge_thinning.hpp"
 #include "stages/edge_detection.hpp"
 
 using namespace quadedge;
@@ -22,7 +23,7 @@ struct Detection {
 };
 
 Detection detect(Device& device, const std::string& variant, const Image& image, const EdgesConfig& config) {
-  stages::EdgeDetection stage(*device.context(), image.width, image.height, config, {{"edges", variant}});
+  stages::EdgeDetection stage(*device.context(), image.width, image.height, config, {{"edge_detection", variant}});
   opencl::Buffer<cl_uchar> pixels;
   pixels.write(*device.context(), image.pixels);
   stages::DeviceEdges edges;
@@ -35,7 +36,7 @@ void for_each_variant(const std::function<void(Device&, const std::string&)>& vi
   for (const auto& index : all_devices()) {
     Device device(index);
     for (const auto& variant : opencl::all_variants()) {
-      if (variant.stage == "edges") visit(device, variant.name);
+      if (variant.stage == "edge_detection") visit(device, variant.name);
     }
   }
 }
@@ -48,18 +49,22 @@ EdgesConfig small_capacity(int margin = 10) {
 }
 
 bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
-  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength && a.row_first == b.row_first;
+  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
+         a.row_first == b.row_first;
 }
 
-/// Whether one of the decisions about a cell hangs on the last digits: the threshold or either side of the maximum test.
+/// Whether one of the decisions about a cell hangs on the last digits: the threshold or either side of the maximum
+/// test.
 bool undecided(const reference::GradientField& field, int cell_x, int cell_y, const EdgesConfig& config) {
   const double m = field.magnitude(cell_x, cell_y), rounding = 2e-5 * m + 1e-5;
   if (m < config.threshold - rounding) return false;
   const reference::Probe probe = reference::probe_maximum(field, cell_x, cell_y);
-  return std::abs(m - config.threshold) < rounding || std::abs(m - probe.ahead) < rounding || std::abs(m - probe.behind) < rounding;
+  return std::abs(m - config.threshold) < rounding || std::abs(m - probe.ahead) < rounding ||
+         std::abs(m - probe.behind) < rounding;
 }
 
-/// SPEC section 1: 99.9 % within 0.01 px and 0.1 degrees; nothing missing or extra that rounding does not explain.
+/// doc/method.md section 1: 99.9 % within 0.01 px and 0.1 degrees; nothing missing or extra that rounding does not
+/// explain.
 void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config) {
   const reference::ReferenceEdges truth = reference::detect_edges(image.view(), config);
   const reference::GradientField field = reference::gradient_field(image.view(), config);
@@ -71,12 +76,14 @@ void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config
     const auto r = static_cast<std::size_t>(row);
     REQUIRE(found.row_first[r] <= found.row_first[r + 1]);
     auto i = static_cast<std::size_t>(truth.row_first[r]), j = static_cast<std::size_t>(found.row_first[r]);
-    const auto end_i = static_cast<std::size_t>(truth.row_first[r + 1]), end_j = static_cast<std::size_t>(found.row_first[r + 1]);
+    const auto end_i = static_cast<std::size_t>(truth.row_first[r + 1]),
+               end_j = static_cast<std::size_t>(found.row_first[r + 1]);
     while (i < end_i || j < end_j) {
       const double gap = i == end_i ? 1e9 : j == end_j ? -1e9 : truth.x[i] - static_cast<double>(found.x[j]);
       if (std::abs(gap) < 0.21) {
         const double distance = std::hypot(gap, truth.y[i] - static_cast<double>(found.y[j]));
-        const double turn = std::remainder(truth.direction[i] - static_cast<double>(found.direction[j]), 6.283185307179586);
+        const double turn =
+            std::remainder(truth.direction[i] - static_cast<double>(found.direction[j]), 6.283185307179586);
         if (distance > 0.01 || std::abs(turn) > 0.1 * 3.14159265358979 / 180.0) ++outside;
         REQUIRE(static_cast<double>(found.strength[j]) == Approx(truth.strength[i]).epsilon(1e-4));
         ++matched, ++i, ++j;
@@ -156,7 +163,8 @@ TEST_CASE("edge detection: directions at the cell, another scale and no Newton s
   });
 }
 
-TEST_CASE("edge detection: a full edge list is cut in scan order and says how many were cut", "[edges][device][oclgrind]") {
+TEST_CASE("edge detection: a full edge list is cut in scan order and says how many were cut",
+          "[edges][device][oclgrind]") {
   const Image image = textured_image(30, 26);
   for_each_variant([&](Device& device, const std::string& variant) {
     INFO(variant);
@@ -178,7 +186,8 @@ TEST_CASE("edge detection: a full edge list is cut in scan order and says how ma
   });
 }
 
-TEST_CASE("edge detection: thinning keeps exactly the edges that the reference rule keeps", "[edges][device][oclgrind]") {
+TEST_CASE("edge detection: thinning keeps exactly the edges that the reference rule keeps",
+          "[edges][device][oclgrind]") {
   const Image image = textured_image(30, 26);
   for_each_variant([&](Device& device, const std::string& variant) {
     INFO(variant);
@@ -189,7 +198,8 @@ TEST_CASE("edge detection: thinning keeps exactly the edges that the reference r
     EdgeSet expected;
     for (std::size_t row = 0; row + 1 < all.row_first.size(); ++row) {
       expected.row_first.push_back(static_cast<std::int32_t>(expected.size()));
-      for (auto i = static_cast<std::size_t>(all.row_first[row]); i < static_cast<std::size_t>(all.row_first[row + 1]); ++i) {
+      for (auto i = static_cast<std::size_t>(all.row_first[row]); i < static_cast<std::size_t>(all.row_first[row + 1]);
+           ++i) {
         if (!kept[i]) continue;
         expected.x.push_back(all.x[i]);
         expected.y.push_back(all.y[i]);
@@ -214,7 +224,7 @@ TEST_CASE("edge detection: one detector serves one image after the other", "[edg
     INFO(variant);
     const Image first = textured_image(96, 80, 1), second = textured_image(96, 80, 2);
     const EdgesConfig config = small_capacity();
-    stages::EdgeDetection stage(*device.context(), 96, 80, config, {{"edges", variant}});
+    stages::EdgeDetection stage(*device.context(), 96, 80, config, {{"edge_detection", variant}});
     opencl::Buffer<cl_uchar> first_pixels, second_pixels;
     first_pixels.write(*device.context(), first.pixels);
     second_pixels.write(*device.context(), second.pixels);

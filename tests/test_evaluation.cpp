@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "quadedge/error.hpp"
@@ -21,13 +20,14 @@ Trajectory curve(int count) {
   Trajectory trajectory;
   for (int i = 0; i < count; ++i) {
     const double t = 0.3 * i;
-    trajectory.push_back({50'000'000LL * i, Eigen::Translation3d(std::cos(t), std::sin(t), 0.1 * t * t) *
-                                                 turn(10 * t, {1, t, 2})});
+    trajectory.push_back(
+        {50'000'000LL * i, Eigen::Translation3d(std::cos(t), std::sin(t), 0.1 * t * t) * turn(10 * t, {1, t, 2})});
   }
   return trajectory;
 }
 
-Trajectory moved(Trajectory trajectory, const Eigen::Isometry3d& left, const Eigen::Isometry3d& right = Eigen::Isometry3d::Identity()) {
+Trajectory moved(Trajectory trajectory, const Eigen::Isometry3d& left,
+                 const Eigen::Isometry3d& right = Eigen::Isometry3d::Identity()) {
   for (auto& pose : trajectory) pose.world_from_left = left * pose.world_from_left * right;
   return trajectory;
 }
@@ -39,7 +39,8 @@ TEST_CASE("evaluation: another world frame costs nothing", "[evaluation]") {
   const Eigen::Isometry3d world = Eigen::Translation3d(5, -3, 2) * turn(70, {1, 1, 0});
   const TrajectoryEvaluation result = evaluate_trajectory(moved(truth, world), truth);
   for (const auto& errors : {result.origin_aligned, result.se3_aligned}) {
-    for (const auto& error : {errors.ape_rotation_deg, errors.ape_translation_m, errors.rpe_rotation_deg, errors.rpe_translation_m}) {
+    for (const auto& error :
+         {errors.ape_rotation_deg, errors.ape_translation_m, errors.rpe_rotation_deg, errors.rpe_translation_m}) {
       CHECK(error.max < 1e-10);
     }
   }
@@ -48,7 +49,8 @@ TEST_CASE("evaluation: another world frame costs nothing", "[evaluation]") {
 }
 
 TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
-  // Truth stands still but for steps of 1 m along x; the estimate makes steps of 1.02 m and turns 0.5 degrees per step about x.
+  // Truth stands still but for steps of 1 m along x; the estimate makes steps of 1.02 m and turns 0.5 degrees per step
+  // about x.
   Trajectory truth, estimate;
   for (int i = 0; i < 5; ++i) {
     truth.push_back({i, Eigen::Isometry3d(Eigen::Translation3d(i, 0, 0))});
@@ -56,9 +58,9 @@ TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
   }
   const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth, 0, 0);
   const PoseErrors& errors = result.origin_aligned;
-  CHECK(errors.ape_translation_m.mean == Approx(0.04));                       // 0, 2, 4, 6, 8 cm
-  CHECK(errors.ape_translation_m.std == Approx(0.02 * std::sqrt(2.0)));       // over N: mean square deviation 2 units
-  CHECK(errors.ape_translation_m.rmse == Approx(0.02 * std::sqrt(6.0)));      // (0 + 1 + 4 + 9 + 16) / 5
+  CHECK(errors.ape_translation_m.mean == Approx(0.04));                   // 0, 2, 4, 6, 8 cm
+  CHECK(errors.ape_translation_m.std == Approx(0.02 * std::sqrt(2.0)));   // over N: mean square deviation 2 units
+  CHECK(errors.ape_translation_m.rmse == Approx(0.02 * std::sqrt(6.0)));  // (0 + 1 + 4 + 9 + 16) / 5
   CHECK(errors.ape_translation_m.max == Approx(0.08));
   CHECK(errors.ape_rotation_deg.max == Approx(2.0));
   CHECK(errors.rpe_translation_m.mean == Approx(0.02));
@@ -74,7 +76,8 @@ TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
 }
 
 TEST_CASE("evaluation: the SE(3) alignment spreads what the origin alignment accumulates", "[evaluation]") {
-  // Every pose but the first displaced: the origin alignment charges all the others, the least-squares one nearly nothing.
+  // Every pose but the first displaced: the origin alignment charges all the others, the least-squares one nearly
+  // nothing.
   const Trajectory truth = curve(30);
   Trajectory estimate = truth;
   estimate[0].world_from_left = Eigen::Translation3d(0.3, 0, 0) * estimate[0].world_from_left;
@@ -107,7 +110,9 @@ TEST_CASE("evaluation: poses are matched by the nearest stamp, each once", "[eva
   // Half of the truth: the rest of the estimate is not compared.
   CHECK(evaluate_trajectory(estimate, Trajectory(truth.begin(), truth.begin() + 10)).matched == 4);
   // Three poses within the tolerance of one truth pose.
-  const Trajectory close = {{0, truth[0].world_from_left}, {1'000'000, truth[1].world_from_left}, {2'000'000, truth[1].world_from_left},
+  const Trajectory close = {{0, truth[0].world_from_left},
+                            {1'000'000, truth[1].world_from_left},
+                            {2'000'000, truth[1].world_from_left},
                             {50'000'000, truth[1].world_from_left}};
   CHECK(evaluate_trajectory(close, truth).matched == 2);
 }
@@ -115,7 +120,8 @@ TEST_CASE("evaluation: poses are matched by the nearest stamp, each once", "[eva
 TEST_CASE("evaluation: from_frame leaves out the first poses of the estimate and aligns at the next", "[evaluation]") {
   const Trajectory truth = curve(20);
   Trajectory estimate = truth;
-  for (std::size_t i = 0; i < 10; ++i) estimate[i].world_from_left = Eigen::Translation3d(1, 0, 0) * estimate[i].world_from_left;
+  for (std::size_t i = 0; i < 10; ++i)
+    estimate[i].world_from_left = Eigen::Translation3d(1, 0, 0) * estimate[i].world_from_left;
   CHECK(evaluate_trajectory(estimate, truth).origin_aligned.ape_translation_m.max == Approx(1));
   const TrajectoryEvaluation late = evaluate_trajectory(estimate, truth, 10);
   CHECK(late.matched == 10);

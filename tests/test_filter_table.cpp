@@ -17,7 +17,7 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   add_edge(left, 90, 40);     // 3: unknown disparity
   add_edge(left, 60, 50, 0);  // 4: lies along its epipolar line
   add_edge(left, 5, 50);      // 5: its true place is outside the right image
-  add_edge(left, 70, 30);     // 6: its right edge is within a pixel of the true place, but too far from the epipolar line
+  add_edge(left, 70, 30);  // 6: its right edge is within a pixel of the true place, but too far from the epipolar line
   add_edge(right, 20.4F, 10);  // 0
   add_edge(right, 20.9F, 10);  // 1
   add_edge(right, 30, 20.3F);  // 2
@@ -27,7 +27,8 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   MatchingObserver observer(small_rig(), config, {});
   observer.begin(plane_truth());
   observer.edges(left, right);
-  // 0: two true candidates and a false one; 1: a true one; 2: a false one; 3, 4: candidates that must not count; 5: a false one.
+  // 0: two true candidates and a false one; 1: a true one; 2: a false one; 3, 4: candidates that must not count; 5: a
+  // false one.
   CandidateLists lists;
   lists.first = {0, 3, 4, 5, 6, 7, 8, 8};
   lists.target = {0, 1, 3, 2, 3, 0, 0, 2};
@@ -73,7 +74,8 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   CHECK(second.all.precision() == Approx(2.0 / 3));
 }
 
-TEST_CASE("The error of a final stereo edge is its distance from the true place, and the part of it across the edge", "[matching]") {
+TEST_CASE("The error of a final stereo edge is its distance from the true place, and the part of it across the edge",
+          "[matching]") {
   EdgeSet left, right;
   add_edge(left, 30, 10);
   add_edge(right, 20, 10);
@@ -130,7 +132,8 @@ FrameTruth plane_from(double x) {
 
 }  // namespace
 
-TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time that were worked out on paper", "[matching]") {
+TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time that were worked out on paper",
+          "[matching]") {
   // The rig moves by 0.05 m: everything shifts 5 px to the left in both images.
   StereoEdges before, now;
   add_stereo(before, 30, 10, 20);  // 0: goes to 0

@@ -28,9 +28,11 @@ TEST_CASE("find sequences: all layouts below a folder, and no still pairs", "[da
   write_image(folder / "data/two_view_training/forest/im0.png");
   write_image(folder / "data/two_view_training/forest/im1.png");
   write_image(folder / "data/.hidden/rgb2/1.png");
-  CHECK(names(data::find_sequences(folder / "data")) == std::vector<std::string>{"V1_01 euroc", "kitti_07 kitti", "cables_1 eth3d-slam"});
+  CHECK(names(data::find_sequences(folder / "data")) ==
+        std::vector<std::string>{"V1_01 euroc", "kitti_07 kitti", "cables_1 eth3d-slam"});
   // The folder itself may be a sequence, also with a slash behind it and when it is EuRoC's inner folder.
-  CHECK(names(data::find_sequences(folder / "data/slam/training/cables_1/")) == std::vector<std::string>{"cables_1 eth3d-slam"});
+  CHECK(names(data::find_sequences(folder / "data/slam/training/cables_1/")) ==
+        std::vector<std::string>{"cables_1 eth3d-slam"});
   CHECK(names(data::find_sequences(folder / "data/flights/V1 01/mav0")) == std::vector<std::string>{"V1_01 euroc"});
 }
 
@@ -61,7 +63,8 @@ TEST_CASE("find sequences: a list keeps its order and its bad lines", "[data]") 
   std::filesystem::create_directories(folder / "empty");
   write_text(folder / "list.txt", "# comment\nb\n\nabsent/folder  \nempty\n" + (folder / "kitti") + "\na\nb\n");
   const auto found = data::find_sequences(folder / "list.txt");
-  CHECK(names(found) == std::vector<std::string>{"b eth3d-slam", "folder ", "empty ", "kitti_07 kitti", "a eth3d-slam"});
+  CHECK(names(found) ==
+        std::vector<std::string>{"b eth3d-slam", "folder ", "empty ", "kitti_07 kitti", "a eth3d-slam"});
   CHECK(found[1].path == folder / "absent/folder");
 }
 

@@ -1,22 +1,24 @@
 #include <map>
 #include <set>
 
+#include "common/filter_names.hpp"
 #include "frontends.hpp"
 #include "quadedge/error.hpp"
-#include "stages/filter_names.hpp"
 
 using namespace quadedge;
 using namespace matching;
 
 namespace {
 
-/// A place in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all numbers.
+/// A place in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all
+/// numbers.
 using Key = std::pair<long, long>;
 Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
 
 /// Share of the rows of `a` that `b` holds too: left places (x, y) and right column u within 0.02 px.
 template <class Matches>
-double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const Matches& b_x, const Matches& b_y, const Matches& b_u) {
+double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const Matches& b_x, const Matches& b_y,
+              const Matches& b_u) {
   std::multimap<Key, std::size_t> rows;
   for (std::size_t i = 0; i < b_x.size(); ++i) rows.emplace(key(b_x[i], b_y[i]), i);
   std::size_t found = 0;
@@ -34,9 +36,10 @@ double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const 
   return a_x.empty() ? 1 : static_cast<double>(found) / static_cast<double>(a_x.size());
 }
 
-/// Device and reference see the same, but for what hangs on rounding: the reference works in double precision, places differ by up to
-/// 0.01 px in 99.9 % (SPEC section 1), and each of some twenty thresholds parts candidates that lie within that of it. Decisions
-/// between equals must not hang on rounding, so 0.5 % is ample in stereo; a quad needs two good stereo edges and their neighbours: 1 %.
+/// Device and reference see the same, but for what hangs on rounding: the reference works in double precision, places
+/// differ by up to 0.01 px in 99.9 % (doc/method.md section 1), and each of some twenty thresholds parts candidates
+/// that lie within that of it. Decisions between equals must not hang on rounding, so 0.5 % is ample in stereo; a quad
+/// needs two good stereo edges and their neighbours: 1 %.
 void compare(const FrontendResult& a, const FrontendResult& b) {
   const auto stereo = [](const StereoEdges& p, const StereoEdges& q) {
     return shared(p.left_x, p.left_y, p.right_x, q.left_x, q.left_y, q.right_x);
@@ -56,12 +59,12 @@ class Lists : public Tap {
  public:
   void edges(const EdgeSet&, const EdgeSet&) override { ++edge_calls; }
   void stereo_filter(int order, const std::string& name, const CandidateLists& lists) override {
-    CHECK(name == stages::kStereoFilters[static_cast<std::size_t>(order)]);
+    CHECK(name == kStereoFilters[static_cast<std::size_t>(order)]);
     stereo_lists[order] = lists;
   }
   void stereo(const StereoEdges& edges) override { stereo_edges = edges; }
   void temporal_filter(int order, const std::string& name, int side, const CandidateLists& lists) override {
-    CHECK(name == stages::kTemporalFilters[static_cast<std::size_t>(order)]);
+    CHECK(name == kTemporalFilters[static_cast<std::size_t>(order)]);
     temporal_lists[side][order] = lists;
   }
   void temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double radius, int step) override {
@@ -97,8 +100,10 @@ std::size_t check_subset(const CandidateLists& before, const CandidateLists& aft
   REQUIRE(before.first.size() == after.first.size());
   std::size_t strangers = 0;
   for (std::size_t row = 0; row + 1 < after.first.size(); ++row) {
-    const std::multiset<std::int32_t> known(before.target.begin() + before.first[row], before.target.begin() + before.first[row + 1]);
-    for (auto c = after.first[row]; c < after.first[row + 1]; ++c) strangers += known.count(after.target[static_cast<std::size_t>(c)]) == 0 ? 1 : 0;
+    const std::multiset<std::int32_t> known(before.target.begin() + before.first[row],
+                                            before.target.begin() + before.first[row + 1]);
+    for (auto c = after.first[row]; c < after.first[row + 1]; ++c)
+      strangers += known.count(after.target[static_cast<std::size_t>(c)]) == 0 ? 1 : 0;
   }
   CHECK(strangers == 0);
   return before.target.size() - after.target.size();
@@ -107,7 +112,8 @@ std::size_t check_subset(const CandidateLists& before, const CandidateLists& aft
 }  // namespace
 
 TEST_CASE("frontend: every device finds the reference's stereo edges and quads", "[frontend][matching][device]") {
-  for (const auto& scene : {RenderedScene("room", 320, 200, 2), RenderedScene("room", 161, 97, 2), RenderedScene("cables", 200, 125, 2)}) {
+  for (const auto& scene :
+       {RenderedScene("room", 320, 200, 2), RenderedScene("room", 161, 97, 2), RenderedScene("cables", 200, 125, 2)}) {
     const auto truth = run_frontend(scene, "reference");
     CHECK(truth.current.size() > 100);
     CHECK(truth.quads.size() > 50);
@@ -118,24 +124,30 @@ TEST_CASE("frontend: every device finds the reference's stereo edges and quads",
   }
 }
 
-TEST_CASE("frontend: found anywhere, edges are the reference's on every device, and where the motion brings them", "[frontend][matching][device]") {
+TEST_CASE("frontend: found anywhere, edges are the reference's on every device, and where the motion brings them",
+          "[frontend][matching][device]") {
   const RenderedScene scene("room", 240, 150, 2, 8);
   const auto find = [&](const std::string& device_name) {
     Device device(device_name);
-    const auto frontend = stages::make_frontend(scene.rig, device, scene.config);
+    const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
     frontend->process(scene.frame(0));
     frontend->keep(true);
     frontend->process(scene.frame(1));
-    const auto matches = frontend->match_anywhere(stages::Base::previous);
-    CHECK(same_bytes(matches, frontend->match_anywhere(stages::Base::key)));
-    const StereoEdges& before = frontend->base(stages::Base::previous);
+    const auto matches = frontend->match_anywhere(Base::previous);
+    CHECK(same_bytes(matches, frontend->match_anywhere(Base::key)));
+    const StereoEdges& before = frontend->base(Base::previous);
     std::size_t right = 0;
     for (std::size_t m = 0; m < matches.size(); ++m) {
       const auto i = static_cast<std::size_t>(matches.previous[m]);
       const Eigen::Vector3d ray = scene.rig.left.ray({before.left_x[i], before.left_y[i]});
-      const double depth = scene.rig.left.fx * scene.rig.baseline() / static_cast<double>(before.left_x[i] - before.right_x[i]);
-      const Eigen::Vector2d place = scene.rig.left.project(scene.world_from_left[1].inverse() * scene.world_from_left[0] * Eigen::Vector3d(depth * ray));
-      right += std::hypot(place.x() - static_cast<double>(matches.left_x[m]), place.y() - static_cast<double>(matches.left_y[m])) < 4 ? 1 : 0;
+      const double depth =
+          scene.rig.left.fx * scene.rig.baseline() / static_cast<double>(before.left_x[i] - before.right_x[i]);
+      const Eigen::Vector2d place = scene.rig.left.project(scene.world_from_left[1].inverse() *
+                                                           scene.world_from_left[0] * Eigen::Vector3d(depth * ray));
+      right += std::hypot(place.x() - static_cast<double>(matches.left_x[m]),
+                          place.y() - static_cast<double>(matches.left_y[m])) < 4
+                   ? 1
+                   : 0;
     }
     CHECK(matches.size() > 200);
     CHECK(right > matches.size() * 7 / 10);
@@ -150,7 +162,8 @@ TEST_CASE("frontend: found anywhere, edges are the reference's on every device, 
   }
 }
 
-TEST_CASE("frontend: every variant of every stage gives the default's bytes, and so does a second run", "[frontend][matching][device]") {
+TEST_CASE("frontend: every variant of every stage gives the default's bytes, and so does a second run",
+          "[frontend][matching][device]") {
   const RenderedScene scene("room", 161, 97, 2);
   for (const auto& device : all_devices()) {
     const auto expected = run_frontend(scene, device);
@@ -180,15 +193,19 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       REQUIRE(tap.stereo_lists.size() == 9);  // filters 1 to 9; 10 is the stereo edges
       CHECK(tap.stereo_lists[1].first.size() == seen.left_edges.size() + 1);
       std::size_t gone = 0;
-      for (int order = 2; order <= 7; ++order) gone += check_subset(tap.stereo_lists[order - 1], tap.stereo_lists[order]);
+      for (int order = 2; order <= 7; ++order)
+        gone += check_subset(tap.stereo_lists[order - 1], tap.stereo_lists[order]);
       CHECK(gone > 1000);
       check_subset(tap.stereo_lists[7], tap.stereo_lists[8]);  // anchors of clusters are candidates
       check_subset(tap.stereo_lists[8], tap.stereo_lists[9]);
       // The cue of a list is what the next filter judges.
       const Config& config = scene.config;
-      check_cue(tap.stereo_lists[3], tap.stereo_lists[4], [&](float sift) { return sift <= static_cast<float>(config.stereo.sift_max); });
-      check_cue(tap.stereo_lists[4], tap.stereo_lists[5], [&](float ncc) { return ncc >= static_cast<float>(config.stereo.ncc_min); });
-      check_cue(tap.stereo_lists[8], tap.stereo_lists[9], [&](float likeness) { return likeness >= static_cast<float>(config.stereo.refined_ncc_min); });
+      check_cue(tap.stereo_lists[3], tap.stereo_lists[4],
+                [&](float sift) { return sift <= static_cast<float>(config.stereo.sift_max); });
+      check_cue(tap.stereo_lists[4], tap.stereo_lists[5],
+                [&](float ncc) { return ncc >= static_cast<float>(config.stereo.ncc_min); });
+      check_cue(tap.stereo_lists[8], tap.stereo_lists[9],
+                [&](float likeness) { return likeness >= static_cast<float>(config.stereo.refined_ncc_min); });
       CHECK(tap.stereo_lists[5].cue.size() == tap.stereo_lists[5].target.size());
       CHECK(tap.stereo_lists[6].cue.size() == tap.stereo_lists[6].target.size());
       CHECK(tap.stereo_lists[7].cue.empty());
@@ -205,8 +222,10 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
         const auto row = static_cast<std::size_t>(seen.current.left_index[i]);
         const auto& lists = tap.stereo_lists[9];
         bool found = false;
-        for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]); ++c) {
-          found = found || (lists.target[c] == seen.current.right_index[i] && std::abs(lists.x[c] - seen.current.right_x[i]) < 1e-3f);
+        for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]);
+             ++c) {
+          found = found || (lists.target[c] == seen.current.right_index[i] &&
+                            std::abs(lists.x[c] - seen.current.right_x[i]) < 1e-3f);
         }
         if (!found) FAIL_CHECK("stereo edge " << i << " is no cluster of its row");
       }
@@ -214,7 +233,8 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       for (const int side : {0, 1}) {
         REQUIRE(tap.temporal_lists[side].size() == (side == 0 ? 7 : 6));  // the agreement is told for the left list
         CHECK(tap.temporal_lists[side][1].first.size() == rows + 1);
-        for (int order = 2; order <= (side == 0 ? 7 : 6); ++order) check_subset(tap.temporal_lists[side][order - 1], tap.temporal_lists[side][order]);
+        for (int order = 2; order <= (side == 0 ? 7 : 6); ++order)
+          check_subset(tap.temporal_lists[side][order - 1], tap.temporal_lists[side][order]);
       }
       for (std::size_t q = 0; q < seen.quads.size(); ++q) {  // a quad was alive in both lists
         CHECK(seen.quads.previous[q] % step == 0);
@@ -222,7 +242,8 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
         for (const int side : {0, 1}) {
           const auto& lists = tap.temporal_lists[side][6];
           const auto begin = lists.target.begin() + lists.first[row], end = lists.target.begin() + lists.first[row + 1];
-          if (std::find(begin, end, seen.quads.current[q]) == end) FAIL_CHECK("quad " << q << " is not in the lists of side " << side);
+          if (std::find(begin, end, seen.quads.current[q]) == end)
+            FAIL_CHECK("quad " << q << " is not in the lists of side " << side);
         }
       }
     }
@@ -235,9 +256,9 @@ TEST_CASE("frontend: unknown variants and missing limits are refused", "[fronten
     Device device(name);
     Config config = scene.config;
     config.variants["stereo_clusters"] = "no such variant";
-    CHECK_THROWS_AS(stages::make_frontend(scene.rig, device, config), UsageError);
+    CHECK_THROWS_AS(frontend::make_frontend(scene.rig, device, config), UsageError);
     config = scene.config;
     config.stereo.max_disparity = 0;
-    CHECK_THROWS_AS(stages::make_frontend(scene.rig, device, config), UsageError);
+    CHECK_THROWS_AS(frontend::make_frontend(scene.rig, device, config), UsageError);
   }
 }

@@ -76,11 +76,12 @@ TEST_CASE("On the rendered room most final stereo edges are true", "[matching][d
 }
 
 TEST_CASE("Ground truth that is wrong by two pixels leaves nearly nothing true", "[matching][device]") {
-  const auto wrong = last_row(ChangedRoom([](StereoRig&) {}, [](TrueFrame& frame) {
-    for (auto* map : {&frame.truth.left, &frame.truth.right}) {
-      for (auto& value : map->nearness) value += 2;
-    }
-  }));
+  const auto wrong = last_row(ChangedRoom([](StereoRig&) {},
+                                          [](TrueFrame& frame) {
+                                            for (auto* map : {&frame.truth.left, &frame.truth.right}) {
+                                              for (auto& value : map->nearness) value += 2;
+                                            }
+                                          }));
   CHECK(wrong.candidates > 5000);
   CHECK(wrong.precision() < 0.05);
 }
@@ -108,10 +109,11 @@ TEST_CASE("The reference has no filters to observe and says so", "[matching]") {
 
 TEST_CASE("evaluate matching prints all tables of a sequence and writes them as JSON", "[matching][device][cli]") {
   const TemporaryFolder folder;
-  const auto result =
-      run_program({"evaluate", "matching", small_sequence(), "--frames", "2", "--json", folder / "m.json", "--quiet", "--stereo.sift_max", "400"});
+  const auto result = run_program({"evaluate", "matching", small_sequence(), "--frames", "2", "--json",
+                                   folder / "m.json", "--quiet", "--stereo.sift_max", "400"});
   REQUIRE(result.code == 0);
-  for (const char* text : {"Table 1", "Table 2: in time, left", "Table 2: in time, right", "Table 3", "disparity error"}) {
+  for (const char* text :
+       {"Table 1", "Table 2: in time, left", "Table 2: in time, right", "Table 3", "disparity error"}) {
     CHECK(result.out.find(text) != std::string::npos);
   }
   const auto json = nlohmann::json::parse(read_text(folder / "m.json"));
@@ -139,7 +141,8 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
     const int order = cue["order"].get<int>();
     if (cue["table"] != "stereo" || order < 2) continue;
     INFO(cue["cue"]);
-    CHECK(total("veridical") + total("other") == pooled["stereo"][static_cast<std::size_t>(order - 1)]["kept"].get<long long>());
+    CHECK(total("veridical") + total("other") ==
+          pooled["stereo"][static_cast<std::size_t>(order - 1)]["kept"].get<long long>());
   }
   CHECK(cues.size() == 8 + 6 + 6 + 5);
   CHECK(pooled["stereo_edges"]["correct"].get<int>() > 10 * pooled["stereo_edges"]["inaccurate"].get<int>());
@@ -154,8 +157,9 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
 
 TEST_CASE("evaluate matching writes one page that needs nothing else, and drawings", "[matching][device][cli]") {
   const TemporaryFolder folder;
-  const auto result = run_program({"evaluate", "matching", small_sequence(), "room", "--size", "320x200", "--frames", "2", "--html",
-                                   folder / "m.html", "--draw", folder / "drawn", "--stereo.ncc_min", "0.55", "--quiet"});
+  const auto result =
+      run_program({"evaluate", "matching", small_sequence(), "room", "--size", "320x200", "--frames", "2", "--html",
+                   folder / "m.html", "--draw", folder / "drawn", "--stereo.ncc_min", "0.55", "--quiet"});
   INFO(result.err);
   REQUIRE(result.code == 0);
   for (const char* title : {"=== room4:", "=== room:", "=== all:"}) CHECK(result.out.find(title) != std::string::npos);
@@ -163,20 +167,22 @@ TEST_CASE("evaluate matching writes one page that needs nothing else, and drawin
   CHECK(page.size() < 5'000'000);
   CHECK(is_well_formed(page));
   CHECK(outside_references(page).empty());
-  for (const char* text : {"Table 1", "Table 2: in time, left", "Table 3", "pooled", "Tables of room4", "Figure 2", "Figure 3", "Figure 5",
-                           "Figure 6", "Figure 7", "Figures 8 and 9", "stereo.ncc_min = 0.55", "\u2265 0.55", "\u2264 0.5<", "[deg]"}) {
+  for (const char* text :
+       {"Table 1", "Table 2: in time, left", "Table 3", "pooled", "Tables of room4", "Figure 2", "Figure 3", "Figure 5",
+        "Figure 6", "Figure 7", "Figures 8 and 9", "stereo.ncc_min = 0.55", "\u2265 0.55", "\u2264 0.5<", "[deg]"}) {
     INFO(text);
     CHECK(page.find(text) != std::string::npos);
   }
   CHECK(all_matches(page, "(src=\"data:image/jpeg;base64,)").size() >= 4);
   CHECK(all_matches(page, "(<svg xmlns)").size() > 30);
   // No number of a table or plot went wrong.
-  for (const char* broken : {">nan", ">inf", "\"nan", "\"-nan", "\"inf", " nan "}) CHECK(page.find(broken) == std::string::npos);
+  for (const char* broken : {">nan", ">inf", "\"nan", "\"-nan", "\"inf", " nan "})
+    CHECK(page.find(broken) == std::string::npos);
   CHECK(std::filesystem::exists(folder / "drawn/room4_correct.png"));
   CHECK(std::filesystem::exists(folder / "drawn/room_all.png"));
 
-  const auto cut = run_program({"evaluate", "matching", "room", "--size", "320x200", "--frames", "1", "--edges.max_edges", "5000", "--html",
-                                folder / "cut.html"});
+  const auto cut = run_program({"evaluate", "matching", "room", "--size", "320x200", "--frames", "1",
+                                "--edges.max_edges", "5000", "--html", folder / "cut.html"});
   CHECK(cut.code == 0);
   CHECK(cut.err.find("max_edges") != std::string::npos);
   CHECK(read_text(folder / "cut.html").find("max_edges were dropped") != std::string::npos);
@@ -185,7 +191,9 @@ TEST_CASE("evaluate matching writes one page that needs nothing else, and drawin
   CHECK(again.code == 2);
   CHECK(again.err.find("--force") != std::string::npos);
   CHECK(run_program({"evaluate", "matching", "room", "--draw", folder / "drawn"}).code == 2);
-  CHECK(run_program({"evaluate", "matching", "room", "--html", folder / "n.html", "--sweep", "stereo.ncc_min=0.5:0.6:0.1"}).code == 2);
+  CHECK(run_program(
+            {"evaluate", "matching", "room", "--html", folder / "n.html", "--sweep", "stereo.ncc_min=0.5:0.6:0.1"})
+            .code == 2);
 }
 
 TEST_CASE("A sweep shows one line per value, and a stricter threshold keeps less", "[matching][device][cli]") {

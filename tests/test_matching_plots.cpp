@@ -24,7 +24,9 @@ std::vector<std::pair<double, double>> points_of(std::string path) {
   return points;
 }
 
-std::vector<std::string> curves(const std::string& svg) { return all_matches(svg, "<path d=\"([^\"]+)\" fill=\"none\""); }
+std::vector<std::string> curves(const std::string& svg) {
+  return all_matches(svg, "<path d=\"([^\"]+)\" fill=\"none\"");
+}
 
 MatchingResult sequence(int frames) {
   MatchingResult result;
@@ -70,7 +72,8 @@ TEST_CASE("A cumulative curve climbs where the values are, and stays low where t
   const auto lines = curves(svgs[1]);
   REQUIRE(lines.size() == 2);
   const auto veridical = points_of(lines[0]), other = points_of(lines[1]);
-  const double zero = veridical.front().second, full = veridical.back().second;  // of 0 and of 100 % on the way down the picture
+  const double zero = veridical.front().second,
+               full = veridical.back().second;  // of 0 and of 100 % on the way down the picture
   CHECK(zero > full);
   CHECK(other.front().second == Approx(zero));
   CHECK(other.back().second == Approx(zero + 0.25 * (full - zero)).margin(0.05));  // 89 deg is beyond what is shown
@@ -110,7 +113,7 @@ TEST_CASE("Counts have a bar per frame, or bins where there are many frames", "[
   for (const auto& svg : few) CHECK(is_well_formed(svg));
   CHECK(bars(few[0]) == 10);  // left and right
   CHECK(bars(few[1]) == 5);
-  CHECK(bars(few[2]) == 8);   // the first frame has no matches in time
+  CHECK(bars(few[2]) == 8);  // the first frame has no matches in time
   CHECK(bars(few[3]) == 4);
   // 60 frames: 1000 to 1059 left edges in bins of 5 from 1000 on, always 1100 right ones.
   const auto many = count_plots({sequence(60)});
@@ -142,7 +145,8 @@ TEST_CASE("Precision and accuracy that go together have a rank correlation of mi
 TEST_CASE("Rank correlation", "[report]") {
   CHECK(rank_correlation({1, 2, 3, 4}, {10, 20, 25, 1000}) == Approx(1));
   CHECK(rank_correlation({1, 2, 3, 4}, {9, 7, 5, -100}) == Approx(-1));
-  // Ranks 1, 2.5, 2.5, 4, 5 and 3, 1.5, 4, 1.5, 5; minus the mean of 3: products 0 + 0.75 - 0.5 - 1.5 + 4, squares 9.5 and 9.5.
+  // Ranks 1, 2.5, 2.5, 4, 5 and 3, 1.5, 4, 1.5, 5; minus the mean of 3: products 0 + 0.75 - 0.5 - 1.5 + 4, squares 9.5
+  // and 9.5.
   CHECK(rank_correlation({1, 2, 2, 5, 7}, {3, 1, 4, 1, 5}) == Approx(2.75 / 9.5));
   CHECK(std::isnan(rank_correlation({1, 1, 1}, {1, 2, 3})));
   CHECK(std::isnan(rank_correlation({1, 2}, {1, 2})));

@@ -53,20 +53,23 @@ TEST_CASE("Without a mask the disparities themselves tell what is hidden", "[mat
   const auto source = make_recorded_source(open_dataset(write_pair(folder.path())));
   // Column 25 of the wall falls on column 19 of the right view, where the board stands (30 - 12 = 18 to 27).
   const auto found = places(*source, {20, 25, 35, 12});
-  CHECK(found.state == std::vector<Visibility>{Visibility::visible, Visibility::hidden, Visibility::visible, Visibility::visible});
+  CHECK(found.state ==
+        std::vector<Visibility>{Visibility::visible, Visibility::hidden, Visibility::visible, Visibility::visible});
   CHECK(found.x[0] == 14);
   CHECK(found.x[2] == 23);
 }
 
-TEST_CASE("A mask marks hidden and unknown pixels, and leaves the contour of a nearer surface alone", "[matching][io]") {
+TEST_CASE("A mask marks hidden and unknown pixels, and leaves the contour of a nearer surface alone",
+          "[matching][io]") {
   const TemporaryFolder folder;
   const std::string path = write_pair(folder.path());
   write_mask(path);
   const auto source = make_recorded_source(open_dataset(path));
-  // 12: unknown; 13: an unknown pixel lies beside it; 16: neither; 20: hidden; 29.4: the board's contour, though the pixel is marked.
+  // 12: unknown; 13: an unknown pixel lies beside it; 16: neither; 20: hidden; 29.4: the board's contour, though the
+  // pixel is marked.
   const auto found = places(*source, {12, 13, 16, 20, 29.4F});
-  CHECK(found.state == std::vector<Visibility>{Visibility::unknown, Visibility::unknown, Visibility::visible, Visibility::hidden,
-                                               Visibility::visible});
+  CHECK(found.state == std::vector<Visibility>{Visibility::unknown, Visibility::unknown, Visibility::visible,
+                                               Visibility::hidden, Visibility::visible});
   CHECK(found.contour[4] == 1);
   CHECK(found.x[4] == Approx(29.4 - 12));
 }

@@ -101,7 +101,8 @@ TEST_CASE("What cannot be trusted has a status and no pose", "[pose][motion]") {
   }
   problem.quads = 300;
   problem.outliers = 1.0;
-  CHECK(estimate_motion(problem.rig, generated::generate(problem, 56).quads, kConfig, 42).status == MotionStatus::no_consensus);
+  CHECK(estimate_motion(problem.rig, generated::generate(problem, 56).quads, kConfig, 42).status ==
+        MotionStatus::no_consensus);
 
   // All quads in one corner: samples need some distance, so give the search the true motion as a guess.
   problem.outliers = 0;
@@ -112,7 +113,8 @@ TEST_CASE("What cannot be trusted has a status and no pose", "[pose][motion]") {
     p.point = p.point.z() * problem.rig.left.ray({random.uniform(300, 380), random.uniform(40, 120)});
     const auto add = [&](QuadObservations& quads) {
       const OrientedPoint q{problem.motion * p.point, problem.motion.linear() * p.tangent};
-      quads.append(problem.rig, generated::observe(problem.rig, p), generated::observe(problem.rig, q), 1.0f, 0, i, generated::limits());
+      quads.append(problem.rig, generated::observe(problem.rig, p), generated::observe(problem.rig, q), 1.0f, 0, i,
+                   generated::limits());
     };
     add(corner);
     p.point = Eigen::Vector3d(1, 0.5, 12);
@@ -135,7 +137,8 @@ TEST_CASE("The same seed gives the same bits", "[pose][motion]") {
   problem.noise = {0.12, 0.4, 0.02};
   problem.outliers = 0.4;
   const auto g = generated::generate(problem, 58);
-  const MotionEstimate a = estimate_motion(problem.rig, g.quads, kConfig, 9), b = estimate_motion(problem.rig, g.quads, kConfig, 9);
+  const MotionEstimate a = estimate_motion(problem.rig, g.quads, kConfig, 9),
+                       b = estimate_motion(problem.rig, g.quads, kConfig, 9);
   CHECK(a.current_from_previous.matrix() == b.current_from_previous.matrix());
   CHECK(a.covariance == b.covariance);
   CHECK(a.inlier == b.inlier);

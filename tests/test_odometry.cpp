@@ -1,11 +1,11 @@
 #include <Eigen/Eigenvalues>
 
-#include "data/synthetic_path.hpp"
-#include "data/synthetic_render.hpp"
-#include "data/synthetic_scenes.hpp"
 #include "frontends.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
+#include "synthetic/path.hpp"
+#include "synthetic/render.hpp"
+#include "synthetic/scenes.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -41,8 +41,8 @@ void check_pose(const FrameResult& result, const Eigen::Isometry3d& truth, doubl
 bool same_bytes(const FrameResult& a, const FrameResult& b) {
   return a.status == b.status && a.world_from_left.matrix() == b.world_from_left.matrix() &&
          a.current_from_reference.matrix() == b.current_from_reference.matrix() && a.covariance == b.covariance &&
-         a.reference_frame == b.reference_frame && a.new_key_rig == b.new_key_rig && a.overflow == b.overflow && a.message == b.message &&
-         a.counts.quads == b.counts.quads && a.counts.inliers == b.counts.inliers;
+         a.reference_frame == b.reference_frame && a.new_key_rig == b.new_key_rig && a.overflow == b.overflow &&
+         a.message == b.message && a.counts.quads == b.counts.quads && a.counts.inliers == b.counts.inliers;
 }
 
 }  // namespace
@@ -66,7 +66,8 @@ TEST_CASE("odometry: a rendered room is tracked, twice with the same bytes", "[o
       // The reference is the key rig: its pose and the motion from it make the pose.
       const auto& reference = results[static_cast<std::size_t>(result.reference_frame)];
       CHECK(reference.new_key_rig);
-      CHECK((reference.world_from_left * result.current_from_reference.inverse()).isApprox(result.world_from_left, 1e-9));
+      CHECK(
+          (reference.world_from_left * result.current_from_reference.inverse()).isApprox(result.world_from_left, 1e-9));
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(result.covariance);
       CHECK((result.covariance - result.covariance.transpose()).norm() < 1e-9 * result.covariance.norm());
       CHECK(solver.eigenvalues().minCoeff() > 0);
@@ -121,7 +122,8 @@ TEST_CASE("odometry: a black frame is lost, and tracking goes on after it at the
   }
 }
 
-TEST_CASE("odometry: a frame of another place is lost, and the next one is tracked at the right place", "[odometry][device]") {
+TEST_CASE("odometry: a frame of another place is lost, and the next one is tracked at the right place",
+          "[odometry][device]") {
   const RenderedScene elsewhere("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, elsewhere.config.stereo.max_disparity);
@@ -166,7 +168,8 @@ TEST_CASE("odometry: a turn by a third of the view, and one about the optical ax
   const auto render = [&](const Eigen::Isometry3d& camera_from_world) {
     const auto view = synthetic::render(world, room().rig.left, camera_from_world, 3, 0);
     Image image(240, 150);
-    for (std::size_t i = 0; i < view.grey.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
+    for (std::size_t i = 0; i < view.grey.size(); ++i)
+      image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
     return image;
   };
   Eigen::Isometry3d yawed = Eigen::Isometry3d::Identity(), rolled = yawed;
@@ -216,7 +219,8 @@ TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the
     StereoOdometry odometry(room().rig, device, room().config);
     const std::size_t last = room().left.size() - 1;
     const auto track_there_and_back = [&] {
-      for (std::size_t i = 0; i < last; ++i) CHECK(odometry.track(room().frame(i)).status != FrameStatus::lost_no_consensus);
+      for (std::size_t i = 0; i < last; ++i)
+        CHECK(odometry.track(room().frame(i)).status != FrameStatus::lost_no_consensus);
       for (std::size_t i = last; i > 0; --i) CHECK(odometry.track(room().frame(i)).status == FrameStatus::tracked);
     };
     for (int pass = 0; pass < 3; ++pass) track_there_and_back();  // three rigs take turns in holding the frames
@@ -272,7 +276,8 @@ TEST_CASE("odometry: cameras of different sizes, turned against one another, tra
   RenderedScene scene = RenderedScene("cables", 64, 48, 1);  // replaced below
   scene.rig.left = {185, 187, 158, 101, 320, 200};
   scene.rig.right = {170, 168, 150, 128, 300, 240};
-  scene.rig.right_from_left.linear() = Eigen::AngleAxisd(0.06, Eigen::Vector3d(0.5, 1, -0.8).normalized()).toRotationMatrix();
+  scene.rig.right_from_left.linear() =
+      Eigen::AngleAxisd(0.06, Eigen::Vector3d(0.5, 1, -0.8).normalized()).toRotationMatrix();
   scene.rig.right_from_left.translation() = Eigen::Vector3d(-0.14, 0.05, 0.01);
   const auto world = synthetic::make_room(7, 185);
   scene.left.clear();
@@ -281,7 +286,8 @@ TEST_CASE("odometry: cameras of different sizes, turned against one another, tra
   const auto render = [&](const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world) {
     const auto view = synthetic::render(world, camera, camera_from_world, 3, 0);
     Image image(camera.width, camera.height);
-    for (std::size_t i = 0; i < view.grey.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
+    for (std::size_t i = 0; i < view.grey.size(); ++i)
+      image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
     return image;
   };
   for (int i = 0; i < 4; ++i) {

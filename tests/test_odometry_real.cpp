@@ -1,6 +1,5 @@
 /// \file test_odometry_real.cpp  Recorded sequences against their published poses. Needs QUADEDGE_DATA.
 #include <catch2/catch.hpp>
-
 #include <cstring>
 
 #include "dataset_files.hpp"
@@ -31,7 +30,8 @@ Run track(const Dataset& dataset, const std::map<std::string, std::string>& vari
   while (const auto frame = frames.next()) {
     run.results.push_back(odometry.track({frame->stamp_ns, frame->left.view(), frame->right.view()}));
     ++run.frames;
-    if (is_tracked(run.results.back().status)) run.tracked.push_back({frame->stamp_ns, run.results.back().world_from_left});
+    if (is_tracked(run.results.back().status))
+      run.tracked.push_back({frame->stamp_ns, run.results.back().world_from_left});
   }
   return run;
 }
@@ -39,7 +39,8 @@ Run track(const Dataset& dataset, const std::map<std::string, std::string>& vari
 bool same_bytes(const Run& a, const Run& b) {
   if (a.tracked.size() != b.tracked.size()) return false;
   for (std::size_t i = 0; i < a.tracked.size(); ++i) {
-    if (std::memcmp(a.tracked[i].world_from_left.data(), b.tracked[i].world_from_left.data(), 16 * sizeof(double)) != 0) return false;
+    if (std::memcmp(a.tracked[i].world_from_left.data(), b.tracked[i].world_from_left.data(), 16 * sizeof(double)) != 0)
+      return false;
   }
   return true;
 }
@@ -105,5 +106,7 @@ TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other var
                                         {"stereo_clusters", "group16"},
                                         {"temporal_candidates", "group16"},
                                         {"temporal_quads", "group16"}})));
-  CHECK(same_bytes(run, track(dataset, {{"edges", "tile64"}, {"scan", "group256"}, {"patches", "lanes"}, {"sift", "cells"}})));
+  CHECK(same_bytes(
+      run,
+      track(dataset, {{"edge_detection", "tile64"}, {"scan", "group256"}, {"patches", "lanes"}, {"sift", "cells"}})));
 }

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <fstream>
 
 #include "devices.hpp"
@@ -38,7 +37,8 @@ TEST_CASE("kernels: a wrong host signature is refused with the argument's name",
                                     opencl::Out<cl_uchar>, cl_int>;
     using TooFew = opencl::Kernel<opencl::In<cl_uchar>>;
     CHECK_NOTHROW(Right(context, program, "undistort"));
-    CHECK_THROWS_WITH(FloatForInt(context, program, "undistort"), Contains("count") && Contains("float") && Contains("int"));
+    CHECK_THROWS_WITH(FloatForInt(context, program, "undistort"),
+                      Contains("count") && Contains("float") && Contains("int"));
     CHECK_THROWS_WITH(Writable(context, program, "undistort"), Contains("source") && Contains("const"));
     CHECK_THROWS_WITH(TooFew(context, program, "undistort"), Contains("7 arguments"));
     CHECK_THROWS_AS(Right(context, program, "no_such_kernel"), DeviceError);
@@ -48,11 +48,12 @@ TEST_CASE("kernels: a wrong host signature is refused with the argument's name",
 TEST_CASE("kernels: a build error names file, line, device and options", "[device]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "common.cl") << "// nothing\n";
-  std::ofstream(folder / "broken.cl") << "// first line\nkernel void f(global int* a) {\n  a[0] = undeclared_name;\n}\n";
+  std::ofstream(folder / "broken.cl")
+      << "// first line\nkernel void f(global int* a) {\n  a[0] = undeclared_name;\n}\n";
   Device device(all_devices().front(), folder.path());
-  CHECK_THROWS_WITH(device.context()->program({"broken.cl"}, {{"LANES", "4"}}),
-                    Contains("broken.cl:3") && Contains("undeclared_name") && Contains("-DLANES=4") &&
-                        Contains(device.info().name));
+  CHECK_THROWS_WITH(
+      device.context()->program({"broken.cl"}, {{"LANES", "4"}}),
+      Contains("broken.cl:3") && Contains("undeclared_name") && Contains("-DLANES=4") && Contains(device.info().name));
   CHECK_THROWS_WITH(device.context()->program({"absent.cl"}, {}), Contains("absent.cl"));
 }
 

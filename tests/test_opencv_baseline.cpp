@@ -31,7 +31,8 @@ Tracked track_room(int frames, int black = -1) {
     if (i == black) left = right = Image(options.width, options.height);
     tracked.results.push_back(baseline.track({sequence.stamp_ns(i), left.view(), right.view()}));
     tracked.truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
-    if (tracked.results.back().tracked) tracked.estimate.push_back({sequence.stamp_ns(i), tracked.results.back().world_from_left});
+    if (tracked.results.back().tracked)
+      tracked.estimate.push_back({sequence.stamp_ns(i), tracked.results.back().world_from_left});
   }
   return tracked;
 }

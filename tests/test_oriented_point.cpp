@@ -16,7 +16,8 @@ TEST_CASE("A point and its tangent come back from their own projections, on any 
       if (!found) continue;
       ++used;
       CHECK((found->point - truth.point).norm() < 1e-9 * truth.point.norm());
-      // The direction in `observe` is a finite difference, good to some 1e-9; depth slope magnifies it by depth / base line.
+      // The direction in `observe` is a finite difference, good to some 1e-9; depth slope magnifies it by depth / base
+      // line.
       CHECK((found->tangent - truth.tangent).norm() < 1e-5);
       CHECK(found->tangent.norm() == Approx(1.0).margin(1e-12));
     }
@@ -78,7 +79,8 @@ TEST_CASE("Projection agrees with the camera and with finite differences", "[pos
   CHECK_FALSE(project(rig.left, Eigen::Isometry3d::Identity(), {{0, 0, 2}, Eigen::Vector3d::UnitZ()}));
 }
 
-TEST_CASE("The depth's sigma is z^2 sigma / (f b) on a rectified rig and matches perturbed measurements on any", "[pose][oriented_point]") {
+TEST_CASE("The depth's sigma is z^2 sigma / (f b) on a rectified rig and matches perturbed measurements on any",
+          "[pose][oriented_point]") {
   const OrientedPoint p{{0.5, 0.2, 12.0}, Eigen::Vector3d(0.5, 0.6, 0.1).normalized()};
   const quadedge::StereoRig car = generated::car_rig();
   const auto measured = measure(car, generated::observe(car, p), 0.07);
@@ -94,7 +96,8 @@ TEST_CASE("The depth's sigma is z^2 sigma / (f b) on a rectified rig and matches
   moved.right += 1e-4 * line;
   const auto other = measure(rig, moved, 0.07);
   REQUIRE(other);
-  CHECK(std::abs(other->inverse_depth - centre->inverse_depth) == Approx(1e-4 * centre->inverse_depth_per_pixel).epsilon(1e-3));
+  CHECK(std::abs(other->inverse_depth - centre->inverse_depth) ==
+        Approx(1e-4 * centre->inverse_depth_per_pixel).epsilon(1e-3));
   auto turned = edge;
   turned.right_direction += 1e-6;
   const double by_right = (measure(rig, turned, 0.07)->slope - centre->slope) / 1e-6;
@@ -102,5 +105,6 @@ TEST_CASE("The depth's sigma is z^2 sigma / (f b) on a rectified rig and matches
   turned.left_direction += 1e-6;
   const double by_left = (measure(rig, turned, 0.07)->slope - centre->slope) / 1e-6;
   CHECK(centre->slope_per_radian == Approx(std::hypot(by_left, by_right)).epsilon(1e-3));
-  CHECK(centre->epipolar_sine == Approx(std::abs(line.x() * std::sin(edge.right_direction) - line.y() * std::cos(edge.right_direction))));
+  CHECK(centre->epipolar_sine ==
+        Approx(std::abs(line.x() * std::sin(edge.right_direction) - line.y() * std::cos(edge.right_direction))));
 }

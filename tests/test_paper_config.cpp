@@ -39,8 +39,8 @@ TEST_CASE("paper.toml: tracks a short rendered sequence, and each of its lines c
   REQUIRE(run.code == 0);
   const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
   CHECK(report["frames_tracked"] == 4);
-  // A single sample moves as far as the depths of its two points are off, 9 m^2 x 0.1 px / (184 px x 0.06 m) = 8 cm at 3 m; that it
-  // explains nearly all quads within 1.5 px tells it from a wrong one.
+  // A single sample moves as far as the depths of its two points are off, 9 m^2 x 0.1 px / (184 px x 0.06 m) = 8 cm at
+  // 3 m; that it explains nearly all quads within 1.5 px tells it from a wrong one.
   CHECK(report["accuracy"]["origin_aligned"]["rpe_translation_m"]["mean"].get<double>() < 0.08);
   CHECK(report["counts"]["inliers"].get<double>() > 0.8 * report["counts"]["quads"].get<double>());
   CHECK(report["accuracy"]["origin_aligned"]["rpe_rotation_deg"]["mean"].get<double>() < 0.5);

@@ -8,8 +8,6 @@
 #include "reference/patches.hpp"
 
 using namespace quadedge;
-using reference::kEdgePatchBytes;
-using reference::kPatchSamples;
 
 namespace {
 
@@ -43,7 +41,9 @@ float stored_inverse(const std::vector<std::int8_t>& patches, int side) {
   return inverse;
 }
 
-std::ptrdiff_t brightest(const std::vector<int>& patch) { return std::max_element(patch.begin(), patch.end()) - patch.begin(); }
+std::ptrdiff_t brightest(const std::vector<int>& patch) {
+  return std::max_element(patch.begin(), patch.end()) - patch.begin();
+}
 
 /// The same but for one sample of an edge that rounds the other way.
 void check_same(const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {
@@ -53,19 +53,23 @@ void check_same(const std::vector<std::int8_t>& a, const std::vector<std::int8_t
   CHECK(apart.differing <= apart.samples / 98);
 }
 
-/// The largest distance of a sample from the value that it rounds, cut in double precision and scaled to a largest one of 127.
+/// The largest distance of a sample from the value that it rounds, cut in double precision and scaled to a largest one
+/// of 127.
 double farthest_from_exact(const Image& image, const TestEdges& edges, const std::vector<std::int8_t>& patches) {
   double farthest = 0;
   for (std::size_t e = 0; e < edges.x.size(); ++e) {
-    const double cosine = std::cos(static_cast<double>(edges.direction[e])), sine = std::sin(static_cast<double>(edges.direction[e]));
+    const double cosine = std::cos(static_cast<double>(edges.direction[e])),
+                 sine = std::sin(static_cast<double>(edges.direction[e]));
     for (const int side : {0, 1}) {
-      const auto frame = reference::patch_frame(edges.x[e], edges.y[e], cosine, sine, side == 0 ? 1 : -1, PatchesConfig{}.offset);
+      const auto frame =
+          reference::patch_frame(edges.x[e], edges.y[e], cosine, sine, side == 0 ? 1 : -1, PatchesConfig{}.offset);
       const auto values = reference::cut_patch(image.view(), frame, 0, 0);
       double largest = 0;
       for (const double value : values) largest = std::max(largest, std::abs(value));
-      const double scale = largest < reference::kFlatPatchContrast ? 0 : 127 / largest;
+      const double scale = largest < kFlatPatchContrast ? 0 : 127 / largest;
       const auto samples = reference::stored_side(patches.data() + e * kEdgePatchBytes, side);
-      for (std::size_t k = 0; k < values.size(); ++k) farthest = std::max(farthest, std::abs(samples[k] - scale * values[k]));
+      for (std::size_t k = 0; k < values.size(); ++k)
+        farthest = std::max(farthest, std::abs(samples[k] - scale * values[k]));
     }
   }
   return farthest;
@@ -212,17 +216,21 @@ TEST_CASE("patches: every device and variant equals the reference", "[patches][d
     CHECK(farthest_from_exact(image, edges, expected) < 0.5 + 1e-9);
     for (const auto& found : describe_everywhere("patches", image, edges)) {
       CAPTURE(found.name, width, height);
-      // Single precision: places good to 1e-6 px, contrasts of up to 255 per px, 127 steps for a largest sample of about 100. A sample as
-      // near to the middle of a step may be rounded other than the reference's.
+      // Single precision: places good to 1e-6 px, contrasts of up to 255 per px, 127 steps for a largest sample of
+      // about 100. A sample as near to the middle of a step may be rounded other than the reference's.
       CHECK(farthest_from_exact(image, edges, found.patches) < 0.5 + 1e-3);
       for (std::size_t edge = 0; edge < expected.size(); edge += kEdgePatchBytes) {
         // Nothing but zeros where no sample lies, and the norm of the samples that stand there.
         std::vector<std::int8_t> again(kEdgePatchBytes, 0);
-        for (const int side : {0, 1}) reference::store_side(reference::stored_side(found.patches.data() + edge, side), side, again.data());
-        CHECK(std::equal(again.begin(), again.begin() + 112, found.patches.begin() + static_cast<std::ptrdiff_t>(edge)));
-        CHECK(std::equal(again.begin() + 120, again.end(), found.patches.begin() + static_cast<std::ptrdiff_t>(edge) + 120));
+        for (const int side : {0, 1})
+          reference::store_side(reference::stored_side(found.patches.data() + edge, side), side, again.data());
+        CHECK(
+            std::equal(again.begin(), again.begin() + 112, found.patches.begin() + static_cast<std::ptrdiff_t>(edge)));
+        CHECK(std::equal(again.begin() + 120, again.end(),
+                         found.patches.begin() + static_cast<std::ptrdiff_t>(edge) + 120));
         for (const int side : {0, 1}) {
-          CHECK(reference::inverse_norm(found.patches.data() + edge, side) == Approx(reference::inverse_norm(again.data(), side)).epsilon(1e-6));
+          CHECK(reference::inverse_norm(found.patches.data() + edge, side) ==
+                Approx(reference::inverse_norm(again.data(), side)).epsilon(1e-6));
         }
       }
     }
@@ -263,9 +271,10 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
   const TestEdges edges = random_edges(90, 70, 60, 10);
   auto patches = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
   std::fill_n(patches.begin(), kEdgePatchBytes, std::int8_t{0});  // a flat edge
-  for (const int side : {0, 1}) {                                 // a tie: both sides of edge 2 are the dark side of edge 1
-    reference::store_side(reference::stored_side(patches.data() + kEdgePatchBytes, 0), side, patches.data() + 2 * kEdgePatchBytes);
-    reference::PatchValues extremes;                             // the largest products there are
+  for (const int side : {0, 1}) {  // a tie: both sides of edge 2 are the dark side of edge 1
+    reference::store_side(reference::stored_side(patches.data() + kEdgePatchBytes, 0), side,
+                          patches.data() + 2 * kEdgePatchBytes);
+    reference::PatchValues extremes;  // the largest products there are
     for (std::size_t k = 0; k < extremes.size(); ++k) extremes[k] = (k < 25) == (side == 0) ? 1 : -1;
     reference::store_side(extremes, side, patches.data() + 3 * kEdgePatchBytes);
   }
@@ -285,7 +294,8 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
     score({60, 60, 1, 1}, input, scores);
     const auto found = scores.read(3600);
     for (std::size_t k = 0; k < 3600; ++k) {
-      CHECK(found[k] == reference::patch_ncc(patches.data() + k % 60 * kEdgePatchBytes, patches.data() + k / 60 * kEdgePatchBytes));
+      CHECK(found[k] ==
+            reference::patch_ncc(patches.data() + k % 60 * kEdgePatchBytes, patches.data() + k / 60 * kEdgePatchBytes));
     }
   }
 }

@@ -20,8 +20,8 @@ Image moved(double dx, double dy) {
   return image_of(64, 60, [=](double x, double y) { return smooth_grey(x - dx, y - dy); });
 }
 
-std::optional<double> align(const Image& fixed, const Image& image, double x, double y, double angle, double ex, double ey,
-                            double stiffness = 0) {
+std::optional<double> align(const Image& fixed, const Image& image, double x, double y, double angle, double ex,
+                            double ey, double stiffness = 0) {
   const auto frame = patch_frame(x, y, std::cos(angle), std::sin(angle), 0, 5);
   const auto found = reference::align_edge(image.view(), frame, ex, ey, cut_patch(fixed.view(), frame, 0, 0),
                                            patch_derivative(fixed.view(), frame, ex, ey), stiffness, kSettings);
@@ -48,7 +48,8 @@ TEST_CASE("photometric: patches hold the mean-free texture where their frame say
   for (const double d : patch_derivative(image.view(), frame, 0.6, 0.8)) CHECK(d == Approx(0).margin(1e-9));
   const Image saddle = image_of(64, 60, [](double x, double y) { return 0.1 * (x - 32) * (y - 30) + 128; });
   const auto level = patch_frame(32, 30, 1, 0, 1, 5);
-  const auto slope = patch_derivative(saddle.view(), level, 1, 0);  // d/dx = 0.1 (y - 30), minus its mean; 8-bit rounding up to 0.5 / px
+  const auto slope = patch_derivative(saddle.view(), level, 1,
+                                      0);  // d/dx = 0.1 (y - 30), minus its mean; 8-bit rounding up to 0.5 / px
   for (int j = 0; j < 7; ++j) CHECK(slope[static_cast<std::size_t>(7 * 3 + j)] == Approx(0.1 * (j - 3)).margin(1.01));
 }
 
@@ -61,7 +62,8 @@ TEST_CASE("photometric: a known move along a line is found to 0.02 px", "[photom
     const double heading = random(-kPi, kPi), move = random(-1.4, 1.4), ex = std::cos(heading), ey = std::sin(heading);
     const double x = random(20, 44), y = random(20, 40), angle = random(-kPi, kPi);
     // Flat spots, where rounding to 8 bits counts more, are left out: less than 4 grey levels per px along the line.
-    const auto slopes = patch_derivative(fixed.view(), patch_frame(x, y, std::cos(angle), std::sin(angle), 0, 5), ex, ey);
+    const auto slopes =
+        patch_derivative(fixed.view(), patch_frame(x, y, std::cos(angle), std::sin(angle), 0, 5), ex, ey);
     if (reference::patch_norm(slopes) / 7 < 4) continue;
     ++tried;
     const auto result = align(fixed, moved(move * ex, move * ey), x, y, angle, ex, ey);
@@ -105,16 +107,19 @@ TEST_CASE("photometric: the Huber weight falls from 1 beyond its limit", "[photo
   CHECK(reference::huber_weight(-12, 3) == Approx(0.25));
 }
 
-TEST_CASE("photometric: devices cut the same patches, also across the border", "[photometric][matching][device][oclgrind]") {
+TEST_CASE("photometric: devices cut the same patches, also across the border",
+          "[photometric][matching][device][oclgrind]") {
   const std::string source =
-      "kernel void probe(global const uint* corners, const int width, const int height, global const float* at, const int count,\n"
+      "kernel void probe(global const uint* corners, const int width, const int height, global const float* at, const "
+      "int count,\n"
       "                  global float* grey) {\n"
       "  const int i = (int)get_global_id(0);\n"
       "  if (i >= count) return;\n"
       "  float8 rows[PATCH_SIDE];\n"
       "  float cosine;\n"
       "  const float sine = sine_cosine(at[4 * i + 2], &cosine);\n"
-      "  cut_patch(corners, width, height, patch_frame(at[4 * i], at[4 * i + 1], cosine, sine, at[4 * i + 3], 5.0f), 0.25f, -0.5f, rows);\n"
+      "  cut_patch(corners, width, height, patch_frame(at[4 * i], at[4 * i + 1], cosine, sine, at[4 * i + 3], 5.0f), "
+      "0.25f, -0.5f, rows);\n"
       "  for (int k = 0; k < PATCH_SIDE; ++k) vstore8(rows[k], k, grey + 56 * i);\n"
       "}\n";
   const auto& kernels = opencl::embedded_kernels();
@@ -123,7 +128,8 @@ TEST_CASE("photometric: devices cut the same patches, also across the border", "
     Random random(11);
     std::vector<float> at = {-300, -50, 1, 1, 500, 1000, 2, -1};
     for (int k = 0; k < 20; ++k) {
-      const double values[4] = {random(-12, width + 11), random(-12, height + 11), random(-kPi, kPi), k % 2 == 0 ? 1.0 : -1.0};
+      const double values[4] = {random(-12, width + 11), random(-12, height + 11), random(-kPi, kPi),
+                                k % 2 == 0 ? 1.0 : -1.0};
       for (const double v : values) at.push_back(static_cast<float>(v));
     }
     const std::size_t count = at.size() / 4;
@@ -133,8 +139,8 @@ TEST_CASE("photometric: devices cut the same patches, also across the border", "
       cl::Program program(context.context(), kernels.at("common.cl") + "\n" + kernels.at("direction.cl") + "\n" +
                                                  kernels.at("photometric.cl") + "\n" + source);
       program.build({context.device()}, "-cl-std=CL1.2 -cl-kernel-arg-info");
-      opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, cl_int, opencl::Out<cl_float>> kernel(context, program,
-                                                                                                                  "probe");
+      opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, cl_int, opencl::Out<cl_float>> kernel(
+          context, program, "probe");
       stages::PixelCorners corners(context);
       corners.prepare(upload(context, image).pixels, width, height);
       opencl::Buffer<cl_float> places, grey(context, 56 * count);
@@ -142,10 +148,12 @@ TEST_CASE("photometric: devices cut the same patches, also across the border", "
       kernel({count, 1}, corners.values(), width, height, places, static_cast<cl_int>(count), grey);
       const auto found = grey.read(56 * count);
       for (std::size_t i = 0; i < count; ++i) {
-        const auto frame = patch_frame(at[4 * i], at[4 * i + 1], std::cos(at[4 * i + 2]), std::sin(at[4 * i + 2]), at[4 * i + 3], 5);
+        const auto frame =
+            patch_frame(at[4 * i], at[4 * i + 1], std::cos(at[4 * i + 2]), std::sin(at[4 * i + 2]), at[4 * i + 3], 5);
         const auto truth = cut_patch(image.view(), frame, 0.25, -0.5);
         double largest = 0;
-        for (std::size_t k = 0; k < 49; ++k) largest = std::max(largest, std::abs(truth[k] - static_cast<double>(found[56 * i + 8 * (k / 7) + k % 7])));
+        for (std::size_t k = 0; k < 49; ++k)
+          largest = std::max(largest, std::abs(truth[k] - static_cast<double>(found[56 * i + 8 * (k / 7) + k % 7])));
         INFO(width << " x " << height << ", patch " << i);
         CHECK(largest < 5e-3);  // 1e-5 px of rounding times up to 255 grey levels per px
       }

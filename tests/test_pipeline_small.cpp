@@ -32,7 +32,8 @@ std::vector<FrameResult> track_small_room(const std::string& device_name) {
 
 }  // namespace
 
-TEST_CASE("pipeline: every device finds the reference's edges, quads and poses in a small sequence", "[device][oclgrind]") {
+TEST_CASE("pipeline: every device finds the reference's edges, quads and poses in a small sequence",
+          "[device][oclgrind]") {
   const auto expected = track_small_room("reference");
   REQUIRE(expected.back().status == FrameStatus::tracked);
   for (const auto& name : all_devices()) {

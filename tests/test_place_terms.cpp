@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <Eigen/LU>
+#include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
 #include "pose/place_terms.hpp"
@@ -18,10 +17,11 @@ struct Expected {
   double cost = 0, depth = 0;
 };
 
-/// One quad's contribution from linearise(): Gauss-Newton by (pose, offset, depth) with a standard normal prior on the depth, which the
-/// Schur complement takes out.
-std::optional<Expected> contribution(const FitTerm& term, const quadedge::PinholeCamera& left, const Eigen::Isometry3d& pose, double offset,
-                                     double depth, const StudentWeights& weights) {
+/// One quad's contribution from linearise(): Gauss-Newton by (pose, offset, depth) with a standard normal prior on the
+/// depth, which the Schur complement takes out.
+std::optional<Expected> contribution(const FitTerm& term, const quadedge::PinholeCamera& left,
+                                     const Eigen::Isometry3d& pose, double offset, double depth,
+                                     const StudentWeights& weights) {
   Linearisation linear;
   if (!linearise(term, left, pose, depth, linear)) return std::nullopt;
   Eigen::Matrix<double, 4, 8> jacobian = Eigen::Matrix<double, 4, 8>::Zero();
@@ -35,7 +35,8 @@ std::optional<Expected> contribution(const FitTerm& term, const quadedge::Pinhol
   result.depth = depth - gradient(7) / normal(7, 7);
   result.cost = residual.squaredNorm() - gradient(7) * gradient(7) / normal(7, 7);
   const double weight = student_weight(result.cost, weights.scale, kPlaceSize, weights.dof) / weights.scale;
-  result.matrix = weight * (normal.topLeftCorner<7, 7>() - normal.topRightCorner<7, 1>() * normal.bottomLeftCorner<1, 7>() / normal(7, 7));
+  result.matrix = weight * (normal.topLeftCorner<7, 7>() -
+                            normal.topRightCorner<7, 1>() * normal.bottomLeftCorner<1, 7>() / normal(7, 7));
   result.gradient = weight * (gradient.head<7>() - normal.topRightCorner<7, 1>() * (gradient(7) / normal(7, 7)));
   return result;
 }
@@ -72,7 +73,8 @@ void check_close(const A& a, const B& b) {
 
 }  // namespace
 
-TEST_CASE("Sums over the places of quads are those of the Jacobians with the depths eliminated", "[pose][place_terms]") {
+TEST_CASE("Sums over the places of quads are those of the Jacobians with the depths eliminated",
+          "[pose][place_terms]") {
   const StudentWeights weights{1.7, 5};
   const double offset = 0.2;
   for (int quads : {1, 7, 16, 2 * 1024 + 3, 5001}) {

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <limits>
 
 #include "generated_quads.hpp"
@@ -27,11 +26,11 @@ StereoEdges edges_of(const StereoRig& rig, const std::vector<pose::OrientedPoint
   return edges;
 }
 
-stages::TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std::optional<Eigen::Isometry3d>& motion, double radius,
-                               int step) {
+TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std::optional<Eigen::Isometry3d>& motion,
+                       double radius, int step) {
   pose::MeasuredEdges measured;
   pose::measure_edges(rig, edges, 0.07, measured);
-  stages::TemporalSearch search;
+  TemporalSearch search;
   odometry::predict_places(rig, edges, measured, motion, radius, step, search);
   return search;
 }
@@ -44,7 +43,8 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
     std::vector<pose::OrientedPoint> points;
     for (int k = 0; k < 60; ++k) {
       // Upright and oblique tangents, so that neither rig sees them along its epipolar lines.
-      points.push_back({Vector3d(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), random.uniform(1.5, 4)), random.unit()});
+      points.push_back(
+          {Vector3d(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), random.uniform(1.5, 4)), random.unit()});
     }
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
     motion.linear() = Eigen::AngleAxisd(0.05, Vector3d(0.2, 1, 0.1).normalized()).toRotationMatrix();
@@ -66,7 +66,8 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
       // The tangent: a second point a little further along it.
       const auto ahead = rig.left.project(motion * (points[i].point + 1e-6 * points[i].tangent));
       const double direction = std::atan2(ahead.y() - left.y(), ahead.x() - left.x());
-      CHECK(std::abs(std::remainder(static_cast<double>(search.left.direction[i]) - direction, 2 * 3.14159265358979)) < 0.02);
+      CHECK(std::abs(std::remainder(static_cast<double>(search.left.direction[i]) - direction, 2 * 3.14159265358979)) <
+            0.02);
     }
     CHECK(predicted > 45);
   }
@@ -74,7 +75,8 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
 
 TEST_CASE("prediction: without a motion everything is expected where it was", "[odometry][prediction]") {
   const auto rig = generated::car_rig();
-  const auto edges = edges_of(rig, {{Vector3d(0, 0, 5), Vector3d::UnitY()}, {Vector3d(1, 0, 9), Vector3d(0.5, 1, 0).normalized()}});
+  const auto edges =
+      edges_of(rig, {{Vector3d(0, 0, 5), Vector3d::UnitY()}, {Vector3d(1, 0, 9), Vector3d(0.5, 1, 0).normalized()}});
   const auto search = predict(rig, edges, std::nullopt, 30, 8);
   CHECK(search.left.x == edges.left_x);
   CHECK(search.left.direction == edges.left_direction);
@@ -84,7 +86,9 @@ TEST_CASE("prediction: without a motion everything is expected where it was", "[
 
 TEST_CASE("prediction: no place for what has no depth or falls behind the camera", "[odometry][prediction]") {
   const auto rig = generated::car_rig();
-  auto edges = edges_of(rig, {{Vector3d(0, 0.2, 5), Vector3d::UnitY()}, {Vector3d(0.5, 0.2, 3), Vector3d::UnitY()}, {Vector3d(0, 0.2, 5), Vector3d::UnitX()}});
+  auto edges = edges_of(rig, {{Vector3d(0, 0.2, 5), Vector3d::UnitY()},
+                              {Vector3d(0.5, 0.2, 3), Vector3d::UnitY()},
+                              {Vector3d(0, 0.2, 5), Vector3d::UnitX()}});
   edges.right_x[0] = edges.left_x[0] + 2;  // negative disparity
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.translation() = Vector3d(0, 0, -4);  // the second point is passed
@@ -95,9 +99,11 @@ TEST_CASE("prediction: no place for what has no depth or falls behind the camera
   }
 }
 
-TEST_CASE("prediction: what is in view is counted, and moves are measured where both places hold", "[odometry][prediction]") {
+TEST_CASE("prediction: what is in view is counted, and moves are measured where both places hold",
+          "[odometry][prediction]") {
   const float nowhere = std::numeric_limits<float>::quiet_NaN();
-  const stages::PlacedEdges a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}}, b{{3, 10, 4, nowhere, 50}, {4, 11, 5, 49, 20}, {}};
+  const PlacedEdges a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}},
+      b{{3, 10, 4, nowhere, 50}, {4, 11, 5, 49, 20}, {}};
   CHECK(odometry::count_in_view({80, 80, 50, 25, 100, 50}, a) == 4);
   CHECK(odometry::count_in_view({80, 80, 50, 25, 60, 50}, a) == 3);
   CHECK(odometry::mean_distance(a, b, 1) == Approx((5 + 1 + 0) / 3.0));

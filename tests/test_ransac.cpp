@@ -86,7 +86,8 @@ TEST_CASE("The search ends with no, one and two quads, and with quads of which n
   CHECK(found.hypotheses == 0);
 }
 
-TEST_CASE("An initial guess is one more hypothesis: it helps when right and does no harm when wrong", "[pose][ransac]") {
+TEST_CASE("An initial guess is one more hypothesis: it helps when right and does no harm when wrong",
+          "[pose][ransac]") {
   quadedge::PoseConfig config;
   generated::Problem problem = drive();
   problem.outliers = 0.5;
@@ -138,8 +139,9 @@ TEST_CASE("Without local optimisation the motion is the one of two quads as they
   for (std::size_t a = 0; a < noisy.quads.size() && !of_a_pair; ++a) {
     for (std::size_t b = 0; b < noisy.quads.size() && !of_a_pair; ++b) {
       if (a == b) continue;
-      const auto motion = solve_two_quads({noisy.quads.previous[a].oriented_point(), noisy.quads.previous[b].oriented_point()},
-                                          {noisy.quads.current[a].oriented_point(), noisy.quads.current[b].oriented_point()}, max_cosine);
+      const auto motion = solve_two_quads(
+          {noisy.quads.previous[a].oriented_point(), noisy.quads.previous[b].oriented_point()},
+          {noisy.quads.current[a].oriented_point(), noisy.quads.current[b].oriented_point()}, max_cosine);
       of_a_pair = motion && motion->matrix() == plain.current_from_previous.matrix();
     }
   }

@@ -62,15 +62,15 @@ TEST_CASE("Exact quads lead back to the exact motion from a start nearby", "[pos
     const auto g = generated::generate(problem, 30);
     generated::Random random(31);
     quadedge::PoseConfig config;
-    const Refined refined =
-        refined_by(g.quads, rig, config, random.motion(3e-4, 0.005) * problem.motion);
+    const Refined refined = refined_by(g.quads, rig, config, random.motion(3e-4, 0.005) * problem.motion);
     REQUIRE(refined.solved);
     CHECK(refined.inliers == static_cast<int>(g.quads.size()));
     CHECK((refined.current_from_previous.matrix() - problem.motion.matrix()).norm() < 1e-9);
   }
 }
 
-TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covariance is honest", "[long][pose][refinement]") {
+TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covariance is honest",
+          "[long][pose][refinement]") {
   generated::Problem problem = drive();
   const Trials trials = run_trials(problem, 150);
   for (int k = 0; k < 6; ++k) CHECK(std::abs(trials.mean(k)) < 3.5 * trials.standard_error(k));
@@ -91,7 +91,8 @@ TEST_CASE("Far points with large disparity noise do not shorten the motion", "[l
   CHECK(std::abs(trials.mean(5)) < 3.5 * trials.standard_error(5));
 }
 
-TEST_CASE("The covariance stays honest with few quads and with rows of edges that share their errors", "[long][pose][refinement]") {
+TEST_CASE("The covariance stays honest with few quads and with rows of edges that share their errors",
+          "[long][pose][refinement]") {
   generated::Problem problem = drive();
   problem.quads = 60;
   const Trials few = run_trials(problem, 200);
@@ -106,7 +107,8 @@ TEST_CASE("The covariance stays honest with few quads and with rows of edges tha
 
 namespace {
 
-/// Moves the later edges of each square region of the image by an error of the region's own, `sigma` px in both directions.
+/// Moves the later edges of each square region of the image by an error of the region's own, `sigma` px in both
+/// directions.
 QuadObservations with_region_errors(const generated::Problem& problem, double side, double sigma, std::uint64_t seed) {
   generated::Random random(seed);
   std::vector<Eigen::Vector2d> errors(400);
@@ -130,7 +132,8 @@ QuadObservations with_region_errors(const generated::Problem& problem, double si
 
 }  // namespace
 
-TEST_CASE("The covariance grows with errors that are alike over large regions, and only with them", "[long][pose][refinement]") {
+TEST_CASE("The covariance grows with errors that are alike over large regions, and only with them",
+          "[long][pose][refinement]") {
   generated::Problem problem = drive();
   problem.quads = 3000;
   quadedge::PoseConfig config;
@@ -237,12 +240,14 @@ TEST_CASE("An offset of all disparities makes the motion too long until it is fi
     CHECK((plain.current_from_previous.translation().norm() - length) * offset > 0);
     // By more than what it adds to the nearest points.
     const double largest_disparity = problem.rig.left.fx * problem.rig.baseline() / problem.near;
-    CHECK(std::abs(plain.current_from_previous.translation().norm() / length - 1) > std::abs(offset) / largest_disparity);
+    CHECK(std::abs(plain.current_from_previous.translation().norm() / length - 1) >
+          std::abs(offset) / largest_disparity);
     CHECK(fitted.offset == Approx(offset).margin(4 * std::sqrt(fitted.offset_variance)));
     CHECK(fitted.offset_variance < 0.05 * 0.05);
     CHECK(std::abs(fitted.current_from_previous.translation().norm() / length - 1) < 0.002);
     const Vector6d error = error_of(fitted.current_from_previous, problem.motion);
-    CHECK(error.dot(fitted.covariance.ldlt().solve(error)) < 22.5);  // 99.9 % of a chi-squared distribution with 6 degrees
+    CHECK(error.dot(fitted.covariance.ldlt().solve(error)) <
+          22.5);  // 99.9 % of a chi-squared distribution with 6 degrees
   }
 }
 

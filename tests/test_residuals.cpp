@@ -44,11 +44,13 @@ TEST_CASE("The analytic Jacobians are the residuals' derivatives", "[pose][resid
       farther.inverse_depth_bar -= h * term.inverse_depth_bar_per_pixel;
       REQUIRE(linearise(nearer, rig.left, pose, 0.7, plus));
       REQUIRE(linearise(farther, rig.left, pose, 0.7, minus));
-      CHECK(((plus.place - minus.place) / (2 * h) - at.place_by_offset).norm() < 1e-5 * (1 + at.place_by_offset.norm()));
+      CHECK(((plus.place - minus.place) / (2 * h) - at.place_by_offset).norm() <
+            1e-5 * (1 + at.place_by_offset.norm()));
       FitTerm sloped = term;
       sloped.tangent += h * term.slope_sigma * term.ray;
       REQUIRE(linearise(sloped, rig.left, pose, 0.7, plus));
-      CHECK(((plus.direction - at.direction) / h - at.direction_by_slope).norm() < 1e-4 * (1 + at.direction_by_slope.norm()));
+      CHECK(((plus.direction - at.direction) / h - at.direction_by_slope).norm() <
+            1e-4 * (1 + at.direction_by_slope.norm()));
     }
   }
 }
@@ -67,7 +69,7 @@ TEST_CASE("Residuals vanish at the true motion and count in standard deviations"
   const auto exact = generated::generate(problem, 22);
   Linearisation linear;
   for (std::size_t i = 0; i < exact.quads.size(); ++i) {
-      const FitTerm term = make_term(exact.quads, i, noise);
+    const FitTerm term = make_term(exact.quads, i, noise);
     REQUIRE(linearise(term, problem.rig.left, problem.motion, 0.0, linear));
     CHECK(linear.place.norm() < 1e-6);
     CHECK(linear.direction.norm() < 1e-5);
@@ -79,7 +81,7 @@ TEST_CASE("Residuals vanish at the true motion and count in standard deviations"
   const auto noisy = generated::generate(problem, 23);
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < noisy.quads.size(); ++i) {
-      const FitTerm term = make_term(noisy.quads, i, noise);
+    const FitTerm term = make_term(noisy.quads, i, noise);
     REQUIRE(linearise(term, problem.rig.left, problem.motion, 0.0, linear));
     const Eigen::Vector3d expected = Eigen::Vector3d::Ones() + linear.place_by_depth.cwiseAbs2();
     squares += linear.place.cwiseAbs2().cwiseQuotient(expected) / 4000.0;
@@ -94,5 +96,6 @@ TEST_CASE("A point behind the later camera has no residual", "[pose][residuals]"
   Eigen::Isometry3d away = Eigen::Isometry3d::Identity();
   away.translation() << 0, 0, -1000;
   Linearisation linear;
-  CHECK_FALSE(linearise(make_term(g.quads, 0, NoiseModel(quadedge::PoseConfig{})), problem.rig.left, away, 0.0, linear));
+  CHECK_FALSE(
+      linearise(make_term(g.quads, 0, NoiseModel(quadedge::PoseConfig{})), problem.rig.left, away, 0.0, linear));
 }

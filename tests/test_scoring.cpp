@@ -8,10 +8,12 @@ using namespace quadedge::pose;
 namespace {
 
 /// Plain double-precision twin of truncated_cost, straight from the definition.
-double plain_cost(const generated::Generated& g, const quadedge::StereoRig& rig, const Eigen::Isometry3d& motion, double threshold) {
+double plain_cost(const generated::Generated& g, const quadedge::StereoRig& rig, const Eigen::Isometry3d& motion,
+                  double threshold) {
   double sum = 0;
   for (std::size_t i = 0; i < g.quads.size(); ++i) {
-    const Eigen::Vector3d left = motion * g.quads.previous[i].oriented_point().point, right = rig.right_from_left * left;
+    const Eigen::Vector3d left = motion * g.quads.previous[i].oriented_point().point,
+                          right = rig.right_from_left * left;
     double cost = threshold * threshold;
     if (left.z() > 0 && right.z() > 0) {
       const auto& s = g.quads.scoring;
@@ -40,7 +42,8 @@ TEST_CASE("The score is the truncated quadratic of the worse image, at any numbe
       problem.motion = random.motion(0.02, 0.3);
       const auto g = generated::generate(problem, 12);
       const Eigen::Isometry3d guess = random.motion(0.001, 0.01) * problem.motion;
-      CHECK(truncated_cost(g.quads.scoring, LaterCameras(rig, guess), 1.5) == Approx(plain_cost(g, rig, guess, 1.5)).margin(1e-3));
+      CHECK(truncated_cost(g.quads.scoring, LaterCameras(rig, guess), 1.5) ==
+            Approx(plain_cost(g, rig, guess, 1.5)).margin(1e-3));
     }
   }
   CHECK(truncated_cost({}, LaterCameras(problem.rig, problem.motion), 1.5) == 1.0);

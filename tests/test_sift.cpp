@@ -9,8 +9,6 @@
 #include "reference/sift.hpp"
 
 using namespace quadedge;
-using reference::kEdgeSiftBytes;
-using reference::kSiftBytes;
 
 namespace {
 
@@ -56,9 +54,9 @@ TEST_CASE("sift: descriptors equal OpenCV's at the same key points", "[sift]") {
   REQUIRE(expected.rows == count);
   REQUIRE(expected.cols == kSiftBytes);
 
-  // OpenCV's arc tangent is good to 0.3 degrees. That moves up to 0.3 / 45 of a sample between neighbouring bins, at most
-  // sqrt(2) * 0.3 / 45 * 512 = 4.8 of the descriptor's norm; rounding to bytes on both sides adds at most 1 per byte and
-  // 128 * (1 / 6) in the mean of the square, 4.6 of the norm.
+  // OpenCV's arc tangent is good to 0.3 degrees. That moves up to 0.3 / 45 of a sample between neighbouring bins, at
+  // most sqrt(2) * 0.3 / 45 * 512 = 4.8 of the descriptor's norm; rounding to bytes on both sides adds at most 1 per
+  // byte and 128 * (1 / 6) in the mean of the square, 4.6 of the norm.
   double sum = 0, largest = 0;
   for (int k = 0; k < count; ++k) {
     std::uint8_t descriptor[kSiftBytes];
@@ -175,7 +173,7 @@ TEST_CASE("sift: the kernels' distance equals the reference's", "[sift][device][
   std::vector<std::uint8_t> bytes(40 * kEdgeSiftBytes);
   std::mt19937_64 random(9);
   for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() >> 56);
-  std::fill_n(bytes.begin(), kEdgeSiftBytes, std::uint8_t{0});                     // the largest possible distance
+  std::fill_n(bytes.begin(), kEdgeSiftBytes, std::uint8_t{0});  // the largest possible distance
   std::fill_n(bytes.begin() + kEdgeSiftBytes, kEdgeSiftBytes, std::uint8_t{255});
   std::copy_n(bytes.begin() + 2 * kEdgeSiftBytes, kSiftBytes, bytes.begin() + 3 * kEdgeSiftBytes + kSiftBytes);
   for (const auto& index : all_devices()) {

@@ -8,7 +8,8 @@ using namespace quadedge::pose;
 TEST_CASE("Every member of a quad's family takes point to point and tangent to tangent", "[pose][single_quad]") {
   generated::Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
-    const OrientedPoint p{random.uniform(1, 20) * random.unit(), random.unit()}, q{random.uniform(1, 20) * random.unit(), random.unit()};
+    const OrientedPoint p{random.uniform(1, 20) * random.unit(), random.unit()},
+        q{random.uniform(1, 20) * random.unit(), random.unit()};
     for (double theta : {-2.5, 0.0, 0.4, 3.1}) {
       const Eigen::Isometry3d motion = family(p, q, theta);
       CHECK((motion * p.point - q.point).norm() < 1e-12);

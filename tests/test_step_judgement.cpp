@@ -28,16 +28,20 @@ TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, whatever 
   // Another world, and the second step too long by `excess` and turned by `degrees`; the third is right again.
   const auto judge = [&](double excess, double degrees) {
     Trajectory estimate = walk.truth;
-    const Eigen::Isometry3d error = Eigen::Translation3d(excess, 0, 0) * Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitY());
-    const Eigen::Isometry3d world = Eigen::Translation3d(3, 4, 5) * Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized());
+    const Eigen::Isometry3d error =
+        Eigen::Translation3d(excess, 0, 0) * Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitY());
+    const Eigen::Isometry3d world =
+        Eigen::Translation3d(3, 4, 5) * Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized());
     estimate[2].world_from_left = walk.truth[2].world_from_left * error;
-    estimate[3].world_from_left = estimate[2].world_from_left * walk.truth[2].world_from_left.inverse() * walk.truth[3].world_from_left;
+    estimate[3].world_from_left =
+        estimate[2].world_from_left * walk.truth[2].world_from_left.inverse() * walk.truth[3].world_from_left;
     for (auto& pose : estimate) pose.world_from_left = world * pose.world_from_left;
     return judge_steps(estimate, walk.truth, walk.frames);
   };
   CHECK(judge(0.149, 0).right == 3);
   CHECK(judge(-0.149, 1.99).right == 3);
-  for (const auto& [excess, degrees] : {std::make_pair(0.151, 0.0), {-0.151, 0.0}, {0.0, 2.01}, {0.0, -2.01}, {0.0, 180.0}}) {
+  for (const auto& [excess, degrees] :
+       {std::make_pair(0.151, 0.0), {-0.151, 0.0}, {0.0, 2.01}, {0.0, -2.01}, {0.0, 180.0}}) {
     const auto result = judge(excess, degrees);
     INFO(excess << " m, " << degrees << " deg");
     CHECK(result.right == 2);
@@ -46,7 +50,8 @@ TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, whatever 
   }
 }
 
-TEST_CASE("steps: both steps at a frame without a pose are lost, and those without truth do not count", "[evaluation]") {
+TEST_CASE("steps: both steps at a frame without a pose are lost, and those without truth do not count",
+          "[evaluation]") {
   const Walk walk(6);
   Trajectory estimate = walk.truth;
   for (auto& pose : estimate) pose.stamp_ns += 9'000'000;

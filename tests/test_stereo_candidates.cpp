@@ -19,38 +19,44 @@ Vector2d at_infinity(const StereoRig& rig, const Vector2d& pixel) {
   return rig.right.project(rig.right_from_left.linear() * rig.left.ray(pixel));
 }
 
-/// Sine between a tangent and the left epipolar line: the image of the right ray through the counterpart, in double precision.
+/// Sine between a tangent and the left epipolar line: the image of the right ray through the counterpart, in double
+/// precision.
 double epipolar_sine(const StereoRig& rig, const Vector2d& pixel, double direction) {
   const Vector3d t = rig.right_from_left.linear().transpose() * rig.right_from_left.translation();
-  const Vector3d normal = rig.left.matrix().inverse().transpose() * t.cross(rig.left.ray(pixel));  // the line's coefficients
+  const Vector3d normal =
+      rig.left.matrix().inverse().transpose() * t.cross(rig.left.ray(pixel));  // the line's coefficients
   const Vector2d along = Vector2d(-normal.y(), normal.x()).normalized();
   return std::abs(std::cos(direction) * along.y() - std::sin(direction) * along.x());
 }
 
-/// Filters 1 to 3 of SPEC section 3 from the definition, double precision. Positive: inside by that much, in units of what
-/// single precision may get wrong (2e-3 px, 1e-5 rad).
-double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, std::size_t i, const EdgeSet& right,
-              std::size_t j) {
+/// Filters 1 to 3 of doc/method.md section 3 from the definition, double precision. Positive: inside by that much, in
+/// units of what single precision may get wrong (2e-3 px, 1e-5 rad).
+double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, std::size_t i,
+              const EdgeSet& right, std::size_t j) {
   constexpr double kPixels = 2e-3, kRadians = 1e-5, kTolerance = 1.0;
   const Vector2d p(left.x[i], left.y[i]), q(right.x[j], right.y[j]);
   if ((rig.right_from_left.linear() * rig.left.ray(p)).z() <= 0) return -1e9;
   const Vector3d t = rig.right_from_left.translation();
   Eigen::Matrix3d cross;
   cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  const Vector3d line = rig.right.matrix().inverse().transpose() * cross * rig.right_from_left.linear() * rig.left.ray(p);
+  const Vector3d line =
+      rig.right.matrix().inverse().transpose() * cross * rig.right_from_left.linear() * rig.left.ray(p);
   const double distance = std::abs(line.dot(Vector3d(q.x(), q.y(), 1))) / line.head<2>().norm();
   const Vector2d far = at_infinity(rig, p), growing = (in_right(rig, p, 1e2) - far).normalized();
   const double s = (q - far).dot(growing);
-  const double s_max = config.max_disparity > 0 ? config.max_disparity : (in_right(rig, p, config.min_depth) - far).norm();
-  const double turn = std::abs(std::remainder(static_cast<double>(left.direction[i]) - static_cast<double>(right.direction[j]), 2 * kPi));
-  return std::min({(config.epipolar_distance - distance) / kPixels, (s + kTolerance) / kPixels, (s_max + kTolerance - s) / kPixels,
-                   (config.orientation * kDegree - turn) / kRadians,
-                   (epipolar_sine(rig, p, left.direction[i]) - std::sin(config.min_epipolar_angle * kDegree)) / kRadians});
+  const double s_max =
+      config.max_disparity > 0 ? config.max_disparity : (in_right(rig, p, config.min_depth) - far).norm();
+  const double turn = std::abs(
+      std::remainder(static_cast<double>(left.direction[i]) - static_cast<double>(right.direction[j]), 2 * kPi));
+  return std::min(
+      {(config.epipolar_distance - distance) / kPixels, (s + kTolerance) / kPixels, (s_max + kTolerance - s) / kPixels,
+       (config.orientation * kDegree - turn) / kRadians,
+       (epipolar_sine(rig, p, left.direction[i]) - std::sin(config.min_epipolar_angle * kDegree)) / kRadians});
 }
 
 /// Counts the certain members; every list is ascending, holds all certain ones and nothing that is certainly outside.
-std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target, const StereoRig& rig,
-                        const StereoConfig& config, const EdgeSet& left, const EdgeSet& right) {
+std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
+                        const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, const EdgeSet& right) {
   REQUIRE(first.size() == left.size() + 1);
   REQUIRE(first.back() == static_cast<int>(target.size()));
   std::size_t certain = 0, missing = 0, extra = 0, disordered = 0;
@@ -72,21 +78,23 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
 }
 
 /// The reference and every device and variant against the definition.
-std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, const EdgeSet& right) {
-  const auto geometry = stages::make_epipolar_geometry(rig, config);
+std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left,
+                             const EdgeSet& right) {
+  const auto geometry = make_epipolar_geometry(rig, config);
   const auto lists = reference::stereo_candidates(left, right, geometry);
   const std::size_t certain = check_lists(lists.first, lists.target, rig, config, left, right);
-  for_each_variant("stereo_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-    INFO(name);
-    stages::StereoCandidates stage(context, variants);
-    opencl::Buffer<cl_float> packed;
-    packed.write(context, geometry.packed());
-    const auto device_left = upload(context, left), device_right = upload(context, right);
-    stages::DeviceCandidates found;
-    stage.run(device_left, device_right, rig.right.height, packed, found);
-    check_lists(found.first.read(left.size() + 1), found.target.read(static_cast<std::size_t>(found.host_total)), rig, config, left,
-                right);
-  });
+  for_each_variant(
+      "stereo_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+        INFO(name);
+        stages::StereoCandidates stage(context, variants);
+        opencl::Buffer<cl_float> packed;
+        packed.write(context, geometry.packed());
+        const auto device_left = upload(context, left), device_right = upload(context, right);
+        stages::DeviceCandidates found;
+        stage.run(device_left, device_right, rig.right.height, packed, found);
+        check_lists(found.first.read(left.size() + 1), found.target.read(static_cast<std::size_t>(found.host_total)),
+                    rig, config, left, right);
+      });
   return certain;
 }
 
@@ -101,7 +109,9 @@ std::pair<EdgeSet, EdgeSet> random_scene(const StereoRig& rig, int count, double
                      std::remainder(left.back().direction + random(-0.25, 0.25) + (k % 3 == 0 ? kPi : 0), 2 * kPi)});
     right.push_back({random(1, rig.right.width - 2), random(1, rig.right.height - 2), random(-kPi, kPi)});
   }
-  const auto outside = [&](const Edge& e) { return e.x < 0.5 || e.y < 0.5 || e.x > rig.right.width - 1.5 || e.y > rig.right.height - 1.5; };
+  const auto outside = [&](const Edge& e) {
+    return e.x < 0.5 || e.y < 0.5 || e.x > rig.right.width - 1.5 || e.y > rig.right.height - 1.5;
+  };
   right.erase(std::remove_if(right.begin(), right.end(), outside), right.end());
   return {make_edges(left, rig.left.height, 0.35, seed + 1), make_edges(right, rig.right.height, 0.35, seed + 2)};
 }
@@ -112,7 +122,7 @@ TEST_CASE("epipolar line: a rectified rig measures disparity", "[stereo][matchin
   const StereoRig rig = flat_rig(640, 480, 500, 0.2);
   StereoConfig config;
   config.min_depth = 2;  // 500 * 0.2 / 2 = 50 px
-  const auto line = reference::epipolar_line(stages::make_epipolar_geometry(rig, config), 321.25f, 77.5f);
+  const auto line = epipolar_line(make_epipolar_geometry(rig, config), 321.25f, 77.5f);
   REQUIRE(line.valid);
   CHECK(line.x == Approx(321.25).margin(1e-3));
   CHECK(line.y == Approx(77.5).margin(1e-3));
@@ -120,18 +130,18 @@ TEST_CASE("epipolar line: a rectified rig measures disparity", "[stereo][matchin
   CHECK(line.ey == Approx(0).margin(1e-6));
   CHECK(line.s_max == Approx(50).margin(1e-3));
   config.max_disparity = 25;
-  CHECK(reference::epipolar_line(stages::make_epipolar_geometry(rig, config), 5, 5).s_max == 25.0f);
+  CHECK(epipolar_line(make_epipolar_geometry(rig, config), 5, 5).s_max == 25.0f);
 }
 
 TEST_CASE("epipolar line: passes through the projections of every depth in a general rig", "[stereo][matching]") {
   const StereoRig rig = crooked_rig();
   StereoConfig config;
   config.min_depth = 0.7;
-  const auto geometry = stages::make_epipolar_geometry(rig, config);
+  const auto geometry = make_epipolar_geometry(rig, config);
   Random random(3);
   for (int k = 0; k < 200; ++k) {
     const Vector2d p(random(0, rig.left.width), random(0, rig.left.height));
-    const auto line = reference::epipolar_line(geometry, static_cast<float>(p.x()), static_cast<float>(p.y()));
+    const auto line = epipolar_line(geometry, static_cast<float>(p.x()), static_cast<float>(p.y()));
     REQUIRE(line.valid);
     double last = -1;
     for (const double depth : {1e6, 50.0, 5.0, 1.3, 0.7}) {
@@ -143,13 +153,13 @@ TEST_CASE("epipolar line: passes through the projections of every depth in a gen
     }
     CHECK(line.s_max == Approx(last).margin(1e-3));
     const double direction = random(-kPi, kPi);
-    CHECK(reference::left_epipolar_sine(geometry, static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(direction)) ==
-          Approx(epipolar_sine(rig, p, direction)).margin(1e-5));
+    CHECK(left_epipolar_sine(geometry, static_cast<float>(p.x()), static_cast<float>(p.y()),
+                             static_cast<float>(direction)) == Approx(epipolar_sine(rig, p, direction)).margin(1e-5));
   }
 }
 
 TEST_CASE("epipolar geometry: refuses a search that nothing limits", "[stereo][matching]") {
-  CHECK_THROWS_AS(stages::make_epipolar_geometry(flat_rig(), StereoConfig{}), UsageError);
+  CHECK_THROWS_AS(make_epipolar_geometry(flat_rig(), StereoConfig{}), UsageError);
 }
 
 TEST_CASE("stereo candidates: the lists hold what the definition says", "[stereo][matching][device]") {
@@ -166,7 +176,8 @@ TEST_CASE("stereo candidates: the lists hold what the definition says", "[stereo
   CHECK(check_everywhere(crooked_rig(), config, left, right) > 200);
 }
 
-TEST_CASE("stereo candidates: small lists, also empty ones and lines beside the image", "[stereo][matching][device][oclgrind]") {
+TEST_CASE("stereo candidates: small lists, also empty ones and lines beside the image",
+          "[stereo][matching][device][oclgrind]") {
   StereoConfig config;
   config.min_depth = 0.7;
   const StereoRig rig = crooked_rig();

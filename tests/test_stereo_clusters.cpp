@@ -42,7 +42,7 @@ struct Scene {
   StereoRig rig = flat_rig(97, 71);
   StereoConfig config;
   Config all;
-  stages::EpipolarGeometry geometry;
+  EpipolarGeometry geometry;
   Image left_image = image_of(97, 71, smooth_grey);
   Image right_image = image_of(97, 71, [](double x, double y) { return smooth_grey(x + 6.3, y); });
   EdgeSet left, right;
@@ -52,7 +52,7 @@ struct Scene {
 
   Scene() {
     config.max_disparity = 20;
-    geometry = stages::make_epipolar_geometry(rig, config);
+    geometry = make_epipolar_geometry(rig, config);
     candidates.first = {0};
   }
   struct Member {
@@ -73,52 +73,57 @@ struct Scene {
     const auto clusters = reference::stereo_clusters(candidates, scores, refined, right, config);
     return reference::stereo_mutual(clusters, reference::stereo_best(clusters, config), left, geometry, config);
   }
-  /// Every device and variant finds the same stereo edges. Single precision may turn a decision that lies within 1e-5 of a limit
-  /// or of a tie: `band` rows at most.
+  /// Every device and variant finds the same stereo edges. Single precision may turn a decision that lies within 1e-5
+  /// of a limit or of a tie: `band` rows at most.
   void compare_devices(std::size_t band) const {
     const StereoEdges truth = match();
-    for_each_variant("stereo_clusters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-      INFO(name);
-      stages::StereoClusters stage(context, config, variants);
-      stages::EdgeDescription describe_right(context, 97, 71, all.patches, all.sift, {});
-      const auto image = upload(context, right_image);
-      const auto device_left = upload(context, left), device_right = upload(context, right);
-      describe_right.prepare(image.pixels);
-      auto lists = upload(context, candidates);
-      upload(context, scores, lists);
-      opencl::Buffer<cl_float> packed;
-      packed.write(context, geometry.packed());
-      stages::DeviceRefined device_refined;
-      device_refined.place.write(context, {refined.place.begin(), refined.place.end()});
-      device_refined.likeness.write(context, {refined.likeness.begin(), refined.likeness.end()});
-      stages::DeviceClusters clusters;
-      stages::DeviceStereoEdges result;
-      stage.run(device_left, device_right, describe_right, packed, lists, device_refined,
-                clusters, result);
-      StereoEdges found;
-      result.read(found);
-      std::size_t same = 0, j = 0;
-      for (std::size_t i = 0; i < truth.size(); ++i) {
-        while (j < found.size() && found.left_index[j] < truth.left_index[i]) ++j;
-        if (j == found.size() || found.left_index[j] != truth.left_index[i] || found.right_index[j] != truth.right_index[i]) continue;
-        ++same;
-        CHECK(found.left_x[j] == truth.left_x[i]);
-        CHECK(found.left_y[j] == truth.left_y[i]);
-        CHECK(found.left_direction[j] == truth.left_direction[i]);
-        CHECK(found.right_x[j] == Approx(truth.right_x[i]).margin(1e-3));
-        CHECK(found.right_y[j] == Approx(truth.right_y[i]).margin(1e-3));
-        CHECK(std::abs(std::remainder(static_cast<double>(found.right_direction[j]) - static_cast<double>(truth.right_direction[i]), 2 * kPi)) < 1e-4);
-        CHECK(found.ncc[j] == Approx(truth.ncc[i]).margin(1e-4));
-      }
-      CHECK(same + band >= truth.size());
-      CHECK(same + band >= found.size());
-      // The right patches are cut at the refined places.
-      const auto recut = reference::side_patches(right_image.view(), found.right_x, found.right_y, found.right_direction, all.patches);
-      const auto kept = result.right_patches.read(recut.size());
-      const auto apart = rounded_apart(kept, recut);
-      CHECK(apart.largest <= 1);
-      CHECK(apart.differing <= apart.samples / 98);
-    });
+    for_each_variant(
+        "stereo_clusters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+          INFO(name);
+          stages::StereoClusters stage(context, config, variants);
+          stages::EdgeDescription describe_right(context, 97, 71, all.patches, all.sift, {});
+          const auto image = upload(context, right_image);
+          const auto device_left = upload(context, left), device_right = upload(context, right);
+          describe_right.prepare(image.pixels);
+          auto lists = upload(context, candidates);
+          upload(context, scores, lists);
+          opencl::Buffer<cl_float> packed;
+          packed.write(context, geometry.packed());
+          stages::DeviceRefined device_refined;
+          device_refined.place.write(context, {refined.place.begin(), refined.place.end()});
+          device_refined.likeness.write(context, {refined.likeness.begin(), refined.likeness.end()});
+          stages::DeviceClusters clusters;
+          stages::DeviceStereoEdges result;
+          stage.run(device_left, device_right, describe_right, packed, lists, device_refined, clusters, result);
+          StereoEdges found;
+          result.read(found);
+          std::size_t same = 0, j = 0;
+          for (std::size_t i = 0; i < truth.size(); ++i) {
+            while (j < found.size() && found.left_index[j] < truth.left_index[i]) ++j;
+            if (j == found.size() || found.left_index[j] != truth.left_index[i] ||
+                found.right_index[j] != truth.right_index[i])
+              continue;
+            ++same;
+            CHECK(found.left_x[j] == truth.left_x[i]);
+            CHECK(found.left_y[j] == truth.left_y[i]);
+            CHECK(found.left_direction[j] == truth.left_direction[i]);
+            CHECK(found.right_x[j] == Approx(truth.right_x[i]).margin(1e-3));
+            CHECK(found.right_y[j] == Approx(truth.right_y[i]).margin(1e-3));
+            CHECK(std::abs(std::remainder(
+                      static_cast<double>(found.right_direction[j]) - static_cast<double>(truth.right_direction[i]),
+                      2 * kPi)) < 1e-4);
+            CHECK(found.ncc[j] == Approx(truth.ncc[i]).margin(1e-4));
+          }
+          CHECK(same + band >= truth.size());
+          CHECK(same + band >= found.size());
+          // The right patches are cut at the refined places.
+          const auto recut = reference::side_patches(right_image.view(), found.right_x, found.right_y,
+                                                     found.right_direction, all.patches);
+          const auto kept = result.right_patches.read(recut.size());
+          const auto apart = rounded_apart(kept, recut);
+          CHECK(apart.largest <= 1);
+          CHECK(apart.differing <= apart.samples / 98);
+        });
   }
 };
 
@@ -151,7 +156,8 @@ TEST_CASE("stereo clusters: cut at gaps, represented by the most alike member", 
 TEST_CASE("stereo clusters: directions are compared and averaged around the full turn", "[stereo][matching]") {
   // 178 and -179 degrees are 3 apart; 30 and 55 are 25 apart, over the limit of 20; 10 and -170 are opposite.
   const auto clusters =
-      Lists({{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}}).clusters();
+      Lists({{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}})
+          .clusters();
   CHECK(clusters.first == std::vector<std::int32_t>{0, 1, 3, 5});
   // 178 with weight 1, 181 with weight exp(-0.25 / 8).
   const double w = std::exp(-0.25 / 8);
@@ -159,9 +165,12 @@ TEST_CASE("stereo clusters: directions are compared and averaged around the full
   CHECK(clusters.direction[2] == Approx(55 * kDegree));
 }
 
-TEST_CASE("stereo clusters: of equally alike members the first by number stands for the cluster", "[stereo][matching]") {
-  const auto clusters =
-      Lists({{{1.5, 20, 0.9}, {1, 20, 0.9}}, {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}}, {{3.4, 20, 0.9}, {3.1, 20, 0.9003}}}).clusters();
+TEST_CASE("stereo clusters: of equally alike members the first by number stands for the cluster",
+          "[stereo][matching]") {
+  const auto clusters = Lists({{{1.5, 20, 0.9}, {1, 20, 0.9}},
+                               {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}},
+                               {{3.4, 20, 0.9}, {3.1, 20, 0.9003}}})
+                            .clusters();
   CHECK(clusters.anchor == std::vector<std::int32_t>{0, 2, 6});
 }
 

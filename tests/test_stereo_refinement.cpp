@@ -15,8 +15,8 @@ namespace {
 const PatchesConfig patches;
 const double kOffset = patches.offset;
 
-/// A right image that shows the left one's texture at a disparity of 6.3 px everywhere, with edges all over it, and one candidate
-/// per left edge that lies up to 1.2 px beside the truth along the line and up to 0.4 px across it.
+/// A right image that shows the left one's texture at a disparity of 6.3 px everywhere, with edges all over it, and one
+/// candidate per left edge that lies up to 1.2 px beside the truth along the line and up to 0.4 px across it.
 struct Scene {
   StereoRig rig = flat_rig(97, 71);
   StereoConfig config;
@@ -24,7 +24,7 @@ struct Scene {
   EdgeSet left, right;
   reference::Candidates lists;
   reference::CandidateScores scores;
-  stages::EpipolarGeometry geometry;
+  EpipolarGeometry geometry;
 
   explicit Scene(int count, std::uint64_t seed = 2) {
     config.max_disparity = 20;
@@ -32,12 +32,13 @@ struct Scene {
     config.refine_prior = 100;
     config.refine_steps = 20;
     config.refine_tolerance = 1e-3;
-    geometry = stages::make_epipolar_geometry(rig, config);
+    geometry = make_epipolar_geometry(rig, config);
     left_image = image_of(97, 71, smooth_grey);
     right_image = image_of(97, 71, [](double x, double y) { return smooth_grey(x + kDisparity, y); });
     Random random(seed);
     std::vector<Edge> edges;
-    for (int i = 0; i < count; ++i) edges.push_back({random(26, 80), random(14, 56), random(0.3, kPi - 0.3) * (i % 2 == 0 ? 1 : -1)});
+    for (int i = 0; i < count; ++i)
+      edges.push_back({random(26, 80), random(14, 56), random(0.3, kPi - 0.3) * (i % 2 == 0 ? 1 : -1)});
     left = make_edges(edges, 71);
     right = left;
     lists.first = {0};
@@ -63,7 +64,8 @@ struct Scene {
     for (std::size_t i = 0; i < own.size(); ++i) {
       for (std::size_t k = 0; k < i % 7; ++k) {
         lists.target.push_back(static_cast<std::int32_t>(right.x.size()));
-        right.x.push_back(own.x[i] - offsets[k]), right.y.push_back(own.y[i]), right.direction.push_back(own.direction[i]);
+        right.x.push_back(own.x[i] - offsets[k]), right.y.push_back(own.y[i]),
+            right.direction.push_back(own.direction[i]);
       }
       lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
     }
@@ -76,15 +78,16 @@ struct Scene {
     return reference::side_patches(left_image.view(), left.x, left.y, left.direction, patches);
   }
   reference::RefinedCandidates refine(reference::CandidateScores& result) const {
-    return reference::stereo_refinement(left_image.view(), right_image.view(), left_patches(), left, right, geometry, lists, config, kOffset,
-                                        result);
+    return reference::stereo_refinement(left_image.view(), right_image.view(), left_patches(), left, right, geometry,
+                                        lists, config, kOffset, result);
   }
-  /// Every variant and device: living candidates within 1e-2 px and 5e-3 of likeness of the reference. The same may be rejected on
-  /// one side only where a move lies within rounding of its limit: at most 1 % of them.
+  /// Every variant and device: living candidates within 1e-2 px and 5e-3 of likeness of the reference. The same may be
+  /// rejected on one side only where a move lies within rounding of its limit: at most 1 % of them.
   void compare_devices() const {
     auto truth = scores;
     const auto [places, likeness] = refine(truth);
-    for_each_variant("stereo_refinement", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+    for_each_variant("stereo_refinement", [&](opencl::Context& context, const Variants& variants,
+                                              const std::string& name) {
       INFO(name);
       stages::StereoRefinement stage(context, config, kOffset, variants);
       auto device = upload(context, lists);
@@ -97,7 +100,8 @@ struct Scene {
       stages::PixelCorners left_corners(context), right_corners(context);
       left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
       right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
-      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches, packed, device, found);
+      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches, packed,
+                device, found);
       const auto states = device.rejected_by.read(places.size());
       const auto device_places = found.place.read(places.size()), device_likeness = found.likeness.read(places.size());
       std::size_t other_state = 0;
@@ -115,15 +119,16 @@ struct Scene {
   }
 };
 
-/// Candidates end at the true disparity, as exactly as 8 bits allow. Flat spots, where rounding counts more, are left out: less
-/// than 4 grey levels per px along the line.
+/// Candidates end at the true disparity, as exactly as 8 bits allow. Flat spots, where rounding counts more, are left
+/// out: less than 4 grey levels per px along the line.
 void check_disparity(const Scene& scene) {
   auto result = scene.scores;
   const auto [places, likeness] = scene.refine(result);
   std::vector<double> errors;
   for (std::size_t c = 0; c < places.size(); ++c) {
     const double direction = scene.left.direction[c];
-    const auto frame = reference::patch_frame(scene.left.x[c], scene.left.y[c], std::cos(direction), std::sin(direction), 0, 0);
+    const auto frame =
+        reference::patch_frame(scene.left.x[c], scene.left.y[c], std::cos(direction), std::sin(direction), 0, 0);
     const auto slopes = reference::patch_derivative(scene.left_image.view(), frame, 1, 0);
     if (std::sqrt(std::inner_product(slopes.begin(), slopes.end(), slopes.begin(), 0.0) / 49) < 4) continue;
     CHECK(result.rejected_by[c] == 0);
@@ -138,7 +143,7 @@ void check_disparity(const Scene& scene) {
 
 TEST_CASE("epipolar shift: along the tangent where it crosses the line, else straight", "[stereo][matching]") {
   // The line through (50, 20) towards -x.
-  const reference::EpipolarLine line{50, 20, -1, 0, 30, true};
+  const EpipolarLine line{50, 20, -1, 0, 30, true};
   const auto shift = [&](double x, double y, double degrees) {
     return reference::epipolar_shift(line, x, y, degrees * kDegree, 12 * kDegree, 3);
   };
@@ -148,17 +153,21 @@ TEST_CASE("epipolar shift: along the tangent where it crosses the line, else str
   CHECK(shift(40, 20.5, 45) == Approx(10.5));
   CHECK(shift(40, 20.5, -135) == Approx(10.5));
   CHECK(shift(40, 20.5, -45) == Approx(9.5));
-  // 10 degrees are less than 12: projected straight. 13 degrees and 0.8 px: a move of 0.8 / sin 13 = 3.56 px is too long.
+  // 10 degrees are less than 12: projected straight. 13 degrees and 0.8 px: a move of 0.8 / sin 13 = 3.56 px is too
+  // long.
   CHECK(shift(40, 20.5, 10) == Approx(10));
   CHECK(shift(40, 20.8, 13) == Approx(10));
   CHECK(shift(40, 20.5, 13) == Approx(10 + 0.5 / std::tan(13 * kDegree)));
 }
 
-TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px", "[stereo][matching]") { check_disparity(Scene(150)); }
+TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px", "[stereo][matching]") {
+  check_disparity(Scene(150));
+}
 
 TEST_CASE("stereo refinement: another exposure of the right camera does no harm", "[stereo][matching][device]") {
   Scene scene(150);
-  scene.right_image = image_of(97, 71, [](double x, double y) { return 20 + 0.9 * smooth_grey(x + Scene::kDisparity, y); });
+  scene.right_image =
+      image_of(97, 71, [](double x, double y) { return 20 + 0.9 * smooth_grey(x + Scene::kDisparity, y); });
   check_disparity(scene);
   scene.compare_devices();
 }
@@ -177,7 +186,7 @@ TEST_CASE("stereo refinement: a strong prior holds the shifted place, the defaul
   int moved = 0;
   for (std::size_t c = 0; c < free.size(); ++c) {
     const double y = scene.right.y[c];
-    const auto line = reference::epipolar_line(scene.geometry, scene.left.x[c], scene.left.y[c]);
+    const auto line = epipolar_line(scene.geometry, scene.left.x[c], scene.left.y[c]);
     const double start = reference::epipolar_shift(line, scene.right.x[c], y, scene.right.direction[c],
                                                    scene.config.shift_min_angle * kDegree, scene.config.shift_max);
     CHECK(std::abs(held[c] - start) < 0.1);
@@ -190,19 +199,22 @@ TEST_CASE("stereo refinement: a strong prior holds the shifted place, the defaul
   scene.compare_devices();
 }
 
-TEST_CASE("stereo refinement: rejects what leaves the clamp, finds unlike what is, and leaves the dead alone", "[stereo][matching]") {
+TEST_CASE("stereo refinement: rejects what leaves the clamp, finds unlike what is, and leaves the dead alone",
+          "[stereo][matching]") {
   Scene scene(60);
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] -= i % 3 == 0 ? 4.5f : 0.0f;
   scene.scores.rejected_by[1] = 5;
   auto result = scene.scores;
   scene.refine(result);
   CHECK(result.rejected_by[1] == 5);
-  for (std::size_t i = 0; i < scene.right.size(); i += 3) CHECK(result.rejected_by[i] == reference::kStereoRefinementOrder);
-  scene.right_image = image_of(97, 71, [](double x, double y) { return 128 + 70 * std::sin(1.3 * x) * std::cos(1.1 * y); });
+  for (std::size_t i = 0; i < scene.right.size(); i += 3) CHECK(result.rejected_by[i] == kStereoRefinementOrder);
+  scene.right_image =
+      image_of(97, 71, [](double x, double y) { return 128 + 70 * std::sin(1.3 * x) * std::cos(1.1 * y); });
   result = scene.scores;
   const auto likeness = scene.refine(result).likeness;
   int alike = 0;
-  for (std::size_t c = 0; c < likeness.size(); ++c) alike += result.rejected_by[c] == 0 && likeness[c] >= StereoConfig{}.refined_ncc_min ? 1 : 0;
+  for (std::size_t c = 0; c < likeness.size(); ++c)
+    alike += result.rejected_by[c] == 0 && likeness[c] >= StereoConfig{}.refined_ncc_min ? 1 : 0;
   CHECK(alike <= 5);
 }
 

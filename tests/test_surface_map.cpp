@@ -37,7 +37,8 @@ TEST_CASE("A slanted surface is read between its pixels exactly", "[matching]") 
   CHECK_FALSE(point->contour);
 }
 
-TEST_CASE("An edge on a depth step belongs to the nearer surface, on whichever side of the step it was detected", "[matching]") {
+TEST_CASE("An edge on a depth step belongs to the nearer surface, on whichever side of the step it was detected",
+          "[matching]") {
   for (const double x : {14.6, 15.4, 16.0, 16.8}) {
     const auto point = surface_at(board(), x, 12.3, kVertical);
     REQUIRE(point);
@@ -54,7 +55,8 @@ TEST_CASE("Away from a depth step an edge belongs to its own side, and just besi
 }
 
 TEST_CASE("A depth step that an edge runs into does not smear into it", "[matching]") {
-  const auto near_side = surface_at(board(), 15.3, 12.5, kHorizontal), far_side = surface_at(board(), 15.8, 12.5, kHorizontal);
+  const auto near_side = surface_at(board(), 15.3, 12.5, kHorizontal),
+             far_side = surface_at(board(), 15.8, 12.5, kHorizontal);
   REQUIRE(near_side);
   REQUIRE(far_side);
   CHECK(near_side->nearness == Approx(20));
@@ -130,16 +132,19 @@ TEST_CASE("A point of known depth is found again after a known motion", "[matchi
   before.left = before.right = make_map(100, 80, [&](int, int) { return scale / 2.0; });  // a wall 2 m away
   before.world_from_left = now.world_from_left = Eigen::Isometry3d::Identity();
   now.world_from_left->translation() = Eigen::Vector3d(0.1, 0, 0.4);  // the wall is 1.6 m away now
-  now.left = now.right = make_map(100, 80, [&](int x, int) { return x < 20 ? 2 * scale / 1.6 : scale / 1.6; });  // something nearer
+  now.left = now.right =
+      make_map(100, 80, [&](int x, int) { return x < 20 ? 2 * scale / 1.6 : scale / 1.6; });  // something nearer
   const std::vector<float> x = {59.5F, 36.5F}, y = {49.5F, 39.5F}, direction = {1.5F, 1.5F};
-  // Offsets from the principal point: X = 10 px * 2 m / 200 px = 0.1 m, minus 0.1 m; Y = 0.1 m; then the right camera 0.1 m further.
+  // Offsets from the principal point: X = 10 px * 2 m / 200 px = 0.1 m, minus 0.1 m; Y = 0.1 m; then the right camera
+  // 0.1 m further.
   const auto left = true_later_places(rig, before, now, false, {x, y, direction});
   CHECK(left.x[0] == Approx(49.5));
   CHECK(left.y[0] == Approx(39.5 + 200 * 0.1 / 1.6));
   CHECK(left.state[0] == Visibility::visible);
   const auto right = true_later_places(rig, before, now, true, {x, y, direction});
   CHECK(right.x[0] == Approx(49.5 - 200 * 0.1 / 1.6));
-  // X = -13 px * 2 m / 200 px - 0.1 m = -0.23 m: column 49.5 - 28.75 = 20.75 in the left view, 8.25 behind the obstacle in the right.
+  // X = -13 px * 2 m / 200 px - 0.1 m = -0.23 m: column 49.5 - 28.75 = 20.75 in the left view, 8.25 behind the obstacle
+  // in the right.
   CHECK(left.x[1] == Approx(20.75));
   CHECK(left.state[1] == Visibility::visible);
   CHECK(right.state[1] == Visibility::hidden);

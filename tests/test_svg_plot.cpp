@@ -70,8 +70,8 @@ TEST_CASE("A plot puts values where its axes say, and is well-formed XML whateve
   const auto [width, height] = data_size(svg);
   const auto path = all_matches(svg, "<path d=\"(M[^\"]+)\" fill=\"none\"");
   REQUIRE(path.size() == 1);
-  const std::string expected = "M0 " + svg::number(height) + "L" + svg::number(width / 2) + " " + svg::number(height / 2) + "L" +
-                               svg::number(width) + " 0";
+  const std::string expected = "M0 " + svg::number(height) + "L" + svg::number(width / 2) + " " +
+                               svg::number(height / 2) + "L" + svg::number(width) + " 0";
   CHECK(path[0] == expected);
   CHECK(svg.find("<line x1=\"" + svg::number(width / 4) + "\" y1=\"0\" x2=\"" + svg::number(width / 4) + "\" y2=\"" +
                  svg::number(height)) != std::string::npos);
@@ -98,7 +98,8 @@ TEST_CASE("With equal units a square is a square", "[report]") {
   plot.equal_units = true;
   plot.add_points("corners", {0, 3, 0}, {0, 0, 3});
   const std::string svg = plot.svg();
-  const auto x = all_matches(svg, "<circle cx=\"([^\"]+)\" cy=\"[^\"]+\" r=\"3\"/>"), y = all_matches(svg, "cy=\"([^\"]+)\" r=\"3\"/>");
+  const auto x = all_matches(svg, "<circle cx=\"([^\"]+)\" cy=\"[^\"]+\" r=\"3\"/>"),
+             y = all_matches(svg, "cy=\"([^\"]+)\" r=\"3\"/>");
   REQUIRE(x.size() == 3);
   REQUIRE(y.size() == 3);
   CHECK(std::stod(x[1]) - std::stod(x[0]) == Approx(std::stod(y[0]) - std::stod(y[2])).margin(0.05));

@@ -1,6 +1,6 @@
 // The built-in sequences: poses, depth, photometry, noise.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -27,7 +27,8 @@ SyntheticOptions small_options(const char* scene) {
 }
 
 float depth_at(const RenderedView& view, int x, int y) {
-  return view.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(view.image.width) + static_cast<std::size_t>(x)];
+  return view
+      .depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(view.image.width) + static_cast<std::size_t>(x)];
 }
 
 /// Bilinear depth, or nothing where the four neighbours do not belong to one smooth surface or lie outside.
@@ -38,7 +39,8 @@ double smooth_depth(const RenderedView& view, const Vector2d& p) {
   const double c = depth_at(view, x, y + 1), d = depth_at(view, x + 1, y + 1);
   if (std::max({a, b, c, d}) - std::min({a, b, c, d}) > 0.04 * a) return 0.0;
   const double fx = p.x() - x, fy = p.y() - y;
-  const double inverse = (1 - fy) * ((1 - fx) / a + fx / b) + fy * ((1 - fx) / c + fx / d);  // 1 / z is linear on a plane
+  const double inverse =
+      (1 - fy) * ((1 - fx) / a + fx / b) + fy * ((1 - fx) / c + fx / d);  // 1 / z is linear on a plane
   return 1.0 / inverse;
 }
 
@@ -50,7 +52,8 @@ struct Agreement {
 };
 
 /// Carries every pixel of one view with its depth into the other view.
-Agreement compare(const RenderedView& from, const RenderedView& to, const PinholeCamera& camera, const Isometry3d& to_from_from) {
+Agreement compare(const RenderedView& from, const RenderedView& to, const PinholeCamera& camera,
+                  const Isometry3d& to_from_from) {
   Agreement result;
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
@@ -59,9 +62,12 @@ Agreement compare(const RenderedView& from, const RenderedView& to, const Pinhol
       if (seen == 0.0) continue;
       ++result.visible;
       const double difference = point.z() / seen - 1.0;
-      if (std::abs(difference) < 0.004) ++result.agreeing;
-      else if (difference > 0.0) ++result.hidden;
-      else ++result.impossible;
+      if (std::abs(difference) < 0.004)
+        ++result.agreeing;
+      else if (difference > 0.0)
+        ++result.hidden;
+      else
+        ++result.impossible;
     }
   }
   return result;
@@ -73,8 +79,8 @@ struct Photometry {
   Vector2d shift = Vector2d::Zero();
   double median_difference = 0.0;
 };
-Photometry photometry(const RenderedView& from, const RenderedView& to, const PinholeCamera& camera, const Isometry3d& to_from_from,
-                      const Vector2d& bias = Vector2d::Zero()) {
+Photometry photometry(const RenderedView& from, const RenderedView& to, const PinholeCamera& camera,
+                      const Isometry3d& to_from_from, const Vector2d& bias = Vector2d::Zero()) {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Vector2d side = Vector2d::Zero();
   std::vector<double> differences;
@@ -82,7 +88,8 @@ Photometry photometry(const RenderedView& from, const RenderedView& to, const Pi
     const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
     const double fx = p.x() - x, fy = p.y() - y;
     const ImageView v = to.image.view();
-    return (1 - fy) * ((1 - fx) * v.at(x, y) + fx * v.at(x + 1, y)) + fy * ((1 - fx) * v.at(x, y + 1) + fx * v.at(x + 1, y + 1));
+    return (1 - fy) * ((1 - fx) * v.at(x, y) + fx * v.at(x + 1, y)) +
+           fy * ((1 - fx) * v.at(x, y + 1) + fx * v.at(x + 1, y + 1));
   };
   const auto is_smooth = [](const RenderedView& view, const Vector2d& p) {  // no step of depth within two pixels
     for (int dy = -2; dy <= 2; ++dy)
@@ -106,7 +113,8 @@ Photometry photometry(const RenderedView& from, const RenderedView& to, const Pi
   }
   Photometry result;
   result.shift = normal.ldlt().solve(side);
-  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2), differences.end());
+  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+                   differences.end());
   result.median_difference = differences[differences.size() / 2];
   return result;
 }
@@ -177,9 +185,10 @@ TEST_CASE("the synthetic rig is rectified with the asked baseline and focal leng
 TEST_CASE("synthetic depth agrees between the views wherever it is visible in both", "[synthetic]") {
   const SyntheticSequence sequence(small_options("room"));
   const PinholeCamera& camera = sequence.rig().left;
-  const RenderedView left = sequence.render(0, false), right = sequence.render(0, true), later = sequence.render(6, false);
-  for (const auto& [view, pose] : {std::pair(&right, sequence.rig().right_from_left),
-                                   std::pair(&later, sequence.world_from_left(6).inverse())}) {
+  const RenderedView left = sequence.render(0, false), right = sequence.render(0, true),
+                     later = sequence.render(6, false);
+  for (const auto& [view, pose] :
+       {std::pair(&right, sequence.rig().right_from_left), std::pair(&later, sequence.world_from_left(6).inverse())}) {
     const Agreement result = compare(left, *view, camera, pose);
     CAPTURE(result.visible, result.agreeing, result.hidden, result.impossible);
     CHECK(result.visible > 0.75 * camera.width * camera.height);
@@ -194,7 +203,8 @@ TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]
   const RenderedView left = sequence.render(0, false);
   int steps = 0;
   for (int y = 0; y < rig.left.height; ++y)
-    for (int x = 0; x + 1 < rig.left.width; ++x) steps += std::abs(depth_at(left, x + 1, y) / depth_at(left, x, y) - 1.0) > 0.2;
+    for (int x = 0; x + 1 < rig.left.width; ++x)
+      steps += std::abs(depth_at(left, x + 1, y) / depth_at(left, x, y) - 1.0) > 0.2;
   CHECK(steps > rig.left.height);  // objects stand in front of one another
   // The right view shows the same grey f b / Z further left, to a small part of a pixel.
   SyntheticOptions clean = small_options("room");
@@ -240,9 +250,11 @@ TEST_CASE("synthetic camera noise has the asked standard deviation and is indepe
   options.noise = 3.0;
   const SyntheticSequence noisy(options);
   const auto noise = [&](int frame, bool right) {
-    const std::vector<std::uint8_t> a = noisy.render(frame, right).image.pixels, b = clean.render(frame, right).image.pixels;
+    const std::vector<std::uint8_t> a = noisy.render(frame, right).image.pixels,
+                                    b = clean.render(frame, right).image.pixels;
     Eigen::VectorXd difference(static_cast<Eigen::Index>(a.size()));
-    for (std::size_t i = 0; i < a.size(); ++i) difference[static_cast<Eigen::Index>(i)] = static_cast<double>(a[i]) - b[i];
+    for (std::size_t i = 0; i < a.size(); ++i)
+      difference[static_cast<Eigen::Index>(i)] = static_cast<double>(a[i]) - b[i];
     return difference;
   };
   const Eigen::VectorXd first = noise(0, false), right = noise(0, true), second = noise(1, false);

@@ -1,11 +1,11 @@
 // The renderer's geometry: silhouettes and textures lie where analytic projection puts them.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <vector>
 
-#include "data/synthetic_render.hpp"
+#include "synthetic/render.hpp"
 
 using namespace quadedge;
 using Eigen::Isometry3d;
@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Row of the only edge in a column between a surface of grey `above` and one of grey `below`: the column's integral, which
-/// is exact for pixels that are means over their squares.
+/// Row of the only edge in a column between a surface of grey `above` and one of grey `below`: the column's integral,
+/// which is exact for pixels that are means over their squares.
 double edge_row(const synthetic::Radiance& view, const PinholeCamera& camera, int x, double above, double below) {
   double sum = 0.0;
   for (int y = 0; y < camera.height; ++y) sum += view.grey[static_cast<std::size_t>(y * camera.width + x)];
@@ -23,8 +23,8 @@ double edge_row(const synthetic::Radiance& view, const PinholeCamera& camera, in
 }
 
 /// Largest and mean error [px] of the rendered edge over the columns. `true_row`: from geometry.
-std::pair<double, double> edge_error(const synthetic::Radiance& view, const PinholeCamera& camera, int first, int last, double above,
-                                     double below, const std::function<double(double)>& true_row) {
+std::pair<double, double> edge_error(const synthetic::Radiance& view, const PinholeCamera& camera, int first, int last,
+                                     double above, double below, const std::function<double(double)>& true_row) {
   double largest = 0.0, sum = 0.0;
   for (int x = first; x < last; ++x) {
     const double error = edge_row(view, camera, x, above, below) - true_row(x);
@@ -55,12 +55,15 @@ Isometry3d at(const Vector3d& place, double yaw = 0.0, double pitch = 0.0, doubl
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() = place;
   pose.linear() = (Eigen::AngleAxisd(yaw, Vector3d::UnitY()) * Eigen::AngleAxisd(pitch, Vector3d::UnitX()) *
-                   Eigen::AngleAxisd(roll, Vector3d::UnitZ())).toRotationMatrix();
+                   Eigen::AngleAxisd(roll, Vector3d::UnitZ()))
+                      .toRotationMatrix();
   return pose;
 }
 
 /// Grey of a plain surface with this outward normal under the scenes' light.
-double shaded(double grey, const Vector3d& normal) { return grey * synthetic::shade(normal, synthetic::light_direction(), 0.72); }
+double shaded(double grey, const Vector3d& normal) {
+  return grey * synthetic::shade(normal, synthetic::light_direction(), 0.72);
+}
 
 }  // namespace
 
@@ -81,9 +84,9 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
                              camera_from_world, 8, 2);
     const Vector2d a = camera.project(camera_from_world * pose * Vector3d(-1.0, -0.3, 0.0));
     const Vector2d b = camera.project(camera_from_world * pose * Vector3d(1.0, -0.3, 0.0));
-    const auto [largest, mean] = edge_error(view, camera, 0, 200, wall, shaded(60.0, -pose.linear().col(2)), [&](double x) {
-      return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
-    });
+    const auto [largest, mean] =
+        edge_error(view, camera, 0, 200, wall, shaded(60.0, -pose.linear().col(2)),
+                   [&](double x) { return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x()); });
     CHECK(largest < 0.02);
     CHECK(std::abs(mean) < 0.002);
   }
@@ -93,7 +96,8 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
     const double radius = 0.02;
     const auto view = render(scene_with(std::make_unique<synthetic::TubeSurface>(control, radius, 0.0, 1e-5)), camera,
                              camera_from_world, 8, 2);
-    // The curve by repeated averaging of the control polygon (Lane-Riesenfeld), so finely that its points are 0.1 mm apart.
+    // The curve by repeated averaging of the control polygon (Lane-Riesenfeld), so finely that its points are 0.1 mm
+    // apart.
     std::vector<Vector3d> curve = control;
     for (int level = 0; level < 12; ++level) {
       std::vector<Vector3d> finer;
@@ -119,10 +123,12 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
       for (int sample = 0; sample < 3; ++sample) {  // mean over the pixel's width (Simpson)
         const double column = x + 0.5 * (sample - 1);
         const auto across = [&](double y) { return clearance(column, y); };
-        height += (sample == 1 ? 4.0 : 1.0) / 6.0 * (bisect(inside, inside + 30.0, across) - bisect(inside - 30.0, inside, across));
+        height += (sample == 1 ? 4.0 : 1.0) / 6.0 *
+                  (bisect(inside, inside + 30.0, across) - bisect(inside - 30.0, inside, across));
       }
       double dark = 0.0;
-      for (int y = 0; y < camera.height; ++y) dark += 1.0 - view.grey[static_cast<std::size_t>(y * camera.width + x)] / wall;
+      for (int y = 0; y < camera.height; ++y)
+        dark += 1.0 - view.grey[static_cast<std::size_t>(y * camera.width + x)] / wall;
       CAPTURE(x, dark, height);
       CHECK(std::abs(dark - height) < 0.02);
     }
@@ -130,8 +136,9 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
   SECTION("a ball") {
     const Vector3d centre(0.1, 0.05, 2.0);
     const double radius = 0.15;
-    const auto view = render(scene_with(std::make_unique<synthetic::SphereSurface>(at(centre, 0.3), radius, plain(60.0))), camera,
-                             camera_from_world, 8, 2);
+    const auto view =
+        render(scene_with(std::make_unique<synthetic::SphereSurface>(at(centre, 0.3), radius, plain(60.0))), camera,
+               camera_from_world, 8, 2);
     const Vector3d seen = camera_from_world * centre;
     int pixels = 0, wrong = 0;
     for (int y = 0; y < camera.height; ++y)
@@ -145,8 +152,8 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
     // The front of the ball is exactly one radius nearer than its centre.
     const Vector2d middle = camera.project(seen);
     const PinholeCamera centred{400.0, 400.0, camera.cx - middle.x() + 100.0, camera.cy - middle.y() + 60.0, 200, 120};
-    const auto moved = render(scene_with(std::make_unique<synthetic::SphereSurface>(at(centre), radius, plain(60.0))), centred,
-                              camera_from_world, 1, 1);
+    const auto moved = render(scene_with(std::make_unique<synthetic::SphereSurface>(at(centre), radius, plain(60.0))),
+                              centred, camera_from_world, 1, 1);
     CHECK(moved.depth[60 * 200 + 100] == Approx(seen.z() * (1.0 - radius / seen.norm())).epsilon(1e-6));
   }
 }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kWidth = 90;  // px
 
-stages::PlacedEdges places_of(const std::vector<Edge>& edges) {
-  stages::PlacedEdges places;
+PlacedEdges places_of(const std::vector<Edge>& edges) {
+  PlacedEdges places;
   for (const Edge& edge : edges) {
     places.x.push_back(static_cast<float>(edge.x));
     places.y.push_back(static_cast<float>(edge.y));
@@ -20,25 +20,29 @@ stages::PlacedEdges places_of(const std::vector<Edge>& edges) {
 }
 
 /// In units of what single precision may get wrong (1e-4 px, 1e-6 rad); positive: inside.
-double margin(const stages::PlacedEdges& predicted, std::size_t i, const stages::PlacedEdges& current, std::size_t j, double radius,
+double margin(const PlacedEdges& predicted, std::size_t i, const PlacedEdges& current, std::size_t j, double radius,
               double orientation) {
-  if (!std::isfinite(predicted.x[i]) || !std::isfinite(predicted.y[i]) || !std::isfinite(predicted.direction[i])) return -1e9;
+  if (!std::isfinite(predicted.x[i]) || !std::isfinite(predicted.y[i]) || !std::isfinite(predicted.direction[i]))
+    return -1e9;
   const double distance = std::hypot(static_cast<double>(current.x[j]) - static_cast<double>(predicted.x[i]),
                                      static_cast<double>(current.y[j]) - static_cast<double>(predicted.y[i]));
-  const double turn = std::abs(std::remainder(static_cast<double>(current.direction[j]) - static_cast<double>(predicted.direction[i]), 2 * kPi));
+  const double turn = std::abs(
+      std::remainder(static_cast<double>(current.direction[j]) - static_cast<double>(predicted.direction[i]), 2 * kPi));
   return std::min((radius - distance) / 1e-4, (orientation - turn) / 1e-6);
 }
 
 /// Lists against the definition over all pairs.
-std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target, const stages::PlacedEdges& predicted,
-                        const stages::PlacedEdges& current, double radius, double orientation, int step) {
+std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
+                        const PlacedEdges& predicted, const PlacedEdges& current, double radius, double orientation,
+                        int step) {
   std::size_t certain = 0, missing = 0, extra = 0;
   const auto rows = (predicted.x.size() + static_cast<std::size_t>(step) - 1) / static_cast<std::size_t>(step);
   REQUIRE(first.size() == rows + 1);
   REQUIRE(first.back() == static_cast<std::int32_t>(target.size()));
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t j = 0; j < current.x.size(); ++j) {
-      const auto times = std::count(target.begin() + first[row], target.begin() + first[row + 1], static_cast<std::int32_t>(j));
+      const auto times =
+          std::count(target.begin() + first[row], target.begin() + first[row + 1], static_cast<std::int32_t>(j));
       const double inside = margin(predicted, row * static_cast<std::size_t>(step), current, j, radius, orientation);
       certain += inside > 1 ? 1 : 0;
       missing += inside > 1 && times != 1 ? 1 : 0;
@@ -50,14 +54,16 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
   return certain;
 }
 
-std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std::vector<Edge>& current_edges, int height, double radius,
-                             double orientation, int step) {
+std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std::vector<Edge>& current_edges,
+                             int height, double radius, double orientation, int step) {
   const auto predicted = places_of(predicted_edges), current = places_of(current_edges);
-  stages::PointIndex index;
-  stages::make_point_index(current.x, current.y, kWidth, height, index);
-  const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius), static_cast<float>(orientation), step);
+  PointIndex index;
+  make_point_index(current.x, current.y, kWidth, height, index);
+  const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius),
+                                                    static_cast<float>(orientation), step);
   const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
-  for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+  for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants,
+                                              const std::string& name) {
     INFO(name);
     stages::DevicePointIndex device_index;
     device_index.build(context, current.x, current.y, current.direction, kWidth, height);
@@ -66,8 +72,9 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
     stages::TemporalCandidates stage(context, variants);
     stages::DeviceCandidates lists;
     stage.run(device_places, step, device_index, static_cast<float>(radius), static_cast<float>(orientation), lists);
-    check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1), lists.target.read(static_cast<std::size_t>(lists.host_total)),
-                predicted, current, radius, orientation, step);
+    check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
+                lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current, radius, orientation,
+                step);
   });
   return certain;
 }
@@ -75,20 +82,24 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
 std::vector<Edge> random_edges(int count, double width, double height, std::uint64_t seed, double beyond = 0) {
   Random random(seed);
   std::vector<Edge> edges;
-  for (int k = 0; k < count; ++k) edges.push_back({random(-beyond, width + beyond), random(-beyond, height + beyond), random(-kPi, kPi)});
+  for (int k = 0; k < count; ++k)
+    edges.push_back({random(-beyond, width + beyond), random(-beyond, height + beyond), random(-kPi, kPi)});
   return edges;
 }
 
 }  // namespace
 
-TEST_CASE("temporal candidates: a circle around the predicted place and a full turn of directions", "[temporal][matching][device][oclgrind]") {
+TEST_CASE("temporal candidates: a circle around the predicted place and a full turn of directions",
+          "[temporal][matching][device][oclgrind]") {
   const double nan = std::nan("");
   const std::vector<Edge> predicted = {{20, 15, 3.1}, {nan, 15, 0}, {20, 15, 3.1 - kPi}};
-  // At 5 px, beside the corner of the square, at the right place with the other contrast, across the wrap of the direction.
-  const std::vector<Edge> current = {{24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
+  // At 5 px, beside the corner of the square, at the right place with the other contrast, across the wrap of the
+  // direction.
+  const std::vector<Edge> current = {
+      {24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
   const auto places = places_of(current);
-  stages::PointIndex index;
-  stages::make_point_index(places.x, places.y, kWidth, 30, index);
+  PointIndex index;
+  make_point_index(places.x, places.y, kWidth, 30, index);
   const auto lists = reference::temporal_candidates(places_of(predicted), places, index, 5.0f, 0.15f);
   CHECK(lists.first == std::vector<std::int32_t>{0, 2, 2, 3});
   CHECK(lists.target == std::vector<std::int32_t>{3, 0, 2});

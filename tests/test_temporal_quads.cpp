@@ -22,7 +22,7 @@ void add(StereoEdges& edges, double x, double y, double degrees) {
 /// Rows of candidates in left and right lists, with what the filters said.
 struct Scene {
   StereoEdges current;
-  stages::TemporalSearch search;
+  TemporalSearch search;
   reference::Candidates left{{0}, {}}, right{{0}, {}};
   reference::CandidateScores left_scores, right_scores;
   TemporalConfig config;
@@ -65,51 +65,54 @@ struct Scene {
   /// Every device and variant finds the same quads, to the last bit.
   void compare_devices() const {
     const auto truth = match();
-    for_each_variant("temporal_quads", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-      INFO(name);
-      stages::DeviceStereoEdges device_edges;
-      device_edges.count = device_edges.stride = static_cast<int>(current.size());
-      std::vector<float> packed;
-      for (const auto* block : {&current.left_x, &current.left_y, &current.left_direction, &current.right_x, &current.right_y,
-                                &current.right_direction}) {
-        packed.insert(packed.end(), block->begin(), block->end());
-      }
-      device_edges.packed.write(context, packed);
-      stages::DevicePlaces predicted;
-      predicted.x.write(context, search.left.x);
-      predicted.y.write(context, search.left.y);
-      predicted.count = static_cast<int>(search.left.x.size());
-      auto device_left = upload(context, left), device_right = upload(context, right);
-      upload(context, left_scores, device_left);
-      upload(context, right_scores, device_right);
-      stages::TemporalQuads stage(context, config, variants);
-      stage.agree(device_left, device_right);
-      const auto found = stage.collect(device_edges, current, search, predicted, device_left);
-      CHECK(found.previous == truth.previous);
-      CHECK(found.current == truth.current);
-      CHECK(found.rivals == truth.rivals);
-      CHECK(found.ncc == truth.ncc);
-      CHECK(found.left_x == truth.left_x);
-      CHECK(found.right_y == truth.right_y);
-    });
+    for_each_variant("temporal_quads",
+                     [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+                       INFO(name);
+                       stages::DeviceStereoEdges device_edges;
+                       device_edges.count = device_edges.stride = static_cast<int>(current.size());
+                       std::vector<float> packed;
+                       for (const auto* block : {&current.left_x, &current.left_y, &current.left_direction,
+                                                 &current.right_x, &current.right_y, &current.right_direction}) {
+                         packed.insert(packed.end(), block->begin(), block->end());
+                       }
+                       device_edges.packed.write(context, packed);
+                       stages::DevicePlaces predicted;
+                       predicted.x.write(context, search.left.x);
+                       predicted.y.write(context, search.left.y);
+                       predicted.count = static_cast<int>(search.left.x.size());
+                       auto device_left = upload(context, left), device_right = upload(context, right);
+                       upload(context, left_scores, device_left);
+                       upload(context, right_scores, device_right);
+                       stages::TemporalQuads stage(context, config, variants);
+                       stage.agree(device_left, device_right);
+                       const auto found = stage.collect(device_edges, current, search, predicted, device_left);
+                       CHECK(found.previous == truth.previous);
+                       CHECK(found.current == truth.current);
+                       CHECK(found.rivals == truth.rivals);
+                       CHECK(found.ncc == truth.ncc);
+                       CHECK(found.left_x == truth.left_x);
+                       CHECK(found.right_y == truth.right_y);
+                     });
   }
 };
 
 }  // namespace
 
 TEST_CASE("temporal agreement: a candidate needs its counterpart alive in the other list", "[temporal][matching]") {
-  // Row 0: targets 4, 7, 9 left; 9, 4, 7 right, where 7 is dead. Row 1: target 4 left, which only row 0 has on the right.
+  // Row 0: targets 4, 7, 9 left; 9, 4, 7 right, where 7 is dead. Row 1: target 4 left, which only row 0 has on the
+  // right.
   const reference::Candidates left{{0, 3, 4}, {4, 7, 9, 4}}, right{{0, 3, 4}, {9, 4, 7, 5}};
   auto scores = fresh_scores(4), other = fresh_scores(4);
   scores.rejected_by[2] = 5;
   other.rejected_by[2] = 3;
   other.ncc = {0.5f, 0.7f, 0.6f, 0.8f};
   const auto agreement = reference::temporal_agreement(left, scores, right, other);
-  CHECK(scores.rejected_by == std::vector<std::uint8_t>{0, reference::kAgreementOrder, 5, reference::kAgreementOrder});
+  CHECK(scores.rejected_by == std::vector<std::uint8_t>{0, kAgreementOrder, 5, kAgreementOrder});
   CHECK(agreement[0] == Approx(0.8));
 }
 
-TEST_CASE("temporal best: chained places are one group, others are rivals, ties go to the first", "[temporal][matching]") {
+TEST_CASE("temporal best: chained places are one group, others are rivals, ties go to the first",
+          "[temporal][matching]") {
   StereoEdges current;
   add(current, 5, 5, 10);
   add(current, 6.4, 5, 12);
@@ -119,7 +122,7 @@ TEST_CASE("temporal best: chained places are one group, others are rivals, ties 
   const reference::Candidates lists{{0, 5, 5}, {0, 1, 2, 3, 4}};
   auto scores = fresh_scores(5);
   const std::vector<float> agreement = {0.9f, 0.8f, 0.85f, 0.9f, 0.7f};
-  stages::TemporalSearch search{{{5, 5}, {5, 5}, {0, 0}}, {}, 3, 1};
+  TemporalSearch search{{{5, 5}, {5, 5}, {0, 0}}, {}, 3, 1};
   TemporalConfig config;
   config.distance_weight = 0;
   auto matches = reference::temporal_best(lists, scores, agreement, current, config, search);
@@ -135,14 +138,15 @@ TEST_CASE("temporal best: chained places are one group, others are rivals, ties 
   CHECK(reference::temporal_best(lists, scores, agreement, current, config, search).rivals[0] == 3);
 }
 
-TEST_CASE("temporal best: among equals the predicted place decides, as far as its weight goes", "[temporal][matching]") {
+TEST_CASE("temporal best: among equals the predicted place decides, as far as its weight goes",
+          "[temporal][matching]") {
   StereoEdges current;
   add(current, 20, 20, 0);
   add(current, 21.5, 20, 0);
   const reference::Candidates lists{{0, 2}, {0, 1}};
   const auto scores = fresh_scores(2);
   // The second is at the prediction, the first 1.5 px = half the radius away: it has to be better by 0.2 / 4.
-  const stages::TemporalSearch search{{{21.5f}, {20}, {0}}, {}, 3, 1};
+  const TemporalSearch search{{{21.5f}, {20}, {0}}, {}, 3, 1};
   TemporalConfig config;
   config.distance_weight = 0.2;
   CHECK(reference::temporal_best(lists, scores, {0.94f, 0.9f}, current, config, search).current[0] == 1);

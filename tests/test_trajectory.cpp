@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <filesystem>
 #include <fstream>
 
@@ -9,10 +8,10 @@
 #include "temporary_folder.hpp"
 
 using namespace quadedge;
-using dataset_files::read_text;
-using dataset_files::write_text;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using dataset_files::read_text;
+using dataset_files::write_text;
 
 namespace {
 
@@ -30,12 +29,13 @@ Trajectory winding(int count) {
 
 }  // namespace
 
-TEST_CASE("trajectory: a TUM file gives back every stamp to the nanosecond and every pose to rounding", "[trajectory]") {
+TEST_CASE("trajectory: a TUM file gives back every stamp to the nanosecond and every pose to rounding",
+          "[trajectory]") {
   const TemporaryFolder folder;
   const Trajectory written = winding(12);
   write_tum(folder / "t.txt", written);
-  CHECK_THAT(read_text(folder / "t.txt"), Contains("\n1403715273.312143104 0 0 -0 0 0 0 1\n") ||
-                                              Contains("\n1403715273.312143104 0 0 0 0 0 0 1\n"));
+  CHECK_THAT(read_text(folder / "t.txt"),
+             Contains("\n1403715273.312143104 0 0 -0 0 0 0 1\n") || Contains("\n1403715273.312143104 0 0 0 0 0 0 1\n"));
   const Trajectory read = read_tum(folder / "t.txt");
   REQUIRE(read.size() == written.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -59,8 +59,9 @@ TEST_CASE("trajectory: a KITTI file gives back the same matrices", "[trajectory]
 
 TEST_CASE("trajectory: stamps are decimal numbers, not doubles", "[trajectory]") {
   const TemporaryFolder folder;
-  write_text(folder / "t.txt", "# comment\r\n-1.5 0 0 0 0 0 0 1\r\n0.0000000014 0 0 0 0 0 0 1\n0.0000000015 0 0 0 0 0 0 1\n"
-                               "1.037e-01 0 0 0 0 0 0 1\n9 0 0 0 0 0 0 -1\n1403715273.312143104 1 2 3 0 0 0 1\n");
+  write_text(folder / "t.txt",
+             "# comment\r\n-1.5 0 0 0 0 0 0 1\r\n0.0000000014 0 0 0 0 0 0 1\n0.0000000015 0 0 0 0 0 0 1\n"
+             "1.037e-01 0 0 0 0 0 0 1\n9 0 0 0 0 0 0 -1\n1403715273.312143104 1 2 3 0 0 0 1\n");
   const Trajectory read = read_tum(folder / "t.txt");
   REQUIRE(read.size() == 6);
   CHECK(read[0].stamp_ns == -1'500'000'000);
@@ -80,7 +81,8 @@ TEST_CASE("trajectory: the kind of file is known by its columns", "[trajectory]"
   CHECK(read_trajectory(folder / "t.txt")[2].stamp_ns > 1'000'000'000);
   CHECK(read_trajectory(folder / "k.txt")[2].stamp_ns == 2);
   write_text(folder / "b.txt", "1 2 3\n");
-  CHECK_THROWS_WITH(read_trajectory(folder / "b.txt"), Contains("b.txt:1") && Contains("3 columns") && Contains("8 (TUM)"));
+  CHECK_THROWS_WITH(read_trajectory(folder / "b.txt"),
+                    Contains("b.txt:1") && Contains("3 columns") && Contains("8 (TUM)"));
   write_text(folder / "b.txt", "# nothing\n");
   CHECK_THROWS_WITH(read_trajectory(folder / "b.txt"), Contains("no pose"));
 }
@@ -105,7 +107,8 @@ TEST_CASE("trajectory: bad rows are named with file and line", "[trajectory]") {
 
 TEST_CASE("trajectory: a file that cannot be written is an error and leaves the old one alone", "[trajectory]") {
   const TemporaryFolder folder;
-  CHECK_THROWS_WITH(write_tum(folder / "absent/t.txt", winding(2)), Contains("absent/t.txt") && Contains("No such file"));
+  CHECK_THROWS_WITH(write_tum(folder / "absent/t.txt", winding(2)),
+                    Contains("absent/t.txt") && Contains("No such file"));
   if (std::filesystem::exists("/dev/full")) {
     CHECK_THROWS_AS(write_tum("/dev/full", winding(2)), DataError);
     CHECK_THROWS_WITH(write_kitti("/dev/full", winding(2)), Contains("/dev/full") && Contains("No space left"));

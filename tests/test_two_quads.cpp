@@ -10,7 +10,8 @@ namespace {
 constexpr double kMaxCosine = 0.97;
 
 OrientedPair moved(const OrientedPair& pair, const Eigen::Isometry3d& m) {
-  return {{m * pair.first.point, m.linear() * pair.first.tangent}, {m * pair.second.point, m.linear() * pair.second.tangent}};
+  return {{m * pair.first.point, m.linear() * pair.first.tangent},
+          {m * pair.second.point, m.linear() * pair.second.tangent}};
 }
 
 }  // namespace
@@ -19,7 +20,8 @@ TEST_CASE("Two exact quads give the exact motion", "[pose][two_quads]") {
   generated::Random random(7);
   int solved = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()}, {random.uniform(1, 9) * random.unit(), random.unit()}};
+    const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()},
+                            {random.uniform(1, 9) * random.unit(), random.unit()}};
     const Eigen::Isometry3d truth = random.motion(3.0, 5.0);
     const auto found = solve_two_quads(pair, moved(pair, truth), kMaxCosine);
     if (!found) continue;
@@ -52,7 +54,8 @@ TEST_CASE("A chord along the first tangent, or none, is recognised as degenerate
 TEST_CASE("A noisy pair gives a rotation all the same, with the midpoint in its place", "[pose][two_quads]") {
   generated::Random random(9);
   for (int trial = 0; trial < 50; ++trial) {
-    const OrientedPair before{{random.uniform(1, 9) * random.unit(), random.unit()}, {random.uniform(1, 9) * random.unit(), random.unit()}};
+    const OrientedPair before{{random.uniform(1, 9) * random.unit(), random.unit()},
+                              {random.uniform(1, 9) * random.unit(), random.unit()}};
     OrientedPair after = moved(before, random.motion(1.0, 1.0));
     after.first.point += 0.1 * random.unit();
     after.second.point += 0.1 * random.unit();
@@ -61,6 +64,7 @@ TEST_CASE("A noisy pair gives a rotation all the same, with the midpoint in its 
     if (!found) continue;
     CHECK((found->linear().transpose() * found->linear() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
     CHECK(found->linear().determinant() == Approx(1.0));
-    CHECK((*found * (0.5 * (before.first.point + before.second.point)) - 0.5 * (after.first.point + after.second.point)).norm() < 1e-12);
+    CHECK((*found * (0.5 * (before.first.point + before.second.point)) - 0.5 * (after.first.point + after.second.point))
+              .norm() < 1e-12);
   }
 }

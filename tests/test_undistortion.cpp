@@ -13,7 +13,8 @@ Image pattern(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image.pixels[static_cast<std::size_t>(y * width + x)] = static_cast<std::uint8_t>((x * 37 + y * 101 + x * y * 5) % 256);
+      image.pixels[static_cast<std::size_t>(y * width + x)] =
+          static_cast<std::uint8_t>((x * 37 + y * 101 + x * y * 5) % 256);
     }
   }
   return image;
@@ -56,7 +57,8 @@ TEST_CASE("undistortion: every device and variant equals the reference exactly",
         stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}});
         opencl::Buffer<cl_uchar> result;
         stage.run(image.view(), result);
-        CHECK(result.read(static_cast<std::size_t>(width * height)) == reference::undistort(image.view(), table).pixels);
+        CHECK(result.read(static_cast<std::size_t>(width * height)) ==
+              reference::undistort(image.view(), table).pixels);
       }
     }
   }

@@ -8,7 +8,6 @@
 
 using namespace quadedge;
 using namespace matching;
-using reference::kWideBytes;
 
 namespace {
 
@@ -17,7 +16,8 @@ Image waves(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const double value = 128 + 40 * std::sin(0.31 * x + 0.11 * y) + 35 * std::sin(0.07 * x - 0.23 * y + 1) + 30 * std::sin(0.013 * x * y / 5 + 2);
+      const double value = 128 + 40 * std::sin(0.31 * x + 0.11 * y) + 35 * std::sin(0.07 * x - 0.23 * y + 1) +
+                           30 * std::sin(0.013 * x * y / 5 + 2);
       image.pixels[static_cast<std::size_t>(y * width + x)] = static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
     }
   }
@@ -54,10 +54,12 @@ TEST_CASE("wide description: a constant image gives zeros", "[wide]") {
   for (std::uint8_t value : describe_one(image, 44.3f, 40.2f, 0.5f)) CHECK(value == 0);
 }
 
-TEST_CASE("wide description: a ramp counts in the directions next to its gradient, with the cube of the cosine", "[wide]") {
+TEST_CASE("wide description: a ramp counts in the directions next to its gradient, with the cube of the cosine",
+          "[wide]") {
   Image image(120, 120);  // I = 2 x: seen from direction t the gradient lies at angle -t
   for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 120; ++x) image.pixels[static_cast<std::size_t>(y * 120 + x)] = static_cast<std::uint8_t>(2 * x);
+    for (int x = 0; x < 120; ++x)
+      image.pixels[static_cast<std::size_t>(y * 120 + x)] = static_cast<std::uint8_t>(2 * x);
   }
   for (int turn = 0; turn < 8; ++turn) {
     const auto descriptor = describe_one(image, 60, 60, static_cast<float>(turn * kPi / 4));
@@ -67,7 +69,8 @@ TEST_CASE("wide description: a ramp counts in the directions next to its gradien
       CAPTURE(turn, k, middle, int{descriptor[static_cast<std::size_t>(k)]});
       if (away == 0) CHECK(middle > 60);
       // A clipped middle is too small by comparison.
-      if (away == 1 && middle < 100) CHECK(std::abs(descriptor[static_cast<std::size_t>(k)] - middle * std::pow(0.5, 1.5)) < 2);
+      if (away == 1 && middle < 100)
+        CHECK(std::abs(descriptor[static_cast<std::size_t>(k)] - middle * std::pow(0.5, 1.5)) < 2);
       if (away == 1) CHECK(descriptor[static_cast<std::size_t>(k)] > middle * std::pow(0.5, 1.5) - 2);
       if (away > 1) CHECK(descriptor[static_cast<std::size_t>(k)] <= 1);
     }
@@ -80,44 +83,47 @@ TEST_CASE("wide description: turning image and edge by 90 degrees gives the same
   for (int y = 0; y < 90; ++y) {
     for (int x = 0; x < 120; ++x) turned.pixels[static_cast<std::size_t>(x * 90 + 89 - y)] = image.view().at(x, y);
   }
-  const auto before = describe_one(image, 60.4f, 41.7f, 0.35f), after = describe_one(turned, 89 - 41.7f, 60.4f, 0.35f + static_cast<float>(kPi / 2));
+  const auto before = describe_one(image, 60.4f, 41.7f, 0.35f),
+             after = describe_one(turned, 89 - 41.7f, 60.4f, 0.35f + static_cast<float>(kPi / 2));
   CHECK(*std::max_element(before.begin(), before.end()) > 50);
   for (std::size_t k = 0; k < kWideBytes; ++k) CHECK(std::abs(before[k] - after[k]) <= 1);
 }
 
-TEST_CASE("wide description: every device and variant equals the reference to the last unit", "[wide][device][oclgrind]") {
+TEST_CASE("wide description: every device and variant equals the reference to the last unit",
+          "[wide][device][oclgrind]") {
   // Sizes that no group or block divides; edges on the border and beyond it; every edge, or every third.
   for (const auto& [width, height, count, step] : {std::tuple{3, 4, 3, 1}, {17, 31, 20, 3}, {64, 47, 37, 1}}) {
     const Image image = waves(width, height);
     const auto edges = stereo_edges(random_edges(width, height, count, 6, 12));
     const auto expected = reference::wide_descriptions(reference::shrink(image.view()), edges, step);
-    for_each_variant("wide_description", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-      CAPTURE(name, width, height, step);
-      stages::WideDescription stage(context, width, height, variants);
-      opencl::Buffer<cl_uchar> pixels, descriptors;
-      opencl::Buffer<cl_float> small;
-      pixels.write(context, image.pixels);
-      stage.prepare(pixels, small);
-      stages::DeviceStereoEdges device_edges;
-      device_edges.count = count;
-      device_edges.stride = count + 3;
-      const auto stride = static_cast<std::size_t>(device_edges.stride);
-      std::vector<float> packed(6 * stride, 0.0f);
-      std::copy(edges.left_x.begin(), edges.left_x.end(), packed.begin());
-      std::copy(edges.left_y.begin(), edges.left_y.end(), packed.begin() + device_edges.stride);
-      std::copy(edges.left_direction.begin(), edges.left_direction.end(), packed.begin() + 2 * device_edges.stride);
-      device_edges.packed.write(context, packed);
-      const int rows = stage.describe(small, device_edges, step, descriptors);
-      REQUIRE(static_cast<std::size_t>(rows) * kWideBytes == expected.size());
-      const auto found = descriptors.read(expected.size());
-      int worst = 0;
-      std::size_t equal = 0;
-      for (std::size_t k = 0; k < expected.size(); ++k) {
-        worst = std::max(worst, std::abs(found[k] - expected[k]));
-        equal += found[k] == expected[k] ? 1 : 0;
-      }
-      CHECK(worst <= 1);
-      CHECK(equal > expected.size() * 98 / 100);
-    });
+    for_each_variant(
+        "wide_description", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+          CAPTURE(name, width, height, step);
+          stages::WideDescription stage(context, width, height, variants);
+          opencl::Buffer<cl_uchar> pixels, descriptors;
+          opencl::Buffer<cl_float> small;
+          pixels.write(context, image.pixels);
+          stage.prepare(pixels, small);
+          stages::DeviceStereoEdges device_edges;
+          device_edges.count = count;
+          device_edges.stride = count + 3;
+          const auto stride = static_cast<std::size_t>(device_edges.stride);
+          std::vector<float> packed(6 * stride, 0.0f);
+          std::copy(edges.left_x.begin(), edges.left_x.end(), packed.begin());
+          std::copy(edges.left_y.begin(), edges.left_y.end(), packed.begin() + device_edges.stride);
+          std::copy(edges.left_direction.begin(), edges.left_direction.end(), packed.begin() + 2 * device_edges.stride);
+          device_edges.packed.write(context, packed);
+          const int rows = stage.describe(small, device_edges, step, descriptors);
+          REQUIRE(static_cast<std::size_t>(rows) * kWideBytes == expected.size());
+          const auto found = descriptors.read(expected.size());
+          int worst = 0;
+          std::size_t equal = 0;
+          for (std::size_t k = 0; k < expected.size(); ++k) {
+            worst = std::max(worst, std::abs(found[k] - expected[k]));
+            equal += found[k] == expected[k] ? 1 : 0;
+          }
+          CHECK(worst <= 1);
+          CHECK(equal > expected.size() * 98 / 100);
+        });
   }
 }

@@ -5,7 +5,6 @@
 
 using namespace quadedge;
 using namespace matching;
-using reference::kWideBytes;
 using reference::WideEdges;
 
 namespace {
@@ -27,8 +26,10 @@ void add_descriptor(std::vector<std::uint8_t>& bytes, int first, int second, dou
   std::vector<std::uint8_t> one(kWideBytes, 0);
   // Norm 512 takes more than one byte of 255 at most: five equal ones each.
   for (int k = 0; k < 5; ++k) {
-    one[static_cast<std::size_t>(5 * first + k)] = static_cast<std::uint8_t>(std::lround(229 * std::cos(degrees * kDegree)));
-    one[static_cast<std::size_t>(5 * second + k)] = static_cast<std::uint8_t>(std::lround(229 * std::sin(degrees * kDegree)));
+    one[static_cast<std::size_t>(5 * first + k)] =
+        static_cast<std::uint8_t>(std::lround(229 * std::cos(degrees * kDegree)));
+    one[static_cast<std::size_t>(5 * second + k)] =
+        static_cast<std::uint8_t>(std::lround(229 * std::sin(degrees * kDegree)));
   }
   bytes.insert(bytes.end(), one.begin(), one.end());
 }
@@ -62,7 +63,8 @@ TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& curr
     now_bytes.write(context, current.descriptors);
     const auto rows = [](const WideEdges& set) { return static_cast<int>(set.descriptors.size() / kWideBytes); };
     stages::WideMatching stage(context, config, variants);
-    const auto found = stage.run({before, earlier.step, rows(earlier), before_bytes}, {now, current.step, rows(current), now_bytes}, current.edges);
+    const auto found = stage.run({before, earlier.step, rows(earlier), before_bytes},
+                                 {now, current.step, rows(current), now_bytes}, current.edges);
     CHECK(found.previous == expected.previous);
     CHECK(found.current == expected.current);
     CHECK(found.ncc == expected.ncc);
@@ -76,15 +78,16 @@ TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& curr
 }  // namespace
 
 TEST_CASE("wide matching: about as many edges take part as wanted", "[wide]") {
-  CHECK(reference::wide_step(0, 3000) == 1);
-  CHECK(reference::wide_step(5999, 3000) == 1);
-  CHECK(reference::wide_step(6000, 3000) == 2);
-  CHECK(reference::wide_step(30000, 3000) == 10);
+  CHECK(wide_step(0, 3000) == 1);
+  CHECK(wide_step(5999, 3000) == 1);
+  CHECK(wide_step(6000, 3000) == 2);
+  CHECK(wide_step(30000, 3000) == 10);
 }
 
-TEST_CASE("wide matching: a rival elsewhere makes a match ambiguous, a neighbour does not", "[wide][device][oclgrind]") {
-  // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 see rivals at a distance: angles of 20 and 24 degrees have
-  // distances of ratio 0.84, 20 and 40 degrees of 0.51.
+TEST_CASE("wide matching: a rival elsewhere makes a match ambiguous, a neighbour does not",
+          "[wide][device][oclgrind]") {
+  // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 see rivals at a distance: angles of 20 and
+  // 24 degrees have distances of ratio 0.84, 20 and 40 degrees of 0.51.
   std::vector<std::uint8_t> rows, columns;
   for (int axis : {0, 2, 4}) add_descriptor(rows, axis, axis + 1, 0);
   add_descriptor(columns, 0, 1, 20);
@@ -108,22 +111,29 @@ TEST_CASE("wide matching: an edge that another one elsewhere fits as well is nob
   for (double degrees : {10.0, 8.0, 8.0}) add_descriptor(rows, 0, 1, degrees);
   add_descriptor(columns, 0, 1, 0);
   const StereoEdges current = edges_at({{30, 30}});
-  // The first row is worse than the others. The last two are as good as one another: neighbours share the column, others lose it.
-  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {54, 10}}), 1, rows}, {current, 1, columns}, {}).previous == std::vector<std::int32_t>{1, 2});
-  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {90, 10}}), 1, rows}, {current, 1, columns}, {}).previous.empty());
+  // The first row is worse than the others. The last two are as good as one another: neighbours share the column,
+  // others lose it.
+  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {54, 10}}), 1, rows}, {current, 1, columns}, {}).previous ==
+        std::vector<std::int32_t>{1, 2});
+  CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {90, 10}}), 1, rows}, {current, 1, columns}, {})
+            .previous.empty());
 }
 
-TEST_CASE("wide matching: random descriptors, odd counts and steps, on every device as in the reference", "[wide][device][oclgrind]") {
+TEST_CASE("wide matching: random descriptors, odd counts and steps, on every device as in the reference",
+          "[wide][device][oclgrind]") {
   Random random(5);
   const auto places = [&](int count) {
     std::vector<std::pair<float, float>> result;
-    for (int k = 0; k < count; ++k) result.emplace_back(static_cast<float>(random(0, 100)), static_cast<float>(random(0, 80)));
+    for (int k = 0; k < count; ++k)
+      result.emplace_back(static_cast<float>(random(0, 100)), static_cast<float>(random(0, 80)));
     return edges_at(result);
   };
   const StereoEdges earlier = places(61), current = places(100);
   auto rows = random_descriptors(21, 6), columns = random_descriptors(50, 7);
   // A third of the rows come again among the columns.
-  for (std::size_t k = 0; k < 21; k += 3) std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * kWideBytes), kWideBytes, columns.begin() + static_cast<std::ptrdiff_t>(2 * k * kWideBytes));
+  for (std::size_t k = 0; k < 21; k += 3)
+    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * kWideBytes), kWideBytes,
+                columns.begin() + static_cast<std::ptrdiff_t>(2 * k * kWideBytes));
   TemporalConfig config;
   config.wide_ratio = 0.95;
   const auto matches = match_everywhere({earlier, 3, rows}, {current, 2, columns}, config);

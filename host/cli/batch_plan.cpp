@@ -16,8 +16,8 @@ namespace quadedge::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// Fingerprint of what all sequences of a batch share: program (version and file), configuration, kernels, device, and which
-/// pictures and measurements are made.
+/// Fingerprint of what all sequences of a batch share: program (version and file), configuration, kernels, device, and
+/// which pictures and measurements are made.
 std::string common_key(const MethodOptions& method, const DeviceInfo& device, const BatchOptions& options) {
   data::ContentHash hash;
   hash.add(std::string_view(QUADEDGE_VERSION));
@@ -27,7 +27,8 @@ std::string common_key(const MethodOptions& method, const DeviceInfo& device, co
   if (!method.kernel_folder().empty()) {
     std::vector<fs::path> files;
     std::error_code error;
-    for (fs::directory_iterator entry(method.kernel_folder(), error), end; !error && entry != end; entry.increment(error)) {
+    for (fs::directory_iterator entry(method.kernel_folder(), error), end; !error && entry != end;
+         entry.increment(error)) {
       if (entry->path().extension() == ".cl") files.push_back(entry->path());
     }
     std::sort(files.begin(), files.end());
@@ -36,7 +37,8 @@ std::string common_key(const MethodOptions& method, const DeviceInfo& device, co
       hash.add(data::file_hash(file.string()));
     }
   }
-  hash.add({static_cast<double>(options.draw_every), static_cast<double>(options.thumbnails), options.profile ? 1.0 : 0.0});
+  hash.add(
+      {static_cast<double>(options.draw_every), static_cast<double>(options.thumbnails), options.profile ? 1.0 : 0.0});
   return hash.hex();
 }
 
@@ -61,7 +63,8 @@ std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequ
   StatusLine status(options.quiet);
   for (const auto& sequence : sequences) {
     if (status.due()) {
-      status.show("looking at " + sequence.name + "  " + std::to_string(plan.size()) + "/" + std::to_string(sequences.size()));
+      status.show("looking at " + sequence.name + "  " + std::to_string(plan.size()) + "/" +
+                  std::to_string(sequences.size()));
     }
     BatchMember& member = plan.emplace_back();
     member.sequence = sequence;
@@ -76,7 +79,8 @@ std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequ
     } catch (const Error&) {
       continue;  // its run will say what is wrong, and that is what the batch records
     }
-    member.finished = !options.force && is_finished(report::member_folder(options.output, sequence.name), member.key, options.timing);
+    member.finished =
+        !options.force && is_finished(report::member_folder(options.output, sequence.name), member.key, options.timing);
   }
   return plan;
 }

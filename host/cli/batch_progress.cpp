@@ -19,13 +19,18 @@ int FrameCounter::frames() {
 }
 
 BatchProgress::BatchProgress(bool quiet, int sequences, int already, double pixels)
-    : status_(quiet), start_(std::chrono::steady_clock::now()), sequences_(sequences), already_(already), pixels_(pixels) {}
+    : status_(quiet),
+      start_(std::chrono::steady_clock::now()),
+      sequences_(sequences),
+      already_(already),
+      pixels_(pixels) {}
 
 void BatchProgress::finished(const std::string& name, int frames, double pixels, const std::string& sentence) {
   ++over_;
   frames_ += frames;
   pixels_over_ += pixels;
-  status_.say("[" + std::to_string(already_ + over_) + "/" + std::to_string(already_ + sequences_) + "] " + name + ": " + sentence);
+  status_.say("[" + std::to_string(already_ + over_) + "/" + std::to_string(already_ + sequences_) + "] " + name +
+              ": " + sentence);
 }
 
 void BatchProgress::update(const std::vector<Running>& running, double pixels) {

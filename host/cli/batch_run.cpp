@@ -59,7 +59,8 @@ std::string failure(const ChildEnd& end, const std::string& log) {
 
 class BatchRunner {
  public:
-  BatchRunner(const MethodOptions& method, const BatchOptions& options, int jobs, int to_run, int finished, double pixels)
+  BatchRunner(const MethodOptions& method, const BatchOptions& options, int jobs, int to_run, int finished,
+              double pixels)
       : method_(method), options_(options), jobs_(jobs), progress_(options.quiet, to_run, finished, pixels) {}
 
   void start(const BatchMember& member) {
@@ -119,10 +120,13 @@ class BatchRunner {
 
  private:
   std::vector<std::string> arguments(const BatchMember& member, const std::string& folder) const {
-    std::vector<std::string> arguments = {"run", member.sequence.path, "--output", folder, "--min-tracked", "0", "--config",
-                                          (fs::path(options_.output) / "config.toml").string(), "--device", method_.device_choice(),
-                                          "--thumbnails", std::to_string(options_.thumbnails), "--draw",
-                                          std::to_string(options_.draw_every)};
+    std::vector<std::string> arguments = {"run",           member.sequence.path,
+                                          "--output",      folder,
+                                          "--min-tracked", "0",
+                                          "--config",      (fs::path(options_.output) / "config.toml").string(),
+                                          "--device",      method_.device_choice(),
+                                          "--thumbnails",  std::to_string(options_.thumbnails),
+                                          "--draw",        std::to_string(options_.draw_every)};
     if (!method_.kernel_folder().empty()) arguments.insert(arguments.end(), {"--kernels", method_.kernel_folder()});
     if (options_.profile) arguments.push_back("--profile");
     return arguments;

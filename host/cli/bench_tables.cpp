@@ -31,32 +31,32 @@ double count(const report::RunRecord& run, const std::string& name) {
 void print_benchmark(const bench::BenchRecord& record) {
   const auto& run = record.run;
   std::printf("%s, %dx%d, on %s\n", run.input.name.c_str(), run.input.width, run.input.height, run.device.name.c_str());
-  std::printf("%d frames measured after the first and %d to get warm; %d of %zu tracked\n", static_cast<int>(run.frames.size()) - 1,
-              record.warm_up, run.tracked(), run.frames.size());
-  std::printf("edges.threshold %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n", run.config.edges.threshold,
-              record.edges_wanted > 0 ? " (chosen)" : "", count(run, "edges_left"), count(run, "edges_right"), count(run, "stereo_edges"),
-              count(run, "quads"));
+  std::printf("%d frames measured after the first and %d to get warm; %d of %zu tracked\n",
+              static_cast<int>(run.frames.size()) - 1, record.warm_up, run.tracked(), run.frames.size());
+  std::printf("edges.threshold %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
+              run.config.edges.threshold, record.edges_wanted > 0 ? " (chosen)" : "", count(run, "edges_left"),
+              count(run, "edges_right"), count(run, "stereo_edges"), count(run, "quads"));
   const auto latency = report::latency_summary(run.frames);
-  std::printf("\nframe             median %.2f ms, p90 %.2f, p99 %.2f, max %.2f; first %.2f\n", latency.median, latency.p90, latency.p99,
-              latency.max, latency.first);
+  std::printf("\nframe             median %.2f ms, p90 %.2f, p99 %.2f, max %.2f; first %.2f\n", latency.median,
+              latency.p90, latency.p99, latency.max, latency.first);
   if (!record.edges_ms.empty()) {
     std::printf("edge detection    median %.2f ms, p90 %.2f; one image\n", report::median(record.edges_ms),
                 report::percentile(record.edges_ms, 0.9));
   }
   std::printf("start-up          %.0f ms\n", run.start_ms);
   std::printf("kernel build      %.0f ms of it\n", run.kernel_build_ms);
-  std::printf("memory            host peak %.0f MB (%.0f MB of it recorded images), device peak %.0f MB\n", run.host_peak_mb,
-              record.frames_mb, run.device_peak_mb);
-  std::printf("moved per frame   %.2f MB to the device, %.2f MB to the host; %.1f waits for results\n", record.to_device_mb, record.to_host_mb,
-              record.waits);
+  std::printf("memory            host peak %.0f MB (%.0f MB of it recorded images), device peak %.0f MB\n",
+              run.host_peak_mb, record.frames_mb, run.device_peak_mb);
+  std::printf("moved per frame   %.2f MB to the device, %.2f MB to the host; %.1f waits for results\n",
+              record.to_device_mb, record.to_host_mb, record.waits);
   print_stages("\nhost stages, median", report::stage_summary(report::stage_times(run.frames)));
   print_stages("\nkernels by OpenCL events, in a pass of their own, median", report::stage_summary(run.kernel_times));
   if (!record.yardsticks) return;
   std::printf("\nyardsticks with OpenCV, %d threads\n", record.yardsticks->threads);
-  std::printf("  S: SIFT on both images       %9.2f ms   frame / S           %.3f\n", report::median(record.yardsticks->sift_both_ms),
-              record.frame_ratio());
-  std::printf("  N: nine sepFilter2D          %9.2f ms   edge detection / N  %.3f\n", report::median(record.yardsticks->sepfilter_nine_ms),
-              record.edges_ratio());
+  std::printf("  S: SIFT on both images       %9.2f ms   frame / S           %.3f\n",
+              report::median(record.yardsticks->sift_both_ms), record.frame_ratio());
+  std::printf("  N: nine sepFilter2D          %9.2f ms   edge detection / N  %.3f\n",
+              report::median(record.yardsticks->sepfilter_nine_ms), record.edges_ratio());
 }
 
 void print_comparison(const bench::BenchComparison& comparison, double noise_percent) {
@@ -65,13 +65,16 @@ void print_comparison(const bench::BenchComparison& comparison, double noise_per
     char change[16] = "-";
     if (std::isfinite(figure.change_percent)) std::snprintf(change, sizeof change, "%+.1f %%", figure.change_percent);
     std::printf("%-34s %10.2f %10.2f %9s %s\n", figure.name.c_str(), figure.before, figure.after, change,
-                figure.worse ? "WORSE" : figure.judged ? "" : "(not judged)");
+                figure.worse    ? "WORSE"
+                : figure.judged ? ""
+                                : "(not judged)");
   }
   for (const auto& note : comparison.notes) std::printf("differs: %s\n", note.c_str());
   if (comparison.drift != 1) {
     std::printf("times are compared after division by %.3f, as OpenCV's SIFT took so much longer\n", comparison.drift);
   }
-  std::printf("%s beyond the noise band of %g %%\n", comparison.regressed() ? "REGRESSION" : "no regression", noise_percent);
+  std::printf("%s beyond the noise band of %g %%\n", comparison.regressed() ? "REGRESSION" : "no regression",
+              noise_percent);
 }
 
 }  // namespace quadedge::cli

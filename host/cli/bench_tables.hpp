@@ -1,8 +1,8 @@
 #pragma once
 /// \file bench_tables.hpp  The tables of `bench` on stdout.
 
-#include "bench/bench_comparison.hpp"
-#include "bench/bench_record.hpp"
+#include "benchmark/bench_comparison.hpp"
+#include "benchmark/bench_record.hpp"
 
 namespace quadedge::cli {
 

@@ -1,13 +1,12 @@
 #include "cli/child_process.hpp"
 
+#include <cerrno>
+#include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <csignal>
-#include <cstring>
 #include <utility>
 
 #include "quadedge/error.hpp"

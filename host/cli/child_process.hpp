@@ -1,10 +1,9 @@
 #pragma once
 /// \file child_process.hpp  This program as a child process: one sequence of a batch.
 
-#include <sys/types.h>
-
 #include <optional>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace quadedge::cli {

@@ -13,10 +13,12 @@ class Options {
  public:
   virtual ~Options() = default;
   /// A positional argument.
-  virtual void positional(const std::string& name, std::string& value, const std::string& help, bool required = true) = 0;
+  virtual void positional(const std::string& name, std::string& value, const std::string& help,
+                          bool required = true) = 0;
   /// One or more positional arguments; the last ones of the command.
   virtual void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) = 0;
-  virtual void text(const std::string& names, std::string& value, const std::string& help, const std::string& placeholder) = 0;
+  virtual void text(const std::string& names, std::string& value, const std::string& help,
+                    const std::string& placeholder) = 0;
   virtual void number(const std::string& names, double& value, const std::string& help) = 0;
   virtual void number(const std::string& names, int& value, const std::string& help) = 0;
   virtual void number(const std::string& names, std::uint64_t& value, const std::string& help) = 0;

@@ -21,34 +21,44 @@ namespace {
 class BatchCommand : public Command {
  public:
   std::string name() const override { return "batch"; }
-  std::string about() const override { return "track many sequences, each in its own process, and summarise the results"; }
+  std::string about() const override {
+    return "track many sequences, each in its own process, and summarise the results";
+  }
   std::string examples() const override {
     return "  quadedge batch eth3d/training -o results\n"
            "  quadedge batch sequences.txt -o results --device gpu --jobs 2";
   }
 
   void declare(Options& options) override {
-    options.positional("ROOT|LIST", input_, "folder with sequences anywhere below it, or a file with one folder per line");
+    options.positional("ROOT|LIST", input_,
+                       "folder with sequences anywhere below it, or a file with one folder per line");
     options.text("-o,--output", batch_.output, "folder for all results; default: quadedge_batch here", "OUT");
     options.number("--jobs", batch_.jobs, "sequences at the same time; 0: as many as suit the device");
-    options.flag("--timing", batch_.timing, "latencies count: one sequence at a time, redoing those that ran beside others");
+    options.flag("--timing", batch_.timing,
+                 "latencies count: one sequence at a time, redoing those that ran beside others");
     options.flag("--profile", batch_.profile, "measure kernel times in a second pass over every sequence");
     options.number("--draw", batch_.draw_every, "pictures of the edges and quads of every N-th frame");
-    options.number("--min-tracked", batch_.min_tracked, "fewer tracked frames in a sequence give exit code 5 [percent]");
+    options.number("--min-tracked", batch_.min_tracked,
+                   "fewer tracked frames in a sequence give exit code 5 [percent]");
     options.flag("--force", batch_.force, "repeat sequences that are finished already");
     options.flag("--quiet", batch_.quiet, "no progress");
     options.group("One step of a batch, for schedulers");
     options.flag("--list", list_, "print name and folder of every sequence and run none");
-    options.text("--only", only_, "run this sequence of the batch alone, without summary; OUT may be shared with others", "NAME");
+    options.text("--only", only_,
+                 "run this sequence of the batch alone, without summary; OUT may be shared with others", "NAME");
     options.flag("--gather", gather_, "run nothing, summarise what is there");
     method_.declare(options);
   }
 
   int run() override {
-    if (batch_.jobs < 0) throw UsageError("--jobs " + std::to_string(batch_.jobs) + ": expected 0 (chosen by device) or more");
-    if (batch_.timing && batch_.jobs > 1) throw UsageError("--timing and --jobs " + std::to_string(batch_.jobs) + " exclude one another");
-    if (batch_.draw_every < 0) throw UsageError("--draw " + std::to_string(batch_.draw_every) + ": expected 0 (none) or more");
-    if (!(batch_.min_tracked >= 0 && batch_.min_tracked <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
+    if (batch_.jobs < 0)
+      throw UsageError("--jobs " + std::to_string(batch_.jobs) + ": expected 0 (chosen by device) or more");
+    if (batch_.timing && batch_.jobs > 1)
+      throw UsageError("--timing and --jobs " + std::to_string(batch_.jobs) + " exclude one another");
+    if (batch_.draw_every < 0)
+      throw UsageError("--draw " + std::to_string(batch_.draw_every) + ": expected 0 (none) or more");
+    if (!(batch_.min_tracked >= 0 && batch_.min_tracked <= 100))
+      throw UsageError("--min-tracked: expected 0 to 100 percent");
     if (list_ + gather_ + !only_.empty() > 1) throw UsageError("--list, --only and --gather exclude one another");
     method_.config();  // complain about options before reading data
     const auto sequences = data::find_sequences(input_);
@@ -72,12 +82,14 @@ class BatchCommand : public Command {
   }
   /// The configuration that all runs read.
   void write_config() const {
-    data::write_atomically((output() / "config.toml").string(), report::config_toml(method_.config(), method_.device_choice()));
+    data::write_atomically((output() / "config.toml").string(),
+                           report::config_toml(method_.config(), method_.device_choice()));
   }
 
   /// The plan of some sequences, for the device that will run them.
   std::vector<BatchMember> plan(const std::vector<data::FoundSequence>& sequences) {
-    const DeviceInfo device = method_.open_device().info();  // a missing device ends the batch here, not every run on its own
+    const DeviceInfo device =
+        method_.open_device().info();  // a missing device ends the batch here, not every run on its own
     if (batch_.jobs == 0) batch_.jobs = default_jobs(device, batch_);
     return plan_batch(sequences, method_, device, batch_);
   }
@@ -90,7 +102,8 @@ class BatchCommand : public Command {
     const auto members = plan(sequences);
     remove_unfinished();  // of a batch that was killed
     note_progress(members);
-    const bool complete = std::all_of(members.begin(), members.end(), [](const auto& member) { return member.finished; });
+    const bool complete =
+        std::all_of(members.begin(), members.end(), [](const auto& member) { return member.finished; });
     if (!complete) remove_summary();  // it would not belong to what is there from now on
     run_batch(members, method_, batch_, interruption);
     remove_unfinished();
@@ -102,8 +115,10 @@ class BatchCommand : public Command {
   }
 
   int run_one(const std::vector<data::FoundSequence>& sequences) {
-    const auto found = std::find_if(sequences.begin(), sequences.end(), [&](const auto& sequence) { return sequence.name == only_; });
-    if (found == sequences.end()) throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list shows all");
+    const auto found =
+        std::find_if(sequences.begin(), sequences.end(), [&](const auto& sequence) { return sequence.name == only_; });
+    if (found == sequences.end())
+      throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list shows all");
     prepare();
     const FolderLock lock((output() / ".lock").string(), true, batch_.output);
     const Interruption interruption;
@@ -111,7 +126,8 @@ class BatchCommand : public Command {
     run_batch(plan({*found}), method_, batch_, interruption);
     if (interruption.signal() != 0) interruption.end_process();
     const auto row = report::read_summary_row(report::member_folder(batch_.output, only_), only_, batch_.min_tracked);
-    if (row.member.exit_code != 0) std::fprintf(stderr, "quadedge: %s: %s\n", only_.c_str(), row.member.message.c_str());
+    if (row.member.exit_code != 0)
+      std::fprintf(stderr, "quadedge: %s: %s\n", only_.c_str(), row.member.message.c_str());
     return row.member.exit_code;
   }
 
@@ -126,14 +142,18 @@ class BatchCommand : public Command {
     for (const char* name : {"summary.csv", "summary.json", "summary.md", "report.html"}) {
       std::error_code error;
       fs::remove(output() / name, error);
-      if (error) throw DataError((output() / name).string() + ": the old summary cannot be removed: " + error.message());
+      if (error)
+        throw DataError((output() / name).string() + ": the old summary cannot be removed: " + error.message());
     }
   }
 
   void note_progress(const std::vector<BatchMember>& members) const {
-    const auto finished = std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
-    std::string sentence = std::to_string(members.size()) + " sequences, " + std::to_string(finished) + " finished already";
-    if (static_cast<std::size_t>(finished) < members.size()) sentence += ", " + std::to_string(batch_.jobs) + " at the same time";
+    const auto finished =
+        std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
+    std::string sentence =
+        std::to_string(members.size()) + " sequences, " + std::to_string(finished) + " finished already";
+    if (static_cast<std::size_t>(finished) < members.size())
+      sentence += ", " + std::to_string(batch_.jobs) + " at the same time";
     note(batch_.quiet, sentence);
   }
 
@@ -156,7 +176,8 @@ class BatchCommand : public Command {
     std::fflush(stdout);  // before the complaints below
     for (const auto& row : summary.rows) {
       if (row.status == report::MemberStatus::done) continue;
-      std::fprintf(stderr, "quadedge: %s (%s): %s\n", row.member.name.c_str(), to_string(row.status), row.member.message.c_str());
+      std::fprintf(stderr, "quadedge: %s (%s): %s\n", row.member.name.c_str(), to_string(row.status),
+                   row.member.message.c_str());
     }
   }
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bench/latency.hpp"
-#include "bench/yardsticks.hpp"
+#include "benchmark/latency.hpp"
+#include "benchmark/yardsticks.hpp"
 #include "cli/bench_options.hpp"
 #include "cli/bench_tables.hpp"
 #include "cli/command.hpp"
@@ -24,23 +24,30 @@ constexpr int kYardstickRepetitions = 7;
 class BenchCommand : public Command {
  public:
   std::string name() const override { return "bench"; }
-  std::string about() const override { return "measure the latency of every frame, kernel times and memory, or compare two results"; }
+  std::string about() const override {
+    return "measure the latency of every frame, kernel times and memory, or compare two results";
+  }
   std::string examples() const override {
     return "  quadedge bench --baseline --json now.json\n"
            "  quadedge bench --compare before.json now.json";
   }
 
   void declare(Options& options) override {
-    options.positional("PATH", path_, "recorded sequence; without it the built-in one. With --compare also a result to compare", false);
+    options.positional("PATH", path_,
+                       "recorded sequence; without it the built-in one. With --compare also a result to compare",
+                       false);
     options.text("--size", size_, "images of the built-in sequence [px]; default 942x489", "WxH");
-    options.number("--edges", edges_, "choose edges.threshold for so many edges per image; 0: as configured; -1: 50000 for the built-in "
+    options.number("--edges", edges_,
+                   "choose edges.threshold for so many edges per image; 0: as configured; -1: 50000 for the built-in "
                    "sequence, as configured for a recorded one");
     options.number("--frames", frames_, "frames to measure");
     options.number("--warm-up", warm_up_, "frames before them, after the first one");
-    options.flag("--baseline", baseline_, "measure two yardsticks with OpenCV as well: SIFT on both images, nine filters of 35 taps");
+    options.flag("--baseline", baseline_,
+                 "measure two yardsticks with OpenCV as well: SIFT on both images, nine filters of 35 taps");
     options.text("--json", json_, "write all figures", "FILE");
     options.text("--trace", trace_, "write the stages of every frame in Chrome's trace format", "FILE");
-    options.text("--compare", compare_, "print the differences to an older result; exit code 6 for a regression", "OLD.json");
+    options.text("--compare", compare_, "print the differences to an older result; exit code 6 for a regression",
+                 "OLD.json");
     options.number("--noise", noise_, "so much more counts as equal in a comparison [percent]");
     options.flag("--force", force_, "replace files that exist");
     options.flag("--quiet", quiet_, "no progress");
@@ -69,7 +76,8 @@ class BenchCommand : public Command {
     if (warm_up_ < 0) throw UsageError("--warm-up " + std::to_string(warm_up_) + ": expected 0 or more");
     if (edges_ < -1) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more, or -1");
     if (!(noise_ >= 0)) throw UsageError("--noise: expected 0 percent or more");
-    if (!path_.empty() && !size_.empty()) throw UsageError("--size is for the built-in sequence; a recorded one has its own");
+    if (!path_.empty() && !size_.empty())
+      throw UsageError("--size is for the built-in sequence; a recorded one has its own");
     if (!compare_.empty() && !std::filesystem::is_regular_file(path_) && json_.empty()) {
       throw UsageError("--compare: name a second result, or --json FILE for what is measured now");
     }
@@ -96,20 +104,24 @@ class BenchCommand : public Command {
     const auto source = open_source();
     run.input = source->facts();
     run.config = method_.config();
-    if (run.config.stereo.max_disparity == 0 && run.config.stereo.min_depth == 0) run.config.stereo.max_disparity = source->max_disparity();
+    if (run.config.stereo.max_disparity == 0 && run.config.stereo.min_depth == 0)
+      run.config.stereo.max_disparity = source->max_disparity();
     record.command = command_line();
     record.warm_up = warm_up_;
     Progress progress(quiet_);
     if (run.input.frames < warm_up_ + 2) {
       throw DataError(run.input.path + ": has " + std::to_string(run.input.frames) + " frames; expected at least " +
-                      std::to_string(warm_up_ + 2) + ": the first, " + std::to_string(warm_up_) + " to get warm, one to measure");
+                      std::to_string(warm_up_ + 2) + ": the first, " + std::to_string(warm_up_) +
+                      " to get warm, one to measure");
     }
-    bench::measure_start(source->rig(), [&] { return method_.open_device(); }, add_saved_variants, record);
+    bench::measure_start(
+        source->rig(), [&] { return method_.open_device(); }, add_saved_variants, record);
     std::vector<FramePrefetcher::Frame> frames;
     const int wanted = std::min(1 + warm_up_ + frames_, run.input.frames);
     while (static_cast<int>(frames.size()) < wanted) {
       auto frame = source->next();
-      record.frames_mb += static_cast<double>(frame->left.pixels.size() + frame->right.pixels.size()) / (1024.0 * 1024.0);
+      record.frames_mb +=
+          static_cast<double>(frame->left.pixels.size() + frame->right.pixels.size()) / (1024.0 * 1024.0);
       frames.push_back(std::move(*frame));
       progress.update("reading frame", static_cast<int>(frames.size()), wanted);
     }
@@ -119,13 +131,15 @@ class BenchCommand : public Command {
       Device device = method_.open_device();
       run.config.edges.threshold = bench::threshold_for_edges(frames.front(), record.edges_wanted, device, run.config);
     }
-    const bench::Subject subject{source->rig(), frames, run.config, [&](bool profiling) { return method_.open_device(profiling); },
+    const bench::Subject subject{source->rig(), frames, run.config,
+                                 [&](bool profiling) { return method_.open_device(profiling); },
                                  [&](const char* pass, int done, int total) { progress.update(pass, done, total); }};
     bench::measure_latency(subject, record);
     bench::measure_edge_detection(subject, std::max(frames_, 10), record);
     if (baseline_) {
-      record.yardsticks = bench::measure_yardsticks(frames.front(), record.threads, kYardstickRepetitions,
-                                                    [&](int done, int total) { progress.update("yardsticks", done, total); });
+      record.yardsticks =
+          bench::measure_yardsticks(frames.front(), record.threads, kYardstickRepetitions,
+                                    [&](int done, int total) { progress.update("yardsticks", done, total); });
     }
     bench::measure_kernels(subject, record);
     return record;

@@ -14,7 +14,9 @@ namespace {
 class CheckCommand : public Command {
  public:
   std::string name() const override { return "check"; }
-  std::string about() const override { return "read all of a sequence, or of a folder of them, and say what is there, missing or wrong"; }
+  std::string about() const override {
+    return "read all of a sequence, or of a folder of them, and say what is there, missing or wrong";
+  }
   std::string examples() const override {
     return "  quadedge check kitti/sequences/06\n"
            "  quadedge check eth3d";
@@ -56,11 +58,13 @@ class CheckCommand : public Command {
     const auto missing = data::missing_members(path_);
     for (std::size_t i = 0; i < members.size(); ++i) {
       const auto& member = members[i];
-      if (status.due()) status.show("reading " + member.path + "  " + std::to_string(i) + "/" + std::to_string(members.size()));
+      if (status.due())
+        status.show("reading " + member.path + "  " + std::to_string(i) + "/" + std::to_string(members.size()));
       const DatasetCheck check = check_dataset((std::filesystem::path(path_) / member.path).string());
       damaged += check.errors.empty() ? 0 : 1;
       if (!quiet_) {
-        std::printf("%-8s %s: %s\n", check.errors.empty() ? "there" : "DAMAGED", member.path.c_str(), data::one_line(check).c_str());
+        std::printf("%-8s %s: %s\n", check.errors.empty() ? "there" : "DAMAGED", member.path.c_str(),
+                    data::one_line(check).c_str());
       }
       for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
     }

@@ -1,11 +1,12 @@
-/// \file command_compare.cpp  quadedge compare: every kernel variant on the same input, and the best ones kept for this device.
+/// \file command_compare.cpp  quadedge compare: every kernel variant on the same input, and the best ones kept for this
+/// device.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "bench/latency.hpp"
-#include "bench/variant_comparison.hpp"
-#include "bench/variants_file.hpp"
+#include "benchmark/latency.hpp"
+#include "benchmark/variant_comparison.hpp"
+#include "benchmark/variants_file.hpp"
 #include "cli/bench_options.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
@@ -34,7 +35,10 @@ void print_stage(const bench::StageResult& stage) {
     print_number(variant.ratio_to_default, " %7.2f", "       -");
     print_number(100 * variant.bandwidth_share, " %8.1f %%", "        -  ");
     print_number(100 * variant.arithmetic_share, " %8.1f %%", "        -  ");
-    const char* mark = !variant.runs ? "  CANNOT RUN: " : !variant.agrees ? "  REFUSED: " : variant.why.empty() ? "" : "  ";
+    const char* mark = !variant.runs         ? "  CANNOT RUN: "
+                       : !variant.agrees     ? "  REFUSED: "
+                       : variant.why.empty() ? ""
+                                             : "  ";
     std::printf("%s%s\n", mark, variant.why.c_str());
   }
   std::fflush(stdout);
@@ -43,7 +47,9 @@ void print_stage(const bench::StageResult& stage) {
 class CompareCommand : public Command {
  public:
   std::string name() const override { return "compare"; }
-  std::string about() const override { return "check and measure every kernel variant of every stage on the same input"; }
+  std::string about() const override {
+    return "check and measure every kernel variant of every stage on the same input";
+  }
   std::string examples() const override {
     return "  quadedge compare --stage edges\n"
            "  quadedge compare --save";
@@ -78,15 +84,18 @@ class CompareCommand : public Command {
     set_size(scene, size_);
     const auto source = make_synthetic_source(scene);
     const auto first = source->next(), second = source->next();
-    if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0) config.stereo.max_disparity = source->max_disparity();
+    if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
+      config.stereo.max_disparity = source->max_disparity();
     const bench::ReferenceCheck check(config);
     if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, device, config);
     const bench::Ceilings ceilings = bench::measure_ceilings(*device.context());
-    std::printf("%s\n%.1f GB/s, %.1f GFLOP/s: the ceilings, measured by a copy and by multiply-adds\n", info.name.c_str(),
-                ceilings.bandwidth_gb_s, ceilings.arithmetic_gflop_s);
-    std::printf("\n%-20s %-10s %-8s %12s %7s %10s %10s\n", "stage", "variant", "", "time", "ratio", "bandwidth", "arithmetic");
+    std::printf("%s\n%.1f GB/s, %.1f GFLOP/s: the ceilings, measured by a copy and by multiply-adds\n",
+                info.name.c_str(), ceilings.bandwidth_gb_s, ceilings.arithmetic_gflop_s);
+    std::printf("\n%-20s %-10s %-8s %12s %7s %10s %10s\n", "stage", "variant", "", "time", "ratio", "bandwidth",
+                "arithmetic");
 
-    const bench::VariantInput input{source->rig(), *first, *second, config, [&] { return method_.open_device(true); }, repetitions_};
+    const bench::VariantInput input{source->rig(), *first, *second, config, [&] { return method_.open_device(true); },
+                                    repetitions_};
     StatusLine status(quiet_);
     std::vector<bench::StageResult> results;
     for (const auto& stage : stages) {

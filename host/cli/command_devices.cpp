@@ -19,16 +19,20 @@ class DevicesCommand : public Command {
   void declare(Options&) override {}
   int run() override {
     const auto devices = list_devices();
-    std::printf("%-9s  %-11s  %5s  %9s  %s\n", "--device", "type", "units", "memory", "name (platform, driver, OpenCL)");
+    std::printf("%-9s  %-11s  %5s  %9s  %s\n", "--device", "type", "units", "memory",
+                "name (platform, driver, OpenCL)");
     for (const auto& device : devices) {
-      std::printf("%-9d  %-11s  %5u  %6.1f GB  %s (%s, %s, %s)\n", device.index, device.type.c_str(), device.compute_units,
-                  static_cast<double>(device.memory_bytes) * 1e-9, device.name.c_str(), device.platform.c_str(),
-                  device.driver.c_str(), device.opencl.c_str());
+      std::printf("%-9d  %-11s  %5u  %6.1f GB  %s (%s, %s, %s)\n", device.index, device.type.c_str(),
+                  device.compute_units, static_cast<double>(device.memory_bytes) * 1e-9, device.name.c_str(),
+                  device.platform.c_str(), device.driver.c_str(), device.opencl.c_str());
     }
-    std::printf("%-9s  %-11s  %5d  %9s  %s\n", "reference", "reference", 1, "-", "plain C++ on one core; needs no OpenCL, slow");
+    std::printf("%-9s  %-11s  %5d  %9s  %s\n", "reference", "reference", 1, "-",
+                "plain C++ on one core; needs no OpenCL, slow");
     if (devices.empty()) {
-      std::printf("\nno OpenCL device was found. For a CPU install PoCL (Debian: apt-get install pocl-opencl-icd), for a GPU its\n"
-                  "vendor's OpenCL driver; `clinfo -l` then lists it.\n");
+      std::printf(
+          "\nno OpenCL device was found. For a CPU install PoCL (Debian: apt-get install pocl-opencl-icd), for a GPU "
+          "its\n"
+          "vendor's OpenCL driver; `clinfo -l` then lists it.\n");
     }
     return 0;
   }
@@ -46,7 +50,9 @@ class VariantsCommand : public Command {
   int run() override {
     std::printf("%-14s %-16s %10s  %-10s %s\n", "stage", "variant", "local size", "default", "about");
     for (const auto& variant : opencl::all_variants()) {
-      const char* mark = variant.default_on_cpu ? (variant.default_on_gpu ? "cpu, gpu" : "cpu") : variant.default_on_gpu ? "gpu" : "";
+      const char* mark = variant.default_on_cpu   ? (variant.default_on_gpu ? "cpu, gpu" : "cpu")
+                         : variant.default_on_gpu ? "gpu"
+                                                  : "";
       std::printf("%-14s %-16s %10d  %-10s %s\n", variant.stage.c_str(), variant.name.c_str(), variant.local_size, mark,
                   variant.about.c_str());
     }

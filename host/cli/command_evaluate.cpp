@@ -34,7 +34,8 @@ Loaded load_file(const std::string& path) {
 }
 
 /// Gives the rows of a KITTI file the stamps of as many timed poses.
-void give_stamps(Trajectory& rows, const std::vector<std::int64_t>& stamps, const std::string& file, const std::string& timed_file) {
+void give_stamps(Trajectory& rows, const std::vector<std::int64_t>& stamps, const std::string& file,
+                 const std::string& timed_file) {
   if (rows.size() != stamps.size()) {
     throw DataError(file + ": found " + std::to_string(rows.size()) + " rows without time stamps, expected " +
                     std::to_string(stamps.size()) + ", one per frame of " + timed_file);
@@ -61,7 +62,8 @@ class EvaluateTrajectoryCommand : public Command {
     options.positional("TRUTH", truth_, "TUM or KITTI file, or the folder of a sequence with ground truth");
     options.number("--from-frame", from_frame_, "leave out the poses before this one of the estimate");
     options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when TRUTH is a folder with several", "NAME");
-    options.flag("--steps", steps_, "also judge each step by itself: right below a limit + 10 % of the motion, and below an angle");
+    options.flag("--steps", steps_,
+                 "also judge each step by itself: right below a limit + 10 % of the motion, and below an angle");
     options.number("--step-metres", step_limits_.translation_m, "that limit [m]");
     options.number("--step-degrees", step_limits_.rotation_deg, "and that angle [deg]");
     options.text("--json", json_, "also write the errors, per pose too, to a file", "FILE");
@@ -95,10 +97,12 @@ class EvaluateTrajectoryCommand : public Command {
     print_evaluation(result);
     std::optional<evaluation::StepJudgement> steps;
     if (steps_) {
-      const std::int64_t tolerance = row_numbers ? 0 : kToleranceNs, first = result.per_pose.front().stamp_ns - tolerance;
+      const std::int64_t tolerance = row_numbers ? 0 : kToleranceNs,
+                         first = result.per_pose.front().stamp_ns - tolerance;
       if (from_frame_ > 0) frames.erase(frames.begin(), std::lower_bound(frames.begin(), frames.end(), first));
       steps = evaluation::judge_steps(estimate.poses, truth, frames, step_limits_, tolerance);
-      std::printf("\nsteps      %d right, %d wrong, %d lost of %d\n", steps->right, steps->wrong, steps->lost, steps->steps());
+      std::printf("\nsteps      %d right, %d wrong, %d lost of %d\n", steps->right, steps->wrong, steps->lost,
+                  steps->steps());
     }
     if (!json_.empty()) data::write_atomically(json_, report::evaluation_json(result, estimate_, truth_, steps));
     return 0;

@@ -31,16 +31,18 @@ class EvaluateMatchingCommand : public Command {
            "  quadedge evaluate matching room --frames 5 --sweep stereo.ncc_min=0.4:0.9:0.05";
   }
   void declare(Options& options) override {
-    options.positionals("PATH", paths_,
-                        "pairs with disparities, sequences with depth (`quadedge synth`), folders of those, or a built-in scene: room, "
-                        "cables");
+    options.positionals(
+        "PATH", paths_,
+        "pairs with disparities, sequences with depth (`quadedge synth`), folders of those, or a built-in scene: room, "
+        "cables");
     options.number("--frames", frames_, "only the first N frames of each sequence; 0: all, of a built-in scene 10");
     options.text("--size", size_, "size of the images of built-in scenes [px]; default 942x489", "WxH");
     options.number("--tolerance", tolerance_.place, "a match this near to the true place is veridical [px]");
     options.text("--sweep", sweep_, "only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
     options.text("--json", json_, "also write the tables to a file", "FILE");
     options.text("--html", html_, "also write a report with tables, plots and drawings to one file", "FILE");
-    options.text("--draw", draw_, "also write drawings of the last frame of each pair or sequence to a folder, as PNG", "DIR");
+    options.text("--draw", draw_, "also write drawings of the last frame of each pair or sequence to a folder, as PNG",
+                 "DIR");
     options.flag("--force", force_, "replace files that exist");
     options.flag("--quiet", quiet_, "no progress");
     method_.declare(options);
@@ -48,7 +50,8 @@ class EvaluateMatchingCommand : public Command {
 
   int run() override {
     if (frames_ < 0) throw UsageError("--frames " + std::to_string(frames_) + ": expected 0 or more");
-    if (!(tolerance_.place > 0 && tolerance_.place <= 100)) throw UsageError("--tolerance: expected more than 0 and at most 100 px");
+    if (!(tolerance_.place > 0 && tolerance_.place <= 100))
+      throw UsageError("--tolerance: expected more than 0 and at most 100 px");
     if (!sweep_.empty() && !(json_.empty() && html_.empty() && draw_.empty())) {
       throw UsageError("--sweep prints lines only; run without it for --json, --html or --draw");
     }
@@ -65,7 +68,8 @@ class EvaluateMatchingCommand : public Command {
     }
     print_matching(results.size() > 1 ? "all" : results[0].name, evaluation::summarise(results));
     if (!json_.empty()) data::write_atomically(json_, report::matching_json(results));
-    if (!html_.empty()) data::write_atomically(html_, report::matching_html(results, {device.info(), config, tolerance_}));
+    if (!html_.empty())
+      data::write_atomically(html_, report::matching_html(results, {device.info(), config, tolerance_}));
     if (!draw_.empty()) report::write_match_drawings(draw_, results, tolerance_);
     return 0;
   }
@@ -102,7 +106,8 @@ class EvaluateMatchingCommand : public Command {
       results.push_back(evaluation::evaluate_matching(*source, device, config, options));
       const auto& frames = results.back().frames;
       for (std::size_t f = 0; f < frames.size(); ++f) {
-        if (!frames[f].message.empty()) note(quiet_, source->name() + ", frame " + std::to_string(f) + ": " + frames[f].message);
+        if (!frames[f].message.empty())
+          note(quiet_, source->name() + ", frame " + std::to_string(f) + ": " + frames[f].message);
       }
     }
     return results;
@@ -111,7 +116,8 @@ class EvaluateMatchingCommand : public Command {
   int run_sweep(const Config& config, Device& device) const {
     const Sweep sweep = parse_sweep(sweep_);
     for (std::size_t i = 0; i < sweep.values.size(); ++i) {
-      const auto summary = evaluation::summarise(evaluate(with_value(config, sweep.key, sweep.values[i]), device, false));
+      const auto summary =
+          evaluation::summarise(evaluate(with_value(config, sweep.key, sweep.values[i]), device, false));
       if (i == 0) print_sweep_heading(sweep.key, summary, sweep.stereo_orders, sweep.temporal_orders);
       print_sweep_line(sweep.values[i], summary, sweep.stereo_orders, sweep.temporal_orders);
     }

@@ -23,7 +23,8 @@ class ReportCommand : public Command {
   void declare(Options& options) override {
     options.positional("OUT", batch_, "folder of a batch");
     options.text("--baseline", baseline_, "another batch; differences to it stand beside each figure", "OTHER");
-    options.repeated("--peer", peers_, "another system's trajectories of the left camera, FOLDER/SEQUENCE.txt (TUM); repeatable",
+    options.repeated("--peer", peers_,
+                     "another system's trajectories of the left camera, FOLDER/SEQUENCE.txt (TUM); repeatable",
                      "NAME=FOLDER");
     options.text("-o,--output", output_, "file of the page; default: OUT/report.html, which is replaced", "FILE");
     options.flag("--force", force_, "replace FILE");
@@ -51,7 +52,8 @@ class ReportCommand : public Command {
     if (equals == std::string::npos || equals == 0) throw UsageError("--peer " + text + ": expected NAME=FOLDER");
     const report::Peer peer{text.substr(0, equals), text.substr(equals + 1)};
     std::error_code ignored;
-    if (!std::filesystem::is_directory(peer.folder, ignored)) throw DataError("--peer " + text + ": " + peer.folder + " is no folder");
+    if (!std::filesystem::is_directory(peer.folder, ignored))
+      throw DataError("--peer " + text + ": " + peer.folder + " is no folder");
     return peer;
   }
 

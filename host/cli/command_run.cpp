@@ -16,7 +16,8 @@ int frame_number(const std::string& text, int missing, const std::string& whole)
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value < 0) {
-    throw UsageError("--frames " + whole + ": expected A:B, the first frame and the one after the last, for example 10:50");
+    throw UsageError("--frames " + whole +
+                     ": expected A:B, the first frame and the one after the last, for example 10:50");
   }
   return value;
 }
@@ -49,8 +50,10 @@ class RunCommand : public Command {
   }
 
   int run() override {
-    if (run_.draw_every < 0) throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 (none) or more");
-    if (run_.thumbnails < 0) throw UsageError("--thumbnails " + std::to_string(run_.thumbnails) + ": expected 0 (none) or more");
+    if (run_.draw_every < 0)
+      throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 (none) or more");
+    if (run_.thumbnails < 0)
+      throw UsageError("--thumbnails " + std::to_string(run_.thumbnails) + ": expected 0 (none) or more");
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
     method_.config();  // complain about options before reading data
     if (!frames_.empty()) {

@@ -15,7 +15,9 @@ namespace {
 class SynthCommand : public Command {
  public:
   std::string name() const override { return "synth"; }
-  std::string about() const override { return "write the rendered sequence to disk (ETH3D SLAM layout, with depth and poses)"; }
+  std::string about() const override {
+    return "write the rendered sequence to disk (ETH3D SLAM layout, with depth and poses)";
+  }
   std::string examples() const override {
     return "  quadedge synth room60 --scene room --frames 60\n"
            "  quadedge synth blurred --scene cables --frames 4 --size 320x200 --blur 3";
@@ -34,8 +36,8 @@ class SynthCommand : public Command {
     Progress progress(quiet_);
     write_eth3d_slam(output_, sequence, [&](int done, int all) { progress.update("frame", done, all); });
     if (!quiet_) {
-      std::printf("%d frames of %d x %d px in %s; largest disparity %.1f px\n", sequence.frames(), sequence.rig().left.width,
-                  sequence.rig().left.height, output_.c_str(), sequence.max_disparity());
+      std::printf("%d frames of %d x %d px in %s; largest disparity %.1f px\n", sequence.frames(),
+                  sequence.rig().left.width, sequence.rig().left.height, output_.c_str(), sequence.max_disparity());
     }
     return 0;
   }
@@ -45,10 +47,12 @@ class SynthCommand : public Command {
   void clear_place() const {
     const std::filesystem::path folder(output_);
     std::error_code error;
-    for (const char* name : {"rgb.txt", "calibration.txt", "calibration2.txt", "extrinsics_1_2.txt", "groundtruth.txt", "rgb", "rgb2",
-                             "depth", "depth2"}) {
+    for (const char* name : {"rgb.txt", "calibration.txt", "calibration2.txt", "extrinsics_1_2.txt", "groundtruth.txt",
+                             "rgb", "rgb2", "depth", "depth2"}) {
       if (!std::filesystem::exists(folder / name, error)) continue;
-      if (!force_) throw UsageError(output_ + ": the folder holds a sequence (" + name + "); choose another, or --force to replace it");
+      if (!force_)
+        throw UsageError(output_ + ": the folder holds a sequence (" + name +
+                         "); choose another, or --force to replace it");
       std::filesystem::remove_all(folder / name, error);
       if (error) throw DataError((folder / name).string() + ": cannot be removed: " + error.message());
     }

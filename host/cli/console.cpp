@@ -1,16 +1,15 @@
 #include "cli/console.hpp"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace quadedge::cli {
 namespace {
 
-constexpr std::chrono::seconds kPlainInterval{5};           // between two lines of a log
+constexpr std::chrono::seconds kPlainInterval{5};            // between two lines of a log
 constexpr std::chrono::milliseconds kTerminalInterval{100};  // between two updates of a terminal's line
 
 void print_errors(const char* title, const PoseErrors& errors) {
@@ -88,9 +87,12 @@ void Progress::update(const std::string& what, int done, int total, const std::s
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long>(std::lround(seconds));
   char text[48];
-  if (whole < 60) std::snprintf(text, sizeof text, "%ld s", whole);
-  else if (whole < 3600) std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
-  else std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
+  if (whole < 60)
+    std::snprintf(text, sizeof text, "%ld s", whole);
+  else if (whole < 3600)
+    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
   return text;
 }
 
@@ -113,7 +115,8 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   for (const auto& frame : run.frames) key_rigs += frame.result.new_key_rig ? 1 : 0;
   std::printf("sequence   %s (%s), %d frames of %d x %d\n", run.input.name.c_str(), run.input.format.c_str(), frames,
               run.input.width, run.input.height);
-  std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(), run.device.type.c_str());
+  std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(),
+              run.device.type.c_str());
   std::printf("tracked    %d of %d frames, %d key stereo rigs\n", run.tracked(), frames, key_rigs);
   const auto latency = report::latency_summary(run.frames);
   std::printf("latency    median %s, p90 %s, p99 %s, max %s; first frame %s\n", milliseconds(latency.median).c_str(),
@@ -122,7 +125,8 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   std::printf("counts    ");
   for (const auto& [name, value] : report::count_medians(run.frames)) std::printf(" %s %.0f", name.c_str(), value);
   std::printf(" (medians)\n");
-  std::printf("start      %s, of it kernel builds %s\n", milliseconds(run.start_ms).c_str(), milliseconds(run.kernel_build_ms).c_str());
+  std::printf("start      %s, of it kernel builds %s\n", milliseconds(run.start_ms).c_str(),
+              milliseconds(run.kernel_build_ms).c_str());
   std::printf("memory     host %.0f MB, device %.0f MB (peaks)\n", run.host_peak_mb, run.device_peak_mb);
   if (!run.kernel_times.empty()) {
     std::printf("\nkernel times of the profiling pass [ms]\n%-22s %12s %12s\n", "", "median", "p90");
@@ -132,8 +136,10 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   }
   if (run.accuracy) print_evaluation(*run.accuracy);
   if (run.consistency.poses > 0) {
-    std::printf("\nnormalised error squared per degree of freedom (1: the covariances are honest), %d poses\n", run.consistency.poses);
-    std::printf("pose %.3f, rotation %.3f, translation %.3f\n", run.consistency.pose, run.consistency.rotation, run.consistency.translation);
+    std::printf("\nnormalised error squared per degree of freedom (1: the covariances are honest), %d poses\n",
+                run.consistency.poses);
+    std::printf("pose %.3f, rotation %.3f, translation %.3f\n", run.consistency.pose, run.consistency.rotation,
+                run.consistency.translation);
   }
   std::printf("\nresults in %s\n", output.c_str());
 }

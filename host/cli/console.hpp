@@ -9,7 +9,8 @@
 
 namespace quadedge::cli {
 
-/// What a long command is doing, on stderr: one updating line on a terminal, else a plain line every few seconds, or nothing.
+/// What a long command is doing, on stderr: one updating line on a terminal, else a plain line every few seconds, or
+/// nothing.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
@@ -34,7 +35,8 @@ class StatusLine {
 class Progress {
  public:
   explicit Progress(bool quiet) : status_(quiet), start_(std::chrono::steady_clock::now()) {}
-  /// `done` of `total` are finished, which also gives rate and remaining time; `note` is a short text behind the numbers.
+  /// `done` of `total` are finished, which also gives rate and remaining time; `note` is a short text behind the
+  /// numbers.
   void update(const std::string& what, int done, int total, const std::string& note = "");
 
  private:

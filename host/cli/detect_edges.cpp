@@ -1,7 +1,7 @@
 #include "cli/detect_edges.hpp"
 
 #include "quadedge/error.hpp"
-#include "reference/edges.hpp"
+#include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
 #include "stages/undistortion.hpp"
 

@@ -1,11 +1,10 @@
 #include "cli/folder_lock.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 
 #include "quadedge/error.hpp"
 

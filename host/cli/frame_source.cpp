@@ -12,8 +12,8 @@ class RecordedSource : public FrameSource {
   explicit RecordedSource(Dataset dataset) : dataset_(std::move(dataset)) { rewind(); }
   const StereoRig& rig() const override { return dataset_.rig; }
   report::InputFacts facts() const override {
-    return {dataset_.path, dataset_.format, dataset_.name, static_cast<int>(dataset_.frames.size()), dataset_.rig.left.width,
-            dataset_.rig.left.height};
+    return {dataset_.path,           dataset_.format,         dataset_.name, static_cast<int>(dataset_.frames.size()),
+            dataset_.rig.left.width, dataset_.rig.left.height};
   }
   double max_disparity() const override { return dataset_.max_disparity; }
   std::optional<FramePrefetcher::Frame> next() override { return prefetcher_->next(); }
@@ -29,11 +29,17 @@ class RecordedSource : public FrameSource {
 class SyntheticSource : public FrameSource {
  public:
   explicit SyntheticSource(const SyntheticOptions& options) : options_(options), sequence_(options) {
-    for (int i = 0; i < sequence_.frames(); ++i) truth_.push_back({sequence_.stamp_ns(i), sequence_.world_from_left(i)});
+    for (int i = 0; i < sequence_.frames(); ++i)
+      truth_.push_back({sequence_.stamp_ns(i), sequence_.world_from_left(i)});
   }
   const StereoRig& rig() const override { return sequence_.rig(); }
   report::InputFacts facts() const override {
-    return {"built-in", "synthetic", options_.scene, sequence_.frames(), sequence_.rig().left.width, sequence_.rig().left.height};
+    return {"built-in",
+            "synthetic",
+            options_.scene,
+            sequence_.frames(),
+            sequence_.rig().left.width,
+            sequence_.rig().left.height};
   }
   double max_disparity() const override { return sequence_.max_disparity(); }
   std::optional<FramePrefetcher::Frame> next() override {
@@ -69,8 +75,8 @@ std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& optio
 void set_size(SyntheticOptions& options, const std::string& size) {
   if (size.empty()) return;
   int width = 0, height = 0, length = 0;
-  if (std::sscanf(size.c_str(), "%5dx%5d%n", &width, &height, &length) != 2 || length != static_cast<int>(size.size()) ||
-      width <= 0 || height <= 0) {
+  if (std::sscanf(size.c_str(), "%5dx%5d%n", &width, &height, &length) != 2 ||
+      length != static_cast<int>(size.size()) || width <= 0 || height <= 0) {
     throw UsageError("--size " + size + ": expected WIDTHxHEIGHT in pixels, for example 640x400");
   }
   // The field of view stays, so that a small picture shows the same scene.

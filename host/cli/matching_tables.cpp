@@ -26,16 +26,17 @@ std::string fine_percent(double share) { return percent(share, share < 0.0005 ? 
 
 void print_counts(const FilterCounts& counts, const evaluation::FilterSpread& spread) {
   std::printf(" | %7s +-%5s %7s +-%5s %9s %6s", percent(counts.recall()).c_str(), percent(spread.recall, 1).c_str(),
-              fine_percent(counts.precision()).c_str(), percent(spread.precision, 1).c_str(), decimal(counts.ambiguity_mean(), 3).c_str(),
-              decimal(counts.ambiguity_max(), 0).c_str());
+              fine_percent(counts.precision()).c_str(), percent(spread.precision, 1).c_str(),
+              decimal(counts.ambiguity_mean(), 3).c_str(), decimal(counts.ambiguity_max(), 0).c_str());
 }
 
 void print_filters(const char* title, const std::vector<PooledRow>& rows) {
   if (rows.empty()) return;
-  std::printf("\n%s\n%-29s | paired: %" PRId64 " edges%-*s | all: %" PRId64 " edges\n", title, "", rows[0].row.paired.pool, 25, "",
-              rows[0].row.all.pool);
+  std::printf("\n%s\n%-29s | paired: %" PRId64 " edges%-*s | all: %" PRId64 " edges\n", title, "",
+              rows[0].row.paired.pool, 25, "", rows[0].row.all.pool);
   std::printf("%-29s", "order filter");
-  for (int pool = 0; pool < 2; ++pool) std::printf(" | %-15s %-15s %9s %6s", " recall %", "precision %", "ambiguity", "max");
+  for (int pool = 0; pool < 2; ++pool)
+    std::printf(" | %-15s %-15s %9s %6s", " recall %", "precision %", "ambiguity", "max");
   std::printf("\n");
   for (const auto& pooled : rows) {
     std::printf("%2d %-26s", pooled.row.order, pooled.row.filter.c_str());
@@ -48,22 +49,24 @@ void print_filters(const char* title, const std::vector<PooledRow>& rows) {
 void print_constraints(const evaluation::MatchingSummary& summary) {
   const auto& table = summary.constraints;
   if (table[0].counts.pairs == 0) return;
-  std::printf("\nTable 3: pairs of quads after each constraint, %" PRId64 " pairs drawn\n%-29s  %-15s  %-15s\n", table[0].counts.pairs,
-              "order constraint", "  recall %", "precision %");
+  std::printf("\nTable 3: pairs of quads after each constraint, %" PRId64 " pairs drawn\n%-29s  %-15s  %-15s\n",
+              table[0].counts.pairs, "order constraint", "  recall %", "precision %");
   for (std::size_t order = 0; order < table.size(); ++order) {
     const auto& row = table[order];
-    std::printf("%2zu %-26s  %7s +-%5s  %7s +-%5s\n", order, evaluation::kConstraintNames[order],
-                percent(static_cast<double>(row.counts.veridical) / static_cast<double>(table[0].counts.veridical)).c_str(),
-                percent(row.recall_std, 1).c_str(),
-                percent(static_cast<double>(row.counts.veridical) / static_cast<double>(row.counts.pairs)).c_str(),
-                percent(row.precision_std, 1).c_str());
+    std::printf(
+        "%2zu %-26s  %7s +-%5s  %7s +-%5s\n", order, evaluation::kConstraintNames[order],
+        percent(static_cast<double>(row.counts.veridical) / static_cast<double>(table[0].counts.veridical)).c_str(),
+        percent(row.recall_std, 1).c_str(),
+        percent(static_cast<double>(row.counts.veridical) / static_cast<double>(row.counts.pairs)).c_str(),
+        percent(row.precision_std, 1).c_str());
   }
 }
 
 void print_quads(const char* pool, const evaluation::PooledQuads& quads) {
   std::printf("quads, %-7s recall %s +- %s %%, precision %s +- %s %% (%" PRId64 " edges, %" PRId64 " quads)\n", pool,
-              percent(quads.counts.recall()).c_str(), percent(quads.std.recall, 1).c_str(), percent(quads.counts.precision()).c_str(),
-              percent(quads.std.precision, 1).c_str(), quads.counts.pool, quads.counts.candidates);
+              percent(quads.counts.recall()).c_str(), percent(quads.std.recall, 1).c_str(),
+              percent(quads.counts.precision()).c_str(), percent(quads.std.precision, 1).c_str(), quads.counts.pool,
+              quads.counts.candidates);
 }
 
 const PooledRow* find(const std::vector<PooledRow>& rows, int order) {
@@ -78,12 +81,14 @@ void print_sweep_row(const std::vector<PooledRow>& rows, int order) {
   if (row == nullptr) return;
   const FilterCounts &paired = row->row.paired, &all = row->row.all;
   std::printf(" | %7s %7s %8s %7s %7s", percent(paired.recall()).c_str(), percent(paired.precision()).c_str(),
-              decimal(paired.ambiguity_mean(), 3).c_str(), percent(all.recall()).c_str(), percent(all.precision()).c_str());
+              decimal(paired.ambiguity_mean(), 3).c_str(), percent(all.recall()).c_str(),
+              percent(all.precision()).c_str());
 }
 
 void print_sweep_title(const char* table, const std::vector<PooledRow>& rows, int order) {
   const PooledRow* row = find(rows, order);
-  if (row != nullptr) std::printf(" | %-40s", (std::string(table) + " " + std::to_string(order) + " " + row->row.filter).c_str());
+  if (row != nullptr)
+    std::printf(" | %-40s", (std::string(table) + " " + std::to_string(order) + " " + row->row.filter).c_str());
 }
 
 /// Calls `print` for the chosen rows of all three tables.
@@ -102,8 +107,8 @@ void for_rows(const evaluation::MatchingSummary& summary, const std::vector<int>
 void print_matching(const std::string& title, const evaluation::MatchingSummary& summary) {
   std::printf("\n=== %s: %d stereo frame%s ===\n", title.c_str(), summary.frames, summary.frames == 1 ? "" : "s");
   const auto& census = summary.census;
-  std::printf("left edges %" PRId64 ": no statement about %" PRId64 ", along their epipolar line %" PRId64 ", hidden %" PRId64
-              ", on depth steps %" PRId64 "\n",
+  std::printf("left edges %" PRId64 ": no statement about %" PRId64 ", along their epipolar line %" PRId64
+              ", hidden %" PRId64 ", on depth steps %" PRId64 "\n",
               census.edges, census.no_statement, census.along_line, census.hidden, census.contour);
   print_filters("Table 1: stereo", summary.stereo);
   std::printf("final stereo edges: ");
@@ -121,19 +126,21 @@ void print_matching(const std::string& title, const evaluation::MatchingSummary&
     std::printf("\n");
     print_quads("paired:", summary.quads_paired);
     print_quads("all:", summary.quads_all);
-    std::printf("quads, paired: ambiguity %s +- %s (further matches per quad)\n", decimal(summary.quads_ambiguity_mean, 3).c_str(),
+    std::printf("quads, paired: ambiguity %s +- %s (further matches per quad)\n",
+                decimal(summary.quads_ambiguity_mean, 3).c_str(),
                 decimal(summary.quads_paired.std.ambiguity, 3).c_str());
   }
   print_constraints(summary);
 }
 
-void print_sweep_heading(const std::string& key, const evaluation::MatchingSummary& summary, const std::vector<int>& stereo_orders,
-                         const std::vector<int>& temporal_orders) {
+void print_sweep_heading(const std::string& key, const evaluation::MatchingSummary& summary,
+                         const std::vector<int>& stereo_orders, const std::vector<int>& temporal_orders) {
   std::printf("%12s", "");
   for_rows(summary, stereo_orders, temporal_orders, print_sweep_title);
   std::printf("\n%12s", key.substr(key.find('.') + 1).substr(0, 12).c_str());
   for_rows(summary, stereo_orders, temporal_orders, [](const char*, const std::vector<PooledRow>& rows, int order) {
-    if (find(rows, order) != nullptr) std::printf(" | %7s %7s %8s %7s %7s", "rec", "prec", "ambig", "rec.all", "prec.all");
+    if (find(rows, order) != nullptr)
+      std::printf(" | %7s %7s %8s %7s %7s", "rec", "prec", "ambig", "rec.all", "prec.all");
   });
   std::printf("  quads rec  prec  prec.all  disp.med\n");
 }

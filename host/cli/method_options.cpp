@@ -7,7 +7,8 @@ namespace quadedge::cli {
 
 void MethodOptions::declare(Options& options) {
   options.group("Method and device");
-  options.text("--device", device_, "auto, cpu, gpu, reference, a number of `quadedge devices`, or a part of a name", "DEVICE");
+  options.text("--device", device_, "auto, cpu, gpu, reference, a number of `quadedge devices`, or a part of a name",
+               "DEVICE");
   options.environment("QUADEDGE_DEVICE");
   options.config_file();
   options.repeated("--variant", variants_, "kernel variant of a stage (`quadedge variants`), repeatable", "STAGE=NAME");

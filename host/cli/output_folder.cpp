@@ -28,7 +28,9 @@ void prepare_output_folder(const std::string& path, bool force) {
   if (error) throw DataError(path + ": the output folder cannot be made: " + error.message());
   for (const char* name : kResultFiles) {
     if (!fs::exists(folder / name, error)) continue;
-    if (!force) throw UsageError(path + ": the folder holds results (" + name + "); choose another -o, or --force to replace them");
+    if (!force)
+      throw UsageError(path + ": the folder holds results (" + name +
+                       "); choose another -o, or --force to replace them");
     fs::remove(folder / name, error);
     if (error) throw DataError((folder / name).string() + ": the old result cannot be removed: " + error.message());
   }
@@ -47,12 +49,12 @@ void refuse_existing_file(const std::string& path, bool force) {
 
 void refuse_full_folder(const std::string& path, bool force) {
   std::error_code error;
-  if (force || path.empty() || !std::filesystem::is_directory(path, error) || std::filesystem::is_empty(path, error)) return;
-  throw UsageError(path + ": the folder holds files; choose another one, or --force to replace those of the same names");
+  if (force || path.empty() || !std::filesystem::is_directory(path, error) || std::filesystem::is_empty(path, error))
+    return;
+  throw UsageError(path +
+                   ": the folder holds files; choose another one, or --force to replace those of the same names");
 }
 
-std::string default_output_folder(const std::string& sequence) {
-  return "quadedge_" + data::plain_name(sequence);
-}
+std::string default_output_folder(const std::string& sequence) { return "quadedge_" + data::plain_name(sequence); }
 
 }  // namespace quadedge::cli

@@ -5,9 +5,9 @@
 
 namespace quadedge::cli {
 
-/// Makes the folder and checks that it can be written. A folder that holds results is refused without `force`; with it, the
-/// old results (and nothing else) are removed, so that no stale file stays among the new ones.
-/// \throws UsageError for a refused folder, DataError (naming the path) for one that cannot be made or written.
+/// Makes the folder and checks that it can be written. A folder that holds results is refused without `force`; with it,
+/// the old results (and nothing else) are removed, so that no stale file stays among the new ones. \throws UsageError
+/// for a refused folder, DataError (naming the path) for one that cannot be made or written.
 void prepare_output_folder(const std::string& path, bool force);
 
 /// Refuses a file that exists, unless `force`. \throws UsageError.

@@ -25,12 +25,15 @@ class ParserOptions : public Options {
   void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
     app_.add_option(name, values, help)->required()->type_name("")->configurable(false);
   }
-  void text(const std::string& names, std::string& value, const std::string& help, const std::string& placeholder) override {
+  void text(const std::string& names, std::string& value, const std::string& help,
+            const std::string& placeholder) override {
     add(names, value, help)->type_name(placeholder);
   }
   void number(const std::string& names, double& value, const std::string& help) override { add(names, value, help); }
   void number(const std::string& names, int& value, const std::string& help) override { add(names, value, help); }
-  void number(const std::string& names, std::uint64_t& value, const std::string& help) override { add(names, value, help); }
+  void number(const std::string& names, std::uint64_t& value, const std::string& help) override {
+    add(names, value, help);
+  }
   void boolean(const std::string& names, bool& value, const std::string& help) override {
     add(names, value, help)->type_name("true|false");
   }
@@ -88,7 +91,8 @@ class ParserOptions : public Options {
     const std::string key = item.fullname();
     CLI::Option* option = app_.get_option_no_throw("--" + key);
     if (option == nullptr || !option->get_configurable()) {
-      throw UsageError(config_file_ + ": unknown key '" + key + "'; `quadedge " + app_.get_name() + " --help-all` lists all options");
+      throw UsageError(config_file_ + ": unknown key '" + key + "'; `quadedge " + app_.get_name() +
+                       " --help-all` lists all options");
     }
     if (option->count() > 0 && configured_.count(option) == 0) return;  // the command line or the environment wins
     if (!configured_.insert({option, key}).second) {
@@ -140,9 +144,10 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   CLI::App program("Stereo visual odometry from quadruplets of third-order edges", "quadedge");
   program.set_version_flag("--version", "quadedge " QUADEDGE_VERSION);
   program.require_subcommand(1);
-  program.footer("Each command has its own --help with examples, for example: quadedge run --help\n"
-                 "Exit codes: 0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build,\n"
-                 "5 finished but tracked too few frames, 6 regression found by bench --compare");
+  program.footer(
+      "Each command has its own --help with examples, for example: quadedge run --help\n"
+      "Exit codes: 0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build,\n"
+      "5 finished but tracked too few frames, 6 regression found by bench --compare");
   std::map<std::string, CLI::App*> groups;
   std::vector<CLI::App*> apps;
   std::vector<std::unique_ptr<ParserOptions>> options;

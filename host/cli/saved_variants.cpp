@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "bench/variants_file.hpp"
+#include "benchmark/variants_file.hpp"
 
 namespace quadedge::cli {
 

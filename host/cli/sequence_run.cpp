@@ -1,10 +1,9 @@
 #include "cli/sequence_run.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <sys/resource.h>
 
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
@@ -38,7 +37,9 @@ double host_peak_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts KiB
 }
 
-StereoFrame view(const FramePrefetcher::Frame& frame) { return {frame.stamp_ns, frame.left.view(), frame.right.view()}; }
+StereoFrame view(const FramePrefetcher::Frame& frame) {
+  return {frame.stamp_ns, frame.left.view(), frame.right.view()};
+}
 
 /// The files that grow with every frame.
 class GrowingFiles {
@@ -67,10 +68,12 @@ bool is_thumbnail(int frame, int frames, int count) {
   return false;
 }
 
-/// Draws edges and quads of the frame that was tracked last, if it is one of the chosen. `frames`: length of the sequence.
+/// Draws edges and quads of the frame that was tracked last, if it is one of the chosen. `frames`: length of the
+/// sequence.
 void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig& rig, const StereoOdometry& odometry,
                 const SequenceRunOptions& options) {
-  const bool large = frame.number == options.draw_frame || (options.draw_every > 0 && frame.number % options.draw_every == 0);
+  const bool large =
+      frame.number == options.draw_frame || (options.draw_every > 0 && frame.number % options.draw_every == 0);
   const bool small = is_thumbnail(frame.number, frames, options.thumbnails);
   if (!large && !small) return;
   const FrameDetails details = odometry.details();
@@ -79,7 +82,8 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
   const Image left = table.empty() ? frame.left : reference::undistort(frame.left.view(), table);
   char number[16];
   std::snprintf(number, sizeof number, "%06d", frame.number);
-  if (small) report::draw_quads_thumbnail(options.output + "/pictures/thumbnail_" + number + ".jpg", left.view(), details);
+  if (small)
+    report::draw_quads_thumbnail(options.output + "/pictures/thumbnail_" + number + ".jpg", left.view(), details);
   if (!large) return;
   report::draw_edges(options.output + "/pictures/edges_" + number + ".png", left.view(), details.left_edges);
   report::draw_quads(options.output + "/pictures/quads_" + number + ".png", left.view(), details);
@@ -97,11 +101,13 @@ std::vector<StageTime> kernel_stages(const std::vector<StageTime>& stages) {
 
 /// The largest disparity comes from the data where the configuration leaves it open.
 void complete(Config& config, const FrameSource& source) {
-  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0) config.stereo.max_disparity = source.max_disparity();
+  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
+    config.stereo.max_disparity = source.max_disparity();
 }
 
 /// First pass: poses and latencies.
-void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options, report::RunRecord& run) {
+void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
+                  report::RunRecord& run) {
   const auto start = Clock::now();
   Device device = method.open_device();
   add_saved_variants(device, run.config);
@@ -132,7 +138,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
 }
 
 /// Second pass, with a profiling queue, which slows the device down: kernel times only.
-void profile_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options, report::RunRecord& run) {
+void profile_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
+                    report::RunRecord& run) {
   Progress progress(options.quiet);
   source.rewind();
   Device device = method.open_device(true);
@@ -166,7 +173,8 @@ Trajectory truth_of_the_run(const Trajectory& truth, const report::RunRecord& ru
   return kept;
 }
 
-/// Compares with the ground truth, where there is one. Truth that misses most frames is no reason to fail a finished run.
+/// Compares with the ground truth, where there is one. Truth that misses most frames is no reason to fail a finished
+/// run.
 void evaluate(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
   if (source.truth().empty()) return;
   run.truth_file = source.truth_name();
@@ -200,7 +208,8 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
     track_frames(source, method, options, run);
   } catch (const DataError& error) {
     if (run.frames.empty()) throw;
-    throw DataError(std::string(error.what()) + "\n" + std::to_string(run.frames.size()) + " finished frames are in " + options.output);
+    throw DataError(std::string(error.what()) + "\n" + std::to_string(run.frames.size()) + " finished frames are in " +
+                    options.output);
   }
   if (options.profile) profile_frames(source, method, options, run);
   evaluate(source, options, run);
@@ -214,8 +223,8 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
 int exit_code(const report::RunRecord& run, double min_tracked) {
   const double share = run.frames.empty() ? 0 : 100.0 * run.tracked() / static_cast<double>(run.frames.size());
   if (share >= min_tracked) return static_cast<int>(ExitCode::done);
-  std::fprintf(stderr, "quadedge: tracked %d of %zu frames, fewer than --min-tracked %g %%\n", run.tracked(), run.frames.size(),
-               min_tracked);
+  std::fprintf(stderr, "quadedge: tracked %d of %zu frames, fewer than --min-tracked %g %%\n", run.tracked(),
+               run.frames.size(), min_tracked);
   return static_cast<int>(ExitCode::too_few_tracked);
 }
 

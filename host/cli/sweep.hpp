@@ -11,9 +11,9 @@ namespace quadedge::cli {
 /// What `--sweep SECTION.FIELD=FIRST:LAST:STEP` asks for.
 struct Sweep {
   std::string key;
-  std::vector<double> values;         ///< FIRST, FIRST + STEP, ... up to LAST
-  std::vector<int> stereo_orders;     ///< rows of Table 1 that the constant decides about, and the last one
-  std::vector<int> temporal_orders;   ///< rows of Table 2
+  std::vector<double> values;        ///< FIRST, FIRST + STEP, ... up to LAST
+  std::vector<int> stereo_orders;    ///< rows of Table 1 that the constant decides about, and the last one
+  std::vector<int> temporal_orders;  ///< rows of Table 2
 };
 
 /// \throws UsageError for a text of another form, an unknown key, or one that holds no number.

@@ -1,11 +1,10 @@
 #include "data/atomic_file.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <unistd.h>
 
 #include "quadedge/error.hpp"
 
@@ -18,7 +17,8 @@ void write_atomically(const std::string& path, std::string_view bytes) {
   const std::string name = replace ? path + ".part" + std::to_string(getpid()) : path;
   const auto give_up = [&](const char* step, int reason) {
     if (replace) std::filesystem::remove(name, ignored);
-    throw DataError(path + ": cannot " + step + ": " + std::strerror(reason) + "; expected a place that can be written");
+    throw DataError(path + ": cannot " + step + ": " + std::strerror(reason) +
+                    "; expected a place that can be written");
   };
   std::FILE* stream = std::fopen(name.c_str(), "wb");
   if (stream == nullptr) give_up("open the file for writing", errno);

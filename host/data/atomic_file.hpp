@@ -6,8 +6,8 @@
 
 namespace quadedge::data {
 
-/// Writes to a temporary name in the same folder and renames, so that a reader never sees half a file and a failure leaves
-/// an older file as it was. Devices and pipes are written directly. \throws DataError with the system's reason.
+/// Writes to a temporary name in the same folder and renames, so that a reader never sees half a file and a failure
+/// leaves an older file as it was. Devices and pipes are written directly. \throws DataError with the system's reason.
 void write_atomically(const std::string& path, std::string_view bytes);
 
 }  // namespace quadedge::data

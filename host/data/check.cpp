@@ -28,9 +28,9 @@ std::int64_t median_period(const Dataset& dataset) {
 }
 
 void describe_camera(const PinholeCamera& camera, const char* which, DatasetCheck& check) {
-  check.facts.push_back(std::string(which) + " camera: " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +
-                        ", fx " + decimals(camera.fx, 3) + " fy " + decimals(camera.fy, 3) + " cx " + decimals(camera.cx, 3) +
-                        " cy " + decimals(camera.cy, 3));
+  check.facts.push_back(std::string(which) + " camera: " + std::to_string(camera.width) + " x " +
+                        std::to_string(camera.height) + ", fx " + decimals(camera.fx, 3) + " fy " +
+                        decimals(camera.fy, 3) + " cx " + decimals(camera.cx, 3) + " cy " + decimals(camera.cy, 3));
 }
 
 void describe(const Dataset& dataset, DatasetCheck& check) {
@@ -39,12 +39,14 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
   check.facts.push_back("frames: " + std::to_string(dataset.frames.size()));
   describe_camera(dataset.rig.left, "left", check);
   describe_camera(dataset.rig.right, "right", check);
-  check.facts.push_back(std::string("images: ") + (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, undone by a table"));
+  check.facts.push_back(std::string("images: ") +
+                        (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, undone by a table"));
   check.facts.push_back("baseline: " + decimals(dataset.rig.baseline(), 6) + " m");
   check.facts.push_back("largest disparity: " + decimals(dataset.max_disparity, 1) + " px");
   if (const std::int64_t period = median_period(dataset); period > 0) {
-    check.facts.push_back("rate: " + decimals(1e9 / static_cast<double>(period), 2) + " Hz, " +
-                          decimals(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
+    check.facts.push_back(
+        "rate: " + decimals(1e9 / static_cast<double>(period), 2) + " Hz, " +
+        decimals(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
   }
   for (const auto& note : dataset.notes) check.facts.push_back("note: " + note);
 }

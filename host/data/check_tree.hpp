@@ -14,13 +14,16 @@ struct TreeMember {
   std::string format;  ///< layout
 };
 
-/// Recordings and still pairs in and below a folder, sorted by path. A folder that is one itself gives that one, with the path ".".
+/// Recordings and still pairs in and below a folder, sorted by path. A folder that is one itself gives that one, with
+/// the path ".".
 std::vector<TreeMember> find_members(const std::string& root);
 
-/// Name of the list that scripts/download_eth3d.py leaves in a tree: one published folder per line, '#' starts a comment.
+/// Name of the list that scripts/download_eth3d.py leaves in a tree: one published folder per line, '#' starts a
+/// comment.
 inline constexpr const char* kPublishedList = "eth3d_published.txt";
 
-/// Folders of the published list that the tree does not have. Empty where there is no list. \throws DataError for an unreadable one.
+/// Folders of the published list that the tree does not have. Empty where there is no list. \throws DataError for an
+/// unreadable one.
 std::vector<std::string> missing_members(const std::string& root);
 
 /// One line about a checked member: layout, frames, size, ground truth, how many warnings.

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uintmax_t kSample = 4096;  // bytes at each end of an image
 
 void add_camera(ContentHash& hash, const PinholeCamera& camera) {
-  hash.add({camera.fx, camera.fy, camera.cx, camera.cy, static_cast<double>(camera.width), static_cast<double>(camera.height)});
+  hash.add({camera.fx, camera.fy, camera.cx, camera.cy, static_cast<double>(camera.width),
+            static_cast<double>(camera.height)});
 }
 
 void add_pose(ContentHash& hash, const Eigen::Isometry3d& pose) {

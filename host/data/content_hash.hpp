@@ -10,8 +10,8 @@
 
 namespace quadedge::data {
 
-/// A 128-bit XXH3 fingerprint of a row of values. Each value goes in with its length, so that ("ab", "c") and ("a", "bc")
-/// differ. Not for keeping secrets.
+/// A 128-bit XXH3 fingerprint of a row of values. Each value goes in with its length, so that ("ab", "c") and ("a",
+/// "bc") differ. Not for keeping secrets.
 class ContentHash {
  public:
   ContentHash();
@@ -26,11 +26,11 @@ class ContentHash {
   std::unique_ptr<State> state_;
 };
 
-/// What of a recording decides the outcome of its run: layout, cameras, undistortion, stamps and ground-truth poses, all as
-/// read from the text files, and of every image its file name, size and first and last 4 KiB: the images of a long sequence
-/// are gigabytes, and a PNG ends with checksums of all its pixels. (Only a change of equal size deep inside a JPEG or an
-/// uncompressed image goes unnoticed.) Times of modification and the place of the folder do not count.
-/// \throws DataError for an image that cannot be read.
+/// What of a recording decides the outcome of its run: layout, cameras, undistortion, stamps and ground-truth poses,
+/// all as read from the text files, and of every image its file name, size and first and last 4 KiB: the images of a
+/// long sequence are gigabytes, and a PNG ends with checksums of all its pixels. (Only a change of equal size deep
+/// inside a JPEG or an uncompressed image goes unnoticed.) Times of modification and the place of the folder do not
+/// count. \throws DataError for an image that cannot be read.
 std::string dataset_hash(const Dataset& dataset);
 
 /// Fingerprint of a whole file. \throws DataError.

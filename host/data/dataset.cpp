@@ -38,8 +38,8 @@ void cut_frames(Dataset& dataset, const DatasetOptions& options) {
   const int count = static_cast<int>(dataset.frames.size());
   const int last = options.last_frame < 0 ? count : options.last_frame;
   if (options.first_frame < 0 || last > count || options.first_frame >= last) {
-    throw UsageError("frames " + std::to_string(options.first_frame) + ":" + std::to_string(last) + ": " + dataset.path +
-                     " has the frames 0:" + std::to_string(count));
+    throw UsageError("frames " + std::to_string(options.first_frame) + ":" + std::to_string(last) + ": " +
+                     dataset.path + " has the frames 0:" + std::to_string(count));
   }
   dataset.frames.erase(dataset.frames.begin() + last, dataset.frames.end());
   dataset.frames.erase(dataset.frames.begin(), dataset.frames.begin() + options.first_frame);
@@ -48,8 +48,10 @@ void cut_frames(Dataset& dataset, const DatasetOptions& options) {
 void check_stamps(const Dataset& dataset, Findings& findings) {
   for (std::size_t i = 1; i < dataset.frames.size(); ++i) {
     if (dataset.frames[i].stamp_ns > dataset.frames[i - 1].stamp_ns) continue;
-    findings.error(dataset.frames[i].left, "the stamp " + format_seconds(dataset.frames[i].stamp_ns) + " after " +
-                                               format_seconds(dataset.frames[i - 1].stamp_ns), "increasing stamps");
+    findings.error(dataset.frames[i].left,
+                   "the stamp " + format_seconds(dataset.frames[i].stamp_ns) + " after " +
+                       format_seconds(dataset.frames[i - 1].stamp_ns),
+                   "increasing stamps");
   }
 }
 

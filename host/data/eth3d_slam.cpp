@@ -1,10 +1,11 @@
-/// \file eth3d_slam.cpp  ETH3D SLAM stereo: rgb/, rgb2/ (same file names), rgb.txt, calibration.txt and calibration2.txt
-/// (fx fy cx cy), extrinsics_1_2.txt (3 x 4), groundtruth.txt (TUM, global_from_camera1). Other folders are ignored.
+/// \file eth3d_slam.cpp  ETH3D SLAM stereo: rgb/, rgb2/ (same file names), rgb.txt, calibration.txt and
+/// calibration2.txt (fx fy cx cy), extrinsics_1_2.txt (3 x 4), groundtruth.txt (TUM, global_from_camera1). Other
+/// folders are ignored.
 ///
-/// extrinsics_1_2.txt maps points of camera 2 (rgb2/) into camera 1 (rgb/). In the published recordings its translation is
-/// about (-0.09, 0, 0) m: camera 1 stands to the RIGHT of camera 2 although it comes first. The sign of that component tells
-/// which camera sees the scene from the left, so that disparities are positive whichever way a set was written; the ground
-/// truth, which belongs to camera 1, is carried over to the left camera.
+/// extrinsics_1_2.txt maps points of camera 2 (rgb2/) into camera 1 (rgb/). In the published recordings its translation
+/// is about (-0.09, 0, 0) m: camera 1 stands to the RIGHT of camera 2 although it comes first. The sign of that
+/// component tells which camera sees the scene from the left, so that disparities are positive whichever way a set was
+/// written; the ground truth, which belongs to camera 1, is carried over to the left camera.
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -24,7 +25,8 @@ PinholeCamera read_camera(const std::string& file) {
 
 Eigen::Isometry3d read_extrinsics(const std::string& file) {
   const auto lines = data_lines(file);
-  if (lines.size() != 3) fail(file, std::to_string(lines.size()) + " rows", "three rows of four numbers, camera1_from_camera2");
+  if (lines.size() != 3)
+    fail(file, std::to_string(lines.size()) + " rows", "three rows of four numbers, camera1_from_camera2");
   Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d rotation;
   for (int row = 0; row < 3; ++row) {
@@ -63,14 +65,16 @@ void read_frames(Dataset& dataset, const fs::path& folder, bool first_is_left, F
     add_frame(dataset, stamp, first_is_left ? one : two, first_is_left ? two : one, findings);
   }
   if (second != list.size()) {
-    findings.error((folder / "rgb2").string(), std::to_string(second) + " images", std::to_string(list.size()) + " as in rgb");
+    findings.error((folder / "rgb2").string(), std::to_string(second) + " images",
+                   std::to_string(list.size()) + " as in rgb");
   }
 }
 
 }  // namespace
 
 bool is_eth3d_slam(const fs::path& folder) {
-  return fs::is_directory(folder / "rgb2") || (fs::is_directory(folder / "rgb") && fs::exists(folder / "calibration.txt"));
+  return fs::is_directory(folder / "rgb2") ||
+         (fs::is_directory(folder / "rgb") && fs::exists(folder / "calibration.txt"));
 }
 
 Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions&, Findings& findings) {

@@ -16,7 +16,9 @@ namespace fs = std::filesystem;
 void make_folder(const fs::path& folder) {
   std::error_code problem;
   fs::create_directories(folder, problem);
-  if (problem) throw DataError(folder.string() + ": cannot make the folder: " + problem.message() + "; expected a place that can be written");
+  if (problem)
+    throw DataError(folder.string() + ": cannot make the folder: " + problem.message() +
+                    "; expected a place that can be written");
 }
 
 void write_png(const fs::path& file, const Image& image) {
@@ -27,8 +29,8 @@ void write_png(const fs::path& file, const Image& image) {
 }
 
 std::string camera_row(const PinholeCamera& camera) {
-  return data::format_exact(camera.fx) + ' ' + data::format_exact(camera.fy) + ' ' + data::format_exact(camera.cx) + ' ' +
-         data::format_exact(camera.cy) + '\n';
+  return data::format_exact(camera.fx) + ' ' + data::format_exact(camera.fy) + ' ' + data::format_exact(camera.cx) +
+         ' ' + data::format_exact(camera.cy) + '\n';
 }
 
 std::string matrix_rows(const Eigen::Isometry3d& transform) {

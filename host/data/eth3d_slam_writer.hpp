@@ -14,7 +14,8 @@ namespace quadedge {
 ///   calibration.txt, calibration2.txt  fx fy cx cy of the left and the right camera
 ///   extrinsics_1_2.txt                 3 x 4 matrix left_from_right [m]
 ///   groundtruth.txt                    TUM rows of world_from_left
-///   depth/STAMP.pfm, depth2/STAMP.pfm  exact z of every pixel of the left and right image [m], 32-bit PFM: 16-bit PNG would
+///   depth/STAMP.pfm, depth2/STAMP.pfm  exact z of every pixel of the left and right image [m], 32-bit PFM: 16-bit PNG
+///   would
 ///                                      round to 0.2 mm, too coarse to judge sub-pixel disparities by
 /// Camera 1 is the left one, so that groundtruth.txt and depth/ belong to the camera whose trajectory is estimated.
 /// `progress(done, all)` is called after each frame and may be empty.

@@ -1,5 +1,6 @@
-/// \file eth3d_two_view.cpp  ETH3D low-resolution two-view pairs: two_view_training/SCENE/{im0.png,im1.png,calib.txt} and
-/// two_view_training_gt/SCENE/disp0GT.pfm. The same files as Middlebury 2014, told apart by the folder names and the truth.
+/// \file eth3d_two_view.cpp  ETH3D low-resolution two-view pairs: two_view_training/SCENE/{im0.png,im1.png,calib.txt}
+/// and two_view_training_gt/SCENE/disp0GT.pfm. The same files as Middlebury 2014, told apart by the folder names and
+/// the truth.
 
 #include "data/layout.hpp"
 
@@ -10,13 +11,15 @@ namespace {
 /// benchmark search; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %).
 /// (ndisp of its calib.txt is the image width and says nothing.)
 constexpr double kMaxDisparity = 64;
-/// Published calibrations have two kinds of image: the wide "l" ones (above 900 columns) and the "s" ones, about 6 cm apart.
+/// Published calibrations have two kinds of image: the wide "l" ones (above 900 columns) and the "s" ones, about 6 cm
+/// apart.
 constexpr double kFocalWide = 541.764, kFocalNarrow = 711.499, kBaseline = 0.06;
 constexpr int kWideColumns = 900;
 
 std::string truth_of(const fs::path& folder) {
   const fs::path clean = fs::absolute(folder / ".").lexically_normal().parent_path();
-  const fs::path beside = clean.parent_path().parent_path() / (clean.parent_path().filename().string() + "_gt") / clean.filename();
+  const fs::path beside =
+      clean.parent_path().parent_path() / (clean.parent_path().filename().string() + "_gt") / clean.filename();
   for (const auto& place : {clean, beside}) {
     if (fs::exists(place / "disp0GT.pfm")) return (place / "disp0GT.pfm").string();
   }

@@ -1,5 +1,6 @@
-/// \file euroc.cpp  EuRoC MAV: mav0/{cam0,cam1}/{sensor.yaml,data.csv,data/}, mav0/state_groundtruth_estimate0/data.csv.
-/// The recorded images are distorted; the rig describes pinhole images of the same K, and two tables make them.
+/// \file euroc.cpp  EuRoC MAV: mav0/{cam0,cam1}/{sensor.yaml,data.csv,data/},
+/// mav0/state_groundtruth_estimate0/data.csv. The recorded images are distorted; the rig describes pinhole images of
+/// the same K, and two tables make them.
 
 #include <algorithm>
 #include <map>
@@ -24,7 +25,8 @@ struct Sensor {
   Eigen::Isometry3d body_from_camera = Eigen::Isometry3d::Identity();
 };
 
-/// The text that follows `key:` at the start of a line, to the end of the file; `after` narrows the search to what follows it.
+/// The text that follows `key:` at the start of a line, to the end of the file; `after` narrows the search to what
+/// follows it.
 std::string value_of(const std::string& text, const std::string& key, const std::string& file) {
   for (std::size_t at = text.find(key + ":"); at != std::string::npos; at = text.find(key + ":", at + 1)) {
     const std::size_t line_start = text.rfind('\n', at) + 1;
@@ -34,7 +36,8 @@ std::string value_of(const std::string& text, const std::string& key, const std:
 }
 
 /// The numbers in the brackets that follow `key:`.
-std::vector<double> list_of(const std::string& text, const std::string& key, std::size_t count, const std::string& file) {
+std::vector<double> list_of(const std::string& text, const std::string& key, std::size_t count,
+                            const std::string& file) {
   const std::string value = value_of(text, key, file);
   const std::string expected = key + ": [" + std::to_string(count) + " numbers]";
   const std::size_t open = value.find_first_not_of(" \t\r\n"), close = value.find(']');
@@ -43,7 +46,8 @@ std::vector<double> list_of(const std::string& text, const std::string& key, std
   }
   const auto tokens = split(value.substr(open + 1, close - open - 1), ", \t\r\n");
   if (tokens.size() != count) fail(file, std::to_string(tokens.size()) + " numbers for " + key, expected);
-  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.size() - value.size()), '\n');
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.size() - value.size()), '\n');
   std::vector<double> values;
   for (const auto& token : tokens) values.push_back(parse_number(token, file, static_cast<int>(line), expected));
   return values;
@@ -60,9 +64,14 @@ Sensor read_sensor(const std::string& file) {
   const std::string model = word_of(text, "camera_model", file);
   if (model != "pinhole") fail(file, "the camera model " + in_quotes(model), "pinhole");
   const std::string lens = word_of(text, "distortion_model", file);
-  if (lens != "radial-tangential" && lens != "radtan") fail(file, "the distortion model " + in_quotes(lens), "radial-tangential");
+  if (lens != "radial-tangential" && lens != "radtan")
+    fail(file, "the distortion model " + in_quotes(lens), "radial-tangential");
   const auto intrinsics = list_of(text, "intrinsics", 4, file), resolution = list_of(text, "resolution", 2, file);
-  sensor.camera = {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], static_cast<int>(resolution[0]),
+  sensor.camera = {intrinsics[0],
+                   intrinsics[1],
+                   intrinsics[2],
+                   intrinsics[3],
+                   static_cast<int>(resolution[0]),
                    static_cast<int>(resolution[1])};
   sensor.distortion = list_of(text, "distortion_coefficients", 4, file);
   const auto pose = list_of(value_of(text, "T_BS", file), "data", 16, file);
@@ -80,7 +89,8 @@ UndistortionTable table_of(const Sensor& sensor) {
   const PinholeCamera& camera = sensor.camera;
   const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   cv::Mat x, y;
-  cv::initUndistortRectifyMap(k, sensor.distortion, cv::Matx33d::eye(), k, {camera.width, camera.height}, CV_32FC1, x, y);
+  cv::initUndistortRectifyMap(k, sensor.distortion, cv::Matx33d::eye(), k, {camera.width, camera.height}, CV_32FC1, x,
+                              y);
   table.width = camera.width;
   table.height = camera.height;
   table.source_x.assign(x.begin<float>(), x.end<float>());
@@ -139,7 +149,8 @@ void read_truth(Dataset& dataset, const Eigen::Isometry3d& body_from_left) {
     const Eigen::Quaterniond rotation(v[4], v[5], v[6], v[7]);
     constexpr double kTolerance = 1e-3;
     if (std::abs(rotation.norm() - 1) > kTolerance) {
-      fail(file, line.number, "a quaternion of length " + std::to_string(rotation.norm()), "a unit quaternion q_w q_x q_y q_z");
+      fail(file, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
+           "a unit quaternion q_w q_x q_y q_z");
     }
     Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();
     world_from_body.linear() = rotation.normalized().toRotationMatrix();
@@ -148,8 +159,8 @@ void read_truth(Dataset& dataset, const Eigen::Isometry3d& body_from_left) {
   }
   for (const auto& frame : dataset.frames) {
     auto nearest = rows.lower_bound(frame.stamp_ns);
-    if (nearest == rows.end() || (nearest != rows.begin() && frame.stamp_ns - std::prev(nearest)->first <
-                                                                 nearest->first - frame.stamp_ns)) {
+    if (nearest == rows.end() ||
+        (nearest != rows.begin() && frame.stamp_ns - std::prev(nearest)->first < nearest->first - frame.stamp_ns)) {
       if (nearest == rows.begin()) return;
       --nearest;
     }

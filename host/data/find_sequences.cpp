@@ -30,8 +30,8 @@ void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, s
     return;
   }
   std::vector<fs::path> folders;
-  for (fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end; !error && entry != end;
-       entry.increment(error)) {
+  for (fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
+       !error && entry != end; entry.increment(error)) {
     std::error_code ignored;
     if (entry->is_directory(ignored) && entry->path().filename().string()[0] != '.') folders.push_back(entry->path());
   }
@@ -72,7 +72,8 @@ std::string name_of(const FoundRecording& recording, int parts) {
 std::vector<FoundSequence> named(const std::vector<FoundRecording>& recordings) {
   constexpr int kMostParts = 8;
   std::vector<FoundSequence> sequences;
-  for (const auto& recording : recordings) sequences.push_back({name_of(recording, 1), recording.path, recording.format});
+  for (const auto& recording : recordings)
+    sequences.push_back({name_of(recording, 1), recording.path, recording.format});
   for (int parts = 2; parts <= kMostParts; ++parts) {
     std::map<std::string, int> uses;
     for (const auto& sequence : sequences) ++uses[sequence.name];
@@ -107,7 +108,8 @@ std::string plain_name(const std::string& text) {
 }
 
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
-  if (!fs::exists(root_or_list)) fail(root_or_list, "no such file or folder", "a folder of sequences, or a list of folders");
+  if (!fs::exists(root_or_list))
+    fail(root_or_list, "no such file or folder", "a folder of sequences, or a list of folders");
   if (!fs::is_directory(root_or_list)) {
     const auto recordings = search_list(root_or_list);
     if (recordings.empty()) fail(root_or_list, "no line", "the folder of a sequence on every line");

@@ -8,16 +8,16 @@ namespace quadedge::data {
 
 /// A sequence that a batch works on.
 struct FoundSequence {
-  std::string name;    ///< unique in its batch, letters, digits and -_. alone: a folder can be called so
-  std::string path;    ///< the sequence's own folder
-  std::string format;  ///< layout by its looks; empty for a line of a list that is no recording (and whose run will say why)
+  std::string name;  ///< unique in its batch, letters, digits and -_. alone: a folder can be called so
+  std::string path;  ///< the sequence's own folder
+  std::string
+      format;  ///< layout by its looks; empty for a line of a list that is no recording (and whose run will say why)
 };
 
-/// A folder: every recording of any layout below it, links followed, sorted by path. Still pairs are no sequences. Damaged
-/// recordings are found, too, as long as their folders have the usual names.
-/// A file: one folder per line, relative to the file's folder, '#' starts a comment; each is searched in the same way, and a
-/// line that holds no recording stays in the result. Nothing is found twice.
-/// \throws DataError for a missing or empty root or list.
+/// A folder: every recording of any layout below it, links followed, sorted by path. Still pairs are no sequences.
+/// Damaged recordings are found, too, as long as their folders have the usual names. A file: one folder per line,
+/// relative to the file's folder, '#' starts a comment; each is searched in the same way, and a line that holds no
+/// recording stays in the result. Nothing is found twice. \throws DataError for a missing or empty root or list.
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list);
 
 /// A folder that holds recorded data.

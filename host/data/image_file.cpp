@@ -3,7 +3,6 @@
 #include <cctype>
 #include <cstdint>
 #include <filesystem>
-
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -20,7 +19,8 @@ constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n"sv;
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at, int count) {
   std::uint32_t value = 0;
-  for (int i = 0; i < count; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[at + static_cast<std::size_t>(i)]);
+  for (int i = 0; i < count; ++i)
+    value = value << 8 | static_cast<std::uint8_t>(bytes[at + static_cast<std::size_t>(i)]);
   return value;
 }
 
@@ -120,7 +120,8 @@ ImageSize image_size(const std::string& file) { return check_complete(read_bytes
 bool is_image_name(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" || extension == ".ppm";
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" ||
+         extension == ".ppm";
 }
 
 }  // namespace data
@@ -134,9 +135,11 @@ Image read_grey_image(const std::string& path) {
     // The recorded pixel grid: an EXIF turn would no longer fit the calibration.
     decoded = cv::imdecode(encoded, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception& problem) {
-    data::fail(path, "an image that cannot be decoded (" + problem.err + ")", "an intact " + data::to_string(size) + " image");
+    data::fail(path, "an image that cannot be decoded (" + problem.err + ")",
+               "an intact " + data::to_string(size) + " image");
   }
-  if (decoded.empty()) data::fail(path, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
+  if (decoded.empty())
+    data::fail(path, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
   if (decoded.channels() == 3) cv::cvtColor(decoded, decoded, cv::COLOR_BGR2GRAY);
   if (decoded.depth() == CV_16U) decoded.convertTo(decoded, CV_8U, 255.0 / 65535.0);
   if (decoded.type() != CV_8UC1) data::fail(path, "an unusual pixel type", "8 or 16 bit grey or colour");

@@ -1,5 +1,5 @@
-/// \file kitti.cpp  KITTI odometry: sequences/NN/{image_0,image_1 | image_2,image_3}/000000.png, calib.txt, times.txt and
-/// poses/NN.txt. Image number k belongs to row k of times.txt and of the poses, so cut-out sequences work too.
+/// \file kitti.cpp  KITTI odometry: sequences/NN/{image_0,image_1 | image_2,image_3}/000000.png, calib.txt, times.txt
+/// and poses/NN.txt. Image number k belongs to row k of times.txt and of the poses, so cut-out sequences work too.
 
 #include <algorithm>
 #include <map>
@@ -11,8 +11,8 @@
 namespace quadedge::data {
 namespace {
 
-/// The road comes into view at about 6 m, cars and kerbs beside the lane at 3 m: 127-129 px with KITTI's f and baseline.
-/// Semi-global matching finds 99.9 % of sequence 06 below 116 px.
+/// The road comes into view at about 6 m, cars and kerbs beside the lane at 3 m: 127-129 px with KITTI's f and
+/// baseline. Semi-global matching finds 99.9 % of sequence 06 below 116 px.
 constexpr double kNearestDepth = 3.0;  // m
 
 /// The sequence's own folder: `folder` itself, or the one named by --sequence below the root or below sequences/.
@@ -31,7 +31,8 @@ fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
   std::sort(names.begin(), names.end());
   std::string list;
   for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  if (names.empty()) fail(parent.string(), "no sequence", "folders that hold image_0 and image_1 (or image_2 and image_3)");
+  if (names.empty())
+    fail(parent.string(), "no sequence", "folders that hold image_0 and image_1 (or image_2 and image_3)");
   if (wanted.empty() && names.size() > 1) {
     throw UsageError(folder.string() + " holds the sequences " + list + ": choose one with --sequence");
   }
@@ -49,19 +50,21 @@ std::map<std::string, Projection> read_projections(const std::string& file) {
     const std::size_t colon = line.text.find(':');
     if (colon == std::string::npos) fail(file, line.number, in_quotes(line.text), "NAME: and twelve numbers");
     const auto values = parse_row({line.number, line.text.substr(colon + 1)}, file, 12, "a 3 x 4 matrix, row by row");
-    Projection& projection = projections[split(line.text.substr(0, colon)).empty() ? "" : split(line.text.substr(0, colon))[0]];
+    Projection& projection =
+        projections[split(line.text.substr(0, colon)).empty() ? "" : split(line.text.substr(0, colon))[0]];
     for (int i = 0; i < 12; ++i) projection(i / 4, i % 4) = values[static_cast<std::size_t>(i)];
   }
   return projections;
 }
 
 /// K [I | t] of a rectified camera: sets K, returns t = camera_from_camera0 [m].
-Eigen::Vector3d set_camera(PinholeCamera& camera, const std::map<std::string, Projection>& projections, const std::string& name,
-                           const std::string& file) {
+Eigen::Vector3d set_camera(PinholeCamera& camera, const std::map<std::string, Projection>& projections,
+                           const std::string& name, const std::string& file) {
   const auto found = projections.find(name);
   if (found == projections.end()) fail(file, "no row " + name, "the projection matrices of both cameras");
   const Projection& p = found->second;
-  if (p(0, 1) != 0 || p(1, 0) != 0 || p(2, 0) != 0 || p(2, 1) != 0 || p(2, 2) != 1 || !(p(0, 0) > 0) || !(p(1, 1) > 0)) {
+  if (p(0, 1) != 0 || p(1, 0) != 0 || p(2, 0) != 0 || p(2, 1) != 0 || p(2, 2) != 1 || !(p(0, 0) > 0) ||
+      !(p(1, 1) > 0)) {
     fail(file, "a row " + name + " that is not K [I | t]", "fx 0 cx x  0 fy cy y  0 0 1 z of a rectified camera");
   }
   camera.fx = p(0, 0);
@@ -83,7 +86,8 @@ void read_frames(Dataset& dataset, std::vector<std::size_t>& rows, const fs::pat
   const auto names = image_names(left), right_names = image_names(right);
   if (right_names.size() != names.size()) {
     for (const auto& name : names) {
-      if (!fs::exists(right / name)) findings.error((right / name).string(), "no such file", "the right image of " + name);
+      if (!fs::exists(right / name))
+        findings.error((right / name).string(), "no such file", "the right image of " + name);
     }
     findings.error(right.string(), std::to_string(right_names.size()) + " images",
                    std::to_string(names.size()) + " as in " + left.filename().string());

@@ -62,7 +62,8 @@ std::string image_with_stem(const fs::path& folder, const std::string& stem) {
   return (folder / (stem + ".png")).string();
 }
 
-void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right, Findings& findings) {
+void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right,
+               Findings& findings) {
   bool complete = true;
   for (const auto& file : {left, right}) {
     if (fs::is_regular_file(file)) continue;
@@ -86,8 +87,10 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::strin
   constexpr double kTolerance = 1e-3;
   const double deviation = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(deviation <= kTolerance) || matrix.determinant() < 0) {
-    fail(file, "a 3 x 3 part that deviates from an orthonormal matrix by " + std::to_string(deviation) + " (determinant " +
-                   std::to_string(matrix.determinant()) + ")", "a rotation");
+    fail(file,
+         "a 3 x 3 part that deviates from an orthonormal matrix by " + std::to_string(deviation) + " (determinant " +
+             std::to_string(matrix.determinant()) + ")",
+         "a rotation");
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
@@ -125,7 +128,8 @@ void set_camera(PinholeCamera& camera, const std::string& text, const std::strin
   if (tokens.size() != 9) fail(file, line, in_quotes(text), expected);
   std::vector<double> values;
   for (const auto& token : tokens) values.push_back(parse_number(token, file, line, expected));
-  if (values[1] != 0 || values[3] != 0 || values[6] != 0 || values[7] != 0 || values[8] != 1) fail(file, line, in_quotes(text), expected);
+  if (values[1] != 0 || values[3] != 0 || values[6] != 0 || values[7] != 0 || values[8] != 1)
+    fail(file, line, in_quotes(text), expected);
   camera.fx = values[0];
   camera.cx = values[2];
   camera.fy = values[4];

@@ -23,7 +23,8 @@ class Findings {
   void error(const std::string& message);
   void error(const std::string& file, const std::string& found, const std::string& expected);
   void warn(const std::string& message) { warnings_.push_back(message); }
-  /// Runs a part of a reader whose failure does not make the other parts useless; records its DataError when collecting.
+  /// Runs a part of a reader whose failure does not make the other parts useless; records its DataError when
+  /// collecting.
   void attempt(const std::function<void()>& part);
 
   const std::vector<std::string>& errors() const { return errors_; }
@@ -37,11 +38,13 @@ class Findings {
 /// One published layout.
 struct Layout {
   std::string name;
-  /// Does the folder look like it? Judged by names alone, so that a damaged set is still recognised and then complained about.
+  /// Does the folder look like it? Judged by names alone, so that a damaged set is still recognised and then complained
+  /// about.
   bool (*recognise)(const fs::path& folder);
   /// Fills everything but `format`. \throws DataError, UsageError.
   Dataset (*read)(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-  /// Is the folder itself a recording of many frames (not a folder of such folders)? By names alone; null for still pairs.
+  /// Is the folder itself a recording of many frames (not a folder of such folders)? By names alone; null for still
+  /// pairs.
   bool (*is_recording)(const fs::path& folder) = nullptr;
 };
 
@@ -78,7 +81,8 @@ std::vector<std::string> image_names(const fs::path& folder);
 std::string image_with_stem(const fs::path& folder, const std::string& stem);
 
 /// Adds the frame (or reports which file is missing).
-void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right, Findings& findings);
+void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right,
+               Findings& findings);
 
 /// Sets width and height of both cameras from the first frame's images.
 void set_sizes_from_first_frame(Dataset& dataset);
@@ -95,7 +99,8 @@ std::string folder_name(const fs::path& folder);
 /// A dataset of one still pair.
 Dataset still_pair(const fs::path& folder, const std::string& left, const std::string& right, Findings& findings);
 
-/// calib.txt of Middlebury 2014 and ETH3D two-view: cam0=[f 0 cx; 0 f cy; 0 0 1], cam1, baseline in mm, width, height, ndisp.
+/// calib.txt of Middlebury 2014 and ETH3D two-view: cam0=[f 0 cx; 0 f cy; 0 0 1], cam1, baseline in mm, width, height,
+/// ndisp.
 struct PairCalibration {
   StereoRig rig;
   double disparity_offset = 0;  ///< px; cx of the right camera minus cx of the left one

@@ -1,7 +1,8 @@
 /// \file middlebury.cpp  Middlebury stereo pairs of 2003, 2005, 2006 and 2014.
 ///
-/// Depth of the 2005 and 2006 pairs, as their page gives it: Z = 3740 px x 160 mm / (disparity + dmin), all in full-size
-/// pixels. The offset dmin (and doffs of 2014) enters as the right camera's principal point lying that much further right.
+/// Depth of the 2005 and 2006 pairs, as their page gives it: Z = 3740 px x 160 mm / (disparity + dmin), all in
+/// full-size pixels. The offset dmin (and doffs of 2014) enters as the right camera's principal point lying that much
+/// further right.
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +13,22 @@
 namespace quadedge::data {
 namespace {
 
-constexpr double kFullFocal = 3740;    // px, 2005 and 2006 at full size
-constexpr double kBaseline = 0.16;     // m
-constexpr int kFullRows2006 = 1110;    // image rows of the full size of 2005 and 2006
+constexpr double kFullFocal = 3740;  // px, 2005 and 2006 at full size
+constexpr double kBaseline = 0.16;   // m
+constexpr int kFullRows2006 = 1110;  // image rows of the full size of 2005 and 2006
 constexpr int kFullRows2003 = 1500;
-/// Disparities are stored as 8-bit grey values in full-size pixels (2003: in quarters of a quarter-size pixel), so none is
-/// larger than 255 of these; this bounds the search.
+/// Disparities are stored as 8-bit grey values in full-size pixels (2003: in quarters of a quarter-size pixel), so none
+/// is larger than 255 of these; this bounds the search.
 constexpr double kLargestGrey = 255;
 
-/// ndisp over the width is 0.09 to 0.12 in all published scenes of 2014 but Jadeplant and Vintage; for copies without ndisp.
+/// ndisp over the width is 0.09 to 0.12 in all published scenes of 2014 but Jadeplant and Vintage; for copies without
+/// ndisp.
 constexpr double kUsualRange2014 = 0.12;
 
-constexpr const char* kScenes2006[] = {"Aloe",       "Baby1",      "Baby2", "Baby3", "Bowling1", "Bowling2", "Cloth1",
-                                       "Cloth2",     "Cloth3",     "Cloth4", "Flowerpots", "Lampshade1", "Lampshade2", "Midd1",
-                                       "Midd2",      "Monopoly",   "Plastic", "Rocks1", "Rocks2", "Wood1", "Wood2"};
+constexpr const char* kScenes2006[] = {"Aloe",       "Baby1",  "Baby2",  "Baby3",    "Bowling1",   "Bowling2",
+                                       "Cloth1",     "Cloth2", "Cloth3", "Cloth4",   "Flowerpots", "Lampshade1",
+                                       "Lampshade2", "Midd1",  "Midd2",  "Monopoly", "Plastic",    "Rocks1",
+                                       "Rocks2",     "Wood1",  "Wood2"};
 
 bool has(const fs::path& folder, const std::string& stem) { return fs::exists(image_with_stem(folder, stem)); }
 
@@ -54,7 +57,8 @@ Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
     const std::string file = (folder / "dmin.txt").string();
     if (fs::exists(file)) {
       const auto lines = data_lines(file);
-      if (lines.size() != 1) fail(file, std::to_string(lines.size()) + " rows", "one number, the smallest disparity in full-size pixels");
+      if (lines.size() != 1)
+        fail(file, std::to_string(lines.size()) + " rows", "one number, the smallest disparity in full-size pixels");
       offset = parse_row(lines[0], file, 1, "the smallest disparity in full-size pixels")[0];
     } else {
       dataset.notes.push_back("no dmin.txt: disparity offset taken as zero, depths are nominal");
@@ -73,7 +77,8 @@ Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions&, Find
   Dataset dataset = still_pair(folder, image_with_stem(folder, "im2"), image_with_stem(folder, "im6"), findings);
   findings.attempt([&] { set_reduced_rig(dataset, kFullRows2003, 0); });
   dataset.disparity_truth = if_there(image_with_stem(folder, "disp2"));
-  dataset.notes.push_back("2003 pairs come without calibration: that of 2005 is taken; matches are sound, depths are nominal");
+  dataset.notes.push_back(
+      "2003 pairs come without calibration: that of 2005 is taken; matches are sound, depths are nominal");
   return dataset;
 }
 
@@ -86,7 +91,8 @@ Dataset read_middlebury_2005(const fs::path& folder, const DatasetOptions&, Find
 bool is_middlebury_2006(const fs::path& folder) {
   if (has(folder, "aloeL")) return true;
   const std::string name = folder_name(folder);
-  return is_middlebury_2005(folder) && std::find(std::begin(kScenes2006), std::end(kScenes2006), name) != std::end(kScenes2006);
+  return is_middlebury_2005(folder) &&
+         std::find(std::begin(kScenes2006), std::end(kScenes2006), name) != std::end(kScenes2006);
 }
 
 Dataset read_middlebury_2006(const fs::path& folder, const DatasetOptions&, Findings& findings) {

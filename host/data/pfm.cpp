@@ -52,7 +52,8 @@ FloatImage read_pfm(const std::string& file) {
   }
   image.values.resize(row * rows);
   for (std::size_t y = 0; y < rows; ++y) {
-    std::memcpy(&image.values[(rows - 1 - y) * row], bytes.data() + at + 1 + y * row * sizeof(float), row * sizeof(float));
+    std::memcpy(&image.values[(rows - 1 - y) * row], bytes.data() + at + 1 + y * row * sizeof(float),
+                row * sizeof(float));
   }
   if (little_endian != host_is_little_endian()) {
     for (float& value : image.values) value = swapped(value);

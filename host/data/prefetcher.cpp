@@ -28,8 +28,11 @@ Image read_checked(const std::string& file, const PinholeCamera& camera) {
 class FramePrefetcher::Implementation {
  public:
   Implementation(const Dataset& dataset, int ahead)
-      : frames_(dataset.frames), left_(dataset.rig.left), right_(dataset.rig.right),
-        ahead_(static_cast<std::size_t>(std::max(1, ahead))), reader_([this] { read_all(); }) {}
+      : frames_(dataset.frames),
+        left_(dataset.rig.left),
+        right_(dataset.rig.right),
+        ahead_(static_cast<std::size_t>(std::max(1, ahead))),
+        reader_([this] { read_all(); }) {}
 
   ~Implementation() {
     {
@@ -63,7 +66,8 @@ class FramePrefetcher::Implementation {
     Item item;
     try {
       const FrameFiles& files = frames_[number];
-      item.frame = {static_cast<int>(number), files.stamp_ns, read_checked(files.left, left_), read_checked(files.right, right_)};
+      item.frame = {static_cast<int>(number), files.stamp_ns, read_checked(files.left, left_),
+                    read_checked(files.right, right_)};
     } catch (...) {
       item.problem = std::current_exception();
     }

@@ -24,7 +24,8 @@ std::string read_bytes(const std::string& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) fail(file, "a folder", "a file");
   std::FILE* stream = std::fopen(file.c_str(), "rb");
-  if (stream == nullptr) fail(file, std::string("nothing that can be opened (") + std::strerror(errno) + ")", "a readable file");
+  if (stream == nullptr)
+    fail(file, std::string("nothing that can be opened (") + std::strerror(errno) + ")", "a readable file");
   std::string bytes;
   char buffer[1 << 16];
   for (std::size_t count; (count = std::fread(buffer, 1, sizeof buffer, stream)) > 0;) bytes.append(buffer, count);
@@ -115,7 +116,8 @@ std::int64_t parse_seconds(const std::string& token, const std::string& file, in
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
   if (digits.empty()) return 0;
   constexpr long kMostDigits = 19;  // of a 64-bit count of nanoseconds
-  if (static_cast<long>(digits.size()) + exponent > kMostDigits) fail(file, line, in_quotes(token), expected + " below 9.2e9");
+  if (static_cast<long>(digits.size()) + exponent > kMostDigits)
+    fail(file, line, in_quotes(token), expected + " below 9.2e9");
   bool round_up = false;
   if (exponent < 0) {
     const long kept = static_cast<long>(digits.size()) + exponent;
@@ -143,7 +145,8 @@ std::int64_t parse_nanoseconds(const std::string& token, const std::string& file
 std::string format_seconds(std::int64_t nanoseconds) {
   constexpr std::uint64_t kPerSecond = 1'000'000'000;
   const bool negative = nanoseconds < 0;
-  const std::uint64_t magnitude = negative ? 0 - static_cast<std::uint64_t>(nanoseconds) : static_cast<std::uint64_t>(nanoseconds);
+  const std::uint64_t magnitude =
+      negative ? 0 - static_cast<std::uint64_t>(nanoseconds) : static_cast<std::uint64_t>(nanoseconds);
   std::string decimals = std::to_string(magnitude % kPerSecond);
   decimals.insert(0, 9 - decimals.size(), '0');
   return (negative ? "-" : "") + std::to_string(magnitude / kPerSecond) + "." + decimals;

@@ -1,6 +1,6 @@
 #pragma once
-/// \file text.hpp  Strict reading of the small text files that come with recorded data: every complaint names the file, the
-/// line, what was found and what was expected. Independent of the locale.
+/// \file text.hpp  Strict reading of the small text files that come with recorded data: every complaint names the file,
+/// the line, what was found and what was expected. Independent of the locale.
 
 #include <cstdint>
 #include <string>
@@ -22,7 +22,8 @@ struct Line {
   std::string text;
 };
 
-/// The lines that hold data: not empty and not starting with '#'. Both kinds of line end. \throws DataError as read_bytes.
+/// The lines that hold data: not empty and not starting with '#'. Both kinds of line end. \throws DataError as
+/// read_bytes.
 std::vector<Line> data_lines(const std::string& file);
 
 /// The non-empty pieces between any of `separators`.

@@ -18,7 +18,8 @@ StampedPose tum_pose(const data::Line& line, const std::string& path) {
   const auto values = data::parse_row(line, path, 8, kTumColumns);
   const Eigen::Quaterniond rotation(values[7], values[4], values[5], values[6]);
   if (std::abs(rotation.norm() - 1) > kRotationTolerance) {
-    data::fail(path, line.number, "a quaternion of length " + std::to_string(rotation.norm()), "a unit quaternion qx qy qz qw");
+    data::fail(path, line.number, "a quaternion of length " + std::to_string(rotation.norm()),
+               "a unit quaternion qx qy qz qw");
   }
   StampedPose pose;
   pose.stamp_ns = data::parse_seconds(data::split(line.text)[0], path, line.number);
@@ -35,8 +36,10 @@ Trajectory read_tum(const std::string& path) {
     trajectory.push_back(tum_pose(line, path));
     const std::size_t count = trajectory.size();
     if (count > 1 && trajectory[count - 1].stamp_ns <= trajectory[count - 2].stamp_ns) {
-      data::fail(path, line.number, "the stamp " + data::format_seconds(trajectory[count - 1].stamp_ns) + " after " +
-                                        data::format_seconds(trajectory[count - 2].stamp_ns), "increasing stamps");
+      data::fail(path, line.number,
+                 "the stamp " + data::format_seconds(trajectory[count - 1].stamp_ns) + " after " +
+                     data::format_seconds(trajectory[count - 2].stamp_ns),
+                 "increasing stamps");
     }
   }
   return trajectory;
@@ -62,7 +65,8 @@ Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& 
     const Eigen::Matrix3d rotation = pose.world_from_left.linear();
     const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
     if (deviation > kRotationTolerance || rotation.determinant() < 0) {
-      data::fail(path, line.number, "a 3 x 3 part that is no rotation (deviation " + std::to_string(deviation) + ")", kKittiColumns);
+      data::fail(path, line.number, "a 3 x 3 part that is no rotation (deviation " + std::to_string(deviation) + ")",
+                 kKittiColumns);
     }
     trajectory.push_back(pose);
   }

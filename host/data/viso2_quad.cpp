@@ -1,4 +1,5 @@
-/// \file viso2_quad.cpp  The stereo quad in libviso2's img/ folder: I1p, I2p (previous left, right), I1c, I2c (current).
+/// \file viso2_quad.cpp  The stereo quad in libviso2's img/ folder: I1p, I2p (previous left, right), I1c, I2c
+/// (current).
 
 #include "data/layout.hpp"
 

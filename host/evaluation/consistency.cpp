@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::int64_t kToleranceNs = 10'000'000;
 
-/// (rotation, translation) of the left perturbation that makes `estimate` of `truth`, as FrameResult::covariance has it.
+/// (rotation, translation) of the left perturbation that makes `estimate` of `truth`, as FrameResult::covariance has
+/// it.
 Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
   const Eigen::Matrix3d turn = estimate.linear() * truth.linear().transpose();
   const Eigen::AngleAxisd rotation(turn);
@@ -29,7 +30,8 @@ Consistency judge_covariances(const std::vector<FrameResult>& results, const Tra
     const auto* true_current = pose_at(truth, result.stamp_ns, kToleranceNs);
     if (true_reference == nullptr || true_current == nullptr) continue;
     const auto error = perturbation(result.current_from_reference, true_current->inverse() * *true_reference);
-    const Eigen::Matrix3d turning = result.covariance.topLeftCorner<3, 3>(), moving = result.covariance.bottomRightCorner<3, 3>();
+    const Eigen::Matrix3d turning = result.covariance.topLeftCorner<3, 3>(),
+                          moving = result.covariance.bottomRightCorner<3, 3>();
     ++sums.poses;
     sums.pose += error.dot(result.covariance.ldlt().solve(error)) / 6;
     sums.rotation += error.head<3>().dot(turning.ldlt().solve(error.head<3>())) / 3;

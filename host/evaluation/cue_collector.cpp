@@ -27,7 +27,8 @@ void add(double value, bool veridical, CueDistribution& cue) { (veridical ? cue.
 
 }  // namespace
 
-void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, const PairValue& value, CueDistribution& cue) {
+void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, const PairValue& value,
+                      CueDistribution& cue) {
   visit_candidates(lists, judge, [&](std::size_t row, std::size_t, std::size_t target, bool veridical) {
     add(value(row, target), veridical, cue);
   });
@@ -40,7 +41,8 @@ void collect_scores(const CandidateLists& lists, const CandidateTruth& judge, Cu
   });
 }
 
-void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best, CueDistribution& cue) {
+void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
+                    CueDistribution& cue) {
   if (lists.cue.size() != lists.target.size()) return;
   visit_candidates(lists, judge, [&](std::size_t row, std::size_t candidate, std::size_t, bool veridical) {
     const auto begin = lists.cue.begin() + lists.first[row], end = lists.cue.begin() + lists.first[row + 1];
@@ -54,13 +56,15 @@ void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bo
   });
 }
 
-void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint64_t seed, const PairValue& value, CueDistribution& cue) {
+void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint64_t seed, const PairValue& value,
+                        CueDistribution& cue) {
   if (judge.target_x.empty()) return;
   const NearbyTargets nearby(judge.target_x, judge.target_y, image_height);
   std::mt19937_64 random(seed);
   for (std::size_t i = 0; i < judge.pools.paired.size(); ++i) {
     if (judge.pools.paired[i] == 0) continue;
-    nearby.visit(judge.truth.x[i], judge.truth.y[i], judge.tolerance.place, [&](std::size_t target) { add(value(i, target), true, cue); });
+    nearby.visit(judge.truth.x[i], judge.truth.y[i], judge.tolerance.place,
+                 [&](std::size_t target) { add(value(i, target), true, cue); });
     for (int n = 0; n < kDrawnOthers; ++n) {
       const std::size_t target = draw(random, judge.target_x.size());
       if (is_veridical(judge.truth, i, judge.target_x[target], judge.target_y[target], judge.tolerance)) continue;

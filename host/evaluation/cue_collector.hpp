@@ -25,18 +25,21 @@ struct CandidateTruth {
 using PairValue = std::function<double(std::size_t row, std::size_t target)>;
 
 /// A cue of the geometry over all candidates of the lists.
-void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, const PairValue& value, CueDistribution& cue);
+void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, const PairValue& value,
+                      CueDistribution& cue);
 
 /// The cue that the lists carry, as it is.
 void collect_scores(const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue);
 
 /// The cue that the lists carry, set in relation to the best of each list: value / highest, or lowest / value.
-void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best, CueDistribution& cue);
+void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
+                    CueDistribution& cue);
 
 /// A cue before the first filter, where every row is paired with every target: the veridical pairs all, of the others
 /// kDrawnOthers per row.
 /// \param image_height of the targets' image [px]
-void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint64_t seed, const PairValue& value, CueDistribution& cue);
+void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint64_t seed, const PairValue& value,
+                        CueDistribution& cue);
 inline constexpr int kDrawnOthers = 40;
 
 }  // namespace quadedge::evaluation

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/filter_names.hpp"
 #include "quadedge/error.hpp"
-#include "stages/filter_names.hpp"
 
 namespace quadedge::evaluation {
 namespace {
 
-constexpr double kSimilarityLow = -1, kSimilarityHigh = 1, kSiftHigh = 800;  // no two descriptors of norm 512 differ by more
+constexpr double kSimilarityLow = -1, kSimilarityHigh = 1,
+                 kSiftHigh = 800;  // no two descriptors of norm 512 differ by more
 
 constexpr double kRounding = 1e-3;  // bins; an NCC of one comes out of single precision a little above
 
@@ -27,12 +28,13 @@ CueDistribution make_cue(CueTable table, int order, const std::string& cue, cons
 
 const Range kNcc{kSimilarityLow, kSimilarityHigh, 100}, kSift{0, kSiftHigh, 100}, kShare{0, 1, 100};
 
-void add_similarities(CueTable table, int ncc_order, int sift_order, double ncc_min, double sift_max, double ncc_nearly_best,
-                      double sift_nearly_best, std::vector<CueDistribution>& cues) {
+void add_similarities(CueTable table, int ncc_order, int sift_order, double ncc_min, double sift_max,
+                      double ncc_nearly_best, double sift_nearly_best, std::vector<CueDistribution>& cues) {
   const int nearly_best = std::max(ncc_order, sift_order) + 1;
   const auto ncc = make_cue(table, ncc_order, "NCC", "", false, {ncc_min}, kNcc);
   const bool uses_sift = sift_max > 0;  // 0: without SIFT
-  const auto sift = make_cue(table, sift_order, "SIFT distance", "", true, uses_sift ? std::vector<double>{sift_max} : std::vector<double>{}, kSift);
+  const auto sift = make_cue(table, sift_order, "SIFT distance", "", true,
+                             uses_sift ? std::vector<double>{sift_max} : std::vector<double>{}, kSift);
   cues.push_back(ncc_order < sift_order ? ncc : sift);
   cues.push_back(ncc_order < sift_order ? sift : ncc);
   cues.push_back(make_cue(table, nearly_best, "NCC / best NCC", "", false, {ncc_nearly_best}, kShare));
@@ -80,18 +82,20 @@ std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& confi
     disparity = {rig.left.fx * rig.baseline() / stereo.min_depth};
   }
   const auto table = CueTable::stereo;
-  cues.push_back(make_cue(table, 1, "distance from the epipolar line", "px", true, {stereo.epipolar_distance}, {0, 5, 100}, true));
+  cues.push_back(
+      make_cue(table, 1, "distance from the epipolar line", "px", true, {stereo.epipolar_distance}, {0, 5, 100}, true));
   cues.push_back(make_cue(table, 2, "disparity", "px", true, disparity, {-20, 480, 500}));
   cues.push_back(make_cue(table, 3, "difference of directions", "deg", true, {stereo.orientation}, {0, 90, 180}));
-  add_similarities(table, stages::kStereoNccOrder, stages::kStereoSiftOrder, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
+  add_similarities(table, kStereoNccOrder, kStereoSiftOrder, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
                    stereo.sift_nearly_best, cues);
   cues.push_back(make_cue(table, 9, "likeness of representatives", "", false, {stereo.refined_ncc_min}, kNcc));
 
   const auto& temporal = config.temporal;
   for (const auto side : {CueTable::temporal_left, CueTable::temporal_right}) {
-    cues.push_back(make_cue(side, 1, "distance from the expected place", "px", true, {temporal.radius}, {0, 50, 200}, true));
+    cues.push_back(
+        make_cue(side, 1, "distance from the expected place", "px", true, {temporal.radius}, {0, 50, 200}, true));
     cues.push_back(make_cue(side, 2, "difference of directions", "deg", true, {temporal.orientation}, {0, 180, 360}));
-    add_similarities(side, stages::kTemporalNccOrder, stages::kTemporalSiftOrder, temporal.ncc_min, temporal.sift_max,
+    add_similarities(side, kTemporalNccOrder, kTemporalSiftOrder, temporal.ncc_min, temporal.sift_max,
                      temporal.ncc_nearly_best, temporal.sift_nearly_best, cues);
   }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// \file cue_distribution.hpp  How the cues of the filters are distributed over veridical and other pairs (the paper's Figures 3,
-/// 5 and 6).
+/// \file cue_distribution.hpp  How the cues of the filters are distributed over veridical and other pairs (the paper's
+/// Figures 3, 5 and 6).
 
 #include <cstdint>
 #include <string>
@@ -31,14 +31,16 @@ struct Histogram {
 enum class CueTable { stereo, temporal_left, temporal_right, constraints };
 inline constexpr const char* kCueTableNames[] = {"stereo", "temporal_left", "temporal_right", "constraints"};
 
-/// The values of one cue over the pairs that reach the filter which judges it, before it does. Edges of the paired pool alone.
+/// The values of one cue over the pairs that reach the filter which judges it, before it does. Edges of the paired pool
+/// alone.
 struct CueDistribution {
   CueTable table;
-  int order;                      ///< of the filter (Tables 1 and 2) or constraint (Table 3)
-  std::string cue, unit;          ///< the unit may be empty
-  bool keeps_small;               ///< the filter keeps values below its threshold
-  bool sampled;                   ///< the other pairs are a drawn sample: there are too many to look at
-  std::vector<double> thresholds; ///< of the configuration; several where pooled data have several, none where it depends on the edge
+  int order;              ///< of the filter (Tables 1 and 2) or constraint (Table 3)
+  std::string cue, unit;  ///< the unit may be empty
+  bool keeps_small;       ///< the filter keeps values below its threshold
+  bool sampled;           ///< the other pairs are a drawn sample: there are too many to look at
+  std::vector<double>
+      thresholds;  ///< of the configuration; several where pooled data have several, none where it depends on the edge
   Histogram veridical, other;
 };
 

@@ -21,8 +21,9 @@ Visibility visibility_in(const SurfaceMap& map, bool measured, double x, double 
 }
 
 /// Adds the place of a point of the left camera's frame of `before` in a camera of `now`.
-void push_projection(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_point, const Eigen::Vector3d& point,
-                     const SurfaceMap& map, double depth_scale, bool contour, TruePlaces& places) {
+void push_projection(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_point,
+                     const Eigen::Vector3d& point, const SurfaceMap& map, double depth_scale, bool contour,
+                     TruePlaces& places) {
   const Eigen::Vector3d seen = camera_from_point * point;
   if (!(seen.z() > 0)) {
     places.push(kNowhere, kNowhere, Visibility::hidden, contour);
@@ -57,8 +58,8 @@ TruePlaces true_right_places(const StereoRig& rig, const FrameTruth& truth, cons
     if (!surface) {
       places.push(kNowhere, kNowhere, Visibility::unknown, false);
     } else if (truth.depth_scale > 0) {
-      push_projection(rig.right, rig.right_from_left, rig.left.ray({x, y}) * (truth.depth_scale / surface->nearness), truth.right,
-                      truth.depth_scale, surface->contour, places);
+      push_projection(rig.right, rig.right_from_left, rig.left.ray({x, y}) * (truth.depth_scale / surface->nearness),
+                      truth.right, truth.depth_scale, surface->contour, places);
     } else {
       const double right_x = x - surface->nearness;
       // A contour belongs to the nearer surface, which is seen; the pixel under it may be of the farther one.

@@ -18,7 +18,8 @@ struct FrameTruth {
   bool right_is_measured = false;
   /// Left pixels that the data set itself marks as hidden in the right view; empty without such a mask.
   std::vector<std::uint8_t> hidden;
-  /// Depth [m] = depth_scale / nearness. 0 for pairs with disparities: the true place is then x - disparity in the same row.
+  /// Depth [m] = depth_scale / nearness. 0 for pairs with disparities: the true place is then x - disparity in the same
+  /// row.
   double depth_scale = 0;
   /// Pose of the left camera; nothing for single pairs.
   std::optional<Eigen::Isometry3d> world_from_left;
@@ -31,10 +32,11 @@ struct EdgePlaces {
   const std::vector<float>& direction;
 };
 
-/// One entry per edge: the place in the other view [px], and whether it can be seen there. A hidden edge has a place too.
+/// One entry per edge: the place in the other view [px], and whether it can be seen there. A hidden edge has a place
+/// too.
 struct TruePlaces {
   std::vector<float> x, y;
-  std::vector<Visibility> state;  ///< unknown: no statement about this edge
+  std::vector<Visibility> state;      ///< unknown: no statement about this edge
   std::vector<std::uint8_t> contour;  ///< the edge lies on a depth step of its own view
 
   void reserve(std::size_t size);

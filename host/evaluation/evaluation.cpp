@@ -1,6 +1,8 @@
 /// \file evaluation.cpp  Absolute and relative pose errors with the definitions of evo (github.com/MichaelGrupp/evo):
 /// E = reference^-1 estimate; translation part |t(E)|, rotation part the angle of R(E); RPE compares consecutive steps.
 
+#include "quadedge/evaluation.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,6 @@
 
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
-#include "quadedge/evaluation.hpp"
 
 namespace quadedge {
 namespace {
@@ -81,7 +82,8 @@ struct Errors {
   }
 
   PoseErrors summary() const {
-    return {statistics(ape_rotation), statistics(ape_translation), statistics(rpe_rotation), statistics(rpe_translation)};
+    return {statistics(ape_rotation), statistics(ape_translation), statistics(rpe_rotation),
+            statistics(rpe_translation)};
   }
 };
 
@@ -93,8 +95,8 @@ std::optional<Pose> se3_alignment(const std::vector<Match>& matches) {
     from.col(i) = matches[static_cast<std::size_t>(i)].estimate.translation();
     to.col(i) = matches[static_cast<std::size_t>(i)].truth.translation();
   }
-  const Eigen::Matrix3d covariance = (to.colwise() - to.rowwise().mean()) * (from.colwise() - from.rowwise().mean()).transpose() /
-                                     static_cast<double>(count);
+  const Eigen::Matrix3d covariance = (to.colwise() - to.rowwise().mean()) *
+                                     (from.colwise() - from.rowwise().mean()).transpose() / static_cast<double>(count);
   const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::Matrix3d>(covariance).singularValues();
   // The rule that evo applies: two of the three spreads must exceed the rounding of a double.
   if (spread[1] <= std::numeric_limits<double>::epsilon()) return std::nullopt;
@@ -110,8 +112,8 @@ PoseErrors undefined() {
 
 std::string stamp_range(const Trajectory& trajectory) {
   if (trajectory.empty()) return "none";
-  return std::to_string(trajectory.size()) + " poses from " + data::format_seconds(trajectory.front().stamp_ns) + " to " +
-         data::format_seconds(trajectory.back().stamp_ns) + " s";
+  return std::to_string(trajectory.size()) + " poses from " + data::format_seconds(trajectory.front().stamp_ns) +
+         " to " + data::format_seconds(trajectory.back().stamp_ns) + " s";
 }
 
 }  // namespace
@@ -123,8 +125,8 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
   const auto matches = match_by_stamp(kept, truth, max_stamp_difference_ns);
   if (matches.size() < 2) {
     throw DataError("trajectories: found " + std::to_string(matches.size()) + " poses whose stamps agree to " +
-                    data::format_seconds(max_stamp_difference_ns) + " s, expected at least 2; estimate: " + stamp_range(kept) +
-                    " (from frame " + std::to_string(first) + "), truth: " + stamp_range(truth));
+                    data::format_seconds(max_stamp_difference_ns) + " s, expected at least 2; estimate: " +
+                    stamp_range(kept) + " (from frame " + std::to_string(first) + "), truth: " + stamp_range(truth));
   }
   TrajectoryEvaluation evaluation;
   evaluation.matched = static_cast<int>(matches.size());
@@ -137,7 +139,8 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (i > 0) evaluation.path_length_m += (matches[i].truth.translation() - matches[i - 1].truth.translation()).norm();
     evaluation.per_pose.push_back({matches[i].stamp_ns, origin.ape_rotation[i], origin.ape_translation[i],
-                                   i == 0 ? kNan : origin.rpe_rotation[i - 1], i == 0 ? kNan : origin.rpe_translation[i - 1]});
+                                   i == 0 ? kNan : origin.rpe_rotation[i - 1],
+                                   i == 0 ? kNan : origin.rpe_translation[i - 1]});
   }
   if (evaluation.path_length_m > 0) {
     evaluation.end_drift_percent = 100 * origin.ape_translation.back() / evaluation.path_length_m;

@@ -61,7 +61,8 @@ bool is_veridical(const TruePlaces& truth, std::size_t i, double x, double y, co
 }
 
 FilterRow judge(int order, const std::string& filter, const CandidateLists& lists, const std::vector<float>& target_x,
-                const std::vector<float>& target_y, const TruePlaces& truth, const Pools& pools, const MatchingTolerance& tolerance) {
+                const std::vector<float>& target_y, const TruePlaces& truth, const Pools& pools,
+                const MatchingTolerance& tolerance) {
   const bool placed = lists.x.size() == lists.target.size();
   FilterRow row{order, filter, {}, {}};
   for (std::size_t i = 0; i + 1 < lists.first.size(); ++i) {
@@ -79,8 +80,9 @@ FilterRow judge(int order, const std::string& filter, const CandidateLists& list
   return row;
 }
 
-FilterRow judge_baseline(const std::string& filter, const std::vector<float>& target_x, const std::vector<float>& target_y,
-                         int image_height, const TruePlaces& truth, const Pools& pools, const MatchingTolerance& tolerance) {
+FilterRow judge_baseline(const std::string& filter, const std::vector<float>& target_x,
+                         const std::vector<float>& target_y, int image_height, const TruePlaces& truth,
+                         const Pools& pools, const MatchingTolerance& tolerance) {
   const NearbyTargets nearby(target_x, target_y, image_height);
   FilterRow row{0, filter, {}, {}};
   for (std::size_t i = 0; i < pools.all.size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
-/// \file filter_table.hpp  Recall, precision and ambiguity after each filter (SPEC section 8, the paper's Tables 1 and 2).
+/// \file filter_table.hpp  Recall, precision and ambiguity after each filter (doc/method.md section 8, the paper's
+/// Tables 1 and 2).
 
 #include <cstdint>
 #include <string>
@@ -12,11 +13,11 @@ namespace quadedge::evaluation {
 
 /// When a candidate counts as the true one, and when an edge has a counterpart at all.
 struct MatchingTolerance {
-  double place = 1.0;               ///< px from the true place: veridical
-  double wrong = 10.0;              ///< px from the true place: beyond it a match is wrong, before only inaccurate
-  double line = 0.5;                ///< px from the epipolar line; counterparts in stereo
-  double stereo_direction = 5.0;    ///< deg, modulo 180; counterparts in stereo
-  double temporal_direction = 10.0; ///< deg, modulo 180; counterparts in time
+  double place = 1.0;                ///< px from the true place: veridical
+  double wrong = 10.0;               ///< px from the true place: beyond it a match is wrong, before only inaccurate
+  double line = 0.5;                 ///< px from the epipolar line; counterparts in stereo
+  double stereo_direction = 5.0;     ///< deg, modulo 180; counterparts in stereo
+  double temporal_direction = 10.0;  ///< deg, modulo 180; counterparts in time
 };
 
 /// Which edges a table is about; one entry per row of the lists.
@@ -29,9 +30,9 @@ struct Pools {
 
 /// Sums over the edges of one pool; they add up over frames and pairs.
 struct FilterCounts {
-  std::int64_t pool = 0;             ///< edges
-  std::int64_t found = 0;            ///< edges with a veridical candidate
-  std::int64_t alive = 0;            ///< edges with any candidate
+  std::int64_t pool = 0;   ///< edges
+  std::int64_t found = 0;  ///< edges with a veridical candidate
+  std::int64_t alive = 0;  ///< edges with any candidate
   std::int64_t candidates = 0;
   std::int64_t veridical = 0;        ///< candidates
   std::int64_t most_candidates = 0;  ///< of one edge
@@ -55,13 +56,16 @@ using FilterTable = std::vector<FilterRow>;
 /// Adds `other` row by row. \throws UsageError when the rows are not the same filters.
 void add(FilterTable& sum, const FilterTable& other);
 
-/// Counts what a filter left. Candidates that carry a refined place are judged by it, others by the place of their target.
+/// Counts what a filter left. Candidates that carry a refined place are judged by it, others by the place of their
+/// target.
 FilterRow judge(int order, const std::string& filter, const CandidateLists& lists, const std::vector<float>& target_x,
-                const std::vector<float>& target_y, const TruePlaces& truth, const Pools& pools, const MatchingTolerance& tolerance);
+                const std::vector<float>& target_y, const TruePlaces& truth, const Pools& pools,
+                const MatchingTolerance& tolerance);
 
 /// Row 0: every edge is paired with every target, without writing the lists down.
-FilterRow judge_baseline(const std::string& filter, const std::vector<float>& target_x, const std::vector<float>& target_y,
-                         int image_height, const TruePlaces& truth, const Pools& pools, const MatchingTolerance& tolerance);
+FilterRow judge_baseline(const std::string& filter, const std::vector<float>& target_x,
+                         const std::vector<float>& target_y, int image_height, const TruePlaces& truth,
+                         const Pools& pools, const MatchingTolerance& tolerance);
 
 /// True within `tolerance.place` of edge i's true place; never for an edge that is hidden or unknown.
 bool is_veridical(const TruePlaces& truth, std::size_t i, double x, double y, const MatchingTolerance& tolerance);

@@ -7,9 +7,12 @@
 
 namespace quadedge::evaluation {
 
-MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config, const MatchingOptions& options) {
-  if (device.is_reference()) throw UsageError("the filters are observed on an OpenCL device; the reference shows its results only");
-  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0) config.stereo.max_disparity = source.max_disparity();
+MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config,
+                                 const MatchingOptions& options) {
+  if (device.is_reference())
+    throw UsageError("the filters are observed on an OpenCL device; the reference shows its results only");
+  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
+    config.stereo.max_disparity = source.max_disparity();
   config.odometry.key_rig = false;  // the tables are about neighbouring frames
   MatchingObserver observer(source.rig(), config, options.tolerance, options.distributions);
   StereoOdometry odometry(source.rig(), device, config);
@@ -27,7 +30,8 @@ MatchingResult evaluate_matching(const MatchingSource& source, Device& device, C
     measured.cues = {};
     result.frames.push_back(std::move(measured));
     if (number == drawn) {
-      result.drawn = DrawnFrame{number, std::move(frame.frame.left), std::move(frame.frame.right), observer.final_matches()};
+      result.drawn =
+          DrawnFrame{number, std::move(frame.frame.left), std::move(frame.frame.right), observer.final_matches()};
     }
     if (options.progress) options.progress(number + 1, count);
   }

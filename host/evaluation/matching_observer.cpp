@@ -2,15 +2,15 @@
 
 #include <cmath>
 
+#include "common/filter_names.hpp"
 #include "evaluation/pools.hpp"
 #include "pose/quads.hpp"
-#include "stages/filter_names.hpp"
 
 namespace quadedge::evaluation {
 namespace {
 
-constexpr int kBestOrder = static_cast<int>(stages::kStereoFilters.size()) - 1;
-constexpr int kTemporalLastOrder = static_cast<int>(stages::kTemporalFilters.size()) - 1;
+constexpr int kBestOrder = static_cast<int>(kStereoFilters.size()) - 1;
+constexpr int kTemporalLastOrder = static_cast<int>(kTemporalFilters.size()) - 1;
 
 /// The final stereo edges as lists over all left edges.
 CandidateLists lists_of(const StereoEdges& edges, std::size_t left_edges) {
@@ -45,7 +45,8 @@ MatchClass classify(const TruePlaces& truth, std::size_t i, double x, double y, 
 
 }  // namespace
 
-MatchingObserver::MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance, bool distributions)
+MatchingObserver::MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance,
+                                   bool distributions)
     : rig_(rig), config_(config), tolerance_(tolerance) {
   if (distributions) empty_cues_ = make_cues(rig, config);
 }
@@ -87,27 +88,30 @@ void MatchingObserver::edges(const EdgeSet& left, const EdgeSet& right) {
     census.hidden += takes_part && stereo_truth_.state[i] == Visibility::hidden ? 1 : 0;
     census.contour += takes_part && stereo_truth_.contour[i] != 0 ? 1 : 0;
   }
-  measured_.stereo.push_back(judge_baseline(stages::kStereoFilters[0], right.x, right.y, rig_.right.height, stereo_truth_,
-                                            stereo_pools_, tolerance_));
+  measured_.stereo.push_back(
+      judge_baseline(kStereoFilters[0], right.x, right.y, rig_.right.height, stereo_truth_, stereo_pools_, tolerance_));
   collect_stereo(0, {});
 }
 
 void MatchingObserver::stereo_filter(int order, const std::string& name, const CandidateLists& candidates) {
-  measured_.stereo.push_back(judge(order, name, candidates, right_.x, right_.y, stereo_truth_, stereo_pools_, tolerance_));
+  measured_.stereo.push_back(
+      judge(order, name, candidates, right_.x, right_.y, stereo_truth_, stereo_pools_, tolerance_));
   collect_stereo(order, candidates);
 }
 
 void MatchingObserver::stereo(const StereoEdges& edges) {
-  stereo_filter(kBestOrder, stages::kStereoFilters.back(), lists_of(edges, left_.size()));
+  stereo_filter(kBestOrder, kStereoFilters.back(), lists_of(edges, left_.size()));
   current_.edges = edges;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const auto i = static_cast<std::size_t>(edges.left_index[k]);
-    current_.veridical.push_back(is_veridical(stereo_truth_, i, edges.right_x[k], edges.right_y[k], tolerance_) ? 1 : 0);
+    current_.veridical.push_back(is_veridical(stereo_truth_, i, edges.right_x[k], edges.right_y[k], tolerance_) ? 1
+                                                                                                                : 0);
     if (stereo_pools_.all[i] != 0) {
       const MatchClass kind = classify(stereo_truth_, i, edges.right_x[k], edges.right_y[k], tolerance_);
       ++measured_.classes[static_cast<std::size_t>(kind)];
-      final_matches_.push_back({edges.left_x[k], edges.left_y[k], edges.left_direction[k], edges.right_x[k], edges.right_y[k],
-                                edges.right_direction[k], stereo_truth_.x[i], stereo_truth_.y[i], kind});
+      final_matches_.push_back({edges.left_x[k], edges.left_y[k], edges.left_direction[k], edges.right_x[k],
+                                edges.right_y[k], edges.right_direction[k], stereo_truth_.x[i], stereo_truth_.y[i],
+                                kind});
     }
     if (stereo_truth_.state[i] != Visibility::visible) continue;
     const double dx = edges.right_x[k] - stereo_truth_.x[i], dy = edges.right_y[k] - stereo_truth_.y[i];
@@ -118,7 +122,8 @@ void MatchingObserver::stereo(const StereoEdges& edges) {
 }
 
 void MatchingObserver::temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double, int step) {
-  complete_search_ = step == 1 && is_known_motion();  // a search that looks at a part of the edges only makes a prediction
+  complete_search_ =
+      step == 1 && is_known_motion();  // a search that looks at a part of the edges only makes a prediction
   measured_.temporal_left.clear();
   measured_.temporal_right.clear();
   measured_.quads_paired = measured_.quads_all = {};
@@ -139,14 +144,18 @@ void MatchingObserver::start_temporal() {
   later_left_ = true_later_places(rig_, base_->truth, current_.truth, false, previous);
   later_right_ = true_later_places(rig_, base_->truth, current_.truth, true, previous);
   const StereoEdges& now = current_.edges;
-  left_pools_ = temporal_pools(base_->edges.left_direction, base_->veridical, {now.left_x, now.left_y, now.left_direction},
-                               rig_.left.height, later_left_, tolerance_);
-  right_pools_ = temporal_pools(base_->edges.right_direction, base_->veridical, {now.right_x, now.right_y, now.right_direction},
-                                rig_.right.height, later_right_, tolerance_);
-  quad_pools_ = quad_pools(base_->edges, base_->veridical, now, rig_.left.height, later_left_, later_right_, tolerance_);
-  const char* name = stages::kTemporalFilters[0];
-  measured_.temporal_left = {judge_baseline(name, now.left_x, now.left_y, rig_.left.height, later_left_, left_pools_, tolerance_)};
-  measured_.temporal_right = {judge_baseline(name, now.right_x, now.right_y, rig_.right.height, later_right_, right_pools_, tolerance_)};
+  left_pools_ = temporal_pools(base_->edges.left_direction, base_->veridical,
+                               {now.left_x, now.left_y, now.left_direction}, rig_.left.height, later_left_, tolerance_);
+  right_pools_ =
+      temporal_pools(base_->edges.right_direction, base_->veridical, {now.right_x, now.right_y, now.right_direction},
+                     rig_.right.height, later_right_, tolerance_);
+  quad_pools_ =
+      quad_pools(base_->edges, base_->veridical, now, rig_.left.height, later_left_, later_right_, tolerance_);
+  const char* name = kTemporalFilters[0];
+  measured_.temporal_left = {
+      judge_baseline(name, now.left_x, now.left_y, rig_.left.height, later_left_, left_pools_, tolerance_)};
+  measured_.temporal_right = {
+      judge_baseline(name, now.right_x, now.right_y, rig_.right.height, later_right_, right_pools_, tolerance_)};
   collect_temporal(0, false, {});
   collect_temporal(0, true, {});
 }
@@ -168,19 +177,20 @@ void MatchingObserver::temporal_filter(int order, const std::string& name, int s
 void MatchingObserver::quads(const TemporalMatches& matches) {
   if (!complete_search_) return;
   const std::size_t rows = base_->edges.size();
-  const char* name = stages::kTemporalFilters.back();
+  const char* name = kTemporalFilters.back();
   const std::vector<float> none;
-  measured_.temporal_left.push_back(judge(kTemporalLastOrder, name, lists_of(matches, rows, false), none, none, later_left_,
-                                          left_pools_, tolerance_));
-  measured_.temporal_right.push_back(judge(kTemporalLastOrder, name, lists_of(matches, rows, true), none, none, later_right_,
-                                           right_pools_, tolerance_));
+  measured_.temporal_left.push_back(judge(kTemporalLastOrder, name, lists_of(matches, rows, false), none, none,
+                                          later_left_, left_pools_, tolerance_));
+  measured_.temporal_right.push_back(judge(kTemporalLastOrder, name, lists_of(matches, rows, true), none, none,
+                                           later_right_, right_pools_, tolerance_));
   measure_quads(matches);
 }
 
 /// The quads' own recall and precision, and pairs of them under the constraints.
 void MatchingObserver::measure_quads(const TemporalMatches& matches) {
   const std::size_t rows = base_->edges.size();
-  std::vector<std::uint8_t> known(matches.size(), 0), veridical(matches.size(), 0), candidates(rows, 0), true_candidates(rows, 0);
+  std::vector<std::uint8_t> known(matches.size(), 0), veridical(matches.size(), 0), candidates(rows, 0),
+      true_candidates(rows, 0);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     const auto i = static_cast<std::size_t>(matches.previous[k]);
     known[k] = quad_pools_.all[i];
@@ -202,8 +212,9 @@ void MatchingObserver::measure_quads(const TemporalMatches& matches) {
     if (known[match] != 0) usable.push_back(q);
     veridical_quad.push_back(veridical[match]);
   }
-  measured_.pairs = measure_pairs(quads, usable, veridical_quad, config_.pose, config_.seed,
-                                  current_.truth.world_from_left->inverse() * *base_->truth.world_from_left, measured_.cues);
+  measured_.pairs =
+      measure_pairs(quads, usable, veridical_quad, config_.pose, config_.seed,
+                    current_.truth.world_from_left->inverse() * *base_->truth.world_from_left, measured_.cues);
 }
 
 }  // namespace quadedge::evaluation

@@ -12,11 +12,13 @@
 
 namespace quadedge::evaluation {
 
-/// A tap of one StereoOdometry. Per frame: begin(), StereoOdometry::track(), end(). The pipeline learns nothing from it.
+/// A tap of one StereoOdometry. Per frame: begin(), StereoOdometry::track(), end(). The pipeline learns nothing from
+/// it.
 class MatchingObserver : public Tap {
  public:
   /// \param distributions also collect the cues of all candidates
-  MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance, bool distributions = false);
+  MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance,
+                   bool distributions = false);
 
   /// The truth of the frame that is tracked next.
   void begin(FrameTruth truth);
@@ -37,7 +39,7 @@ class MatchingObserver : public Tap {
   struct Rig {
     FrameTruth truth;
     StereoEdges edges;
-    std::vector<std::uint8_t> veridical;  ///< per stereo edge
+    std::vector<std::uint8_t> veridical;                                ///< per stereo edge
     Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();  ///< as the pipeline found it
   };
   void start_temporal();

@@ -68,7 +68,8 @@ void pool_quads(const std::vector<const FrameMatching*>& frames, MatchingSummary
     summary.quads_paired.counts.add(frame->quads_paired);
     summary.quads_all.counts.add(frame->quads_all);
     rivals += frame->quad_rivals;
-    paired.add(frame->quads_paired.recall(), frame->quads_paired.precision(), ratio(frame->quad_rivals, frame->quads_paired.candidates));
+    paired.add(frame->quads_paired.recall(), frame->quads_paired.precision(),
+               ratio(frame->quad_rivals, frame->quads_paired.candidates));
     all.add(frame->quads_all);
   }
   summary.quads_paired.std = paired.spread();

@@ -1,5 +1,6 @@
 #pragma once
-/// \file matching_result.hpp  What the evaluation of the matching measures; frames add up to sequences and pairs to sets.
+/// \file matching_result.hpp  What the evaluation of the matching measures; frames add up to sequences and pairs to
+/// sets.
 
 #include <array>
 #include <optional>
@@ -25,19 +26,19 @@ struct EdgeCensus {
 
 /// One frame.
 struct FrameMatching {
-  FrameCounts counts;                 ///< the pipeline's own
+  FrameCounts counts;  ///< the pipeline's own
   FrameStatus status = FrameStatus::first;
-  std::string message;                ///< the pipeline's: why a frame was lost, or what overflowed
-  FilterTable stereo;                 ///< Table 1
+  std::string message;                        ///< the pipeline's: why a frame was lost, or what overflowed
+  FilterTable stereo;                         ///< Table 1
   FilterTable temporal_left, temporal_right;  ///< Table 2; empty for the first frame and single pairs
   FilterCounts quads_paired, quads_all;
-  std::int64_t quad_rivals = 0;       ///< further clusters that the paired quads' edges had
+  std::int64_t quad_rivals = 0;  ///< further clusters that the paired quads' edges had
   EdgeCensus census;
-  PairMeasurement pairs;              ///< Table 3 and Figure 7
+  PairMeasurement pairs;  ///< Table 3 and Figure 7
   /// Error of the motion that the pipeline found since the frame that this one was matched with; for tracked frames.
   std::optional<MotionError> motion;
-  /// Final stereo edges whose truth is known and visible [px]: place along the epipolar line minus the true one, and the part of
-  /// it that is across the edge, without sign.
+  /// Final stereo edges whose truth is known and visible [px]: place along the epipolar line minus the true one, and
+  /// the part of it that is across the edge, without sign.
   std::vector<float> disparity_error, across_error;
   MatchClassCounts classes{};         ///< final stereo edges of the pool `all`
   std::vector<CueDistribution> cues;  ///< moved to the result when the frame is done
@@ -80,9 +81,10 @@ struct MatchingSummary {
   PooledQuads quads_paired, quads_all;
   double quads_ambiguity_mean = 0;  ///< rivals per quad of the paired pool; NaN without quads
   std::array<PooledConstraint, kConstraintNames.size()> constraints{};
-  double disparity_median = 0, disparity_p90 = 0;  ///< of the absolute error [px]; NaN without stereo edges of known truth
-  double disparity_bias = 0;                       ///< median of the signed error [px]
-  double across_median = 0, across_p90 = 0;        ///< of the part across the edge [px]
+  double disparity_median = 0,
+         disparity_p90 = 0;                  ///< of the absolute error [px]; NaN without stereo edges of known truth
+  double disparity_bias = 0;                 ///< median of the signed error [px]
+  double across_median = 0, across_p90 = 0;  ///< of the part across the edge [px]
   EdgeCensus census;
   MatchClassCounts classes{};
   std::vector<CueDistribution> cues;

@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint8_t kMaskHidden = 128, kMaskUnknown = 0;  // of mask0nocc.png, whose third value is 255: seen in both views
+constexpr std::uint8_t kMaskHidden = 128,
+                       kMaskUnknown = 0;  // of mask0nocc.png, whose third value is 255: seen in both views
 
 /// Names of the right view's disparities and of the mask that belong to a left one, in the published layouts.
 struct Companions {
@@ -160,7 +161,8 @@ bool has_matching_truth(const Dataset& dataset) {
 
 std::unique_ptr<MatchingSource> make_recorded_source(const Dataset& dataset) {
   if (!has_matching_truth(dataset)) {
-    data::fail(dataset.path, "no ground truth of edges", "disparities (pairs), or depth and poses as `quadedge synth` writes them");
+    data::fail(dataset.path, "no ground truth of edges",
+               "disparities (pairs), or depth and poses as `quadedge synth` writes them");
   }
   if (!dataset.rig.left_undistortion.empty() || !dataset.rig.right_undistortion.empty()) {
     data::fail(dataset.path, "distorted images", "pinhole images, to which the ground truth belongs");
@@ -182,7 +184,8 @@ std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std
     find_below(path, 2, found, skipped);
     if (found.empty() && skipped.empty()) throw;
   }
-  if (found.empty()) data::fail(path, std::to_string(skipped.size()) + " data sets, none with ground truth", "disparities or depth");
+  if (found.empty())
+    data::fail(path, std::to_string(skipped.size()) + " data sets, none with ground truth", "disparities or depth");
   return found;
 }
 

@@ -39,8 +39,8 @@ std::unique_ptr<MatchingSource> make_rendered_source(const SyntheticOptions& opt
 /// Has the data set what make_recorded_source needs?
 bool has_matching_truth(const Dataset& dataset);
 
-/// The data set at `path`, or all data sets with truth in the folders below it (two levels), by name. Sets without truth are
-/// named in `skipped`. \throws DataError when there is none with truth.
+/// The data set at `path`, or all data sets with truth in the folders below it (two levels), by name. Sets without
+/// truth are named in `skipped`. \throws DataError when there is none with truth.
 std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std::string>& skipped);
 
 }  // namespace quadedge::evaluation

@@ -39,15 +39,18 @@ Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& rig
     const double norm = line.head<2>().norm();
     nearby.visit(truth.x[i], truth.y[i], tolerance.place, [&](std::size_t j) {
       const double distance = std::abs(line.dot(Eigen::Vector3d(right.x[j], right.y[j], 1))) / norm;
-      if (distance > tolerance.line || line_angle_deg(left.direction[i], right.direction[j]) > tolerance.stereo_direction) return;
+      if (distance > tolerance.line ||
+          line_angle_deg(left.direction[i], right.direction[j]) > tolerance.stereo_direction)
+        return;
       pools.paired[i] = 1;
     });
   }
   return pools;
 }
 
-Pools temporal_pools(const std::vector<float>& previous_direction, const std::vector<std::uint8_t>& previous_is_veridical,
-                     const EdgePlaces& current, int image_height, const TruePlaces& truth, const MatchingTolerance& tolerance) {
+Pools temporal_pools(const std::vector<float>& previous_direction,
+                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePlaces& current,
+                     int image_height, const TruePlaces& truth, const MatchingTolerance& tolerance) {
   const NearbyTargets nearby(current.x, current.y, image_height);
   Pools pools = empty_pools(previous_direction.size());
   for (std::size_t i = 0; i < previous_direction.size(); ++i) {
@@ -55,14 +58,16 @@ Pools temporal_pools(const std::vector<float>& previous_direction, const std::ve
     pools.all[i] = 1;
     if (truth.state[i] != Visibility::visible || previous_is_veridical[i] == 0) continue;
     nearby.visit(truth.x[i], truth.y[i], tolerance.place, [&](std::size_t j) {
-      if (line_angle_deg(previous_direction[i], current.direction[j]) <= tolerance.temporal_direction) pools.paired[i] = 1;
+      if (line_angle_deg(previous_direction[i], current.direction[j]) <= tolerance.temporal_direction)
+        pools.paired[i] = 1;
     });
   }
   return pools;
 }
 
-Pools quad_pools(const StereoEdges& previous, const std::vector<std::uint8_t>& previous_is_veridical, const StereoEdges& current,
-                 int image_height, const TruePlaces& left_truth, const TruePlaces& right_truth, const MatchingTolerance& tolerance) {
+Pools quad_pools(const StereoEdges& previous, const std::vector<std::uint8_t>& previous_is_veridical,
+                 const StereoEdges& current, int image_height, const TruePlaces& left_truth,
+                 const TruePlaces& right_truth, const MatchingTolerance& tolerance) {
   const NearbyTargets nearby(current.left_x, current.left_y, image_height);
   Pools pools = empty_pools(previous.size());
   for (std::size_t i = 0; i < previous.size(); ++i) {
@@ -72,7 +77,8 @@ Pools quad_pools(const StereoEdges& previous, const std::vector<std::uint8_t>& p
     nearby.visit(left_truth.x[i], left_truth.y[i], tolerance.place, [&](std::size_t j) {
       if (!is_veridical(right_truth, i, current.right_x[j], current.right_y[j], tolerance)) return;
       if (line_angle_deg(previous.left_direction[i], current.left_direction[j]) > tolerance.temporal_direction) return;
-      if (line_angle_deg(previous.right_direction[i], current.right_direction[j]) > tolerance.temporal_direction) return;
+      if (line_angle_deg(previous.right_direction[i], current.right_direction[j]) > tolerance.temporal_direction)
+        return;
       pools.paired[i] = 1;
     });
   }

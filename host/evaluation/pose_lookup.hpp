@@ -10,11 +10,13 @@ namespace quadedge::evaluation {
 
 /// The pose nearest in time, of poses with increasing stamps; null where none is within the tolerance.
 inline const Eigen::Isometry3d* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
-  const auto later = std::lower_bound(poses.begin(), poses.end(), stamp_ns,
-                                      [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
+  const auto later =
+      std::lower_bound(poses.begin(), poses.end(), stamp_ns,
+                       [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
   const auto distance = [&](Trajectory::const_iterator pose) { return std::abs(pose->stamp_ns - stamp_ns); };
   auto nearest = later;
-  if (later != poses.begin() && (later == poses.end() || distance(std::prev(later)) < distance(later))) nearest = std::prev(later);
+  if (later != poses.begin() && (later == poses.end() || distance(std::prev(later)) < distance(later)))
+    nearest = std::prev(later);
   return nearest != poses.end() && distance(nearest) <= tolerance_ns ? &nearest->world_from_left : nullptr;
 }
 

@@ -39,7 +39,8 @@ MotionError motion_error(const Eigen::Isometry3d& estimate, const Eigen::Isometr
 }
 
 std::array<double, 5> constraint_values(const pose::OrientedPair& previous, const pose::OrientedPair& current) {
-  const Eigen::Vector3d d = previous.second.point - previous.first.point, d_bar = current.second.point - current.first.point;
+  const Eigen::Vector3d d = previous.second.point - previous.first.point,
+                        d_bar = current.second.point - current.first.point;
   const double length = d.norm(), length_bar = d_bar.norm();
   if (!(length > 0) || !(length_bar > 0)) return {kNan, kNan, kNan, kNan, kNan};
   const Eigen::Vector3d unit = d / length, unit_bar = d_bar / length_bar;
@@ -48,7 +49,8 @@ std::array<double, 5> constraint_values(const pose::OrientedPair& previous, cons
   const double tangents = previous.first.tangent.dot(previous.second.tangent);
   const double tangents_bar = current.first.tangent.dot(current.second.tangent);
   // The quads may take each other's role: the better of both counts, before and after.
-  const double angle = std::max(std::min(line_angle(first), line_angle(first_bar)), std::min(line_angle(second), line_angle(second_bar)));
+  const double angle = std::max(std::min(line_angle(first), line_angle(first_bar)),
+                                std::min(line_angle(second), line_angle(second_bar)));
   return {std::abs(length - length_bar) / length, std::abs(first - first_bar), std::abs(second - second_bar),
           std::abs(tangents - tangents_bar), angle};
 }
@@ -81,8 +83,9 @@ PairMeasurement measure_pairs(const pose::QuadObservations& quads, const std::ve
         if (motions[order].rotation.size() >= kMostMotions) continue;
         if (!error) {
           const bool swapped = check.swapped;
-          const auto motion = pose::solve_two_quads(swapped ? pose::OrientedPair{previous.second, previous.first} : previous,
-                                                    swapped ? pose::OrientedPair{current.second, current.first} : current, 1.0);
+          const auto motion =
+              pose::solve_two_quads(swapped ? pose::OrientedPair{previous.second, previous.first} : previous,
+                                    swapped ? pose::OrientedPair{current.second, current.first} : current, 1.0);
           if (!motion) continue;
           error = motion_error(*motion, current_from_previous);
         }

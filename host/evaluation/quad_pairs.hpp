@@ -1,5 +1,6 @@
 #pragma once
-/// \file quad_pairs.hpp  Pairs of quads under the constraints of the paper's Equation 9: Table 3, Figure 6 and Figure 7.
+/// \file quad_pairs.hpp  Pairs of quads under the constraints of the paper's Equation 9: Table 3, Figure 6 and
+/// Figure 7.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -15,7 +16,8 @@ namespace quadedge::evaluation {
 
 /// Rows of Table 3: all pairs of quads, then the constraints of the paper's Equation 9 one after another.
 inline constexpr std::array<const char*, 7> kConstraintNames = {
-    "baseline", "length of D", "angle of D and T1", "angle of D and T2", "angle of T1 and T2", "D not along T1", "handedness"};
+    "baseline",           "length of D",    "angle of D and T1", "angle of D and T2",
+    "angle of T1 and T2", "D not along T1", "handedness"};
 
 /// Pairs of quads that fulfil constraints 1 to `order`. Veridical: both quads are.
 struct ConstraintCounts {
@@ -29,8 +31,8 @@ struct MotionError {
 };
 MotionError motion_error(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth);
 
-/// The motions that single pairs give (Proposition 2), over the pairs that fulfil constraints 1 to `order`: medians of their
-/// errors. NaN where too few pairs give a motion.
+/// The motions that single pairs give (Proposition 2), over the pairs that fulfil constraints 1 to `order`: medians of
+/// their errors. NaN where too few pairs give a motion.
 using PairAccuracy = std::array<MotionError, kConstraintNames.size()>;
 
 /// What was measured of the pairs of one frame.
@@ -50,8 +52,8 @@ inline constexpr int kDrawnPairs = 200000;
 /// Motions that a median is taken over: at most, at least.
 inline constexpr std::size_t kMostMotions = 2000, kFewestMotions = 50;
 
-/// What constraints 1 to 5 compare with their thresholds, in the units of CueDistribution; check_constraints() passes exactly
-/// what is below the first four and above the fifth. NaN for points on one spot.
+/// What constraints 1 to 5 compare with their thresholds, in the units of CueDistribution; check_constraints() passes
+/// exactly what is below the first four and above the fifth. NaN for points on one spot.
 std::array<double, 5> constraint_values(const pose::OrientedPair& previous, const pose::OrientedPair& current);
 
 }  // namespace quadedge::evaluation

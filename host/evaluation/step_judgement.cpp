@@ -9,8 +9,9 @@ constexpr double kDegreesPerRadian = 57.295779513082320876798;
 
 }  // namespace
 
-StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth, const std::vector<std::int64_t>& frames_ns,
-                          const StepLimits& limits, std::int64_t max_stamp_difference_ns) {
+StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
+                          const std::vector<std::int64_t>& frames_ns, const StepLimits& limits,
+                          std::int64_t max_stamp_difference_ns) {
   StepJudgement result;
   for (std::size_t i = 1; i < frames_ns.size(); ++i) {
     const auto* true_before = pose_at(truth, frames_ns[i - 1], max_stamp_difference_ns);

@@ -99,11 +99,13 @@ Visibility visibility(const SurfaceMap& map, double x, double y, double nearness
 }
 
 SurfaceMap right_from_left(const SurfaceMap& left, int right_width) {
-  SurfaceMap right{right_width, left.height,
-                   std::vector<float>(static_cast<std::size_t>(right_width) * static_cast<std::size_t>(left.height), kUnknown)};
+  SurfaceMap right{
+      right_width, left.height,
+      std::vector<float>(static_cast<std::size_t>(right_width) * static_cast<std::size_t>(left.height), kUnknown)};
   const auto put = [&](int row, double column, double value) {
     if (!(column >= 0 && column < right_width)) return;
-    float& place = right.nearness[static_cast<std::size_t>(row) * static_cast<std::size_t>(right_width) + static_cast<std::size_t>(column)];
+    float& place = right.nearness[static_cast<std::size_t>(row) * static_cast<std::size_t>(right_width) +
+                                  static_cast<std::size_t>(column)];
     if (std::isnan(place) || value > place) place = static_cast<float>(value);
   };
   for (int row = 0; row < left.height; ++row) {

@@ -1,5 +1,6 @@
 #pragma once
-/// \file surface_map.hpp  Ground truth of one view: how near the scene is at every pixel, and what an edge there belongs to.
+/// \file surface_map.hpp  Ground truth of one view: how near the scene is at every pixel, and what an edge there
+/// belongs to.
 
 #include <optional>
 #include <vector>
@@ -9,8 +10,8 @@
 
 namespace quadedge::evaluation {
 
-/// height x width, row-major. Nearness is the disparity, or focal length x baseline / depth [px]; NaN is unknown. It is the
-/// right quantity to interpolate: along any plane it is a linear function of the pixel, which depth is not.
+/// height x width, row-major. Nearness is the disparity, or focal length x baseline / depth [px]; NaN is unknown. It is
+/// the right quantity to interpolate: along any plane it is a linear function of the pixel, which depth is not.
 struct SurfaceMap {
   int width = 0, height = 0;
   std::vector<float> nearness;
@@ -28,12 +29,13 @@ SurfaceMap surface_from_depth(const data::FloatImage& depth, double focal_times_
 
 /// More than this between neighbouring pixels is a depth step, less is one surface [px of nearness].
 inline constexpr double kDepthStep = 1.0;
-/// An edge this near to a depth step, measured across the edge, is the occluding contour itself [px]: half a pixel of the map's
-/// rounding plus the displacement by the detector's blur and by an imprecise truth. Measured: of the matched edges within 1.5 px
-/// of a step 80 to 99 % move with the nearer surface (rendered room and cables, Middlebury), whichever side they lie on.
+/// An edge this near to a depth step, measured across the edge, is the occluding contour itself [px]: half a pixel of
+/// the map's rounding plus the displacement by the detector's blur and by an imprecise truth. Measured: of the matched
+/// edges within 1.5 px of a step 80 to 99 % move with the nearer surface (rendered room and cables, Middlebury),
+/// whichever side they lie on.
 inline constexpr double kContourReach = 1.5;
-/// On the farther side, up to this distance, either surface may own an edge [px] (texture of the farther one, or a contour moved
-/// outwards by blur and shading): between the two reaches about half of the matched edges move with each.
+/// On the farther side, up to this distance, either surface may own an edge [px] (texture of the farther one, or a
+/// contour moved outwards by blur and shading): between the two reaches about half of the matched edges move with each.
 inline constexpr double kDoubtReach = 2.5;
 
 /// What an edge belongs to.
@@ -45,10 +47,12 @@ struct SurfacePoint {
 /// The surface that an edge belongs to. The map is read at the pixels met within kContourReach to either side along the
 /// edge's normal.
 /// - Any of them unknown: no statement (an unseen nearer surface could own the edge).
-/// - They differ by more than kDepthStep: the edge is an occluding contour and belongs to the nearer surface, whose values
+/// - They differ by more than kDepthStep: the edge is an occluding contour and belongs to the nearer surface, whose
+/// values
 ///   within kDepthStep of the nearest one are weighted by their closeness to the edge's place and averaged.
 /// - A nearer surface begins between kContourReach and kDoubtReach to either side: no statement.
-/// - Else bilinear interpolation, over those of the four pixels around the place that lie within kDepthStep of the nearest
+/// - Else bilinear interpolation, over those of the four pixels around the place that lie within kDepthStep of the
+/// nearest
 ///   pixel: a step that the edge ends at (along its direction) does not smear into it.
 /// \param direction of the tangent [rad]
 std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y, double direction);
@@ -56,13 +60,13 @@ std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y
 /// Whether another view shows a point.
 enum class Visibility { unknown, visible, hidden };
 
-/// Compares a point's nearness with the map of a view in which it falls on (x, y). Visible: one of the pixels within 1.5 px
-/// shows that nearness to within kDepthStep. Hidden: all known ones are nearer, or the place is outside the image. Unknown: none
-/// is known, or the view shows something farther there, which contradicts the point.
+/// Compares a point's nearness with the map of a view in which it falls on (x, y). Visible: one of the pixels
+/// within 1.5 px shows that nearness to within kDepthStep. Hidden: all known ones are nearer, or the place is outside
+/// the image. Unknown: none is known, or the view shows something farther there, which contradicts the point.
 Visibility visibility(const SurfaceMap& map, double x, double y, double nearness);
 
-/// The right view's map as far as the left one tells it (rectified pairs): every known pixel moved by its disparity, gaps between
-/// neighbours on one surface filled, the nearest surface wins.
+/// The right view's map as far as the left one tells it (rectified pairs): every known pixel moved by its disparity,
+/// gaps between neighbours on one surface filled, the nearest surface wins.
 SurfaceMap right_from_left(const SurfaceMap& left, int right_width);
 
 }  // namespace quadedge::evaluation

@@ -6,26 +6,27 @@
 
 namespace quadedge::odometry {
 
-/// A rig's disparities may all be wrong by the same part of a pixel (KITTI: 0.2 px and more), which shows in the quads of a moving
-/// camera (pose::fit_offset()). This is the scalar Kalman filter over what one frame of each key stereo rig says of it.
+/// A rig's disparities may all be wrong by the same part of a pixel (KITTI: 0.2 px and more), which shows in the quads
+/// of a moving camera (pose::fit_offset()). This is the scalar Kalman filter over what one frame of each key stereo rig
+/// says of it.
 class DisparityOffset {
  public:
   DisparityOffset(const StereoRig& rig, const PoseConfig& config);
 
-  /// Takes in what one frame found beyond the offset known before, and its variance with the prior [px, px^2]; `frames` have passed since
-  /// the last time.
+  /// Takes in what one frame found beyond the offset known before, and its variance with the prior [px, px^2]; `frames`
+  /// have passed since the last time.
   void update(double correction, double variance, int frames);
 
-  /// The rig with its right principal point moved by the offset, so that right points mean what they should. Without undistortion
-  /// tables.
+  /// The rig with its right principal point moved by the offset, so that right points mean what they should. Without
+  /// undistortion tables.
   const StereoRig& rig() const { return rig_; }
   double value() const { return value_; }        ///< px, added to a disparity
   double variance() const { return variance_; }  ///< px^2, of the next frame; 0: disparities are taken as exact
 
  private:
   StereoRig rig_;
-  double cx_, cy_;                               ///< right principal point of the calibration
-  Eigen::Vector2d nearer_;                       ///< unit vector along which a right point moves when its depth shrinks
+  double cx_, cy_;          ///< right principal point of the calibration
+  Eigen::Vector2d nearer_;  ///< unit vector along which a right point moves when its depth shrinks
   double drift_;
   double value_ = 0, variance_;
 };

@@ -1,5 +1,6 @@
 #pragma once
-/// \file key_rig.hpp  The key stereo rig that frames are located against, and when it is worn (paper section 6, SPEC section 7).
+/// \file key_rig.hpp  The key stereo rig that frames are located against, and when it is worn (paper section 6,
+/// doc/method.md section 7).
 
 #include <Eigen/Geometry>
 #include <vector>
@@ -11,7 +12,7 @@ namespace quadedge::odometry {
 
 /// What is known of the current frame when the key rig's fitness is judged.
 struct KeyRigState {
-  int quads = 0;               ///< with the key rig
+  int quads = 0;  ///< with the key rig
   double inlier_share = 1;
   double median_parallax = 0;  ///< px, left image
   double rotation = 0;         ///< rad, from the key rig to the current one
@@ -27,7 +28,8 @@ class KeyRig {
  public:
   void start(int frame, const Eigen::Isometry3d& world_from_key);
 
-  /// Whether the current frame should become the key rig, SPEC section 7. The first frame judged sets the mark for the quads' number.
+  /// Whether the current frame should become the key rig, doc/method.md section 7. The first frame judged sets the mark
+  /// for the quads' number.
   bool is_worn(const KeyRigState& state, const OdometryConfig& config);
 
   int frame() const { return frame_; }

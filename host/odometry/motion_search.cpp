@@ -3,25 +3,24 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/angles.hpp"
 #include "odometry/prediction.hpp"
-#include "pose/angles.hpp"
 #include "pose/scoring.hpp"
 
 namespace quadedge::odometry {
-
-using pose::radians;
 
 namespace {
 
 constexpr double kSettled = 0.3;  ///< mean distance of predicted places that calls for no further search [px]
 constexpr int kSettledStep = 16;  ///< every so many edges tell it
-/// Of the inlier distance; in fine texture many an edge meets a wrong place by chance, the fewer the nearer it has to come.
+/// Of the inlier distance; in fine texture many an edge meets a wrong place by chance, the fewer the nearer it has to
+/// come.
 constexpr double kExplained = 1.0 / 3.0;
 
 }  // namespace
 
-const pose::MeasuredEdges& MotionSearch::measured(stages::Base base, const MotionPrior& prior) {
-  const bool key = base == stages::Base::key;
+const pose::MeasuredEdges& MotionSearch::measured(Base base, const MotionPrior& prior) {
+  const bool key = base == Base::key;
   MeasuredBase& known = key ? measured_key_ : measured_previous_;
   const int frame = key ? prior.key_frame : prior.previous_frame;
   if (known.frame != frame || known.offset != offset_.value()) {
@@ -32,7 +31,7 @@ const pose::MeasuredEdges& MotionSearch::measured(stages::Base base, const Motio
   return known.edges;
 }
 
-StepHandle MotionSearch::new_step(stages::Base base) {
+StepHandle MotionSearch::new_step(Base base) {
   StepHandle step = steps_.take();
   step->base = base;
   step->matches.clear();
@@ -42,10 +41,11 @@ StepHandle MotionSearch::new_step(stages::Base base) {
 }
 
 /// The motion that the step's matches agree on.
-void MotionSearch::estimate(const std::optional<Eigen::Isometry3d>& prediction, const PoseConfig& limits, const MotionPrior& prior,
-                            MotionStep& step) {
+void MotionSearch::estimate(const std::optional<Eigen::Isometry3d>& prediction, const PoseConfig& limits,
+                            const MotionPrior& prior, MotionStep& step) {
   const StereoRig& rig = offset_.rig();
-  builder_.build(rig, measured(step.base, prior), frontend_.current(), step.matches, pose::QuadLimits(config_), step.quads);
+  builder_.build(rig, measured(step.base, prior), frontend_.current(), step.matches, pose::QuadLimits(config_),
+                 step.quads);
   estimator_.estimate(rig, step.quads, limits, prior.seed, prediction, offset_.variance(), step.motion);
 }
 
@@ -80,23 +80,28 @@ StepHandle MotionSearch::look_anywhere(const MotionPrior& prior) {
   return step;
 }
 
-/// The motion of what look_anywhere() found and its motion does not explain: of the scene, where that one is a moving thing's.
+/// The motion of what look_anywhere() found and its motion does not explain: of the scene, where that one is a moving
+/// thing's.
 StepHandle MotionSearch::look_beside(const MotionStep& seen, const MotionPrior& prior) {
   StepHandle step = new_step(prior.base);
   agrees_.assign(seen.matches.size(), 0);
-  for (std::size_t q = 0; q < seen.quads.size(); ++q) agrees_[static_cast<std::size_t>(seen.quads.match[q])] = seen.motion.inlier[q];
+  for (std::size_t q = 0; q < seen.quads.size(); ++q)
+    agrees_[static_cast<std::size_t>(seen.quads.match[q])] = seen.motion.inlier[q];
   for (std::size_t m = 0; m < seen.matches.size(); ++m)
     if (agrees_[m] == 0)
-      step->matches.append(seen.matches.previous[m], seen.matches.current[m], frontend_.current(), seen.matches.ncc[m], seen.matches.rivals[m]);
+      step->matches.append(seen.matches.previous[m], seen.matches.current[m], frontend_.current(), seen.matches.ncc[m],
+                           seen.matches.rivals[m]);
   suggest_anywhere(prior, *step);
   return step;
 }
 
-/// Mean share of a cell's predicted places whose quads agree closely with the motion. A thing counts by the area that it covers, not by the
-/// edges that it is covered with.
-double MotionSearch::explained_area(const MotionStep& step, const stages::PlacedEdges& predicted) {
-  const double side = config_.pose.scoring_cell > 0 ? config_.pose.scoring_cell : std::max(rig_.left.width, rig_.left.height);
-  const int columns = static_cast<int>(rig_.left.width / side) + 1, rows = static_cast<int>(rig_.left.height / side) + 1;
+/// Mean share of a cell's predicted places whose quads agree closely with the motion. A thing counts by the area that
+/// it covers, not by the edges that it is covered with.
+double MotionSearch::explained_area(const MotionStep& step, const PlacedEdges& predicted) {
+  const double side =
+      config_.pose.scoring_cell > 0 ? config_.pose.scoring_cell : std::max(rig_.left.width, rig_.left.height);
+  const int columns = static_cast<int>(rig_.left.width / side) + 1,
+            rows = static_cast<int>(rig_.left.height / side) + 1;
   cells_.assign(static_cast<std::size_t>(columns * rows), {});
   const auto cell_of = [&](std::size_t i) -> Cell* {
     const double x = static_cast<double>(predicted.x[i]) / side, y = static_cast<double>(predicted.y[i]) / side;
@@ -121,21 +126,23 @@ double MotionSearch::explained_area(const MotionStep& step, const stages::Placed
   return held > 0 ? sum / held : 0;
 }
 
-/// Whether edges found anywhere agree with a motion: in as many places of the image as an estimate needs inliers. A found edge could lie
-/// anywhere, so a wrong motion meets next to none of them; neighbours, which may err together, count once.
+/// Whether edges found anywhere agree with a motion: in as many places of the image as an estimate needs inliers. A
+/// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,
+/// count once.
 bool MotionSearch::is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior) {
   Eigen::Isometry3d motion = found.motion.current_from_previous;
   if (found.base != prior.base) motion = motion * prior.base_from_key->inverse();
-  pose::select_inliers(anywhere.quads.scoring, pose::LaterCameras(offset_.rig(), motion), config_.temporal.wide_inlier_distance,
-                       radians(config_.pose.inlier_orientation), agrees_);
+  pose::select_inliers(anywhere.quads.scoring, pose::LaterCameras(offset_.rig(), motion),
+                       config_.temporal.wide_inlier_distance, radians(config_.pose.inlier_orientation), agrees_);
   return pose::count_cells(anywhere.quads.scoring, agrees_, config_.pose.vote_cell) >= config_.pose.min_inliers;
 }
 
-/// Matches all edges of a base within a few pixels of where a motion predicts them, again around what that finds until the places
-/// stay. Within so few pixels a wrong motion finds some support too: a true one has to find more.
-StepHandle MotionSearch::match(stages::Base base, Eigen::Isometry3d motion, const MotionPrior& prior) {
-  const auto predict = [&](int every, stages::TemporalSearch& search) {
-    predict_places(offset_.rig(), frontend_.base(base), measured(base, prior), motion, config_.temporal.radius, every, search);
+/// Matches all edges of a base within a few pixels of where a motion predicts them, again around what that finds until
+/// the places stay. Within so few pixels a wrong motion finds some support too: a true one has to find more.
+StepHandle MotionSearch::match(Base base, Eigen::Isometry3d motion, const MotionPrior& prior) {
+  const auto predict = [&](int every, TemporalSearch& search) {
+    predict_places(offset_.rig(), frontend_.base(base), measured(base, prior), motion, config_.temporal.radius, every,
+                   search);
   };
   predict(1, search_);
   StepHandle step = new_step(base);
@@ -162,7 +169,7 @@ StepHandle MotionSearch::match(stages::Base base, Eigen::Isometry3d motion, cons
 /// What the matching of all edges says of a motion since the prior's base.
 StepHandle MotionSearch::confirm(const Eigen::Isometry3d& motion, const MotionPrior& prior) {
   if (prior.base_from_key) {
-    StepHandle step = match(stages::Base::key, motion * *prior.base_from_key, prior);
+    StepHandle step = match(Base::key, motion * *prior.base_from_key, prior);
     if (step->ok()) return step;
   }
   return match(prior.base, motion, prior);

@@ -3,15 +3,15 @@
 #include <cmath>
 #include <limits>
 
+#include "common/row_blocks.hpp"
 #include "pose/oriented_point.hpp"
-#include "pose/row_blocks.hpp"
 
 namespace quadedge::odometry {
 namespace {
 
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 
-void place(stages::PlacedEdges& places, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
+void place(PlacedEdges& places, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
   places.x[i] = edge ? static_cast<float>(edge->pixel.x()) : kNowhere;
   places.y[i] = edge ? static_cast<float>(edge->pixel.y()) : kNowhere;
   places.direction[i] = edge ? static_cast<float>(std::atan2(edge->direction.y(), edge->direction.x())) : kNowhere;
@@ -20,7 +20,8 @@ void place(stages::PlacedEdges& places, std::size_t i, const std::optional<pose:
 }  // namespace
 
 void predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
-                    const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step, stages::TemporalSearch& search) {
+                    const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
+                    TemporalSearch& search) {
   search.radius = static_cast<float>(radius);
   search.step = step;
   search.scout = false;
@@ -39,12 +40,12 @@ void predict_places(const StereoRig& rig, const StereoEdges& previous, const pos
     place(search.right, i, point ? pose::project(rig.right, right_from_previous, *point) : std::nullopt);
   };
   const auto every = static_cast<std::size_t>(step);
-  pose::for_row_blocks((previous.size() + every - 1) / every, [&](std::size_t, std::size_t begin, std::size_t end) {
+  for_row_blocks((previous.size() + every - 1) / every, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) predict(row * every);
   });
 }
 
-int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places) {
+int count_in_view(const PinholeCamera& camera, const PlacedEdges& places) {
   int count = 0;
   for (std::size_t i = 0; i < places.x.size(); ++i) {
     const bool inside = places.x[i] >= 0 && places.x[i] <= static_cast<float>(camera.width - 1) && places.y[i] >= 0 &&
@@ -54,7 +55,7 @@ int count_in_view(const PinholeCamera& camera, const stages::PlacedEdges& places
   return count;
 }
 
-double mean_distance(const stages::PlacedEdges& a, const stages::PlacedEdges& b, int step) {
+double mean_distance(const PlacedEdges& a, const PlacedEdges& b, int step) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.x.size(); i += static_cast<std::size_t>(step)) {

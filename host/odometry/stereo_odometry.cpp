@@ -1,7 +1,8 @@
-/// \file stereo_odometry.cpp  The way of a frame (DESIGN section 1), from two images to a pose.
+/// \file stereo_odometry.cpp  The way of a frame (doc/design.md section 1), from two images to a pose.
 #include <algorithm>
 #include <chrono>
 
+#include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "odometry/key_rig.hpp"
 #include "odometry/motion_search.hpp"
@@ -10,7 +11,6 @@
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
-#include "stages/frontend.hpp"
 
 namespace quadedge {
 namespace {
@@ -46,7 +46,8 @@ Eigen::Matrix<double, 6, 6> composed_covariance(const Eigen::Matrix<double, 6, 6
   return of_a + adjoint * of_b * adjoint.transpose();
 }
 
-/// The motion of one of `intervals` equal frame intervals, with the translation spread evenly (a prediction, not an estimate).
+/// The motion of one of `intervals` equal frame intervals, with the translation spread evenly (a prediction, not an
+/// estimate).
 Eigen::Isometry3d one_interval(const Eigen::Isometry3d& motion, int intervals) {
   const Eigen::AngleAxisd rotation(motion.linear());
   Eigen::Isometry3d part = Eigen::Isometry3d::Identity();
@@ -58,8 +59,9 @@ Eigen::Isometry3d one_interval(const Eigen::Isometry3d& motion, int intervals) {
 void check_image(const ImageView& image, const PinholeCamera& camera, bool any_size, const char* side) {
   if (image.empty()) throw DataError(std::string("the ") + side + " image is empty");
   if (!any_size && (image.width != camera.width || image.height != camera.height)) {
-    throw DataError(std::string("the ") + side + " image has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                    " pixels, the calibration expects " + std::to_string(camera.width) + "x" + std::to_string(camera.height));
+    throw DataError(std::string("the ") + side + " image has " + std::to_string(image.width) + "x" +
+                    std::to_string(image.height) + " pixels, the calibration expects " + std::to_string(camera.width) +
+                    "x" + std::to_string(camera.height));
   }
 }
 
@@ -79,13 +81,17 @@ const char* to_string(FrameStatus status) {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoRig& rig, Device& device, const Config& config)
-      : rig_(rig), device_(device), config_(config), frontend_(stages::make_frontend(rig, device, config)), offset_(rig, config.pose),
+      : rig_(rig),
+        device_(device),
+        config_(config),
+        frontend_(frontend::make_frontend(rig, device, config)),
+        offset_(rig, config.pose),
         search_(rig, config, *frontend_, offset_) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
 
-  stages::Frontend& frontend() const { return *frontend_; }
+  frontend::Frontend& frontend() const { return *frontend_; }
   Device& device() const { return device_; }
   const Config& config() const { return config_; }
 
@@ -99,15 +105,15 @@ class StereoOdometry::Implementation {
   StereoRig rig_;
   Device& device_;
   Config config_;
-  std::unique_ptr<stages::Frontend> frontend_;
+  std::unique_ptr<frontend::Frontend> frontend_;
   odometry::DisparityOffset offset_;
   odometry::MotionSearch search_;
   odometry::KeyRig key_rig_;
 
-  int frame_ = -1;                 ///< number of the current frame
-  bool has_base_ = false;          ///< a frame that the next one is matched with
-  bool keep_pending_ = false;      ///< the current frame is the next one's base
-  bool key_pending_ = false;       ///< and its key rig
+  int frame_ = -1;             ///< number of the current frame
+  bool has_base_ = false;      ///< a frame that the next one is matched with
+  bool keep_pending_ = false;  ///< the current frame is the next one's base
+  bool key_pending_ = false;   ///< and its key rig
   int base_frame_ = 0;
   Eigen::Isometry3d base_from_key_ = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 6> base_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
@@ -122,7 +128,7 @@ class StereoOdometry::Implementation {
   bool base_to_key_pending_ = false;  ///< the base becomes the key rig before the current frame is kept
 
   odometry::StepHandle last_step_;  ///< of the current frame; null where none was tried
-  std::vector<double> distances_;    ///< buffer of median_parallax()
+  std::vector<double> distances_;   ///< buffer of median_parallax()
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
@@ -186,7 +192,8 @@ std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motio
   return motion;
 }
 
-/// The motion since the base or the key rig; after a loss, else the one since the frame that was lost, from which tracking restarts.
+/// The motion since the base or the key rig; after a loss, else the one since the frame that was lost, from which
+/// tracking restarts.
 odometry::StepHandle StereoOdometry::Implementation::find_motion(FrameResult& result) {
   odometry::MotionPrior prior;
   prior.seed = config_.seed + static_cast<std::uint64_t>(frame_);
@@ -194,27 +201,28 @@ odometry::StepHandle StereoOdometry::Implementation::find_motion(FrameResult& re
   prior.key_frame = key_rig_.frame();
   prior.previous_frame = base_frame_;
   if (base_frame_ == key_rig_.frame()) {
-    prior.base = stages::Base::key;
+    prior.base = Base::key;
   } else {
     prior.base_from_key = base_from_key_;
   }
   odometry::StepHandle step = search_.find(prior);
   if (step->ok() || !unplaced_) return step;
-  prior.base = stages::Base::previous;
+  prior.base = Base::previous;
   prior.previous_frame = unplaced_->frame;
   prior.prediction = std::nullopt;
   odometry::StepHandle restart = search_.find(prior);
   if (!restart->ok()) return step;
-  result.message += std::string(result.message.empty() ? "" : "; ") + "restarted from frame " + std::to_string(unplaced_->frame) +
-                    ", whose place is a guess";
+  result.message += std::string(result.message.empty() ? "" : "; ") + "restarted from frame " +
+                    std::to_string(unplaced_->frame) + ", whose place is a guess";
   key_rig_.start(unplaced_->frame, unplaced_->world_from_left);
   base_frame_ = unplaced_->frame;
   return restart;
 }
 
-/// Pose against the key rig, or against the previous frame where the key rig is out of sight: then this frame is the next key rig.
+/// Pose against the key rig, or against the previous frame where the key rig is out of sight: then this frame is the
+/// next key rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
-  const bool by_key = step.base == stages::Base::key;
+  const bool by_key = step.base == Base::key;
   Eigen::Isometry3d current_from_key = step.motion.current_from_previous;
   Eigen::Matrix<double, 6, 6> covariance = step.motion.covariance;
   if (!by_key) {
@@ -240,14 +248,15 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.new_key_rig = !config_.odometry.key_rig || !by_key || key_rig_.is_worn(state, config_.odometry);
   base_from_key_ = current_from_key;
   base_covariance_ = covariance;
-  // All frames of a key rig are measured against its disparities: together they tell no more than the last one, the farthest away.
+  // All frames of a key rig are measured against its disparities: together they tell no more than the last one, the
+  // farthest away.
   if (result.new_key_rig) offset_.update(step.motion.offset, step.motion.offset_variance, state.frames);
   if (result.new_key_rig) key_rig_.start(frame_, result.world_from_left);
   become_base(result);
 }
 
-/// Repeats the last motion. A lost frame that has edges is kept beside the last base, which becomes the key rig: the next frame may be
-/// found against either.
+/// Repeats the last motion. A lost frame that has edges is kept beside the last base, which becomes the key rig: the
+/// next frame may be found against either.
 void StereoOdometry::Implementation::lose(FrameStatus status, const std::string& message, FrameResult& result) {
   result.status = status;
   result.message += (result.message.empty() ? "" : "; ") + message;
@@ -266,7 +275,8 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   key_pending_ = false;
 }
 
-/// The current frame is what the next one is matched with. The frontend keeps it when that one comes, so that details() sees both.
+/// The current frame is what the next one is matched with. The frontend keeps it when that one comes, so that details()
+/// sees both.
 void StereoOdometry::Implementation::become_base(const FrameResult& result) {
   keep_pending_ = true;
   key_pending_ = result.new_key_rig;
@@ -282,7 +292,7 @@ FrameDetails StereoOdometry::Implementation::details() const {
   FrameDetails details;
   details.left_edges = frontend_->edges(false);
   details.right_edges = frontend_->edges(true);
-  details.previous_stereo = frontend_->base(last_step_ ? last_step_->base : stages::Base::previous);
+  details.previous_stereo = frontend_->base(last_step_ ? last_step_->base : Base::previous);
   details.stereo = frontend_->current();
   if (!last_step_) return details;
   const odometry::MotionStep& step = *last_step_;
@@ -310,7 +320,8 @@ std::map<std::string, std::string> StereoOdometry::variants() const {
   if (implementation_->device().context() == nullptr) return chosen;
   for (const auto& variant : opencl::all_variants()) {
     chosen[variant.stage] =
-        opencl::choose_variant(variant.stage, *implementation_->device().context(), implementation_->config().variants).name;
+        opencl::choose_variant(variant.stage, *implementation_->device().context(), implementation_->config().variants)
+            .name;
   }
   return chosen;
 }

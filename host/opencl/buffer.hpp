@@ -10,7 +10,8 @@
 
 namespace quadedge::opencl {
 
-/// Owns an array of `T` on the device. Move-only. Grows on request and never shrinks, so that steady frames allocate nothing.
+/// Owns an array of `T` on the device. Move-only. Grows on request and never shrinks, so that steady frames allocate
+/// nothing.
 template <class T>
 class Buffer {
  public:
@@ -25,8 +26,8 @@ class Buffer {
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
 
-  /// Makes room for at least `count` elements, with an eighth to spare from the second time on. The contents are lost when it grows.
-  /// \throws DeviceError when memory runs out.
+  /// Makes room for at least `count` elements, with an eighth to spare from the second time on. The contents are lost
+  /// when it grows. \throws DeviceError when memory runs out.
   void ensure(Context& context, std::size_t count) {
     if (context_ != nullptr && count <= capacity_) return;
     const std::size_t spare = context_ != nullptr ? count / 8 : 0;
@@ -49,7 +50,8 @@ class Buffer {
   void write(const T* values, std::size_t count) {
     if (count == 0) return;
     context_->count_to_device(count * sizeof(T));
-    call("writing a buffer", [&] { context_->queue().enqueueWriteBuffer(memory_, CL_TRUE, 0, count * sizeof(T), values); });
+    call("writing a buffer",
+         [&] { context_->queue().enqueueWriteBuffer(memory_, CL_TRUE, 0, count * sizeof(T), values); });
   }
   void write(Context& context, const std::vector<T>& values) {
     ensure(context, values.size());
@@ -61,7 +63,8 @@ class Buffer {
     context_->count_wait();
     enqueue_read(values, count, offset, CL_TRUE);
   }
-  /// The same without waiting: `values` are there after the next read() of any buffer of the context, and must live until then.
+  /// The same without waiting: `values` are there after the next read() of any buffer of the context, and must live
+  /// until then.
   void read_later(T* values, std::size_t count, std::size_t offset = 0) const {
     if (count > 0) enqueue_read(values, count, offset, CL_FALSE);
   }
@@ -79,7 +82,8 @@ class Buffer {
   void copy(const Buffer& source, std::size_t offset, std::size_t count) {
     if (count == 0) return;
     call("copying a buffer", [&] {
-      context_->queue().enqueueCopyBuffer(source.memory_, memory_, offset * sizeof(T), offset * sizeof(T), count * sizeof(T));
+      context_->queue().enqueueCopyBuffer(source.memory_, memory_, offset * sizeof(T), offset * sizeof(T),
+                                          count * sizeof(T));
     });
   }
 

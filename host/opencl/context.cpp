@@ -16,7 +16,8 @@ Context::Context(cl::Device device, std::string kernel_folder, bool profiling)
     name_ = device_.getInfo<CL_DEVICE_NAME>();
     is_cpu_ = (device_.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
     context_ = cl::Context(device_);
-    queue_ = cl::CommandQueue(context_, device_, profiling ? CL_QUEUE_PROFILING_ENABLE : cl_command_queue_properties{0});
+    queue_ =
+        cl::CommandQueue(context_, device_, profiling ? CL_QUEUE_PROFILING_ENABLE : cl_command_queue_properties{0});
   } catch (const cl::Error& error) {
     throw_device_error(std::string("opening the device (") + error.what() + ")", error.err(), name_);
   }
@@ -25,12 +26,14 @@ Context::Context(cl::Device device, std::string kernel_folder, bool profiling)
 std::string Context::kernel_text(const std::string& file) const {
   if (kernel_folder_.empty()) {
     const auto found = embedded_kernels().find(file);
-    if (found == embedded_kernels().end()) throw DeviceError("kernel file " + file + " is not embedded in this program");
+    if (found == embedded_kernels().end())
+      throw DeviceError("kernel file " + file + " is not embedded in this program");
     return found->second;
   }
   const std::string path = kernel_folder_ + "/" + file;
   std::ifstream stream(path);
-  if (!stream) throw DataError(path + ": kernel file cannot be read; --kernels expects a folder that holds every kernel file");
+  if (!stream)
+    throw DataError(path + ": kernel file cannot be read; --kernels expects a folder that holds every kernel file");
   std::ostringstream text;
   text << "#line 1 \"" << file << "\"\n" << stream.rdbuf();
   return text.str();
@@ -57,8 +60,8 @@ cl::Program Context::program(const std::vector<std::string>& files, const Define
     } catch (const cl::Error&) {
       log = "(the driver gives no log)";
     }
-    throw DeviceError("building the kernels of " + (files.empty() ? std::string("common.cl") : files.back()) + " failed: " +
-                      status_name(error.err()) + " on " + name_ + "\noptions: " + options + "\n" + log);
+    throw DeviceError("building the kernels of " + (files.empty() ? std::string("common.cl") : files.back()) +
+                      " failed: " + status_name(error.err()) + " on " + name_ + "\noptions: " + options + "\n" + log);
   }
   build_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   programs_.emplace(key, program);

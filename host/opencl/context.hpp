@@ -54,7 +54,8 @@ class Context {
   /// The stage that the following launches belong to (profiling).
   void begin_stage(const std::string& stage) { stage_ = stage; }
   void record(const cl::Event& event);
-  /// Milliseconds of kernel time (START to END) per stage since the last call, in order of first launch; waits for the queue.
+  /// Milliseconds of kernel time (START to END) per stage since the last call, in order of first launch; waits for the
+  /// queue.
   std::vector<std::pair<std::string, double>> take_profile();
 
  private:

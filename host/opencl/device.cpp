@@ -58,7 +58,8 @@ std::vector<FoundDevice> find_devices() {
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -90,7 +91,8 @@ std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const
 
 std::string no_match_message(const std::vector<FoundDevice>& devices, const std::string& choice) {
   if (devices.empty()) {
-    return "no OpenCL device was found. For a CPU install PoCL (Debian: apt-get install pocl-opencl-icd), for a GPU its "
+    return "no OpenCL device was found. For a CPU install PoCL (Debian: apt-get install pocl-opencl-icd), for a GPU "
+           "its "
            "vendor's OpenCL driver; `clinfo -l` then lists it. `--device reference` runs without OpenCL, slowly.";
   }
   std::string message = "no OpenCL device matches '" + choice + "'; there are:";

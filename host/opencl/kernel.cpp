@@ -27,8 +27,10 @@ void check_signature(const cl::Kernel& kernel, const std::vector<ArgumentType>& 
       ArgumentType found;
       found.type = trimmed(kernel.getArgInfo<CL_KERNEL_ARG_TYPE_NAME>(i));
       found.global = kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) == CL_KERNEL_ARG_ADDRESS_GLOBAL;
-      found.constant = found.global && (kernel.getArgInfo<CL_KERNEL_ARG_TYPE_QUALIFIER>(i) & CL_KERNEL_ARG_TYPE_CONST) != 0;
-      if (found.type != expected[i].type || found.global != expected[i].global || found.constant != expected[i].constant) {
+      found.constant =
+          found.global && (kernel.getArgInfo<CL_KERNEL_ARG_TYPE_QUALIFIER>(i) & CL_KERNEL_ARG_TYPE_CONST) != 0;
+      if (found.type != expected[i].type || found.global != expected[i].global ||
+          found.constant != expected[i].constant) {
         throw DeviceError("kernel " + name + ", argument " + std::to_string(i) + " (" +
                           trimmed(kernel.getArgInfo<CL_KERNEL_ARG_NAME>(i)) + "): the kernel declares " + words(found) +
                           ", the host passes " + words(expected[i]));

@@ -26,12 +26,30 @@ struct Out {
 /// OpenCL C name of a host type; specialise it for a structure that is passed by value.
 template <class T>
 struct TypeName;
-template <> struct TypeName<cl_int> { static constexpr const char* value = "int"; };
-template <> struct TypeName<cl_uint> { static constexpr const char* value = "uint"; };
-template <> struct TypeName<cl_float> { static constexpr const char* value = "float"; };
-template <> struct TypeName<cl_char> { static constexpr const char* value = "char"; };
-template <> struct TypeName<cl_uchar> { static constexpr const char* value = "uchar"; };
-template <> struct TypeName<cl_ushort> { static constexpr const char* value = "ushort"; };
+template <>
+struct TypeName<cl_int> {
+  static constexpr const char* value = "int";
+};
+template <>
+struct TypeName<cl_uint> {
+  static constexpr const char* value = "uint";
+};
+template <>
+struct TypeName<cl_float> {
+  static constexpr const char* value = "float";
+};
+template <>
+struct TypeName<cl_char> {
+  static constexpr const char* value = "char";
+};
+template <>
+struct TypeName<cl_uchar> {
+  static constexpr const char* value = "uchar";
+};
+template <>
+struct TypeName<cl_ushort> {
+  static constexpr const char* value = "ushort";
+};
 
 /// What a kernel argument has to look like in the built program.
 struct ArgumentType {
@@ -92,19 +110,26 @@ class Kernel {
                                              context_->profiling() ? &event : nullptr);
       if (context_->profiling()) context_->record(event);
     } catch (const cl::Error& error) {
-      throw_device_error("launching kernel " + name_ + " over " + std::to_string(global_x) + "x" + std::to_string(global_y) +
-                             " in groups of " + std::to_string(range.local_x) + "x" + std::to_string(range.local_y),
+      throw_device_error("launching kernel " + name_ + " over " + std::to_string(global_x) + "x" +
+                             std::to_string(global_y) + " in groups of " + std::to_string(range.local_x) + "x" +
+                             std::to_string(range.local_y),
                          error.err(), context_->name());
     }
   }
 
  private:
   template <class T>
-  void set(cl_uint index, const In<T>& argument) const { mutable_kernel().setArg(index, *argument.memory); }
+  void set(cl_uint index, const In<T>& argument) const {
+    mutable_kernel().setArg(index, *argument.memory);
+  }
   template <class T>
-  void set(cl_uint index, const Out<T>& argument) const { mutable_kernel().setArg(index, *argument.memory); }
+  void set(cl_uint index, const Out<T>& argument) const {
+    mutable_kernel().setArg(index, *argument.memory);
+  }
   template <class T>
-  void set(cl_uint index, const T& argument) const { mutable_kernel().setArg(index, argument); }
+  void set(cl_uint index, const T& argument) const {
+    mutable_kernel().setArg(index, argument);
+  }
   cl::Kernel& mutable_kernel() const { return const_cast<cl::Kernel&>(kernel_); }
 
   Context* context_ = nullptr;

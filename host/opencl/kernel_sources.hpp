@@ -6,7 +6,7 @@
 
 namespace quadedge::opencl {
 
-/// File name ("edges.cl") -> text, beginning with a #line marker.
+/// File name ("edge_detection.cl") -> text, beginning with a #line marker.
 const std::map<std::string, std::string>& embedded_kernels();
 
 }  // namespace quadedge::opencl

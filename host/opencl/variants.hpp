@@ -11,13 +11,13 @@ namespace quadedge::opencl {
 
 /// One way to run a stage. All variants of a stage give the same result.
 struct Variant {
-  std::string stage;     ///< "edges", "patches", "sift", "stereo", ...
-  std::string name;      ///< "cpu", "gpu", ...
-  Defines defines;       ///< compile-time parameters
-  int local_size;        ///< work-items per group in x
+  std::string stage;  ///< "edge_detection", "patches", "sift", ...
+  std::string name;   ///< "cpu", "gpu", ...
+  Defines defines;    ///< compile-time parameters
+  int local_size;     ///< work-items per group in x
   bool default_on_cpu;
   bool default_on_gpu;
-  std::string about;     ///< one sentence for `quadedge variants`
+  std::string about;  ///< one sentence for `quadedge variants`
 };
 
 /// Every variant of every stage, in the order of the stages.

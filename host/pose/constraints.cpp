@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pose/angles.hpp"
+#include "common/angles.hpp"
 
 namespace quadedge::pose {
 
@@ -13,7 +13,8 @@ ConstraintLimits::ConstraintLimits(const PoseConfig& config)
       max_cosine(std::cos(radians(config.min_angle))),
       determinant(config.min_determinant) {}
 
-ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPair& current, const ConstraintLimits& limits) {
+ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPair& current,
+                                  const ConstraintLimits& limits) {
   ConstraintCheck check;
   const double tangents = previous.first.tangent.dot(previous.second.tangent);
   const double tangents_bar = current.first.tangent.dot(current.second.tangent);

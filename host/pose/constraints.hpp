@@ -1,5 +1,6 @@
 #pragma once
-/// \file constraints.hpp  The six constraints that a pair of quads must fulfil to have a common motion (paper Equation 9).
+/// \file constraints.hpp  The six constraints that a pair of quads must fulfil to have a common motion (paper Equation
+/// 9).
 
 #include <array>
 
@@ -23,8 +24,8 @@ struct ConstraintLimits {
 
 /// Each constraint of Equation 9 with its own verdict; all quantities are free of scale.
 struct ConstraintCheck {
-  /// [0] relative difference of |D|, over the previous |D|; [1], [2] signed cosines between D and T1, T2; [3] signed T1 . T2;
-  /// [4] D is not parallel to T1 before and after, or else not parallel to T2, with the quads in swapped roles;
+  /// [0] relative difference of |D|, over the previous |D|; [1], [2] signed cosines between D and T1, T2; [3] signed T1
+  /// . T2; [4] D is not parallel to T1 before and after, or else not parallel to T2, with the quads in swapped roles;
   /// [5] the sign of det(D / |D|, T1, T2) is the same, where both magnitudes make it informative.
   /// The determinant is only a sign: where [0] to [3] hold its magnitude follows from them.
   std::array<bool, 6> passed{};
@@ -33,6 +34,7 @@ struct ConstraintCheck {
 };
 
 /// Checks all six. Two points on one spot (|D| = 0 before or after) fail every constraint that needs D.
-ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPair& current, const ConstraintLimits& limits);
+ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPair& current,
+                                  const ConstraintLimits& limits);
 
 }  // namespace quadedge::pose

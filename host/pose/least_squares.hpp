@@ -1,5 +1,6 @@
 #pragma once
-/// \file least_squares.hpp  What robust least squares on SE(3) share: a step, its application, Student-t weights and their scale.
+/// \file least_squares.hpp  What robust least squares on SE(3) share: a step, its application, Student-t weights and
+/// their scale.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -27,11 +28,14 @@ constexpr double kSmallestPivot = 1e-12;
 Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous);
 
 /// Weight of the Student-t distribution for a block of `size` residuals with squared error `error` at variance `scale`.
-inline double student_weight(double error, double scale, double size, double dof) { return (dof + size) / (dof + error / scale); }
+inline double student_weight(double error, double scale, double size, double dof) {
+  return (dof + size) / (dof + error / scale);
+}
 
 /// Variance of blocks of residuals over the assumed one, from the median of the first `count` squared errors.
 /// \param sorted a buffer that is kept between calls
-inline double measured_scale(const std::vector<double>& errors, std::size_t count, double median_of_one, std::vector<double>& sorted) {
+inline double measured_scale(const std::vector<double>& errors, std::size_t count, double median_of_one,
+                             std::vector<double>& sorted) {
   const std::size_t every = std::max<std::size_t>(1, count / kScaleErrors);
   sorted.clear();
   for (std::size_t k = 0; k < count; k += every) sorted.push_back(errors[k]);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pose/angles.hpp"
+#include "common/angles.hpp"
 
 namespace quadedge::pose {
 
@@ -16,7 +16,8 @@ double spread(const QuadObservations& quads, const std::vector<std::uint8_t>& in
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < inlier.size(); ++i) {
     if (!inlier[i]) continue;
-    const Eigen::Vector2d place(static_cast<double>(quads.scoring.left_x[i]), static_cast<double>(quads.scoring.left_y[i]));
+    const Eigen::Vector2d place(static_cast<double>(quads.scoring.left_x[i]),
+                                static_cast<double>(quads.scoring.left_y[i]));
     sum += place;
     squares += place.squaredNorm();
     count += 1;
@@ -38,15 +39,17 @@ const char* to_string(MotionStatus status) {
   return "unknown";
 }
 
-MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
-                               const std::optional<Eigen::Isometry3d>& initial, double offset_variance) {
+MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
+                               std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
+                               double offset_variance) {
   MotionEstimate estimate;
   MotionEstimator().estimate(rig, quads, config, seed, initial, offset_variance, estimate);
   return estimate;
 }
 
-void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
-                               const std::optional<Eigen::Isometry3d>& initial, double offset_variance, MotionEstimate& estimate) {
+void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
+                               std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
+                               double offset_variance, MotionEstimate& estimate) {
   std::vector<std::uint8_t> inlier = std::move(estimate.inlier);
   estimate = {};
   estimate.inlier = std::move(inlier);

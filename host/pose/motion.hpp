@@ -1,5 +1,6 @@
 #pragma once
-/// \file motion.hpp  The motion between two rigs from their quads (SPEC section 6): the front door of host/pose.
+/// \file motion.hpp  The motion between two rigs from their quads (doc/method.md section 6): the front door of
+/// host/pose.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -28,23 +29,25 @@ struct MotionEstimate {
   MotionStatus status = MotionStatus::too_few_quads;
   /// Gamma_current = current_from_previous * Gamma_previous, left cameras, metres. Identity unless status is ok.
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
-  /// (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame; zero unless status is ok and
-  /// config.refine is on.
+  /// (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame; zero unless status is ok
+  /// and config.refine is on.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<std::uint8_t> inlier;  ///< one byte per quad, at the pose found (whatever the status)
   int inliers = 0;
-  double share = 0;                  ///< inliers / quads
+  double share = 0;                        ///< inliers / quads
   double offset = 0, offset_variance = 0;  ///< what the disparities lack, see fit_offset() [px, px^2]
-  int hypotheses = 0, draws = 0;     ///< of the search (see Consensus)
+  int hypotheses = 0, draws = 0;           ///< of the search (see Consensus)
 };
 
 /// Finds the motion: consensus of two-quad samples, then least squares over all its inliers.
-/// With config.refine off the pose is the best of the paper's two-quad samples and their local optimisations over at most
-/// config.preview quads, whichever explains more of all quads; there is no fit over all inliers and no covariance.
+/// With config.refine off the pose is the best of the paper's two-quad samples and their local optimisations over at
+/// most config.preview quads, whichever explains more of all quads; there is no fit over all inliers and no covariance.
 /// \param offset_variance of the disparities' offset [px^2], 0: taken as exact
-/// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to frame.
-MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
-                               const std::optional<Eigen::Isometry3d>& initial = std::nullopt, double offset_variance = 0);
+/// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to
+/// frame.
+MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
+                               std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial = std::nullopt,
+                               double offset_variance = 0);
 
 /// estimate_motion() with buffers that are kept between calls.
 class MotionEstimator {

@@ -14,14 +14,16 @@ Eigen::Vector3d image_step(const PinholeCamera& camera, const Eigen::Vector2d& s
 /// Image movement of a point of homogeneous coordinates `y` (camera frame) that moves by `dy`, pixels.
 Eigen::Vector2d image_motion(const PinholeCamera& camera, const Eigen::Vector3d& y, const Eigen::Vector3d& dy) {
   const double inverse = 1.0 / (y.z() * y.z());
-  return {camera.fx * (dy.x() * y.z() - y.x() * dy.z()) * inverse, camera.fy * (dy.y() * y.z() - y.y() * dy.z()) * inverse};
+  return {camera.fx * (dy.x() * y.z() - y.x() * dy.z()) * inverse,
+          camera.fy * (dy.y() * y.z() - y.y() * dy.z()) * inverse};
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
-std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObservation& observation, double min_epipolar_angle) {
+std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObservation& observation,
+                                         double min_epipolar_angle) {
   const Eigen::Matrix3d rotation = rig.right_from_left.linear();
   const Eigen::Vector3d translation = rig.right_from_left.translation();
   const double min_sine = std::sin(min_epipolar_angle);
@@ -77,7 +79,8 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   return result;
 }
 
-std::optional<OrientedPoint> reconstruct(const StereoRig& rig, const StereoObservation& observation, double min_epipolar_angle) {
+std::optional<OrientedPoint> reconstruct(const StereoRig& rig, const StereoObservation& observation,
+                                         double min_epipolar_angle) {
   const std::optional<StereoMeasurement> measurement = measure(rig, observation, min_epipolar_angle);
   if (!measurement) return std::nullopt;
   return measurement->oriented_point();

@@ -1,13 +1,14 @@
 #include "pose/place_terms.hpp"
 
-#include "pose/row_blocks.hpp"
-#include "pose/vector_clones.hpp"
+#include "common/row_blocks.hpp"
+#include "common/vector_clones.hpp"
 
 namespace quadedge::pose {
 
 namespace {
 
-constexpr std::size_t kPoseValues = 27, kOffsetValues = 35;  ///< by pose; with by-offset: six with the pose, its square, its gradient
+constexpr std::size_t kPoseValues = 27,
+                      kOffsetValues = 35;  ///< by pose; with by-offset: six with the pose, its square, its gradient
 
 /// What all lanes share.
 struct Shared {
@@ -36,13 +37,15 @@ struct Lanes {
   double depth[kPlaceLanes], error[kPlaceLanes];  ///< error -1: behind the camera
 };
 
-/// The residuals e (across, along, inverse depth), their derivatives g_r by the homogeneous point y, h by the own depth in its standard
-/// deviations, o by the offset. With P = I - h h^T / (1 + h^2), what is left when the depth has been eliminated, the sums over residuals
+/// The residuals e (across, along, inverse depth), their derivatives g_r by the homogeneous point y, h by the own depth
+/// in its standard deviations, o by the offset. With P = I - h h^T / (1 + h^2), what is left when the depth has been
+/// eliminated, the sums over residuals
 ///   M = sum P_rs g_r g_s^T,  b = sum P_rs g_r e_s
-/// give all: a step (w, v) moves y by w x y + rho v, so the matrix has the blocks [y] M [y]^T, rho [y] M, rho^2 M, the gradient y x b, rho b.
+/// give all: a step (w, v) moves y by w x y + rho v, so the matrix has the blocks [y] M [y]^T, rho [y] M, rho^2 M, the
+/// gradient y x b, rho b.
 template <std::size_t Values>
-[[gnu::always_inline]] inline void evaluate_lanes(const Columns& columns, const double* depths, std::size_t first, const Shared& shared,
-                                                  Lanes<Values>& lanes) {
+[[gnu::always_inline]] inline void evaluate_lanes(const Columns& columns, const double* depths, std::size_t first,
+                                                  const Shared& shared, Lanes<Values>& lanes) {
   using T = PlaceTerms;
   const auto c = [&](T::Column which, std::size_t lane) { return columns.values[which][first + lane]; };
   const auto& r = shared.rotation;
@@ -69,7 +72,8 @@ template <std::size_t Values>
     const double d2 = g22 * t[2] + inverse * weight;
     const double h0 = d0 * sigma, h1 = d1 * sigma, h2 = d2 * sigma;
     const double per_pixel = c(T::inverse_depth_per_pixel, k);
-    const double o0 = d0 * per_pixel, o1 = d1 * per_pixel, o2 = d2 * per_pixel - weight * c(T::inverse_depth_bar_per_pixel, k);
+    const double o0 = d0 * per_pixel, o1 = d1 * per_pixel,
+                 o2 = d2 * per_pixel - weight * c(T::inverse_depth_bar_per_pixel, k);
     const double e0 = ax * du + ay * dv + o0 * shared.offset - h0 * depth;
     const double e1 = lx * du + ly * dv + o1 * shared.offset - h1 * depth;
     const double e2 = (rho * inverse - c(T::inverse_depth_bar, k)) * weight + o2 * shared.offset - h2 * depth;
@@ -143,8 +147,8 @@ template <std::size_t Values>
 }
 
 template <std::size_t Values>
-[[gnu::always_inline]] inline void sum_rows(const Columns& columns, double* depth, double* error, std::size_t begin, std::size_t end,
-                                            const Shared& shared, double* sums) {
+[[gnu::always_inline]] inline void sum_rows(const Columns& columns, double* depth, double* error, std::size_t begin,
+                                            std::size_t end, const Shared& shared, double* sums) {
   double total[Values][kPlaceLanes] = {};
   for (std::size_t i = begin; i < end; i += kPlaceLanes) {
     Lanes<Values> lanes;
@@ -163,8 +167,8 @@ template <std::size_t Values>
 }
 
 QUADEDGE_VECTOR_CLONES
-void sum_by_pose(const Columns& columns, double* depth, double* error, std::size_t begin, std::size_t end, const Shared& shared,
-                 double* sums) {
+void sum_by_pose(const Columns& columns, double* depth, double* error, std::size_t begin, std::size_t end,
+                 const Shared& shared, double* sums) {
   sum_rows<kPoseValues>(columns, depth, error, begin, end, shared, sums);
 }
 
@@ -175,7 +179,8 @@ void sum_by_pose_and_offset(const Columns& columns, double* depth, double* error
 }
 
 QUADEDGE_VECTOR_CLONES
-void evaluate_few(const Columns& columns, const double* depth, std::size_t first, const Shared& shared, double (*values)[kPlaceLanes]) {
+void evaluate_few(const Columns& columns, const double* depth, std::size_t first, const Shared& shared,
+                  double (*values)[kPlaceLanes]) {
   Lanes<kPoseValues> lanes;
   evaluate_lanes(columns, depth + first, first, shared, lanes);
   for (std::size_t j = 0; j < kPoseValues; ++j)
@@ -194,9 +199,10 @@ struct Sums {
 template <std::size_t Values>
 Sums<Values> sum_all(PlaceTerms& terms, const Shared& shared, decltype(sum_by_pose)& sum_block) {
   const Columns columns(terms);
-  return sum_row_blocks(terms.padded_size(), Sums<Values>(), [&](std::size_t begin, std::size_t end, Sums<Values>& sum) {
-    sum_block(columns, terms.depth.data(), terms.error.data(), begin, end, shared, sum.values);
-  });
+  return sum_row_blocks(terms.padded_size(), Sums<Values>(),
+                        [&](std::size_t begin, std::size_t end, Sums<Values>& sum) {
+                          sum_block(columns, terms.depth.data(), terms.error.data(), begin, end, shared, sum.values);
+                        });
 }
 
 /// \param stride between consecutive values
@@ -228,16 +234,27 @@ void PlaceTerms::assign(const QuadObservations& quads, const std::vector<std::in
         continue;
       }
       const FitTerm term = make_term(quads, static_cast<std::size_t>(rows[k]), noise);
-      const double values[kColumns] = {
-          term.ray.x(), term.ray.y(), term.inverse_depth, term.inverse_depth_sigma, term.inverse_depth_per_pixel,
-          term.inverse_depth_bar_per_pixel, term.place.x(), term.place.y(), term.across.x() * left.fx, term.across.y() * left.fy,
-          term.along.x() * left.fx, term.along.y() * left.fy, term.inverse_depth_bar, term.inverse_depth_bar_weight};
+      const double values[kColumns] = {term.ray.x(),
+                                       term.ray.y(),
+                                       term.inverse_depth,
+                                       term.inverse_depth_sigma,
+                                       term.inverse_depth_per_pixel,
+                                       term.inverse_depth_bar_per_pixel,
+                                       term.place.x(),
+                                       term.place.y(),
+                                       term.across.x() * left.fx,
+                                       term.across.y() * left.fy,
+                                       term.along.x() * left.fx,
+                                       term.along.y() * left.fy,
+                                       term.inverse_depth_bar,
+                                       term.inverse_depth_bar_weight};
       for (int which = 0; which < kColumns; ++which) columns_[static_cast<std::size_t>(which)][k] = values[which];
     }
   });
 }
 
-Normal<6> normal_by_pose(PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset, const StudentWeights& weights) {
+Normal<6> normal_by_pose(PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset,
+                         const StudentWeights& weights) {
   const auto sums = sum_all<kPoseValues>(terms, Shared(current_from_previous, offset, weights), sum_by_pose);
   Normal<6> normal;
   unpack_pose(sums.values, 1, normal.matrix);
@@ -247,7 +264,8 @@ Normal<6> normal_by_pose(PlaceTerms& terms, const Eigen::Isometry3d& current_fro
 
 Normal<7> normal_by_pose_and_offset(PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset,
                                     const StudentWeights& weights) {
-  const auto sums = sum_all<kOffsetValues>(terms, Shared(current_from_previous, offset, weights), sum_by_pose_and_offset);
+  const auto sums =
+      sum_all<kOffsetValues>(terms, Shared(current_from_previous, offset, weights), sum_by_pose_and_offset);
   Normal<7> normal;
   unpack_pose(sums.values, 1, normal.matrix);
   normal.gradient.head<6>() = Eigen::Map<const Vector6d>(sums.values + 21);
@@ -272,7 +290,8 @@ Vector6d PlaceContributions::gradient(std::size_t lane) const {
 
 void contributions_by_pose(const PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset,
                            const StudentWeights& weights, std::size_t first, PlaceContributions& result) {
-  evaluate_few(Columns(terms), terms.depth.data(), first, Shared(current_from_previous, offset, weights), result.values);
+  evaluate_few(Columns(terms), terms.depth.data(), first, Shared(current_from_previous, offset, weights),
+               result.values);
 }
 
 }  // namespace quadedge::pose

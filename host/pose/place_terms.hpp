@@ -1,5 +1,6 @@
 #pragma once
-/// \file place_terms.hpp  The places of many quads for least squares: FitTerm's place as a structure of arrays, and sums over it.
+/// \file place_terms.hpp  The places of many quads for least squares: FitTerm's place as a structure of arrays, and
+/// sums over it.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -20,13 +21,26 @@ constexpr std::size_t kPlaceLanes = 8;
 class PlaceTerms {
  public:
   enum Column {
-    ray_x, ray_y, inverse_depth, inverse_depth_sigma, inverse_depth_per_pixel, inverse_depth_bar_per_pixel, place_x, place_y,
-    across_x, across_y, along_x, along_y,  ///< times the focal lengths: per unit of a ray, not per pixel
-    inverse_depth_bar, inverse_depth_bar_weight, kColumns
+    ray_x,
+    ray_y,
+    inverse_depth,
+    inverse_depth_sigma,
+    inverse_depth_per_pixel,
+    inverse_depth_bar_per_pixel,
+    place_x,
+    place_y,
+    across_x,
+    across_y,
+    along_x,
+    along_y,  ///< times the focal lengths: per unit of a ray, not per pixel
+    inverse_depth_bar,
+    inverse_depth_bar_weight,
+    kColumns
   };
 
   /// Takes the places of the quads `rows`; their own unknowns start at zero.
-  void assign(const QuadObservations& quads, const std::vector<std::int32_t>& rows, const PinholeCamera& left, const NoiseModel& noise);
+  void assign(const QuadObservations& quads, const std::vector<std::int32_t>& rows, const PinholeCamera& left,
+              const NoiseModel& noise);
 
   std::size_t size() const { return size_; }
   /// With the rows of zeros at the end.
@@ -47,22 +61,26 @@ struct StudentWeights {
   double dof = 5;
 };
 
-/// Normal equations by (rotation, translation) of a left perturbation of current_from_previous, of all terms at a pose and with
-/// `offset` [px] added to all disparities; each quad's own depth is eliminated in closed form and its `depth` and `error` are renewed.
-Normal<6> normal_by_pose(PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset, const StudentWeights& weights);
+/// Normal equations by (rotation, translation) of a left perturbation of current_from_previous, of all terms at a pose
+/// and with `offset` [px] added to all disparities; each quad's own depth is eliminated in closed form and its `depth`
+/// and `error` are renewed.
+Normal<6> normal_by_pose(PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset,
+                         const StudentWeights& weights);
 
 /// The same with the offset as seventh unknown.
 Normal<7> normal_by_pose_and_offset(PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset,
                                     const StudentWeights& weights);
 
-/// What each of kPlaceLanes quads alone contributes to normal_by_pose(): upper triangle of the matrix, row by row, then the gradient.
+/// What each of kPlaceLanes quads alone contributes to normal_by_pose(): upper triangle of the matrix, row by row, then
+/// the gradient.
 struct PlaceContributions {
   double values[27][kPlaceLanes];
 
   Matrix6d matrix(std::size_t lane) const;
   Vector6d gradient(std::size_t lane) const;
 };
-/// Of the quads first .. first + kPlaceLanes - 1, zeros beyond the last one. Leaves `depth` and `error` of the terms as they are.
+/// Of the quads first .. first + kPlaceLanes - 1, zeros beyond the last one. Leaves `depth` and `error` of the terms as
+/// they are.
 void contributions_by_pose(const PlaceTerms& terms, const Eigen::Isometry3d& current_from_previous, double offset,
                            const StudentWeights& weights, std::size_t first, PlaceContributions& result);
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "pose/angles.hpp"
-#include "pose/row_blocks.hpp"
+#include "common/angles.hpp"
+#include "common/row_blocks.hpp"
 
 namespace quadedge::pose {
 
@@ -17,7 +17,10 @@ constexpr std::vector<float> ScoringArrays::*kColumns[] = {
     &ScoringArrays::right_cos, &ScoringArrays::right_sin};
 
 StereoObservation observation(const StereoEdges& edges, std::size_t i) {
-  return {{edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]}, edges.left_direction[i], edges.right_direction[i]};
+  return {{edges.left_x[i], edges.left_y[i]},
+          {edges.right_x[i], edges.right_y[i]},
+          edges.left_direction[i],
+          edges.right_direction[i]};
 }
 
 }  // namespace
@@ -53,17 +56,26 @@ void QuadObservations::resize(std::size_t quads) {
 }
 
 void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
-                           const StereoObservation& current_edge, float ncc_value, std::int32_t rival_count, std::int32_t match_number,
-                           const QuadLimits& limits) {
+                           const StereoObservation& current_edge, float ncc_value, std::int32_t rival_count,
+                           std::int32_t match_number, const QuadLimits& limits) {
   previous[i] = before;
   current[i] = after;
   const double doubt = before.slope_per_radian * limits.direction_sigma / limits.slope_prior;
   const Eigen::Vector3d tangent = (before.direction + before.slope / (1.0 + doubt * doubt) * before.ray).normalized();
-  const double values[] = {before.ray.x(), before.ray.y(), before.inverse_depth, tangent.x(), tangent.y(), tangent.z(),
-                           current_edge.left.x(), current_edge.left.y(),
-                           std::cos(current_edge.left_direction), std::sin(current_edge.left_direction),
-                           current_edge.right.x(), current_edge.right.y(),
-                           std::cos(current_edge.right_direction), std::sin(current_edge.right_direction)};
+  const double values[] = {before.ray.x(),
+                           before.ray.y(),
+                           before.inverse_depth,
+                           tangent.x(),
+                           tangent.y(),
+                           tangent.z(),
+                           current_edge.left.x(),
+                           current_edge.left.y(),
+                           std::cos(current_edge.left_direction),
+                           std::sin(current_edge.left_direction),
+                           current_edge.right.x(),
+                           current_edge.right.y(),
+                           std::cos(current_edge.right_direction),
+                           std::sin(current_edge.right_direction)};
   const double* value = values;
   for (auto column : kColumns) (scoring.*column)[i] = static_cast<float>(*value++);
   ncc[i] = ncc_value;
@@ -71,8 +83,9 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
   match[i] = match_number;
 }
 
-bool QuadObservations::append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge,
-                              float ncc_value, std::int32_t rival_count, std::int32_t match_number, const QuadLimits& limits) {
+bool QuadObservations::append(const StereoRig& rig, const StereoObservation& previous_edge,
+                              const StereoObservation& current_edge, float ncc_value, std::int32_t rival_count,
+                              std::int32_t match_number, const QuadLimits& limits) {
   const auto before = measure(rig, previous_edge, limits.min_epipolar_angle);
   if (!before) return false;
   const auto after = measure(rig, current_edge, limits.min_epipolar_angle);
@@ -98,10 +111,14 @@ QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, 
   return quads;
 }
 
-void QuadBuilder::build(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current, const TemporalMatches& matches,
-                        const QuadLimits& limits, QuadObservations& quads) {
-  const auto before = [&](std::size_t i) -> const auto& { return previous[static_cast<std::size_t>(matches.previous[i])]; };
-  const auto edge_after = [&](std::size_t i) { return observation(current, static_cast<std::size_t>(matches.current[i])); };
+void QuadBuilder::build(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
+                        const TemporalMatches& matches, const QuadLimits& limits, QuadObservations& quads) {
+  const auto before = [&](std::size_t i) -> const auto& {
+    return previous[static_cast<std::size_t>(matches.previous[i])];
+  };
+  const auto edge_after = [&](std::size_t i) {
+    return observation(current, static_cast<std::size_t>(matches.current[i]));
+  };
   if (after_.size() < matches.size()) after_.resize(matches.size());
   for_row_blocks(matches.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -116,7 +133,8 @@ void QuadBuilder::build(const StereoRig& rig, const MeasuredEdges& previous, con
   for_row_blocks(rows_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       const std::size_t i = rows_[q];
-      quads.set(q, *before(i), *after_[i], edge_after(i), matches.ncc[i], matches.rivals[i], static_cast<std::int32_t>(i), limits);
+      quads.set(q, *before(i), *after_[i], edge_after(i), matches.ncc[i], matches.rivals[i],
+                static_cast<std::int32_t>(i), limits);
     }
   });
 }

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "pose/angles.hpp"
+#include "common/angles.hpp"
 #include "pose/constraints.hpp"
 #include "pose/scoring.hpp"
 #include "pose/two_quads.hpp"
@@ -30,7 +30,8 @@ std::uint32_t ordered_bits(float value) {
   return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
 }
 
-/// Quads in the order in which they are trusted: fewest rivals, then highest NCC, then lowest index. Sorted as far as asked for.
+/// Quads in the order in which they are trusted: fewest rivals, then highest NCC, then lowest index. Sorted as far as
+/// asked for.
 class TrustOrder {
  public:
   using Entry = ConsensusWorkspace::Trusted;
@@ -72,10 +73,12 @@ void random_subset(std::mt19937_64& random, std::size_t count, std::size_t size,
   rows.resize(size);
 }
 
-/// Sorts the quads by the square cell of the current left image that they lie in: cells line by line, those without quads left out, quads
-/// of a cell in their order.
+/// Sorts the quads by the square cell of the current left image that they lie in: cells line by line, those without
+/// quads left out, quads of a cell in their order.
 void sort_into_cells(const ScoringArrays& quads, double side, ConsensusWorkspace& workspace) {
-  const auto number = [&](float place) { return static_cast<std::int32_t>(std::floor(static_cast<double>(place) / side)); };
+  const auto number = [&](float place) {
+    return static_cast<std::int32_t>(std::floor(static_cast<double>(place) / side));
+  };
   const auto [left, right] = std::minmax_element(quads.left_x.begin(), quads.left_x.end());
   const auto [top, bottom] = std::minmax_element(quads.left_y.begin(), quads.left_y.end());
   const std::int32_t first_column = number(*left), first_line = number(*top);
@@ -90,21 +93,25 @@ void sort_into_cells(const ScoringArrays& quads, double side, ConsensusWorkspace
   std::partial_sum(first.begin(), first.end(), first.begin());
   workspace.cells.clear();
   for (std::size_t c = 0; c + 1 < first.size(); ++c)
-    if (first[c + 1] > first[c]) workspace.cells.push_back({static_cast<std::size_t>(first[c]), static_cast<std::size_t>(first[c + 1] - first[c])});
+    if (first[c + 1] > first[c])
+      workspace.cells.push_back(
+          {static_cast<std::size_t>(first[c]), static_cast<std::size_t>(first[c + 1] - first[c])});
   workspace.members.resize(quads.size());
   for (std::size_t i = 0; i < quads.size(); ++i)
-    workspace.members[static_cast<std::size_t>(first[static_cast<std::size_t>(cell_of[i])]++)] = static_cast<std::int32_t>(i);
+    workspace.members[static_cast<std::size_t>(first[static_cast<std::size_t>(cell_of[i])]++)] =
+        static_cast<std::int32_t>(i);
 }
 
-/// At most `size` different rows, the same number from each square cell of the current left image: as many as the median cell has, or
-/// all that a cell has. So a thing counts by the area that it covers, not by the edges it is covered with. Cells and rows come in random
-/// order.
-void balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double side, std::size_t size, ConsensusWorkspace& workspace) {
+/// At most `size` different rows, the same number from each square cell of the current left image: as many as the
+/// median cell has, or all that a cell has. So a thing counts by the area that it covers, not by the edges it is
+/// covered with. Cells and rows come in random order.
+void balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double side, std::size_t size,
+                     ConsensusWorkspace& workspace) {
   auto& rows = workspace.scored_rows;
   rows.clear();
   if (quads.size() == 0) return;
   sort_into_cells(quads, side, workspace);
-  auto &cells = workspace.cells;
+  auto& cells = workspace.cells;
   auto& held = workspace.cell_sizes;
   for (std::size_t i = 0; i < cells.size(); ++i) std::swap(cells[i], cells[i + below(random, cells.size() - i)]);
   held.clear();
@@ -130,7 +137,8 @@ void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_
 
 class Search {
  public:
-  Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed, ConsensusWorkspace& workspace)
+  Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
+         ConsensusWorkspace& workspace)
       : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), limits_(config), work_(workspace) {
     const auto scored = static_cast<std::size_t>(config.scored), preview = static_cast<std::size_t>(config.preview);
     if (config.scoring_cell > 0) {
@@ -139,7 +147,8 @@ class Search {
       random_subset(random_, quads.size(), scored, work_.scored_rows);
     }
     auto &scored_rows = work_.scored_rows, &preview_rows = work_.preview_rows;
-    preview_rows.assign(scored_rows.begin(), scored_rows.begin() + static_cast<std::ptrdiff_t>(std::min(scored_rows.size(), preview)));
+    preview_rows.assign(scored_rows.begin(),
+                        scored_rows.begin() + static_cast<std::ptrdiff_t>(std::min(scored_rows.size(), preview)));
     for (auto [numbers, arrays] : {std::pair(&scored_rows, &work_.scored), std::pair(&preview_rows, &work_.preview)}) {
       std::sort(numbers->begin(), numbers->end());
       arrays->clear();
@@ -147,7 +156,8 @@ class Search {
       for (std::int32_t row : *numbers) arrays->append_row(quads.scoring, static_cast<std::size_t>(row));
     }
     work_.preview_terms.clear();
-    for (std::int32_t row : preview_rows) work_.preview_terms.push_back(make_term(quads, static_cast<std::size_t>(row), noise_));
+    for (std::int32_t row : preview_rows)
+      work_.preview_terms.push_back(make_term(quads, static_cast<std::size_t>(row), noise_));
     const double diagonal = std::hypot(rig.left.width, rig.left.height);
     min_distance_squared_ = std::pow(config.min_pair_distance * diagonal, 2);
   }
@@ -199,7 +209,8 @@ class Search {
 
   void consider(const Eigen::Isometry3d& motion) {
     ++best_.hypotheses;
-    const double raw = truncated_cost(work_.preview, LaterCameras(rig_, motion), config_.local_widening * config_.inlier_distance);
+    const double raw =
+        truncated_cost(work_.preview, LaterCameras(rig_, motion), config_.local_widening * config_.inlier_distance);
     if (best_.found && raw >= best_raw_) return;
     best_raw_ = raw;
     accept(motion);
@@ -213,7 +224,8 @@ class Search {
     for (int round = 0; round < rounds; ++round) {
       const double share = rounds > 1 ? static_cast<double>(round) / (rounds - 1) : 1.0;
       const double distance = config_.inlier_distance * std::pow(config_.local_widening, 1.0 - share);
-      select_inliers(work_.preview, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation), work_.mask);
+      select_inliers(work_.preview, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation),
+                     work_.mask);
       mask_to_rows(work_.mask, work_.inlier_rows);
       if (!fit_sample(work_.preview_terms, work_.inlier_rows, rig_, config_, motion, work_.fit)) return std::nullopt;
     }
@@ -232,7 +244,8 @@ class Search {
     const double share = static_cast<double>(inliers) / static_cast<double>(work_.scored.size());
     const double miss = std::log1p(-std::min(share * share, 1.0 - std::numeric_limits<double>::epsilon()));
     const double draws = std::log1p(-config_.confidence) / miss;
-    needed_ = std::max(config_.min_hypotheses, draws < config_.max_hypotheses ? static_cast<int>(std::ceil(draws)) : config_.max_hypotheses);
+    needed_ = std::max(config_.min_hypotheses,
+                       draws < config_.max_hypotheses ? static_cast<int>(std::ceil(draws)) : config_.max_hypotheses);
   }
 
   const QuadObservations& quads_;
@@ -251,8 +264,9 @@ class Search {
 
 }  // namespace
 
-Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
-                         const std::optional<Eigen::Isometry3d>& initial, ConsensusWorkspace& workspace) {
+Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
+                         std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
+                         ConsensusWorkspace& workspace) {
   return Search(quads, rig, config, seed, workspace).run(initial);
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "pose/angles.hpp"
+#include "common/angles.hpp"
 
 namespace quadedge::pose {
 
@@ -26,7 +26,10 @@ std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<s
       continue;
     }
     ++changed;
-    if (*p < *q) ++p; else ++q;
+    if (*p < *q)
+      ++p;
+    else
+      ++q;
   }
   return changed + static_cast<std::size_t>((a.end() - p) + (b.end() - q));
 }
@@ -35,9 +38,11 @@ void measure_scale(RefinementWorkspace& workspace) {
   workspace.place_scale = measured_scale(workspace.terms.error, workspace.terms.size(), kPlaceMedian, workspace.sorted);
 }
 
-/// Gauss-Newton from `current_from_previous`, which it replaces. \returns false when the normal equations have no solution.
-/// \param knows_scale place_scale comes from a fit over a part of the same quads and need not be measured before the first step
-bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& workspace, Eigen::Isometry3d& current_from_previous) {
+/// Gauss-Newton from `current_from_previous`, which it replaces. \returns false when the normal equations have no
+/// solution. \param knows_scale place_scale comes from a fit over a part of the same quads and need not be measured
+/// before the first step
+bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& workspace,
+              Eigen::Isometry3d& current_from_previous) {
   PlaceTerms& terms = workspace.terms;
   if (terms.size() == 0) return false;
   if (!knows_scale) {
@@ -45,7 +50,8 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
     measure_scale(workspace);
   }
   for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
-    const Normal<6> normal = normal_by_pose(terms, current_from_previous, 0, {workspace.place_scale, config.student_dof});
+    const Normal<6> normal =
+        normal_by_pose(terms, current_from_previous, 0, {workspace.place_scale, config.student_dof});
     Vector6d step;
     if (!solve(normal, step)) return false;
     current_from_previous = perturb(step, current_from_previous);
@@ -57,13 +63,15 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
 
 }  // namespace
 
-bool fit_offset(const PoseConfig& config, const Scatter& scatter, double variance, RefinementWorkspace& workspace, OffsetFit& result) {
+bool fit_offset(const PoseConfig& config, const Scatter& scatter, double variance, RefinementWorkspace& workspace,
+                OffsetFit& result) {
   using Matrix7d = Eigen::Matrix<double, 7, 7>;
   using Vector7d = Eigen::Matrix<double, 7, 1>;
   Eigen::Isometry3d pose = result.current_from_previous;
   double offset = result.offset;
   for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
-    Normal<7> normal = normal_by_pose_and_offset(workspace.terms, pose, offset, {workspace.place_scale, config.student_dof});
+    Normal<7> normal =
+        normal_by_pose_and_offset(workspace.terms, pose, offset, {workspace.place_scale, config.student_dof});
     const double weight = std::max(scatter.weight_factor, 1.0);
     normal.matrix /= weight;
     normal.gradient /= weight;
@@ -86,8 +94,9 @@ bool fit_offset(const PoseConfig& config, const Scatter& scatter, double varianc
   return true;
 }
 
-Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& initial,
-               double offset_variance, RefinementWorkspace& workspace, std::vector<std::uint8_t>& inlier) {
+Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
+               const Eigen::Isometry3d& initial, double offset_variance, RefinementWorkspace& workspace,
+               std::vector<std::uint8_t>& inlier) {
   Refined result;
   result.current_from_previous = initial;
   auto &rows = workspace.rows, &last_rows = workspace.last_rows;
@@ -96,7 +105,8 @@ Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseCo
   // Every n-th quad finds the pose, all of them make it exact.
   const std::size_t every = std::max<std::size_t>(1, quads.size() / kScoutingQuads);
   const auto select = [&](std::size_t step) {
-    select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, inlier);
+    select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle,
+                   inlier);
     rows.clear();
     for (std::size_t i = 0; i < inlier.size(); i += step)
       if (inlier[i] != 0) rows.push_back(static_cast<std::int32_t>(i));
@@ -124,12 +134,13 @@ Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseCo
   }
   if (result.solved) {
     const auto measure = [&](double offset) {
-      return measure_scatter(workspace.terms, last_rows, quads, rig, config, result.current_from_previous, offset, workspace.place_scale,
-                             workspace.scatter);
+      return measure_scatter(workspace.terms, last_rows, quads, rig, config, result.current_from_previous, offset,
+                             workspace.place_scale, workspace.scatter);
     };
     OffsetFit both;
     both.current_from_previous = result.current_from_previous;
-    // An offset that is not yet in the disparities would pass for errors that are alike: it is found first, weighed afterwards.
+    // An offset that is not yet in the disparities would pass for errors that are alike: it is found first, weighed
+    // afterwards.
     if (offset_variance > 0 && fit_offset(config, Scatter(), offset_variance, workspace, both)) {
       result.current_from_previous = both.current_from_previous;
       fit_offset(config, measure(both.offset), offset_variance, workspace, both);
@@ -142,8 +153,8 @@ Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseCo
       if (result.solved) result.covariance = measure(0).covariance();
     }
   }
-  result.inliers =
-      select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle, inlier);
+  result.inliers = select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous),
+                                  config.inlier_distance, angle, inlier);
   return result;
 }
 

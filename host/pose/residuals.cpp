@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pose/angles.hpp"
+#include "common/angles.hpp"
 
 namespace quadedge::pose {
 
@@ -37,8 +37,8 @@ FitTerm make_term(const QuadObservations& quads, std::size_t quad, const NoiseMo
   return term;
 }
 
-bool linearise(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& current_from_previous, double depth,
-               Linearisation& result) {
+bool linearise(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& current_from_previous,
+               double depth, Linearisation& result) {
   const Eigen::Vector3d ray = current_from_previous.linear() * term.ray;
   const Eigen::Vector3d translation = current_from_previous.translation();
   const double rho = term.inverse_depth + depth * term.inverse_depth_sigma;

@@ -6,7 +6,8 @@ namespace quadedge::pose {
 
 namespace {
 
-/// A block of residuals whose own unknown, with a standard normal prior, has been eliminated: error^T error is the block's cost.
+/// A block of residuals whose own unknown, with a standard normal prior, has been eliminated: error^T error is the
+/// block's cost.
 template <int Rows, int Columns>
 struct Eliminated {
   Eigen::Matrix<double, Rows, 1> error;
@@ -14,8 +15,8 @@ struct Eliminated {
   double unknown = 0;  ///< its best value
 };
 
-/// Minimises |r + h (z - at)|^2 + z^2 over z. With S = I + h h^T the cost is e^T S^-1 e, e = r - h at; multiplying by S^-1/2 leaves
-/// a plain sum of squares.
+/// Minimises |r + h (z - at)|^2 + z^2 over z. With S = I + h h^T the cost is e^T S^-1 e, e = r - h at; multiplying by
+/// S^-1/2 leaves a plain sum of squares.
 template <int Rows, int Columns>
 void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matrix<double, Rows, Columns>& by_pose,
                const Eigen::Matrix<double, Rows, 1>& by_unknown, double at, Eliminated<Rows, Columns>& result) {
@@ -35,7 +36,8 @@ struct QuadTerms {
   Eliminated<2, 3> direction;
 };
 
-bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth, QuadTerms& result) {
+bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth,
+              QuadTerms& result) {
   Linearisation linear;
   if (!linearise(term, left, pose, depth, linear)) return false;
   eliminate<3, 6>(linear.place, linear.place_by_pose, linear.place_by_depth, depth, result.place);
@@ -43,8 +45,8 @@ bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isome
   return true;
 }
 
-/// Adds weight * J^T J and weight * J^T e of `Rows` residuals that depend on the first `Columns` unknowns. Plain loops: as Eigen products
-/// this function takes minutes to compile.
+/// Adds weight * J^T J and weight * J^T e of `Rows` residuals that depend on the first `Columns` unknowns. Plain loops:
+/// as Eigen products this function takes minutes to compile.
 template <int Rows, int Columns>
 void add_rows(const Eliminated<Rows, Columns>& block, double weight, Normal<6>& normal) {
   const double *by_unknowns = block.by_pose.data(), *errors = block.error.data();
@@ -59,8 +61,8 @@ void add_rows(const Eliminated<Rows, Columns>& block, double weight, Normal<6>& 
 
 }  // namespace
 
-bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,
-                Eigen::Isometry3d& current_from_previous, SampleWorkspace& workspace) {
+bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig,
+                const PoseConfig& config, Eigen::Isometry3d& current_from_previous, SampleWorkspace& workspace) {
   if (rows.empty()) return false;
   workspace.depth.assign(rows.size(), 0.0);
   workspace.place_error.assign(rows.size(), 0.0);
@@ -68,7 +70,8 @@ bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_
   double place_scale = 1, direction_scale = 1;
   QuadTerms quad;
   const auto evaluate_row = [&](std::size_t k) {
-    if (!evaluate(terms[static_cast<std::size_t>(rows[k])], rig.left, current_from_previous, workspace.depth[k], quad)) return false;
+    if (!evaluate(terms[static_cast<std::size_t>(rows[k])], rig.left, current_from_previous, workspace.depth[k], quad))
+      return false;
     workspace.place_error[k] = quad.place.error.squaredNorm();
     workspace.direction_error[k] = quad.direction.error.squaredNorm();
     workspace.depth[k] = quad.place.unknown;
@@ -85,8 +88,11 @@ bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (!evaluate_row(k)) continue;
       const double dof = config.student_dof;
-      add_rows(quad.place, student_weight(workspace.place_error[k], place_scale, kPlaceSize, dof) / place_scale, normal);
-      add_rows(quad.direction, student_weight(workspace.direction_error[k], direction_scale, kDirectionSize, dof) / direction_scale, normal);
+      add_rows(quad.place, student_weight(workspace.place_error[k], place_scale, kPlaceSize, dof) / place_scale,
+               normal);
+      add_rows(quad.direction,
+               student_weight(workspace.direction_error[k], direction_scale, kDirectionSize, dof) / direction_scale,
+               normal);
     }
     Vector6d step;
     if (!solve(normal, step)) return false;

@@ -17,14 +17,15 @@ struct SampleWorkspace {
   std::vector<double> sorted;
 };
 
-/// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces; ends after
-/// config.fit_steps or with a step below config.fit_tolerance standard deviations of the pose.
-/// The two blocks of residuals (place and depth; direction) have their variances measured anew in each step, by the median.
-/// Each quad's true depth and slope are eliminated in closed form, which is the Schur complement of a bundle adjustment of the two rigs.
-/// Directions fix the motion of very few quads, whose places alone hardly do; refine() goes without them.
-/// \returns false when the normal equations have no solution (no quads, or all on one spot); the pose is then left at the last
+/// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces; ends
+/// after config.fit_steps or with a step below config.fit_tolerance standard deviations of the pose. The two blocks of
+/// residuals (place and depth; direction) have their variances measured anew in each step, by the median. Each quad's
+/// true depth and slope are eliminated in closed form, which is the Schur complement of a bundle adjustment of the two
+/// rigs. Directions fix the motion of very few quads, whose places alone hardly do; refine() goes without them.
+/// \returns false when the normal equations have no solution (no quads, or all on one spot); the pose is then left at
+/// the last
 ///   good step.
-bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig, const PoseConfig& config,
-                Eigen::Isometry3d& current_from_previous, SampleWorkspace& workspace);
+bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig,
+                const PoseConfig& config, Eigen::Isometry3d& current_from_previous, SampleWorkspace& workspace);
 
 }  // namespace quadedge::pose

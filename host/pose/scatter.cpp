@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pose/row_blocks.hpp"
+#include "common/row_blocks.hpp"
 
 namespace quadedge::pose {
 
 namespace {
 
-/// Cells whose errors may be alike: from one vote cell, doubled so often. From `kLeftOut` on, what the fit has taken from a cell counts.
+/// Cells whose errors may be alike: from one vote cell, doubled so often. From `kLeftOut` on, what the fit has taken
+/// from a cell counts.
 constexpr int kCellSizes = 5, kLeftOut = 2;
 /// A cell that holds more than this share of the information cannot be left out.
 constexpr double kLargestShare = 0.5;
@@ -41,10 +42,10 @@ double scatter_factor(const std::vector<Vector6d>& cells, const Matrix6d& invers
   return sum / 6.0;
 }
 
-/// The same for cells large enough to draw the fit to themselves: by how much the pose changes when each cell in turn is left out
-/// (jackknife). Zero where a cell holds too much of the information to be left out.
-double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vector<Matrix6d>& normals, const Matrix6d& normal,
-                        const Matrix6d& inverse) {
+/// The same for cells large enough to draw the fit to themselves: by how much the pose changes when each cell in turn
+/// is left out (jackknife). Zero where a cell holds too much of the information to be left out.
+double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vector<Matrix6d>& normals,
+                        const Matrix6d& normal, const Matrix6d& inverse) {
   double sum = 0;
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     if (gradients[i].isZero(0)) continue;
@@ -61,7 +62,8 @@ void merge(const CellGrid& from, const CellGrid& to, std::vector<Sum>& cells, st
   larger.assign(to.size(), Sum::Zero());
   for (int line = 0; line < from.lines; ++line)
     for (int column = 0; column < from.columns; ++column)
-      larger[static_cast<std::size_t>(line / 2 * to.columns + column / 2)] += cells[static_cast<std::size_t>(line * from.columns + column)];
+      larger[static_cast<std::size_t>(line / 2 * to.columns + column / 2)] +=
+          cells[static_cast<std::size_t>(line * from.columns + column)];
   std::swap(cells, larger);
 }
 
@@ -69,10 +71,10 @@ struct Factors {
   double smallest_cells, largest;
 };
 
-/// Factor with the smallest cells, or with none where that is larger; and the largest one of all sizes, at which the errors' likeness has
-/// been seen whole.
-Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservations& quads, const PinholeCamera& camera, double cell_side,
-                     const ScatterSums& sums, const Matrix6d& inverse, ScatterWorkspace& workspace) {
+/// Factor with the smallest cells, or with none where that is larger; and the largest one of all sizes, at which the
+/// errors' likeness has been seen whole.
+Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservations& quads, const PinholeCamera& camera,
+                     double cell_side, const ScatterSums& sums, const Matrix6d& inverse, ScatterWorkspace& workspace) {
   const double freedom = sums.used / std::max(sums.used - 2.0, 1.0);  // six parameters take the residuals of two quads
   CellGrid grid(camera, cell_side);
   auto& cells = workspace.cells;
@@ -92,8 +94,8 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
       if (size > kLeftOut) merge(grid, next, normals, workspace.larger_normals);
       grid = next;
     }
-    const double factor =
-        size < kLeftOut ? freedom * scatter_factor(cells, inverse) : jackknife_factor(cells, normals, sums.normal, inverse);
+    const double factor = size < kLeftOut ? freedom * scatter_factor(cells, inverse)
+                                          : jackknife_factor(cells, normals, sums.normal, inverse);
     result.largest = std::max(result.largest, factor);
     if (size == 0) result.smallest_cells = result.largest;
   }
@@ -102,33 +104,36 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
 
 }  // namespace
 
-Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads, const StereoRig& rig,
-                        const PoseConfig& config, const Eigen::Isometry3d& current_from_previous, double offset, double place_scale,
-                        ScatterWorkspace& workspace) {
+Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
+                        const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& current_from_previous,
+                        double offset, double place_scale, ScatterWorkspace& workspace) {
   const CellGrid left_out(rig.left, config.vote_cell * (1 << kLeftOut));
   workspace.zero.cell_normal.assign(left_out.size(), Matrix6d::Zero());
   workspace.gradients.resize(rows.size());
   const StudentWeights weights{place_scale, config.student_dof};
   ScatterSums& sums = workspace.total;
-  sum_row_blocks(rows.size(), workspace.zero, workspace.blocks, sums, [&](std::size_t begin, std::size_t end, ScatterSums& sum) {
-    PlaceContributions lanes;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t lane = k % kPlaceLanes;
-      if (lane == 0) contributions_by_pose(terms, current_from_previous, offset, weights, k, lanes);
-      const Vector6d gradient = lanes.gradient(lane);
-      workspace.gradients[k] = gradient;
-      const std::size_t i = static_cast<std::size_t>(rows[k]);
-      sum.cell_normal[left_out.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += lanes.matrix(lane);
-      sum.scatter += gradient * gradient.transpose();
-      const double weight = student_weight(terms.error[k], place_scale, kPlaceSize, config.student_dof);
-      sum.weights += weight;
-      sum.curvature += weight * (1.0 - 2.0 * weight * terms.error[k] / (place_scale * kPlaceSize * (config.student_dof + kPlaceSize)));
-      sum.used += 1;
-    }
-  });
+  sum_row_blocks(
+      rows.size(), workspace.zero, workspace.blocks, sums, [&](std::size_t begin, std::size_t end, ScatterSums& sum) {
+        PlaceContributions lanes;
+        for (std::size_t k = begin; k < end; ++k) {
+          const std::size_t lane = k % kPlaceLanes;
+          if (lane == 0) contributions_by_pose(terms, current_from_previous, offset, weights, k, lanes);
+          const Vector6d gradient = lanes.gradient(lane);
+          workspace.gradients[k] = gradient;
+          const std::size_t i = static_cast<std::size_t>(rows[k]);
+          sum.cell_normal[left_out.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += lanes.matrix(lane);
+          sum.scatter += gradient * gradient.transpose();
+          const double weight = student_weight(terms.error[k], place_scale, kPlaceSize, config.student_dof);
+          sum.weights += weight;
+          sum.curvature += weight * (1.0 - 2.0 * weight * terms.error[k] /
+                                               (place_scale * kPlaceSize * (config.student_dof + kPlaceSize)));
+          sum.used += 1;
+        }
+      });
   for (const Matrix6d& cell : sums.cell_normal) sums.normal += cell;
 
-  // The normal equations hold the weights; the curvature of the Student-t cost is smaller by the mean of d(w e)/de over w.
+  // The normal equations hold the weights; the curvature of the Student-t cost is smaller by the mean of d(w e)/de over
+  // w.
   const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
   const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kPlaceSize);
   const Factors factors = cell_factors(rows, quads, rig.left, config.vote_cell, sums, inverse, workspace);

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "pose/row_blocks.hpp"
+#include "common/row_blocks.hpp"
 
 namespace quadedge::pose {
 
@@ -23,7 +23,8 @@ void write_projection(const PinholeCamera& camera, const Eigen::Isometry3d& came
 }
 
 /// Does the image of the tangent at homogeneous pixel (x, y, z) run along (cosine, sine)?
-bool same_direction(const float* p, float x, float y, float z, float tx, float ty, float tz, float cosine, float sine, float limit) {
+bool same_direction(const float* p, float x, float y, float z, float tx, float ty, float tz, float cosine, float sine,
+                    float limit) {
   const float qx = p[0] * tx + p[1] * ty + p[2] * tz;
   const float qy = p[4] * tx + p[5] * ty + p[6] * tz;
   const float qz = p[8] * tx + p[9] * ty + p[10] * tz;
@@ -32,9 +33,11 @@ bool same_direction(const float* p, float x, float y, float z, float tx, float t
 }
 
 /// Sum of the rows' truncated squared distances [px^2].
-double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, float limit, std::size_t first, std::size_t last) {
+double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, float limit, std::size_t first,
+                    std::size_t last) {
   const float *rx = quads.ray_x.data(), *ry = quads.ray_y.data(), *rho = quads.inverse_depth.data();
-  const float *lx = quads.left_x.data(), *ly = quads.left_y.data(), *gx = quads.right_x.data(), *gy = quads.right_y.data();
+  const float *lx = quads.left_x.data(), *ly = quads.left_y.data(), *gx = quads.right_x.data(),
+              *gy = quads.right_y.data();
   const LaterCameras c = cameras;  // a local copy stays in registers
   const float *l = c.left, *g = c.right;
   float sums[kLanes] = {};

@@ -1,5 +1,6 @@
 #pragma once
-/// \file scoring.hpp  How well a motion explains quads: truncated quadratic reprojection error in both images of the later rig.
+/// \file scoring.hpp  How well a motion explains quads: truncated quadratic reprojection error in both images of the
+/// later rig.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -10,20 +11,21 @@
 
 namespace quadedge::pose {
 
-/// K [R | T] of the later rig's cameras in single precision, row-major 3 x 4: homogeneous pixels from (ray, inverse depth).
+/// K [R | T] of the later rig's cameras in single precision, row-major 3 x 4: homogeneous pixels from (ray, inverse
+/// depth).
 struct LaterCameras {
   LaterCameras(const StereoRig& rig, const Eigen::Isometry3d& current_from_previous);
   float left[12], right[12];
 };
 
-/// Mean over the rows of min(d^2, threshold^2) / threshold^2, where d is the larger of the distances (px) in the two images between
-/// the projected previous point and the current place; 1 for a point that is not in front of both cameras. 0 is perfect, 1 worthless.
-/// An empty set costs 1. Rows are summed in a fixed order.
+/// Mean over the rows of min(d^2, threshold^2) / threshold^2, where d is the larger of the distances (px) in the two
+/// images between the projected previous point and the current place; 1 for a point that is not in front of both
+/// cameras. 0 is perfect, 1 worthless. An empty set costs 1. Rows are summed in a fixed order.
 double truncated_cost(const ScoringArrays& quads, const LaterCameras& cameras, double threshold);
 
-/// Rows within `threshold` px in both images, in front of both cameras, whose projected tangent agrees with the measured direction
-/// within `max_angle` radians in both images, modulo 180 degrees.
-/// \param inlier one byte per row, resized. \returns how many.
+/// Rows within `threshold` px in both images, in front of both cameras, whose projected tangent agrees with the
+/// measured direction within `max_angle` radians in both images, modulo 180 degrees. \param inlier one byte per row,
+/// resized. \returns how many.
 int select_inliers(const ScoringArrays& quads, const LaterCameras& cameras, double threshold, double max_angle,
                    std::vector<std::uint8_t>& inlier);
 

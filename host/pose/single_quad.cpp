@@ -6,9 +6,11 @@ Eigen::Matrix3d align(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d v = from.cross(to);
   const double cosine = from.dot(to);
   if (cosine < 0) {
-    // 1 / (1 + c) loses digits towards the half turn. A half turn about the same axis first leaves less than a right angle.
+    // 1 / (1 + c) loses digits towards the half turn. A half turn about the same axis first leaves less than a right
+    // angle.
     const Eigen::Vector3d axis = v - v.dot(from) * from;
-    const Eigen::Vector3d u = axis.norm() > 0 ? Eigen::Vector3d(axis.normalized()) : Eigen::Vector3d(from.unitOrthogonal());
+    const Eigen::Vector3d u =
+        axis.norm() > 0 ? Eigen::Vector3d(axis.normalized()) : Eigen::Vector3d(from.unitOrthogonal());
     const Eigen::Matrix3d half_turn = 2.0 * u * u.transpose() - Eigen::Matrix3d::Identity();
     return align(-from, to) * half_turn;
   }

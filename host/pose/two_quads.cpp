@@ -21,7 +21,8 @@ bool build_frame(const OrientedPair& pair, double max_cosine, Eigen::Matrix3d& f
 
 }  // namespace
 
-std::optional<Eigen::Isometry3d> solve_two_quads(const OrientedPair& previous, const OrientedPair& current, double max_cosine) {
+std::optional<Eigen::Isometry3d> solve_two_quads(const OrientedPair& previous, const OrientedPair& current,
+                                                 double max_cosine) {
   Eigen::Matrix3d frame, frame_bar;
   if (!build_frame(previous, max_cosine, frame) || !build_frame(current, max_cosine, frame_bar)) return std::nullopt;
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();

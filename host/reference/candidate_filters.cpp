@@ -15,12 +15,15 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
   scores.ncc.resize(total);
   scores.sift.resize(total);
   scores.rejected_by.assign(total, 0);
-  const auto patch = [](const EdgeDescriptions& set, std::size_t i) { return set.patches.data() + i * kEdgePatchBytes; };
+  const auto patch = [](const EdgeDescriptions& set, std::size_t i) {
+    return set.patches.data() + i * kEdgePatchBytes;
+  };
   const auto sift = [](const EdgeDescriptions& set, std::size_t i) { return set.sift.data() + i * kEdgeSiftBytes; };
   const int nearly_best_order = std::max(limits.ncc_order, limits.sift_order) + 1;
 
   for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
-    const auto begin = static_cast<std::size_t>(candidates.first[row]), end = static_cast<std::size_t>(candidates.first[row + 1]);
+    const auto begin = static_cast<std::size_t>(candidates.first[row]),
+               end = static_cast<std::size_t>(candidates.first[row + 1]);
     const std::size_t i = row * static_cast<std::size_t>(row_step);
     float best_ncc = 0;
     for (std::size_t c = begin; c < end; ++c) {
@@ -29,7 +32,8 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
       scores.sift[c] = std::sqrt(static_cast<float>(sift_distance2(sift(a, i), sift(b, j))));
       int rejected = 0;
       if (scores.ncc[c] < limits.ncc_min) rejected = limits.ncc_order;
-      if (limits.sift_max > 0 && scores.sift[c] > limits.sift_max) rejected = rejected == 0 ? limits.sift_order : std::min(rejected, limits.sift_order);
+      if (limits.sift_max > 0 && scores.sift[c] > limits.sift_max)
+        rejected = rejected == 0 ? limits.sift_order : std::min(rejected, limits.sift_order);
       scores.rejected_by[c] = static_cast<std::uint8_t>(rejected);
       if (rejected == 0) best_ncc = std::max(best_ncc, scores.ncc[c]);
     }

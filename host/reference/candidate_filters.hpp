@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/filter_limits.hpp"
 #include "reference/stereo_candidates.hpp"
-#include "stages/filter_limits.hpp"
 
 namespace quadedge::reference {
 
@@ -15,13 +15,11 @@ struct EdgeDescriptions {
   std::vector<std::uint8_t> sift;
 };
 
-using stages::FilterLimits;
-
 /// One entry per candidate.
 struct CandidateScores {
-  std::vector<float> ncc;                  ///< highest of the four side pairings
-  std::vector<float> sift;                 ///< smallest of the four L2 distances
-  std::vector<std::uint8_t> rejected_by;   ///< order of the filter that rejected the candidate, 0: alive
+  std::vector<float> ncc;                 ///< highest of the four side pairings
+  std::vector<float> sift;                ///< smallest of the four L2 distances
+  std::vector<std::uint8_t> rejected_by;  ///< order of the filter that rejected the candidate, 0: alive
 };
 
 /// Row r of `candidates` belongs to edge r * row_step of `a`; targets are edges of `b`.

@@ -1,8 +1,8 @@
+#include "reference/edge_thinning.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "reference/edges.hpp"
 
 namespace quadedge::reference {
 namespace {
@@ -36,7 +36,8 @@ std::vector<std::uint8_t> kept_by_thinning(const EdgeSet& edges) {
     for (std::size_t a = begin; a < end; ++a) {
       for (std::size_t b = begin; b < end; ++b) {
         const std::size_t i = by_pixel[a], j = by_pixel[b];
-        const bool stronger = edges.strength[j] > edges.strength[i] || (edges.strength[j] == edges.strength[i] && j < i);
+        const bool stronger =
+            edges.strength[j] > edges.strength[i] || (edges.strength[j] == edges.strength[i] && j < i);
         if (stronger && same_direction(edges.direction[i], edges.direction[j])) kept[i] = 0;
       }
     }

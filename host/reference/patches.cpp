@@ -77,8 +77,9 @@ float inverse_norm(const std::int8_t* edge, int side) {
   return inverse;
 }
 
-std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<float>& xs, const std::vector<float>& ys,
-                                      const std::vector<float>& directions, const PatchesConfig& config) {
+std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<float>& xs,
+                                      const std::vector<float>& ys, const std::vector<float>& directions,
+                                      const PatchesConfig& config) {
   std::vector<std::int8_t> patches(xs.size() * kEdgePatchBytes);
   for (std::size_t e = 0; e < xs.size(); ++e) {
     const double c = std::cos(static_cast<double>(directions[e])), s = std::sin(static_cast<double>(directions[e]));

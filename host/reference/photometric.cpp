@@ -12,7 +12,8 @@ constexpr double kGainMax = 2;  ///< largest difference of contrast that the ali
 }  // namespace
 
 PatchFrame patch_frame(double x, double y, double cosine, double sine, double side, double offset) {
-  return {x + side * offset * sine - 3 * cosine + 3 * sine, y - side * offset * cosine - 3 * sine - 3 * cosine, cosine, sine};
+  return {x + side * offset * sine - 3 * cosine + 3 * sine, y - side * offset * cosine - 3 * sine - 3 * cosine, cosine,
+          sine};
 }
 
 double grey_at(const ImageView& image, double x, double y) {
@@ -62,8 +63,9 @@ double patch_ncc(const PatchValues& a, const PatchValues& b) {
   return norms < 1e-10 ? 0 : std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / norms;
 }
 
-std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
-                                    const PatchValues& derivative, double stiffness, const RefinementSettings& settings) {
+std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey,
+                                    const PatchValues& fixed, const PatchValues& derivative, double stiffness,
+                                    const RefinementSettings& settings) {
   double move = 0;
   for (int step = 0; step < settings.steps; ++step) {
     const PatchValues values = cut_patch(image, moving, move * ex, move * ey);

@@ -10,7 +10,8 @@ namespace quadedge::reference {
 
 using PatchValues = std::array<double, 49>;
 
-/// Where a 7 x 7 patch lies: its first sample, steps (cosine, sine) along the tangent and (-sine, cosine) to the bright side.
+/// Where a 7 x 7 patch lies: its first sample, steps (cosine, sine) along the tangent and (-sine, cosine) to the bright
+/// side.
 struct PatchFrame {
   double x, y, cosine, sine;
 };
@@ -50,10 +51,11 @@ struct Alignment {
   PatchValues values;  ///< the patch there, or less than the tolerance before it
 };
 
-/// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`, whose derivative
-/// along the move is `derivative` (SPEC section 3, 8b). A prior of `stiffness` [grey levels^2 / px^2] holds it around the start.
-/// \returns nothing when it left the clamp.
-std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey, const PatchValues& fixed,
-                                    const PatchValues& derivative, double stiffness, const RefinementSettings& settings);
+/// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`,
+/// whose derivative along the move is `derivative` (doc/method.md section 3, 8b). A prior of `stiffness` [grey levels^2
+/// / px^2] holds it around the start. \returns nothing when it left the clamp.
+std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey,
+                                    const PatchValues& fixed, const PatchValues& derivative, double stiffness,
+                                    const RefinementSettings& settings);
 
 }  // namespace quadedge::reference

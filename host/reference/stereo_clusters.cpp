@@ -5,28 +5,33 @@
 #include <map>
 #include <optional>
 
+#include "common/angles.hpp"
+
 namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Members whose likeness differs by less are equally alike: the first right edge in scan order stands for the cluster. Members that
-/// the refinement led to the same place always are; rounding must not choose between them.
+/// Members whose likeness differs by less are equally alike: the first right edge in scan order stands for the cluster.
+/// Members that the refinement led to the same place always are; rounding must not choose between them.
 constexpr double kLikenessTie = 1e-4;
 
 }  // namespace
 
-StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores, const RefinedCandidates& refined,
-                               const EdgeSet& right, const StereoConfig& config) {
+StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
+                               const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config) {
   const auto& places = refined.place;
   StereoClusters clusters;
   clusters.first.assign(1, 0);
   for (std::size_t i = 0; i + 1 < candidates.first.size(); ++i) {
     std::vector<std::size_t> alive;
-    for (auto c = static_cast<std::size_t>(candidates.first[i]); c < static_cast<std::size_t>(candidates.first[i + 1]); ++c) {
+    for (auto c = static_cast<std::size_t>(candidates.first[i]); c < static_cast<std::size_t>(candidates.first[i + 1]);
+         ++c) {
       if (scores.rejected_by[c] == 0) alive.push_back(c);
     }
     std::stable_sort(alive.begin(), alive.end(), [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
-    const auto direction = [&](std::size_t c) { return right.direction[static_cast<std::size_t>(candidates.target[c])]; };
+    const auto direction = [&](std::size_t c) {
+      return right.direction[static_cast<std::size_t>(candidates.target[c])];
+    };
     for (std::size_t from = 0, to = 0; from < alive.size(); from = to) {
       to = from + 1;
       while (to < alive.size() && static_cast<int>(to - from) < config.cluster_size_max &&
@@ -70,13 +75,14 @@ std::vector<std::int32_t> stereo_best(const StereoClusters& clusters, const Ster
 }
 
 StereoEdges stereo_mutual(const StereoClusters& clusters, const std::vector<std::int32_t>& best, const EdgeSet& left,
-                          const stages::EpipolarGeometry& geometry, const StereoConfig& config) {
+                          const EpipolarGeometry& geometry, const StereoConfig& config) {
   std::map<std::int32_t, std::size_t> owner;  // right edge -> its best left edge
   for (std::size_t i = 0; i < best.size(); ++i) {
     if (best[i] < 0) continue;
     const auto c = static_cast<std::size_t>(best[i]);
     const auto [entry, is_new] = owner.emplace(clusters.anchor[c], i);
-    if (!is_new && clusters.likeness[c] > clusters.likeness[static_cast<std::size_t>(best[entry->second])]) entry->second = i;
+    if (!is_new && clusters.likeness[c] > clusters.likeness[static_cast<std::size_t>(best[entry->second])])
+      entry->second = i;
   }
   StereoEdges edges;
   for (std::size_t i = 0; i < best.size(); ++i) {

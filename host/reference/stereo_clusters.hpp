@@ -9,28 +9,30 @@ namespace quadedge::reference {
 /// Representatives of clusters of candidates. Row i (left edge) owns first[i] .. first[i + 1].
 struct StereoClusters {
   std::vector<std::int32_t> first;
-  std::vector<double> place;          ///< on the left edge's epipolar line [px from the point at infinity]
-  std::vector<double> direction;      ///< [rad], weighted mean of the members
-  std::vector<std::int32_t> anchor;   ///< right edge of the most alike member, of equally alike ones the first in scan order
-  std::vector<double> likeness;       ///< of that member
+  std::vector<double> place;      ///< on the left edge's epipolar line [px from the point at infinity]
+  std::vector<double> direction;  ///< [rad], weighted mean of the members
+  std::vector<std::int32_t>
+      anchor;                    ///< right edge of the most alike member, of equally alike ones the first in scan order
+  std::vector<double> likeness;  ///< of that member
 };
 
 /// Clusters the living candidates along their epipolar line (SPEC 8c).
 ///
-/// The most alike member stands for its cluster: SPEC's centroid lies beside every member where two curves run within a pixel
-/// (terrace_2s: 96.3 % recall and precision instead of 98.2 %).
-StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores, const RefinedCandidates& refined,
-                               const EdgeSet& right, const StereoConfig& config);
+/// The most alike member stands for its cluster: SPEC's centroid lies beside every member where two curves run within a
+/// pixel (terrace_2s: 96.3 % recall and precision instead of 98.2 %).
+StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
+                               const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config);
 
 /// The most alike cluster of every left edge that reaches refined_ncc_min, -1 for none (SPEC filters 9 and 10).
 std::vector<std::int32_t> stereo_best(const StereoClusters& clusters, const StereoConfig& config);
 
-/// Keeps a left edge if the best left edge of its right edge is itself or lies within `mutual_radius` on the same curve, and
-/// collects the survivors in the order of their left edges.
+/// Keeps a left edge if the best left edge of its right edge is itself or lies within `mutual_radius` on the same
+/// curve, and collects the survivors in the order of their left edges.
 ///
-/// Strict uniqueness of the right edge's index would halve the result for nothing: third-order edges hold about two tokens per
-/// pixel in either image, so neighbouring left edges rightly meet the same right token, at different points of their curve.
+/// Strict uniqueness of the right edge's index would halve the result for nothing: third-order edges hold about two
+/// tokens per pixel in either image, so neighbouring left edges rightly meet the same right token, at different points
+/// of their curve.
 StereoEdges stereo_mutual(const StereoClusters& clusters, const std::vector<std::int32_t>& best, const EdgeSet& left,
-                          const stages::EpipolarGeometry& geometry, const StereoConfig& config);
+                          const EpipolarGeometry& geometry, const StereoConfig& config);
 
 }  // namespace quadedge::reference

@@ -10,13 +10,16 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint8_t kStoodFor = 255;  // in rejected_by, for a while: another candidate is refined for this one
-constexpr double kSamePlace = 0.5;  // px; twin: SAME_PLACE in kernels/stereo_refinement.cl
+constexpr double kSamePlace = 0.5;       // px; twin: SAME_PLACE in kernels/stereo_refinement.cl
 
-double distance_from(const EpipolarLine& line, double x, double y) { return -(x - line.x) * line.ey + (y - line.y) * line.ex; }
+double distance_from(const EpipolarLine& line, double x, double y) {
+  return -(x - line.x) * line.ey + (y - line.y) * line.ex;
+}
 
 }  // namespace
 
-double epipolar_shift(const EpipolarLine& line, double x, double y, double direction, double min_angle, double max_shift) {
+double epipolar_shift(const EpipolarLine& line, double x, double y, double direction, double min_angle,
+                      double max_shift) {
   const double dx = x - line.x, dy = y - line.y;
   const double s = dx * line.ex + dy * line.ey;
   const double distance = distance_from(line, x, y);
@@ -28,22 +31,27 @@ double epipolar_shift(const EpipolarLine& line, double x, double y, double direc
 }
 
 RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image,
-                                    const std::vector<std::int8_t>& left_patches, const EdgeSet& left, const EdgeSet& right,
-                                    const stages::EpipolarGeometry& geometry, const Candidates& candidates, const StereoConfig& config,
-                                    double patch_offset, CandidateScores& scores) {
-  RefinedCandidates refined{std::vector<double>(candidates.target.size(), 0.0), std::vector<double>(candidates.target.size(), 0.0)};
-  const RefinementSettings settings{config.refine_steps, config.refine_tolerance, config.refine_huber, config.refine_clamp};
+                                    const std::vector<std::int8_t>& left_patches, const EdgeSet& left,
+                                    const EdgeSet& right, const EpipolarGeometry& geometry,
+                                    const Candidates& candidates, const StereoConfig& config, double patch_offset,
+                                    CandidateScores& scores) {
+  RefinedCandidates refined{std::vector<double>(candidates.target.size(), 0.0),
+                            std::vector<double>(candidates.target.size(), 0.0)};
+  const RefinementSettings settings{config.refine_steps, config.refine_tolerance, config.refine_huber,
+                                    config.refine_clamp};
   for (std::size_t i = 0; i < left.size(); ++i) {
     const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
     const double cosine = std::cos(left.direction[i]), sine = std::sin(left.direction[i]);
     const double line_sine = left_epipolar_sine(geometry, left.x[i], left.y[i], left.direction[i]);
     const double stiffness = std::pow(config.refine_noise / config.refine_prior * line_sine, 2);
     const PatchFrame left_frame = patch_frame(left.x[i], left.y[i], cosine, sine, 0, 0);
-    const auto begin = static_cast<std::size_t>(candidates.first[i]), end = static_cast<std::size_t>(candidates.first[i + 1]);
+    const auto begin = static_cast<std::size_t>(candidates.first[i]),
+               end = static_cast<std::size_t>(candidates.first[i + 1]);
     for (std::size_t c = begin; c < end; ++c) {
       if (scores.rejected_by[c] != 0) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
-      refined.place[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j], config.shift_min_angle * kPi / 180, config.shift_max);
+      refined.place[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j],
+                                        config.shift_min_angle * kPi / 180, config.shift_max);
       for (std::size_t k = begin; k < c; ++k) {
         if (scores.rejected_by[k] != 0 || std::abs(refined.place[k] - refined.place[c]) >= kSamePlace) continue;
         const bool better = scores.ncc[c] > scores.ncc[k];
@@ -74,13 +82,16 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(similarity(0), similarity(1)) : -1;
       refined.likeness[c] = 0.5 * (centre + beside);
     }
-    // The others stay where they are and join their neighbour's cluster, where they count for its direction and cannot represent it.
+    // The others stay where they are and join their neighbour's cluster, where they count for its direction and cannot
+    // represent it.
     for (std::size_t c = begin; c < end; ++c) {
       if (scores.rejected_by[c] != kStoodFor) continue;
       std::size_t nearest = end;
       for (std::size_t k = begin; k < end; ++k) {
         if (scores.rejected_by[k] != 0 || refined.likeness[k] < -1) continue;
-        if (nearest == end || std::abs(refined.place[k] - refined.place[c]) < std::abs(refined.place[nearest] - refined.place[c])) nearest = k;
+        if (nearest == end ||
+            std::abs(refined.place[k] - refined.place[c]) < std::abs(refined.place[nearest] - refined.place[c]))
+          nearest = k;
       }
       scores.rejected_by[c] = nearest == end ? kStereoRefinementOrder : std::uint8_t{0};
       if (nearest == end) continue;

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "common/angles.hpp"
+
 namespace quadedge::reference {
 
-Candidates temporal_candidates(const stages::PlacedEdges& predicted, const stages::PlacedEdges& current, const stages::PointIndex& index,
+Candidates temporal_candidates(const PlacedEdges& predicted, const PlacedEdges& current, const PointIndex& index,
                                float radius, float orientation, int row_step) {
   Candidates candidates;
   candidates.first.assign(1, 0);

@@ -1,16 +1,16 @@
 #pragma once
 /// \file temporal_candidates.hpp  Plain C++ twin of kernels/temporal_candidates.cl.
 
+#include "common/point_index.hpp"
+#include "common/temporal_search.hpp"
 #include "reference/stereo_candidates.hpp"
-#include "stages/point_index.hpp"
-#include "stages/temporal_search.hpp"
 
 namespace quadedge::reference {
 
-/// Filters 1 and 2 of SPEC section 4 in one image: current edges within `radius` [px] of the predicted place and within
-/// `orientation` [rad, modulo a full turn] of the predicted direction. Row r belongs to predicted edge r * row_step; targets
-/// stand in the order of the point index.
-Candidates temporal_candidates(const stages::PlacedEdges& predicted, const stages::PlacedEdges& current, const stages::PointIndex& index,
+/// Filters 1 and 2 of doc/method.md section 4 in one image: current edges within `radius` [px] of the predicted place
+/// and within `orientation` [rad, modulo a full turn] of the predicted direction. Row r belongs to predicted edge r *
+/// row_step; targets stand in the order of the point index.
+Candidates temporal_candidates(const PlacedEdges& predicted, const PlacedEdges& current, const PointIndex& index,
                                float radius, float orientation, int row_step = 1);
 
 }  // namespace quadedge::reference

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/angles.hpp"
+
 namespace quadedge::reference {
 namespace {
 
@@ -22,8 +24,11 @@ int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& e
       open.pop_back();
       for (std::size_t m = 0; m < members.size(); ++m) {
         const std::size_t b = members[m];
-        if (reached[m] || std::hypot(edges.left_x[a] - edges.left_x[b], edges.left_y[a] - edges.left_y[b]) >= config.cluster_gap) continue;
-        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > config.cluster_orientation * kPi / 180) continue;
+        if (reached[m] ||
+            std::hypot(edges.left_x[a] - edges.left_x[b], edges.left_y[a] - edges.left_y[b]) >= config.cluster_gap)
+          continue;
+        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > config.cluster_orientation * kPi / 180)
+          continue;
         reached[m] = true;
         open.push_back(b);
       }
@@ -34,11 +39,12 @@ int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& e
 
 }  // namespace
 
-std::vector<float> temporal_agreement(const Candidates& left_candidates, CandidateScores& left, const Candidates& right_candidates,
-                                      const CandidateScores& right) {
+std::vector<float> temporal_agreement(const Candidates& left_candidates, CandidateScores& left,
+                                      const Candidates& right_candidates, const CandidateScores& right) {
   std::vector<float> agreement(left_candidates.target.size(), 0.0f);
   for (std::size_t row = 0; row + 1 < left_candidates.first.size(); ++row) {
-    for (auto c = static_cast<std::size_t>(left_candidates.first[row]); c < static_cast<std::size_t>(left_candidates.first[row + 1]); ++c) {
+    for (auto c = static_cast<std::size_t>(left_candidates.first[row]);
+         c < static_cast<std::size_t>(left_candidates.first[row + 1]); ++c) {
       if (left.rejected_by[c] != 0) continue;
       bool found = false;
       for (auto d = static_cast<std::size_t>(right_candidates.first[row]);
@@ -53,8 +59,9 @@ std::vector<float> temporal_agreement(const Candidates& left_candidates, Candida
   return agreement;
 }
 
-TemporalMatches temporal_best(const Candidates& candidates, const CandidateScores& scores, const std::vector<float>& agreement,
-                              const StereoEdges& current, const TemporalConfig& config, const stages::TemporalSearch& search) {
+TemporalMatches temporal_best(const Candidates& candidates, const CandidateScores& scores,
+                              const std::vector<float>& agreement, const StereoEdges& current,
+                              const TemporalConfig& config, const TemporalSearch& search) {
   const float distance_weight = static_cast<float>(config.distance_weight) / (search.radius * search.radius);
   TemporalMatches matches;
   for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
@@ -62,7 +69,8 @@ TemporalMatches temporal_best(const Candidates& candidates, const CandidateScore
     std::vector<std::size_t> alive;  // current edges
     std::size_t winner = 0;
     float highest = 0;
-    for (auto c = static_cast<std::size_t>(candidates.first[row]); c < static_cast<std::size_t>(candidates.first[row + 1]); ++c) {
+    for (auto c = static_cast<std::size_t>(candidates.first[row]);
+         c < static_cast<std::size_t>(candidates.first[row + 1]); ++c) {
       if (scores.rejected_by[c] != 0) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
       const float dx = current.left_x[j] - search.left.x[i], dy = current.left_y[j] - search.left.y[i];

@@ -1,29 +1,28 @@
 #pragma once
 /// \file temporal_quads.hpp  Plain C++ twin of kernels/temporal_quads.cl.
 
+#include "common/filter_names.hpp"
+#include "common/temporal_search.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "reference/candidate_filters.hpp"
-#include "stages/temporal_search.hpp"
 
 namespace quadedge::reference {
 
-/// Orders in Table 2: 1 displacement, 2 orientation, 3 NCC, 4 SIFT, 5 and 6 nearly best, 7 agreement, 8 best.
-inline constexpr int kAgreementOrder = 7;
+/// Closes the circle: a living left candidate stays if the right list of its row holds the same current edge alive.
+/// Marks the others in `left.rejected_by`; returns per left candidate the mean of both NCC (valid where alive).
+std::vector<float> temporal_agreement(const Candidates& left_candidates, CandidateScores& left,
+                                      const Candidates& right_candidates, const CandidateScores& right);
 
-/// Closes the circle: a living left candidate stays if the right list of its row holds the same current edge alive. Marks the
-/// others in `left.rejected_by`; returns per left candidate the mean of both NCC (valid where alive).
-std::vector<float> temporal_agreement(const Candidates& left_candidates, CandidateScores& left, const Candidates& right_candidates,
-                                      const CandidateScores& right);
-
-/// The quad of every row: its most alike candidate, after distance_weight (d / radius)^2 is taken away, d the distance from the
-/// predicted left place. Along a curve that looks the same everywhere the prediction decides. `rivals` counts further groups of
-/// candidates that do not chain up with the winner's (SPEC section 4, filter 7).
+/// The quad of every row: its most alike candidate, after distance_weight (d / radius)^2 is taken away, d the distance
+/// from the predicted left place. Along a curve that looks the same everywhere the prediction decides. `rivals` counts
+/// further groups of candidates that do not chain up with the winner's (doc/method.md section 4, filter 7).
 ///
-/// SPEC's photometric refinement in time is left out: places detected in both rigs are better than refined ones, and in a search
-/// that a scouted motion guides it rejected nothing but true quads (rendered room: 70.7 % recall at 98.2 % precision without it,
-/// 67.9 % at 98.2 % with it).
-TemporalMatches temporal_best(const Candidates& candidates, const CandidateScores& scores, const std::vector<float>& agreement,
-                              const StereoEdges& current, const TemporalConfig& config, const stages::TemporalSearch& search);
+/// SPEC's photometric refinement in time is left out: places detected in both rigs are better than refined ones, and in
+/// a search that a scouted motion guides it rejected nothing but true quads (rendered room: 70.7 % recall at 98.2 %
+/// precision without it, 67.9 % at 98.2 % with it).
+TemporalMatches temporal_best(const Candidates& candidates, const CandidateScores& scores,
+                              const std::vector<float>& agreement, const StereoEdges& current,
+                              const TemporalConfig& config, const TemporalSearch& search);
 
 }  // namespace quadedge::reference

@@ -15,13 +15,15 @@ double sample(const SmallImage& small, double x, double y) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, small.width - 1), y1 = std::min(y0 + 1, small.height - 1);
   const auto at = [&](int column, int row) {
-    return static_cast<double>(small.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(small.width) + static_cast<std::size_t>(column)]);
+    return static_cast<double>(small.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(small.width) +
+                                            static_cast<std::size_t>(column)]);
   };
   const double fx = x - x0, fy = y - y0;
   return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x1, y0)) + fy * ((1 - fx) * at(x0, y1) + fx * at(x1, y1));
 }
 
-/// Share that a sample `offset` small pixels from the middle has in a cell, along one axis; the Gaussian window included.
+/// Share that a sample `offset` small pixels from the middle has in a cell, along one axis; the Gaussian window
+/// included.
 double share(int offset, int cell) {
   const double place = offset / kWideCellWidth;
   return std::max(0.0, 1 - std::abs(place - (cell - 0.5 * (kWideCells - 1)))) * std::exp(-place * place / 8);
@@ -29,7 +31,9 @@ double share(int offset, int cell) {
 
 void describe(const SmallImage& small, double x, double y, double direction, std::uint8_t* descriptor) {
   const double c = std::cos(direction), s = std::sin(direction);
-  const auto at = [&](int along, int across) { return sample(small, x + along * c - across * s, y + along * s + across * c); };
+  const auto at = [&](int along, int across) {
+    return sample(small, x + along * c - across * s, y + along * s + across * c);
+  };
   std::array<double, kWideBytes> histogram{};
   for (int v = -kWideHalf; v <= kWideHalf; ++v) {
     for (int u = -kWideHalf; u <= kWideHalf; ++u) {
@@ -51,7 +55,8 @@ void describe(const SmallImage& small, double x, double y, double direction, std
   const double clip = kWideClip * std::sqrt(squares);
   for (double value : histogram) clipped += std::pow(std::min(value, clip), 2);
   const double scale = clipped > 0 ? kWideNorm / std::sqrt(clipped) : 0.0;
-  for (double value : histogram) *descriptor++ = static_cast<std::uint8_t>(std::min(std::round(std::min(value, clip) * scale), 255.0));
+  for (double value : histogram)
+    *descriptor++ = static_cast<std::uint8_t>(std::min(std::round(std::min(value, clip) * scale), 255.0));
 }
 
 }  // namespace
@@ -65,7 +70,9 @@ SmallImage shrink(const ImageView& image) {
       int sum = 0;
       for (int row = 0; row < kWideShrink; ++row)
         for (int column = 0; column < kWideShrink; ++column)
-          sum += image.pixels[static_cast<std::ptrdiff_t>(kWideShrink * y + row) * image.stride + kWideShrink * x + column];
+          sum +=
+              image
+                  .pixels[static_cast<std::ptrdiff_t>(kWideShrink * y + row) * image.stride + kWideShrink * x + column];
       small.pixels.push_back(static_cast<float>(sum) / (kWideShrink * kWideShrink));
     }
   }
@@ -77,7 +84,8 @@ std::vector<std::uint8_t> wide_descriptions(const SmallImage& small, const Stere
   std::vector<std::uint8_t> descriptors((edges.size() + stride - 1) / stride * kWideBytes);
   for (std::size_t i = 0; i < edges.size(); i += stride) {
     const double middle = 0.5 * (kWideShrink - 1);
-    describe(small, (static_cast<double>(edges.left_x[i]) - middle) / kWideShrink, (static_cast<double>(edges.left_y[i]) - middle) / kWideShrink,
+    describe(small, (static_cast<double>(edges.left_x[i]) - middle) / kWideShrink,
+             (static_cast<double>(edges.left_y[i]) - middle) / kWideShrink,
              static_cast<double>(edges.left_direction[i]), descriptors.data() + i / stride * kWideBytes);
   }
   return descriptors;

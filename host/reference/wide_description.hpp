@@ -4,18 +4,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/byte_layouts.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::reference {
 
-inline constexpr int kWideShrink = 3;     ///< pixels of the image per small pixel, each way
-inline constexpr int kWideCells = 4;      ///< spatial bins along each axis
-inline constexpr int kWideAngles = 8;     ///< orientation bins
-inline constexpr int kWideBytes = kWideCells * kWideCells * kWideAngles;
-inline constexpr int kWideHalf = 7;       ///< samples on either side of the middle one
+inline constexpr int kWideHalf = 7;            ///< samples on either side of the middle one
 inline constexpr double kWideCellWidth = 3.0;  ///< small pixels: 9 px of the image
-inline constexpr double kWideClip = 0.2;  ///< largest share of the norm in one bin
+inline constexpr double kWideClip = 0.2;       ///< largest share of the norm in one bin
 inline constexpr double kWideNorm = 512.0;
 
 /// Means of blocks of kWideShrink x kWideShrink pixels; what is left over at the right and below is not used.
@@ -25,10 +22,11 @@ struct SmallImage {
 };
 SmallImage shrink(const ImageView& image);
 
-/// What surrounds the left edge of every step-th stereo edge, kWideBytes each: gradients of the small image on a grid of 15 x 15 samples
-/// (3 px apart, bilinear, border replicated) centred on the edge and turned with it, in 4 x 4 cells of 9 px, clipped and normalised as
-/// SIFT is (Lowe 2004, section 6). A gradient counts in each of eight directions with its length times the cube of the positive part of
-/// its cosine with it, so nothing jumps as it turns. Bytes [cell across][cell along][angle]; all zeros where the image is flat.
+/// What surrounds the left edge of every step-th stereo edge, kWideBytes each: gradients of the small image on a grid
+/// of 15 x 15 samples (3 px apart, bilinear, border replicated) centred on the edge and turned with it, in 4 x 4 cells
+/// of 9 px, clipped and normalised as SIFT is (Lowe 2004, section 6). A gradient counts in each of eight directions
+/// with its length times the cube of the positive part of its cosine with it, so nothing jumps as it turns. Bytes [cell
+/// across][cell along][angle]; all zeros where the image is flat.
 std::vector<std::uint8_t> wide_descriptions(const SmallImage& small, const StereoEdges& edges, int step);
 
 }  // namespace quadedge::reference

@@ -9,13 +9,15 @@ constexpr float kSquare = static_cast<float>(kWideNorm * kWideNorm);
 
 float likeness(const WideEdges& a, std::size_t i, const WideEdges& b, std::size_t j) {
   int sum = 0;
-  for (std::size_t k = 0; k < kWideBytes; ++k) sum += a.descriptors[i * kWideBytes + k] * b.descriptors[j * kWideBytes + k];
+  for (std::size_t k = 0; k < kWideBytes; ++k)
+    sum += a.descriptors[i * kWideBytes + k] * b.descriptors[j * kWideBytes + k];
   return static_cast<float>(sum);  // whole numbers below 2^24
 }
 
 bool apart(const WideEdges& set, std::size_t i, std::size_t j, float distance) {
   const auto step = static_cast<std::size_t>(set.step);
-  const float dx = set.edges.left_x[i * step] - set.edges.left_x[j * step], dy = set.edges.left_y[i * step] - set.edges.left_y[j * step];
+  const float dx = set.edges.left_x[i * step] - set.edges.left_x[j * step],
+              dy = set.edges.left_y[i * step] - set.edges.left_y[j * step];
   return dx * dx + dy * dy > distance * distance;
 }
 
@@ -23,7 +25,8 @@ bool apart(const WideEdges& set, std::size_t i, std::size_t j, float distance) {
 
 TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config) {
   const std::size_t rows = earlier.descriptors.size() / kWideBytes, columns = current.descriptors.size() / kWideBytes;
-  const float neighbourhood = static_cast<float>(config.wide_neighbourhood), ratio = static_cast<float>(config.wide_ratio);
+  const float neighbourhood = static_cast<float>(config.wide_neighbourhood),
+              ratio = static_cast<float>(config.wide_ratio);
   TemporalMatches matches;
   for (std::size_t row = 0; row < rows; ++row) {
     std::size_t winner = columns;
@@ -45,8 +48,8 @@ TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current,
       unique = !(apart(current, column, winner, neighbourhood) && likeness(earlier, row, current, column) > limit);
     }
     if (!unique) continue;
-    matches.append(static_cast<std::int32_t>(row) * earlier.step, static_cast<std::int32_t>(winner) * current.step, current.edges,
-                   highest / kSquare, 0);
+    matches.append(static_cast<std::int32_t>(row) * earlier.step, static_cast<std::int32_t>(winner) * current.step,
+                   current.edges, highest / kSquare, 0);
   }
   return matches;
 }

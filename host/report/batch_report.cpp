@@ -56,7 +56,8 @@ void add_overview(HtmlPage& page, const std::vector<SequenceResults>& sequences,
     frames += sequence.row.frames;
     tracked += sequence.row.tracked;
     shared = shared || sequence.row.member.jobs > 1;
-    if (device.find(sequence.row.device) == std::string::npos) device += (device.empty() ? "" : ", ") + sequence.row.device;
+    if (device.find(sequence.row.device) == std::string::npos)
+      device += (device.empty() ? "" : ", ") + sequence.row.device;
   }
   page.heading(2, "Overview");
   std::vector<std::pair<std::string, std::string>> facts = {
@@ -64,13 +65,15 @@ void add_overview(HtmlPage& page, const std::vector<SequenceResults>& sequences,
       {"Device", device.empty() ? "-" : device},
       {"Sequences", std::to_string(ran) + " of " + std::to_string(sequences.size()) + " finished"},
       {"Frames tracked", share_text(tracked, frames)}};
-  if (!baseline.empty()) facts.emplace_back("Baseline", baseline + "; differences to it stand in brackets, '=' is none in these digits");
+  if (!baseline.empty())
+    facts.emplace_back("Baseline", baseline + "; differences to it stand in brackets, '=' is none in these digits");
   for (const auto& peer : peers) facts.emplace_back("Compared with", peer.name + " (" + peer.folder + ")");
   page.definitions(facts);
   std::vector<std::pair<std::string, std::string>> failures;
   for (const auto& sequence : sequences) {
     if (sequence.row.status != MemberStatus::done) {
-      failures.emplace_back(sequence.row.member.name, std::string(to_string(sequence.row.status)) + ": " + sequence.row.member.message);
+      failures.emplace_back(sequence.row.member.name,
+                            std::string(to_string(sequence.row.status)) + ": " + sequence.row.member.message);
     }
   }
   if (!failures.empty()) {
@@ -82,8 +85,9 @@ void add_overview(HtmlPage& page, const std::vector<SequenceResults>& sequences,
   page.table(error_table(sequences, peers, &SummaryAccuracy::se3_aligned,
                          "Errors, SE(3)-aligned as others often quote (least squares over all positions, no scale)"));
   page.table(latency_table(sequences));
-  page.paragraph(std::string("Latency is from both images in host memory to the pose.") +
-                 (shared ? " Several sequences ran at the same time, so latencies are longer than those of a lone run." : ""));
+  page.paragraph(
+      std::string("Latency is from both images in host memory to the pose.") +
+      (shared ? " Several sequences ran at the same time, so latencies are longer than those of a lone run." : ""));
 }
 
 void add_sequence(HtmlPage& page, const SequenceResults& sequence, const Detail& detail) {
@@ -93,8 +97,9 @@ void add_sequence(HtmlPage& page, const SequenceResults& sequence, const Detail&
     page.paragraph(std::string(to_string(row.status)) + ": " + row.member.message);
     return;
   }
-  std::vector<std::pair<std::string, std::string>> facts = {{"Recording", row.member.path + " (" + row.member.format + ")"},
-                                                            {"Frames tracked", share_text(row.tracked, row.frames)}};
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"Recording", row.member.path + " (" + row.member.format + ")"},
+      {"Frames tracked", share_text(row.tracked, row.frames)}};
   if (row.accuracy) {
     facts.emplace_back("Path", significant(row.accuracy->path_length_m) + " m, drift at its end " +
                                    significant(row.accuracy->end_drift_percent) + " %");
@@ -103,15 +108,19 @@ void add_sequence(HtmlPage& page, const SequenceResults& sequence, const Detail&
   page.definitions(facts);
   const bool truth = !sequence.truth.empty();
   page.plots(trajectory_plots(sequence, detail.points),
-             truth ? "In the left camera's first pose that has ground truth, origin-aligned." : "In the left camera's first pose.");
+             truth ? "In the left camera's first pose that has ground truth, origin-aligned."
+                   : "In the left camera's first pose.");
   if (truth) page.plots(error_plots(sequence, detail.points), "Errors against ground truth, origin-aligned.");
   page.plots(frame_plots(sequence, detail.points), "");
   if (detail.thumbnail_width == 0 || sequence.thumbnails.empty()) return;
   std::vector<HtmlPage::Picture> pictures;
-  for (const auto& file : sequence.thumbnails) pictures.push_back({reduced(file, detail), "image/jpeg", frame_of(file)});
+  for (const auto& file : sequence.thumbnails)
+    pictures.push_back({reduced(file, detail), "image/jpeg", frame_of(file)});
   page.pictures(pictures);
-  page.paragraph("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame that they were "
-                 "matched with, white for inliers, red for others, one per cell of 16 px.");
+  page.paragraph(
+      "Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame that they "
+      "were "
+      "matched with, white for inliers, red for others, one per cell of 16 px.");
 }
 
 }  // namespace
@@ -120,13 +129,15 @@ std::string batch_report_html(const std::string& output, const std::string& base
   const SummarisedBatch batch = summarised_batch(output);
   if (!baseline.empty()) summarised_batch(baseline);  // complain where it is no batch
   std::vector<SequenceResults> sequences;
-  for (const auto& name : batch.names) sequences.push_back(read_sequence_results(output, name, batch.min_tracked, baseline, peers));
+  for (const auto& name : batch.names)
+    sequences.push_back(read_sequence_results(output, name, batch.min_tracked, baseline, peers));
   std::string html;
   for (const auto& detail : kDetails) {
     HtmlPage page("QuadEdge batch " + std::filesystem::absolute(output).lexically_normal().filename().string());
     add_overview(page, sequences, baseline, peers);
     for (const auto& sequence : sequences) add_sequence(page, sequence, detail);
-    if (&detail != &kDetails.front()) page.paragraph("Curves are thinned and pictures reduced so that this page stays small.");
+    if (&detail != &kDetails.front())
+      page.paragraph("Curves are thinned and pictures reduced so that this page stays small.");
     html = page.html();
     if (html.size() <= kLargestReport) break;
   }

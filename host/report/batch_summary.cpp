@@ -14,8 +14,9 @@ namespace quadedge::report {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<ErrorStatistics PoseErrors::*, 4> kErrors = {&PoseErrors::ape_rotation_deg, &PoseErrors::ape_translation_m,
-                                                                  &PoseErrors::rpe_rotation_deg, &PoseErrors::rpe_translation_m};
+constexpr std::array<ErrorStatistics PoseErrors::*, 4> kErrors = {
+    &PoseErrors::ape_rotation_deg, &PoseErrors::ape_translation_m, &PoseErrors::rpe_rotation_deg,
+    &PoseErrors::rpe_translation_m};
 constexpr std::array<PoseErrors SummaryAccuracy::*, 2> kAlignments = {&SummaryAccuracy::origin_aligned,
                                                                       &SummaryAccuracy::se3_aligned};
 
@@ -63,7 +64,8 @@ SummaryAccuracy average(const std::vector<const SummaryAccuracy*>& parts) {
       for (const auto* part : parts) {
         const ErrorStatistics& statistics = (part->*alignment).*error;
         if (!std::isfinite(statistics.mean)) continue;
-        mean.mean += statistics.mean, mean.std += statistics.std, mean.rmse += statistics.rmse, mean.max += statistics.max;
+        mean.mean += statistics.mean, mean.std += statistics.std, mean.rmse += statistics.rmse,
+            mean.max += statistics.max;
         ++count;
       }
       const double scale = count > 0 ? 1.0 / count : kNan;
@@ -92,9 +94,10 @@ const char* to_string(MemberStatus status) {
 
 int worse_exit_code(int a, int b) {
   constexpr std::array<ExitCode, 6> kFromBadToWorse = {ExitCode::done, ExitCode::too_few_tracked, ExitCode::usage,
-                                                       ExitCode::data, ExitCode::device, ExitCode::internal};
+                                                       ExitCode::data, ExitCode::device,          ExitCode::internal};
   const auto rank = [&](int code) {
-    return std::find(kFromBadToWorse.begin(), kFromBadToWorse.end(), static_cast<ExitCode>(code)) - kFromBadToWorse.begin();
+    return std::find(kFromBadToWorse.begin(), kFromBadToWorse.end(), static_cast<ExitCode>(code)) -
+           kFromBadToWorse.begin();
   };
   return rank(a) >= rank(b) ? a : b;
 }

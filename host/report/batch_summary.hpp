@@ -35,24 +35,26 @@ struct SummaryRow {
 /// A batch.
 struct BatchSummary {
   std::vector<SummaryRow> rows;
-  int frames = 0, tracked = 0;      ///< of the sequences that did not fail
-  LatencySummary latency;           ///< over all frames but the first one of each sequence [ms]; `first` is the median of those
-  /// Over all sequences with ground truth: every pose counts the same (the mean and standard deviation of all poses together).
+  int frames = 0, tracked = 0;  ///< of the sequences that did not fail
+  LatencySummary latency;  ///< over all frames but the first one of each sequence [ms]; `first` is the median of those
+  /// Over all sequences with ground truth: every pose counts the same (the mean and standard deviation of all poses
+  /// together).
   std::optional<SummaryAccuracy> pooled;
   /// The same figures averaged over the sequences: every sequence counts the same.
   std::optional<SummaryAccuracy> average;
-  int exit_code = 0;                ///< the worst of all sequences
-  double min_tracked = 0;           ///< fewer tracked frames are too few [percent]
+  int exit_code = 0;       ///< the worst of all sequences
+  double min_tracked = 0;  ///< fewer tracked frames are too few [percent]
 };
 
-/// Reads the results of one sequence from its folder. A run that tracked fewer frames than `min_tracked` percent counts as
-/// too_few_tracked. \throws DataError for damaged results.
+/// Reads the results of one sequence from its folder. A run that tracked fewer frames than `min_tracked` percent counts
+/// as too_few_tracked. \throws DataError for damaged results.
 SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked);
 
 /// Puts the results of OUT/sequences/NAME together. \throws DataError for damaged results.
 BatchSummary summarise(const std::string& output, const std::vector<std::string>& names, double min_tracked);
 
-/// Worst of two exit codes: a program error is worse than a device, that worse than data, usage and too few tracked frames.
+/// Worst of two exit codes: a program error is worse than a device, that worse than data, usage and too few tracked
+/// frames.
 int worse_exit_code(int a, int b);
 
 /// summary.csv: one row per sequence, then the two over all; the column `kind` is sequence, pooled or average.

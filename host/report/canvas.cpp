@@ -22,7 +22,8 @@ int scale_for(int width) {
   return scale;
 }
 
-void write_encoded(const std::string& path, const cv::Mat& picture, const std::string& extension, const std::vector<int>& options) {
+void write_encoded(const std::string& path, const cv::Mat& picture, const std::string& extension,
+                   const std::vector<int>& options) {
   std::vector<unsigned char> bytes;
   if (!cv::imencode(extension, picture, bytes, options)) throw DataError(path + ": the picture cannot be encoded");
   data::write_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));

@@ -11,8 +11,8 @@ namespace quadedge::report {
 /// Height of one line of text in a legend [px].
 constexpr int kLegendLine = 26;
 
-/// A colour picture of a grey image: enlarged to at least 1000 px width by a whole factor, darkened to `brightness`, with
-/// `legend_lines` black lines below it.
+/// A colour picture of a grey image: enlarged to at least 1000 px width by a whole factor, darkened to `brightness`,
+/// with `legend_lines` black lines below it.
 class Canvas {
  public:
   Canvas(const ImageView& image, double brightness, int legend_lines);

@@ -24,7 +24,8 @@ std::string format(const std::string& value) { return "\"" + value + "\""; }
 }  // namespace
 
 std::string config_toml(const Config& config, const std::string& device) {
-  std::string top = "# Effective configuration; `quadedge run PATH --config FILE` reads it again.\ndevice = " + format(device) + "\n";
+  std::string top =
+      "# Effective configuration; `quadedge run PATH --config FILE` reads it again.\ndevice = " + format(device) + "\n";
   std::string sections, section;
   Config copy = config;  // visit_config hands out pointers that may write
   visit_config(copy, [&](const std::string& name, ConfigField field, const std::string& help, double, double) {

@@ -17,7 +17,9 @@ using evaluation::Histogram;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostPoints = 130;  // of a curve; finer bins are joined
 
-double place_of(const Histogram& histogram, std::size_t bin) { return histogram.low + static_cast<double>(bin) * histogram.width(); }
+double place_of(const Histogram& histogram, std::size_t bin) {
+  return histogram.low + static_cast<double>(bin) * histogram.width();
+}
 
 /// Value below which a share of all values lies, to within a bin.
 double quantile(const Histogram& histogram, double share) {
@@ -30,8 +32,8 @@ double quantile(const Histogram& histogram, double share) {
   return histogram.high;
 }
 
-/// The part of the axis that is worth showing: all thresholds, nearly all veridical pairs, and so much of the others that one
-/// sees where they begin.
+/// The part of the axis that is worth showing: all thresholds, nearly all veridical pairs, and so much of the others
+/// that one sees where they begin.
 std::pair<double, double> shown_range(const CueDistribution& cue) {
   const Histogram &veridical = cue.veridical, &other = cue.other;
   double low = cue.thresholds.empty() ? veridical.high : cue.thresholds[0];
@@ -78,10 +80,12 @@ Curves curves_of(const Histogram& histogram, double low, double high) {
   for (std::size_t bin = first; bin < last; bin += join) {
     const std::size_t end = std::min(bin + join, last);
     const double count = static_cast<double>(std::accumulate(histogram.bins.begin() + static_cast<std::ptrdiff_t>(bin),
-                                                             histogram.bins.begin() + static_cast<std::ptrdiff_t>(end), std::int64_t{0}));
+                                                             histogram.bins.begin() + static_cast<std::ptrdiff_t>(end),
+                                                             std::int64_t{0}));
     sum += count;
     curves.places.push_back(0.5 * (place_of(histogram, bin) + place_of(histogram, end)));
-    curves.density.push_back(inside > 0 ? count / inside / (place_of(histogram, end) - place_of(histogram, bin)) : kNan);
+    curves.density.push_back(inside > 0 ? count / inside / (place_of(histogram, end) - place_of(histogram, bin))
+                                        : kNan);
     curves.cumulative_places.push_back(place_of(histogram, end));
     curves.cumulative.push_back(total > 0 ? 100 * sum / total : kNan);
   }

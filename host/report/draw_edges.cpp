@@ -38,12 +38,16 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
   const auto wheel = colour_wheel();
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const double dx = kHalfStroke * std::cos(edges.direction[i]), dy = kHalfStroke * std::sin(edges.direction[i]);
-    cv::line(canvas.picture(), canvas.place(edges.x[i] - dx, edges.y[i] - dy), canvas.place(edges.x[i] + dx, edges.y[i] + dy),
-             direction_colour(wheel, edges.direction[i]), 1, cv::LINE_AA, kPlaceShift);
+    cv::line(canvas.picture(), canvas.place(edges.x[i] - dx, edges.y[i] - dy),
+             canvas.place(edges.x[i] + dx, edges.y[i] + dy), direction_colour(wheel, edges.direction[i]), 1,
+             cv::LINE_AA, kPlaceShift);
   }
   const cv::Scalar white(255, 255, 255);
-  put_text(canvas.picture(), std::to_string(edges.size()) + " third-order edges, coloured by direction, "
-           "which has the bright side on its right", 10, canvas.legend_y(0), white);
+  put_text(canvas.picture(),
+           std::to_string(edges.size()) +
+               " third-order edges, coloured by direction, "
+               "which has the bright side on its right",
+           10, canvas.legend_y(0), white);
   const int y = canvas.legend_y(1);
   int x = put_text(canvas.picture(), "-180 deg", 10, y, white) + 8;
   for (int i = 0; i < 360; ++i, ++x) {

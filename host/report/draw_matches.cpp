@@ -17,7 +17,8 @@ using evaluation::FinalMatch;
 using evaluation::MatchClass;
 
 const cv::Scalar kWhite(255, 255, 255), kFrame(255, 255, 255);
-const cv::Scalar kClassColours[] = {{90, 220, 60}, {0, 200, 255}, {70, 70, 255}, {255, 120, 220}};  // BGR, in the order of MatchClass
+const cv::Scalar kClassColours[] = {
+    {90, 220, 60}, {0, 200, 255}, {70, 70, 255}, {255, 120, 220}};  // BGR, in the order of MatchClass
 
 std::string limit(double px) { return fixed(px, px == std::round(px) ? 0 : 2) + " px"; }
 
@@ -44,12 +45,12 @@ cv::Scalar own_colour(std::size_t index) {
 
 /// The strokes of the chosen matches in both views of a picture.
 struct Strokes {
-  std::vector<std::size_t> chosen;   ///< indices into the frame's matches
-  std::vector<cv::Scalar> colours;   ///< one per chosen match
-  bool with_truth = false;           ///< link the true place
-  bool by_class = false;             ///< neighbours have one colour, so that thin strokes do
-  double half_length = 0.6;          ///< px of the image
-  int dot = 0;                       ///< radius of a dot in both views [px of the picture]; 0: none
+  std::vector<std::size_t> chosen;  ///< indices into the frame's matches
+  std::vector<cv::Scalar> colours;  ///< one per chosen match
+  bool with_truth = false;          ///< link the true place
+  bool by_class = false;            ///< neighbours have one colour, so that thin strokes do
+  double half_length = 0.6;         ///< px of the image
+  int dot = 0;                      ///< radius of a dot in both views [px of the picture]; 0: none
 };
 
 void draw_strokes(const DrawnFrame& frame, const Strokes& strokes, MatchView& left, MatchView& right) {
@@ -66,10 +67,12 @@ void draw_strokes(const DrawnFrame& frame, const Strokes& strokes, MatchView& le
 
 /// The whole pair above, the details below.
 cv::Mat compose(const DrawnFrame& frame, Strokes strokes, const std::vector<std::string>& lines) {
-  const PairLayout layout(frame.left.width, frame.left.height, frame.right.width, frame.right.height, static_cast<int>(lines.size()));
+  const PairLayout layout(frame.left.width, frame.left.height, frame.right.width, frame.right.height,
+                          static_cast<int>(lines.size()));
   const auto regions = layout.choose_regions(frame, strokes.chosen);
   cv::Mat picture = layout.blank(!regions.empty());
-  for (std::size_t i = 0; i < lines.size(); ++i) put_text(picture, lines[i], 8, kLegendLine * static_cast<int>(i + 1) - 8, kWhite);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    put_text(picture, lines[i], 8, kLegendLine * static_cast<int>(i + 1) - 8, kWhite);
   // Few matches must be found by the eye: they get dots.
   const std::size_t count = strokes.chosen.size();
   strokes.dot = strokes.by_class || count > 20000 ? 0 : count > 2000 ? 1 : count > 300 ? 2 : 3;
@@ -90,7 +93,8 @@ cv::Mat compose(const DrawnFrame& frame, Strokes strokes, const std::vector<std:
 
 }  // namespace
 
-cv::Mat draw_match_class(const DrawnFrame& frame, MatchClass kind, const std::string& name, double tolerance, double wrong) {
+cv::Mat draw_match_class(const DrawnFrame& frame, MatchClass kind, const std::string& name, double tolerance,
+                         double wrong) {
   Strokes strokes;
   strokes.with_truth = kind != MatchClass::correct;
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {
@@ -101,9 +105,11 @@ cv::Mat draw_match_class(const DrawnFrame& frame, MatchClass kind, const std::st
   const std::string what = name + ": " + std::to_string(strokes.chosen.size()) + " " +
                            evaluation::kMatchClassNames[static_cast<std::size_t>(kind)] + " stereo edges, " +
                            meaning(kind, tolerance, wrong) + " (frame " + std::to_string(frame.number) + ")";
-  return compose(frame, strokes, {what, strokes.with_truth ? "One colour per correspondence in both views; in the right view a line leads "
-                                                             "from the match to a ring at the true place."
-                                                           : "One colour per correspondence, the same in both views."});
+  return compose(
+      frame, strokes,
+      {what, strokes.with_truth ? "One colour per correspondence in both views; in the right view a line leads "
+                                  "from the match to a ring at the true place."
+                                : "One colour per correspondence, the same in both views."});
 }
 
 cv::Mat draw_all_matches(const DrawnFrame& frame, const std::string& name, double tolerance, double wrong) {
@@ -119,8 +125,10 @@ cv::Mat draw_all_matches(const DrawnFrame& frame, const std::string& name, doubl
       strokes.colours.push_back(kClassColours[kind]);
     }
   }
-  cv::Mat picture = compose(frame, strokes, {name + ": stereo edges of known truth (frame " + std::to_string(frame.number) + ")", ""});
-  const std::string limits[] = {" (within " + limit(tolerance) + ")", " (up to " + limit(wrong) + ")", " (beyond)", " in the right view"};
+  cv::Mat picture = compose(frame, strokes,
+                            {name + ": stereo edges of known truth (frame " + std::to_string(frame.number) + ")", ""});
+  const std::string limits[] = {" (within " + limit(tolerance) + ")", " (up to " + limit(wrong) + ")", " (beyond)",
+                                " in the right view"};
   int x = 8;
   const int y = 2 * kLegendLine - 8;
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
@@ -131,7 +139,8 @@ cv::Mat draw_all_matches(const DrawnFrame& frame, const std::string& name, doubl
   return picture;
 }
 
-std::vector<MatchDrawing> draw_matches(const DrawnFrame& frame, const std::string& name, double tolerance, double wrong) {
+std::vector<MatchDrawing> draw_matches(const DrawnFrame& frame, const std::string& name, double tolerance,
+                                       double wrong) {
   std::vector<MatchDrawing> drawings;
   drawings.push_back({"all.png", name + ": all stereo edges of known truth, coloured by class.",
                       draw_all_matches(frame, name, tolerance, wrong)});
@@ -141,7 +150,8 @@ std::vector<MatchDrawing> draw_matches(const DrawnFrame& frame, const std::strin
                                      [&](const FinalMatch& match) { return match.kind == kind; });
     if (count == 0) continue;
     const std::string what = evaluation::kMatchClassNames[k];
-    drawings.push_back({what + ".png", name + ": " + std::to_string(count) + " " + what + ", " + meaning(kind, tolerance, wrong) + ".",
+    drawings.push_back({what + ".png",
+                        name + ": " + std::to_string(count) + " " + what + ", " + meaning(kind, tolerance, wrong) + ".",
                         draw_match_class(frame, kind, name, tolerance, wrong)});
   }
   return drawings;

@@ -10,22 +10,24 @@
 
 namespace quadedge::report {
 
-/// The correspondences of one class over both images side by side, with up to three zoomed details below, whose places the
-/// images show as numbered frames. Every correspondence has a colour of its own, the same in both views; inaccurate and wrong
-/// ones are linked, in the right view, with a ring at their true place. `tolerance` and `wrong`: limits of the classes [px].
-cv::Mat draw_match_class(const evaluation::DrawnFrame& frame, evaluation::MatchClass kind, const std::string& name, double tolerance,
-                         double wrong);
+/// The correspondences of one class over both images side by side, with up to three zoomed details below, whose places
+/// the images show as numbered frames. Every correspondence has a colour of its own, the same in both views; inaccurate
+/// and wrong ones are linked, in the right view, with a ring at their true place. `tolerance` and `wrong`: limits of
+/// the classes [px].
+cv::Mat draw_match_class(const evaluation::DrawnFrame& frame, evaluation::MatchClass kind, const std::string& name,
+                         double tolerance, double wrong);
 
 /// All correspondences of known truth, coloured by class, the same way.
 cv::Mat draw_all_matches(const evaluation::DrawnFrame& frame, const std::string& name, double tolerance, double wrong);
 
 /// Files and their pictures of one frame: all classes in one, and each class that occurs.
 struct MatchDrawing {
-  std::string file;     ///< ends in ".png"
+  std::string file;  ///< ends in ".png"
   std::string caption;
   cv::Mat picture;
 };
-std::vector<MatchDrawing> draw_matches(const evaluation::DrawnFrame& frame, const std::string& name, double tolerance, double wrong);
+std::vector<MatchDrawing> draw_matches(const evaluation::DrawnFrame& frame, const std::string& name, double tolerance,
+                                       double wrong);
 
 /// JPEG of at most `max_bytes`: quality first, then size is given up until it fits.
 std::vector<std::uint8_t> encode_jpeg(const cv::Mat& picture, std::size_t max_bytes);

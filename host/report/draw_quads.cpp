@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kBrightness = 0.45;
 constexpr int kThumbnailWidth = 480;  // px
-constexpr int kCell = 16;  // px of the image; one motion is drawn per cell
+constexpr int kCell = 16;             // px of the image; one motion is drawn per cell
 const cv::Scalar kWhite(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
 
 /// Colours from small (dark) to large (bright) values.
@@ -34,12 +34,14 @@ double disparity(const StereoEdges& stereo, std::size_t i) {
   return std::hypot(stereo.left_x[i] - stereo.right_x[i], stereo.left_y[i] - stereo.right_y[i]);
 }
 
-/// The first quad of every cell of the image: all of them would cover the picture, and this keeps the share of the kinds.
+/// The first quad of every cell of the image: all of them would cover the picture, and this keeps the share of the
+/// kinds.
 std::vector<std::size_t> one_per_cell(const TemporalMatches& quads) {
   std::set<std::pair<int, int>> taken;
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < quads.size(); ++i) {
-    const std::pair<int, int> cell(static_cast<int>(quads.left_x[i]) / kCell, static_cast<int>(quads.left_y[i]) / kCell);
+    const std::pair<int, int> cell(static_cast<int>(quads.left_x[i]) / kCell,
+                                   static_cast<int>(quads.left_y[i]) / kCell);
     if (taken.insert(cell).second) chosen.push_back(i);
   }
   return chosen;
@@ -57,13 +59,14 @@ void paint(Canvas& canvas, const FrameDetails& details, const std::vector<cv::Sc
   const int radius = std::max(1, canvas.scale() / 2) << kPlaceShift;
   for (std::size_t i = 0; i < details.stereo.size(); ++i) {
     const auto level = static_cast<std::size_t>(std::clamp(disparity(details.stereo, i) / largest, 0.0, 1.0) * 255);
-    cv::circle(canvas.picture(), canvas.place(details.stereo.left_x[i], details.stereo.left_y[i]), radius, colours[level], cv::FILLED,
-               cv::LINE_AA, kPlaceShift);
+    cv::circle(canvas.picture(), canvas.place(details.stereo.left_x[i], details.stereo.left_y[i]), radius,
+               colours[level], cv::FILLED, cv::LINE_AA, kPlaceShift);
   }
   for (const std::size_t i : one_per_cell(details.quads)) {
     const auto previous = static_cast<std::size_t>(details.quads.previous[i]);
     const cv::Scalar& colour = details.quad_inlier.at(i) != 0 ? kInlier : kOutlier;
-    const cv::Point start = canvas.place(details.previous_stereo.left_x.at(previous), details.previous_stereo.left_y.at(previous));
+    const cv::Point start =
+        canvas.place(details.previous_stereo.left_x.at(previous), details.previous_stereo.left_y.at(previous));
     const cv::Point end = canvas.place(details.quads.left_x[i], details.quads.left_y[i]);
     cv::line(canvas.picture(), start, end, colour, 1, cv::LINE_AA, kPlaceShift);
     cv::circle(canvas.picture(), end, 5 << (kPlaceShift - 1), colour, cv::FILLED, cv::LINE_AA, kPlaceShift);
@@ -78,7 +81,8 @@ void draw_quads_thumbnail(const std::string& path, const ImageView& left, const 
   const cv::Mat image = canvas.picture()(cv::Rect(0, 0, left.width * canvas.scale(), left.height * canvas.scale()));
   const double reduction = static_cast<double>(kThumbnailWidth) / image.cols;
   cv::Mat small;
-  cv::resize(image, small, {kThumbnailWidth, std::max(1, static_cast<int>(std::lround(image.rows * reduction)))}, 0, 0, cv::INTER_AREA);
+  cv::resize(image, small, {kThumbnailWidth, std::max(1, static_cast<int>(std::lround(image.rows * reduction)))}, 0, 0,
+             cv::INTER_AREA);
   write_jpeg(path, small);
 }
 
@@ -87,19 +91,22 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   const auto colours = colour_scale();
   const double largest = colour_range(details);
   paint(canvas, details, colours, largest);
-  const auto inliers = std::count_if(details.quad_inlier.begin(), details.quad_inlier.end(), [](auto flag) { return flag != 0; });
+  const auto inliers =
+      std::count_if(details.quad_inlier.begin(), details.quad_inlier.end(), [](auto flag) { return flag != 0; });
 
   cv::Mat& picture = canvas.picture();
   int y = canvas.legend_y(0);
   int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kWhite) + 6;
   for (int i = 0; i < 256; ++i, ++x) cv::line(picture, {x, y - 12}, {x, y + 2}, colours[static_cast<std::size_t>(i)]);
-  put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)", x + 6, y, kWhite);
+  put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)", x + 6, y,
+           kWhite);
   y = canvas.legend_y(1);
   x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kWhite) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);
-  put_text(picture, std::to_string(static_cast<std::ptrdiff_t>(details.quads.size()) - inliers) + " others", x + 38, y, kOutlier);
+  put_text(picture, std::to_string(static_cast<std::ptrdiff_t>(details.quads.size()) - inliers) + " others", x + 38, y,
+           kOutlier);
   write_png(path, picture);
 }
 

@@ -10,10 +10,11 @@
 namespace quadedge::report {
 namespace {
 
-constexpr int kWidth = 1000, kHeight = 800;                              // px
-constexpr int kLeft = 90, kRight = 30, kTop = 80, kBottom = 70;          // margins of the plot [px]
-constexpr double kSmallestExtent = 1e-3;                                 // m; a rig at rest still gets axes
-const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225), kTruth(150, 150, 150), kEstimate(200, 90, 20), kStart(60, 140, 30);
+constexpr int kWidth = 1000, kHeight = 800;                      // px
+constexpr int kLeft = 90, kRight = 30, kTop = 80, kBottom = 70;  // margins of the plot [px]
+constexpr double kSmallestExtent = 1e-3;                         // m; a rig at rest still gets axes
+const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225), kTruth(150, 150, 150), kEstimate(200, 90, 20),
+    kStart(60, 140, 30);
 
 /// Points (x, z) of a trajectory [m].
 std::vector<cv::Point2d> from_above(const Trajectory& trajectory) {
@@ -36,7 +37,8 @@ Trajectory moved_to_estimate(const Trajectory& truth, const Trajectory& estimate
   const auto first_truth = nearest(truth, estimate.front().stamp_ns);
   const auto first_estimate = nearest(estimate, first_truth->stamp_ns);
   const auto last_truth = nearest(truth, estimate.back().stamp_ns);
-  const Eigen::Isometry3d estimate_from_truth = first_estimate->world_from_left * first_truth->world_from_left.inverse();
+  const Eigen::Isometry3d estimate_from_truth =
+      first_estimate->world_from_left * first_truth->world_from_left.inverse();
   for (auto pose = first_truth; pose <= last_truth; ++pose) {
     moved.push_back({pose->stamp_ns, estimate_from_truth * pose->world_from_left});
   }
@@ -97,7 +99,8 @@ void draw_axes(cv::Mat& picture, const Plot& plot) {
   put_text(picture, "z forward [m]", 8, top - 14, kInk);
 }
 
-void draw_path(cv::Mat& picture, const Plot& plot, const std::vector<cv::Point2d>& points, const cv::Scalar& colour, int width) {
+void draw_path(cv::Mat& picture, const Plot& plot, const std::vector<cv::Point2d>& points, const cv::Scalar& colour,
+               int width) {
   constexpr int kShift = 4;
   const auto fine = [&](const cv::Point2d& point) {
     const cv::Point2d place = plot.place(point) * (1 << kShift);
@@ -106,7 +109,8 @@ void draw_path(cv::Mat& picture, const Plot& plot, const std::vector<cv::Point2d
   for (std::size_t i = 1; i < points.size(); ++i) {
     cv::line(picture, fine(points[i - 1]), fine(points[i]), colour, width, cv::LINE_AA, kShift);
   }
-  for (const auto& point : points) cv::circle(picture, fine(point), (width + 1) << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
+  for (const auto& point : points)
+    cv::circle(picture, fine(point), (width + 1) << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
 }
 
 /// One row between title and plot, where it hides nothing.
@@ -123,7 +127,8 @@ void draw_legend(cv::Mat& picture, const std::vector<std::pair<std::string, cv::
 
 }  // namespace
 
-void draw_trajectory(const std::string& path, const Trajectory& estimate, const Trajectory& truth, const std::string& title) {
+void draw_trajectory(const std::string& path, const Trajectory& estimate, const Trajectory& truth,
+                     const std::string& title) {
   const auto estimate_points = from_above(estimate);
   const auto truth_points = from_above(moved_to_estimate(truth, estimate));
   auto all = estimate_points;
@@ -141,7 +146,8 @@ void draw_trajectory(const std::string& path, const Trajectory& estimate, const 
   draw_path(picture, plot, estimate_points, kEstimate, 2);
   if (!estimate_points.empty()) {
     const auto start = plot.place(estimate_points.front());
-    cv::circle(picture, {static_cast<int>(std::lround(start.x)), static_cast<int>(std::lround(start.y))}, 6, kStart, 2, cv::LINE_AA);
+    cv::circle(picture, {static_cast<int>(std::lround(start.x)), static_cast<int>(std::lround(start.y))}, 6, kStart, 2,
+               cv::LINE_AA);
     legend.emplace_back("start", kStart);
   }
   draw_legend(picture, legend);

@@ -1,6 +1,6 @@
 #pragma once
-/// \file drawing.hpp  Pictures of results as PNG files, each with its legend. All functions \throw DataError when the file
-/// cannot be written.
+/// \file drawing.hpp  Pictures of results as PNG files, each with its legend. All functions \throw DataError when the
+/// file cannot be written.
 
 #include <string>
 
@@ -14,15 +14,16 @@ namespace quadedge::report {
 /// Third-order edges as short strokes along their direction, coloured by direction, over the darkened image.
 void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& edges);
 
-/// The left image with its stereo edges coloured by disparity, and for every quad the way of its left edge from the frame
-/// before to this one: inliers white, others red, one per cell of 16 px.
+/// The left image with its stereo edges coloured by disparity, and for every quad the way of its left edge from the
+/// frame before to this one: inliers white, others red, one per cell of 16 px.
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details);
 
 /// The picture of draw_quads without its legend, reduced to a width of 480 px, as JPEG.
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details);
 
-/// A trajectory from above: x to the right, z forward, metres, one scale for both axes. `truth` may be empty and is moved so
-/// that it agrees with the estimate at the first pose of both (nearest stamp).
-void draw_trajectory(const std::string& path, const Trajectory& estimate, const Trajectory& truth, const std::string& title);
+/// A trajectory from above: x to the right, z forward, metres, one scale for both axes. `truth` may be empty and is
+/// moved so that it agrees with the estimate at the first pose of both (nearest stamp).
+void draw_trajectory(const std::string& path, const Trajectory& estimate, const Trajectory& truth,
+                     const std::string& title);
 
 }  // namespace quadedge::report

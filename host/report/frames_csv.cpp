@@ -60,8 +60,9 @@ std::string FramesCsv::header() const {
 
 std::string FramesCsv::row(std::size_t frame) const {
   const FrameResult& result = frames_[frame];
-  std::string text = std::to_string(frame) + "," + data::format_seconds(result.stamp_ns) + "," + to_string(result.status) + "," +
-                     std::to_string(result.reference_frame) + "," + (result.new_key_rig ? "1" : "0");
+  std::string text = std::to_string(frame) + "," + data::format_seconds(result.stamp_ns) + "," +
+                     to_string(result.status) + "," + std::to_string(result.reference_frame) + "," +
+                     (result.new_key_rig ? "1" : "0");
   for (const auto& [name, count] : named_counts(result.counts)) text += "," + std::to_string(count);
   text += "," + milliseconds(result.latency_ms);
   for (const auto& name : stages_) {

@@ -30,10 +30,14 @@ std::vector<std::string> csv_fields(const std::string& line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') fields.back() += line[++i];
-    else if (c == '"') quoted = !quoted;
-    else if (c == ',' && !quoted) fields.emplace_back();
-    else fields.back() += c;
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
+      fields.back() += line[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
   }
   return fields;
 }
@@ -61,14 +65,17 @@ FramesTable read_frames_table(const std::string& file) {
     const auto fields = csv_fields(lines[row].text);
     const int line = lines[row].number;
     if (fields.size() != names.size()) {
-      data::fail(file, line, std::to_string(fields.size()) + " fields", std::to_string(names.size()) + " as in the heading");
+      data::fail(file, line, std::to_string(fields.size()) + " fields",
+                 std::to_string(names.size()) + " as in the heading");
     }
     table.stamp_s.push_back(number(fields[stamp], file, line));
     table.status.push_back(fields[status]);
     table.new_key_rig.push_back(fields[key_rig] == "1");
     table.latency_ms.push_back(number(fields[latency], file, line));
-    for (std::size_t i = 0; i < counts.size(); ++i) table.counts[i].second.push_back(number(fields[counts[i]], file, line));
-    for (std::size_t i = 0; i < stages.size(); ++i) table.stages_ms[i].second.push_back(number(fields[stages[i]], file, line));
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      table.counts[i].second.push_back(number(fields[counts[i]], file, line));
+    for (std::size_t i = 0; i < stages.size(); ++i)
+      table.stages_ms[i].second.push_back(number(fields[stages[i]], file, line));
   }
   return table;
 }

@@ -13,7 +13,8 @@ struct FramesTable {
   std::vector<std::string> status;
   std::vector<bool> new_key_rig;
   std::vector<double> latency_ms;
-  /// Counts of edges, stereo edges, quads, ... and stage times [ms], in the order of the file; NaN where a field is empty.
+  /// Counts of edges, stereo edges, quads, ... and stage times [ms], in the order of the file; NaN where a field is
+  /// empty.
   std::vector<std::pair<std::string, std::vector<double>>> counts, stages_ms;
 };
 

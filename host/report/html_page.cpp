@@ -75,7 +75,8 @@ void HtmlPage::paragraph(const std::string& text) { body_ += "<p>" + escape(text
 
 void HtmlPage::definitions(const std::vector<std::pair<std::string, std::string>>& entries) {
   body_ += "<dl>\n";
-  for (const auto& entry : entries) body_ += "<dt>" + escape(entry.first) + "</dt><dd>" + escape(entry.second) + "</dd>\n";
+  for (const auto& entry : entries)
+    body_ += "<dt>" + escape(entry.first) + "</dt><dd>" + escape(entry.second) + "</dd>\n";
   body_ += "</dl>\n";
 }
 
@@ -95,8 +96,9 @@ void HtmlPage::table(const HtmlTable& table) {
   body_ += "</tr></thead><tbody>\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     if (table.rows[r].size() != table.columns.size()) {
-      throw UsageError("table '" + table.caption + "': row " + std::to_string(r) + " has " + std::to_string(table.rows[r].size()) +
-                       " cells, expected " + std::to_string(table.columns.size()));
+      throw UsageError("table '" + table.caption + "': row " + std::to_string(r) + " has " +
+                       std::to_string(table.rows[r].size()) + " cells, expected " +
+                       std::to_string(table.columns.size()));
     }
     body_ += table.last_row_counts && r + 1 == table.rows.size() ? "<tr class=\"result\">" : "<tr>";
     for (const auto& cell : table.rows[r]) body_ += "<td>" + escape(cell) + "</td>";
@@ -112,7 +114,8 @@ void HtmlPage::plots(const std::vector<std::string>& svgs, const std::string& ca
 }
 
 void HtmlPage::picture(const std::vector<std::uint8_t>& bytes, const std::string& type, const std::string& caption) {
-  body_ += "<figure><img alt=\"" + escape(caption) + "\" src=\"data:" + escape(type) + ";base64," + base64(bytes) + "\"/>";
+  body_ +=
+      "<figure><img alt=\"" + escape(caption) + "\" src=\"data:" + escape(type) + ";base64," + base64(bytes) + "\"/>";
   body_ += (caption.empty() ? "" : "<figcaption>" + escape(caption) + "</figcaption>") + std::string("</figure>\n");
 }
 
@@ -129,9 +132,10 @@ void HtmlPage::begin_fold(const std::string& summary, bool open) {
 void HtmlPage::end_fold() { body_ += "</details>\n"; }
 
 std::string HtmlPage::html() const {
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
-                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/><title>" +
-                     escape(title_) + "</title><style>" + kStyle + "</style></head><body>\n<h1>" + escape(title_) + "</h1>\n";
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/><title>" +
+      escape(title_) + "</title><style>" + kStyle + "</style></head><body>\n<h1>" + escape(title_) + "</h1>\n";
   if (contents_.size() > 1) {
     page += "<nav>";
     for (const auto& entry : contents_) page += "<a href=\"#" + entry.id + "\">" + escape(entry.text) + "</a>";

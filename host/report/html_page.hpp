@@ -7,7 +7,8 @@
 
 namespace quadedge::report {
 
-/// A table of texts. The first column is left-aligned, the others are numbers and right-aligned. A cell may have several lines.
+/// A table of texts. The first column is left-aligned, the others are numbers and right-aligned. A cell may have
+/// several lines.
 struct HtmlTable {
   /// One cell of the heading; `span`: columns that it stands over.
   struct Heading {
@@ -15,7 +16,7 @@ struct HtmlTable {
     int span = 1;
   };
   std::string caption;
-  std::vector<Heading> groups;                 ///< an upper line of the heading; may be empty
+  std::vector<Heading> groups;  ///< an upper line of the heading; may be empty
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;  ///< each as long as `columns`
   bool last_row_counts = false;                ///< the last row is the result and printed bold

@@ -18,7 +18,8 @@ Json accuracy(const TrajectoryEvaluation& evaluation) {
 
 Json stages(const std::vector<std::vector<StageTime>>& frames) {
   Json object = Json::object();
-  for (const auto& row : stage_summary(frames)) object[row.stage] = {{"median", to_json(row.median)}, {"p90", to_json(row.p90)}};
+  for (const auto& row : stage_summary(frames))
+    object[row.stage] = {{"median", to_json(row.median)}, {"p90", to_json(row.p90)}};
   return object;
 }
 
@@ -43,11 +44,14 @@ std::string report_json(const RunRecord& run) {
   Json report;
   report["schema"] = kReportSchema;
   report["version"] = QUADEDGE_VERSION;
-  report["device"] = {{"name", run.device.name}, {"platform", run.device.platform}, {"driver", run.device.driver},
-                      {"opencl", run.device.opencl}, {"type", run.device.type}};
+  report["device"] = {{"name", run.device.name},
+                      {"platform", run.device.platform},
+                      {"driver", run.device.driver},
+                      {"opencl", run.device.opencl},
+                      {"type", run.device.type}};
   report["variants"] = Json(run.variants);
-  report["input"] = {{"path", run.input.path}, {"format", run.input.format}, {"name", run.input.name},
-                     {"frames", run.input.frames}, {"width", run.input.width}, {"height", run.input.height}};
+  report["input"] = {{"path", run.input.path},     {"format", run.input.format}, {"name", run.input.name},
+                     {"frames", run.input.frames}, {"width", run.input.width},   {"height", run.input.height}};
   report["frames_tracked"] = run.tracked();
   report["frames_lost"] = static_cast<int>(run.frames.size()) - run.tracked();
   report["frames_overflowed"] = overflows;
@@ -73,8 +77,8 @@ std::string report_json(const RunRecord& run) {
   return json_text(report);
 }
 
-std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate, const std::string& truth,
-                            const std::optional<evaluation::StepJudgement>& steps) {
+std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate,
+                            const std::string& truth, const std::optional<evaluation::StepJudgement>& steps) {
   Json json;
   json["schema"] = kReportSchema;
   json["version"] = QUADEDGE_VERSION;
@@ -82,7 +86,10 @@ std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::s
   json["truth"] = truth;
   json["accuracy"] = accuracy(evaluation);
   if (steps) {
-    json["steps"] = {{"right", steps->right}, {"wrong", steps->wrong}, {"lost", steps->lost}, {"wrong_stamps_ns", steps->wrong_stamps_ns}};
+    json["steps"] = {{"right", steps->right},
+                     {"wrong", steps->wrong},
+                     {"lost", steps->lost},
+                     {"wrong_stamps_ns", steps->wrong_stamps_ns}};
   }
   json["per_pose"] = Json::array();
   for (const auto& pose : evaluation.per_pose) {
@@ -98,9 +105,15 @@ std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::s
 std::string trace_json(const RunRecord& run) {
   constexpr double kMicroseconds = 1000;  // per millisecond
   Json events = Json::array();
-  const auto add = [&](const std::string& name, const char* category, double start_ms, double duration_ms, int thread) -> Json& {
-    events.push_back({{"name", name}, {"cat", category}, {"ph", "X"}, {"pid", 1}, {"tid", thread},
-                      {"ts", start_ms * kMicroseconds}, {"dur", duration_ms * kMicroseconds}});
+  const auto add = [&](const std::string& name, const char* category, double start_ms, double duration_ms,
+                       int thread) -> Json& {
+    events.push_back({{"name", name},
+                      {"cat", category},
+                      {"ph", "X"},
+                      {"pid", 1},
+                      {"tid", thread},
+                      {"ts", start_ms * kMicroseconds},
+                      {"dur", duration_ms * kMicroseconds}});
     return events.back();
   };
   for (std::size_t i = 0; i < run.frames.size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
-/// \file json.hpp  The machine-readable results (DESIGN section 10). All functions return the text of a JSON document.
+/// \file json.hpp  The machine-readable results (doc/design.md section 10). All functions return the text of a JSON
+/// document.
 
 #include <optional>
 #include <string>
@@ -15,11 +16,14 @@ constexpr int kReportSchema = 1;
 /// report.json of a run.
 std::string report_json(const RunRecord& run);
 
-/// Result of `evaluate trajectory`: the accuracy of report.json with the errors of every pose, and the steps where they were judged.
-std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate, const std::string& truth,
+/// Result of `evaluate trajectory`: the accuracy of report.json with the errors of every pose, and the steps where they
+/// were judged.
+std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate,
+                            const std::string& truth,
                             const std::optional<evaluation::StepJudgement>& steps = std::nullopt);
 
-/// Chrome's trace format (chrome://tracing, ui.perfetto.dev): one event per frame, with its stages one after another inside it.
+/// Chrome's trace format (chrome://tracing, ui.perfetto.dev): one event per frame, with its stages one after another
+/// inside it.
 std::string trace_json(const RunRecord& run);
 
 }  // namespace quadedge::report

@@ -1,5 +1,6 @@
 #pragma once
-/// \file json_values.hpp  Parts that several JSON results share. Included by the few files that write or read JSON alone.
+/// \file json_values.hpp  Parts that several JSON results share. Included by the few files that write or read JSON
+/// alone.
 
 #include <cmath>
 #include <limits>
@@ -17,7 +18,10 @@ using Json = nlohmann::ordered_json;
 inline Json to_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 inline Json to_json(const ErrorStatistics& error) {
-  return {{"mean", to_json(error.mean)}, {"std", to_json(error.std)}, {"rmse", to_json(error.rmse)}, {"max", to_json(error.max)}};
+  return {{"mean", to_json(error.mean)},
+          {"std", to_json(error.std)},
+          {"rmse", to_json(error.rmse)},
+          {"max", to_json(error.max)}};
 }
 
 inline Json to_json(const PoseErrors& errors) {
@@ -28,12 +32,17 @@ inline Json to_json(const PoseErrors& errors) {
 }
 
 inline Json to_json(const LatencySummary& latency) {
-  return {{"median", to_json(latency.median)}, {"p90", to_json(latency.p90)}, {"p99", to_json(latency.p99)},
-          {"max", to_json(latency.max)}, {"first", to_json(latency.first)}};
+  return {{"median", to_json(latency.median)},
+          {"p90", to_json(latency.p90)},
+          {"p99", to_json(latency.p99)},
+          {"max", to_json(latency.max)},
+          {"first", to_json(latency.first)}};
 }
 
 /// The way back: null is NaN. \throws nlohmann::json::exception for a missing key or another type.
-inline double to_number(const Json& json) { return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
+inline double to_number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
 
 inline ErrorStatistics to_statistics(const Json& json) {
   return {to_number(json.at("mean")), to_number(json.at("std")), to_number(json.at("rmse")), to_number(json.at("max"))};
@@ -50,6 +59,8 @@ inline LatencySummary to_latency(const Json& json) {
 }
 
 /// The text of a file. Names of files may hold bytes that are no UTF-8; they are replaced instead of failing.
-inline std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+inline std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 }  // namespace quadedge::report

@@ -8,8 +8,8 @@
 
 namespace quadedge::report {
 
-/// Writes FOLDER/NAME_all.png and FOLDER/NAME_CLASS.png for every class that occurs, of every result with a frame to draw; the
-/// second result of one name gets a "_2". Makes the folder. \throws DataError.
+/// Writes FOLDER/NAME_all.png and FOLDER/NAME_CLASS.png for every class that occurs, of every result with a frame to
+/// draw; the second result of one name gets a "_2". Makes the folder. \throws DataError.
 void write_match_drawings(const std::string& folder, const std::vector<evaluation::MatchingResult>& results,
                           const evaluation::MatchingTolerance& tolerance);
 

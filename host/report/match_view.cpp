@@ -9,8 +9,8 @@
 namespace quadedge::report {
 namespace {
 
-constexpr int kWidth = 1900;             // px of the picture that a pair should fill, at a whole scale
-constexpr int kGap = 6;                  // px between views
+constexpr int kWidth = 1900;  // px of the picture that a pair should fill, at a whole scale
+constexpr int kGap = 6;       // px between views
 constexpr int kRegions = 3;
 constexpr double kRegionWidth = 72, kRegionHeight = 54;  // px of the image
 constexpr double kWholeBrightness = 0.5, kDetailBrightness = 0.7;
@@ -23,7 +23,8 @@ double middle(std::vector<double>& values) {
 
 }  // namespace
 
-MatchView::MatchView(cv::Mat& picture, const cv::Rect& rectangle, const Image& image, const cv::Rect2d& region, double brightness)
+MatchView::MatchView(cv::Mat& picture, const cv::Rect& rectangle, const Image& image, const cv::Rect2d& region,
+                     double brightness)
     : view_(picture(rectangle)), region_(region), scale_(rectangle.width / region.width) {
   const ImageView pixels = image.view();
   const cv::Mat grey(pixels.height, pixels.width, CV_8UC1, const_cast<std::uint8_t*>(pixels.pixels),
@@ -57,7 +58,8 @@ void MatchView::link(double x, double y, double true_x, double true_y, const cv:
 
 void MatchView::frame(const cv::Rect2d& region, const std::string& number, const cv::Scalar& colour) {
   const auto whole = [&](double x, double y) { return place(x, y) / (1 << kPlaceShift); };
-  const cv::Point low = whole(region.x, region.y), high = whole(region.x + region.width - 1, region.y + region.height - 1);
+  const cv::Point low = whole(region.x, region.y),
+                  high = whole(region.x + region.width - 1, region.y + region.height - 1);
   cv::rectangle(view_, low, high, colour, 1);
   const int text_x = high.x + 16 > view_.cols ? low.x - 14 : high.x + 4;
   cv::putText(view_, number, {text_x, low.y + 13}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {0, 0, 0}, 3, cv::LINE_AA);
@@ -84,17 +86,20 @@ PairLayout::PairLayout(int left_width, int left_height, int right_width, int rig
 std::vector<PairLayout::Region> PairLayout::choose_regions(const evaluation::DrawnFrame& frame,
                                                            const std::vector<std::size_t>& chosen) const {
   std::vector<Region> regions;
-  if (std::min(left_width_, right_width_) < kRegionWidth || std::min(left_height_, right_height_) < kRegionHeight) return regions;
+  if (std::min(left_width_, right_width_) < kRegionWidth || std::min(left_height_, right_height_) < kRegionHeight)
+    return regions;
   // Candidates overlap by half, so every match lies in up to four of them.
   const double step_x = kRegionWidth / 2, step_y = kRegionHeight / 2;
   const int columns = static_cast<int>((left_width_ - kRegionWidth) / step_x) + 1;
   const int rows = static_cast<int>((left_height_ - kRegionHeight) / step_y) + 1;
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(columns * rows));
   for (const std::size_t i : chosen) {
-    const int column = static_cast<int>(frame.matches[i].left_x / step_x), row = static_cast<int>(frame.matches[i].left_y / step_y);
+    const int column = static_cast<int>(frame.matches[i].left_x / step_x),
+              row = static_cast<int>(frame.matches[i].left_y / step_y);
     for (const int c : {column - 1, column}) {
       for (const int r : {row - 1, row}) {
-        if (c >= 0 && r >= 0 && c < columns && r < rows) members[static_cast<std::size_t>(r * columns + c)].push_back(i);
+        if (c >= 0 && r >= 0 && c < columns && r < rows)
+          members[static_cast<std::size_t>(r * columns + c)].push_back(i);
       }
     }
   }
@@ -138,8 +143,10 @@ MatchView PairLayout::whole(cv::Mat& picture, const Image& image, bool right) co
   return {picture, place, image, cv::Rect2d(0, 0, width, height), kWholeBrightness};
 }
 
-MatchView PairLayout::detail(cv::Mat& picture, const Image& image, const cv::Rect2d& region, std::size_t number, bool right) const {
-  const int left = static_cast<int>(number) * (2 * detail_.width + kGap + 3 * kGap) + (right ? detail_.width + kGap : 0);
+MatchView PairLayout::detail(cv::Mat& picture, const Image& image, const cv::Rect2d& region, std::size_t number,
+                             bool right) const {
+  const int left =
+      static_cast<int>(number) * (2 * detail_.width + kGap + 3 * kGap) + (right ? detail_.width + kGap : 0);
   return {picture, cv::Rect({left, detail_top_}, detail_), image, region, kDetailBrightness};
 }
 

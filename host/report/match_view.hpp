@@ -1,5 +1,6 @@
 #pragma once
-/// \file match_view.hpp  The parts of a drawing of matches: views of image regions, and where they stand in the picture.
+/// \file match_view.hpp  The parts of a drawing of matches: views of image regions, and where they stand in the
+/// picture.
 
 #include <opencv2/core.hpp>
 #include <string>
@@ -16,8 +17,8 @@ class MatchView {
   /// Draws the part `region` of the image into the rectangle `place` of the picture.
   MatchView(cv::Mat& picture, const cv::Rect& place, const Image& image, const cv::Rect2d& region, double brightness);
 
-  /// An edge: a stroke along its direction [rad], `half_length` px of the image to either side, or a dot of `dot` px where the
-  /// view is too small for strokes.
+  /// An edge: a stroke along its direction [rad], `half_length` px of the image to either side, or a dot of `dot` px
+  /// where the view is too small for strokes.
   void stroke(double x, double y, double direction, double half_length, int dot, const cv::Scalar& colour);
   /// From a match to a ring at its true place.
   void link(double x, double y, double true_x, double true_y, const cv::Scalar& colour);
@@ -46,7 +47,8 @@ class PairLayout {
   std::vector<Region> choose_regions(const evaluation::DrawnFrame& frame, const std::vector<std::size_t>& chosen) const;
   cv::Mat blank(bool with_details) const;
   MatchView whole(cv::Mat& picture, const Image& image, bool right) const;
-  MatchView detail(cv::Mat& picture, const Image& image, const cv::Rect2d& region, std::size_t number, bool right) const;
+  MatchView detail(cv::Mat& picture, const Image& image, const cv::Rect2d& region, std::size_t number,
+                   bool right) const;
 
  private:
   int left_width_, left_height_, right_width_, right_height_;  ///< of the images [px]

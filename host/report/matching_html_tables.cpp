@@ -66,10 +66,14 @@ std::string axis_text(double value) {
 HtmlTable overview_table(const std::vector<evaluation::MatchingResult>& results, const MatchingSummary& pooled) {
   HtmlTable table;
   table.caption = "What is left at the end";
-  table.groups = {{"", 3},           {"final stereo edges", 4}, {"stereo, paired [%]", 2}, {"stereo, all [%]", 2}, {"disparity, median", 1},
+  table.groups = {{"", 3},
+                  {"final stereo edges", 4},
+                  {"stereo, paired [%]", 2},
+                  {"stereo, all [%]", 2},
+                  {"disparity, median", 1},
                   {"quads, paired [%]", 2}};
-  table.columns = {"data", "frames", "left edges", "correct", "inaccurate", "wrong", "hidden", "recall", "precision", "recall", "precision",
-                   "error [px]", "recall", "precision"};
+  table.columns = {"data",   "frames",    "left edges", "correct",   "inaccurate", "wrong",  "hidden",
+                   "recall", "precision", "recall",     "precision", "error [px]", "recall", "precision"};
   for (const auto& result : results) table.rows.push_back(overview_row(result.name, evaluation::summarise({result})));
   if (results.size() > 1) {
     table.rows.push_back(overview_row("pooled", pooled));
@@ -84,7 +88,8 @@ HtmlTable filter_table(const std::string& caption, const std::vector<evaluation:
   if (rows.empty()) return table;
   const auto pool = [](const char* name, const FilterCounts& counts) { return name + count(counts.pool) + " edges"; };
   table.groups = {{"", 1}, {pool("paired: ", rows[0].row.paired), 4}, {pool("all: ", rows[0].row.all), 4}};
-  table.columns = {"filter", "recall [%]", "precision [%]", "ambiguity", "max", "recall [%]", "precision [%]", "ambiguity", "max"};
+  table.columns = {"filter",     "recall [%]",    "precision [%]", "ambiguity", "max",
+                   "recall [%]", "precision [%]", "ambiguity",     "max"};
   for (const auto& pooled : rows) {
     std::vector<std::string> cells = {std::to_string(pooled.row.order) + "  " + pooled.row.filter};
     add_counts(pooled.row.paired, pooled.paired_std, cells);
@@ -135,11 +140,13 @@ HtmlTable disparity_table(const MatchingSummary& summary) {
   HtmlTable table;
   table.caption = "Final stereo edges against the truth, and what the truth says about the left edges";
   table.groups = {{"disparity error [px]", 3}, {"part across the edge [px]", 2}, {"left edges", 5}};
-  table.columns = {"median", "90 %", "bias", "median", "90 %", "detected", "no statement", "along the line", "hidden", "on depth steps"};
+  table.columns = {"median",   "90 %",         "bias",           "median", "90 %",
+                   "detected", "no statement", "along the line", "hidden", "on depth steps"};
   const auto& census = summary.census;
-  table.rows = {{decimal(summary.disparity_median, 4), decimal(summary.disparity_p90, 4), decimal(summary.disparity_bias, 4),
-                 decimal(summary.across_median, 4), decimal(summary.across_p90, 4), count(census.edges), count(census.no_statement),
-                 count(census.along_line), count(census.hidden), count(census.contour)}};
+  table.rows = {{decimal(summary.disparity_median, 4), decimal(summary.disparity_p90, 4),
+                 decimal(summary.disparity_bias, 4), decimal(summary.across_median, 4), decimal(summary.across_p90, 4),
+                 count(census.edges), count(census.no_statement), count(census.along_line), count(census.hidden),
+                 count(census.contour)}};
   return table;
 }
 
@@ -148,13 +155,17 @@ HtmlTable quad_table(const MatchingSummary& summary) {
   table.caption = "Quads";
   table.columns = {"pool", "edges", "quads", "recall [%]", "precision [%]", "ambiguity"};
   const auto row = [](const std::string& name, const evaluation::PooledQuads& quads, const std::string& ambiguity) {
-    return std::vector<std::string>{name, count(quads.counts.pool), count(quads.counts.candidates),
+    return std::vector<std::string>{name,
+                                    count(quads.counts.pool),
+                                    count(quads.counts.candidates),
                                     percent_with(quads.counts.recall(), quads.std.recall),
-                                    percent_with(quads.counts.precision(), quads.std.precision), ambiguity};
+                                    percent_with(quads.counts.precision(), quads.std.precision),
+                                    ambiguity};
   };
-  table.rows = {row("paired", summary.quads_paired,
-                    decimal(summary.quads_ambiguity_mean, 3) + kPlusMinus + decimal(summary.quads_paired.std.ambiguity, 3)),
-                row("all", summary.quads_all, "")};
+  table.rows = {
+      row("paired", summary.quads_paired,
+          decimal(summary.quads_ambiguity_mean, 3) + kPlusMinus + decimal(summary.quads_paired.std.ambiguity, 3)),
+      row("all", summary.quads_all, "")};
   return table;
 }
 

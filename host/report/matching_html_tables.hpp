@@ -10,7 +10,8 @@
 namespace quadedge::report {
 
 /// One line per pair or sequence, and all of them pooled where there are several.
-HtmlTable overview_table(const std::vector<evaluation::MatchingResult>& results, const evaluation::MatchingSummary& pooled);
+HtmlTable overview_table(const std::vector<evaluation::MatchingResult>& results,
+                         const evaluation::MatchingSummary& pooled);
 /// Table 1 or 2.
 HtmlTable filter_table(const std::string& caption, const std::vector<evaluation::PooledRow>& rows);
 /// Edges, stereo edges, pairs in time and quads over the frames.

@@ -32,9 +32,12 @@ Json table(const std::vector<evaluation::PooledRow>& rows, bool all) {
 }
 
 Json quads(const evaluation::PooledQuads& quads) {
-  return {{"recall", number(quads.counts.recall())},     {"precision", number(quads.counts.precision())},
-          {"edges", quads.counts.pool},                  {"kept", quads.counts.candidates},
-          {"recall_std", number(quads.std.recall)}, {"precision_std", number(quads.std.precision)}};
+  return {{"recall", number(quads.counts.recall())},
+          {"precision", number(quads.counts.precision())},
+          {"edges", quads.counts.pool},
+          {"kept", quads.counts.candidates},
+          {"recall_std", number(quads.std.recall)},
+          {"precision_std", number(quads.std.precision)}};
 }
 
 Json constraints(const evaluation::MatchingSummary& summary) {
@@ -79,10 +82,14 @@ Json distributions(const std::vector<evaluation::CueDistribution>& cues) {
 Json per_frame(const evaluation::MatchingResult& result) {
   Json list = Json::array();
   for (const auto& frame : result.frames) {
-    Json entry = {{"status", to_string(frame.status)},        {"edges_left", frame.counts.edges_left},
-                  {"edges_right", frame.counts.edges_right},  {"stereo_edges", frame.counts.stereo_edges},
-                  {"temporal_left", frame.counts.temporal_left}, {"temporal_right", frame.counts.temporal_right},
-                  {"quads", frame.counts.quads},              {"inliers", frame.counts.inliers}};
+    Json entry = {{"status", to_string(frame.status)},
+                  {"edges_left", frame.counts.edges_left},
+                  {"edges_right", frame.counts.edges_right},
+                  {"stereo_edges", frame.counts.stereo_edges},
+                  {"temporal_left", frame.counts.temporal_left},
+                  {"temporal_right", frame.counts.temporal_right},
+                  {"quads", frame.counts.quads},
+                  {"inliers", frame.counts.inliers}};
     if (!frame.message.empty()) entry["message"] = frame.message;
     if (frame.motion) {
       entry["rotation_error_deg"] = frame.motion->rotation_deg;
@@ -95,15 +102,18 @@ Json per_frame(const evaluation::MatchingResult& result) {
 
 Json everything(const evaluation::MatchingSummary& summary) {
   Json json;
-  json["left_edges"] = {{"detected", summary.census.edges},     {"no_statement", summary.census.no_statement},
-                        {"along_line", summary.census.along_line}, {"hidden", summary.census.hidden},
+  json["left_edges"] = {{"detected", summary.census.edges},
+                        {"no_statement", summary.census.no_statement},
+                        {"along_line", summary.census.along_line},
+                        {"hidden", summary.census.hidden},
                         {"contour", summary.census.contour}};
   for (std::size_t kind = 0; kind < summary.classes.size(); ++kind) {
     json["stereo_edges"][evaluation::kMatchClassNames[kind]] = summary.classes[kind];
   }
   json["stereo"] = table(summary.stereo, false);
   json["stereo_all"] = table(summary.stereo, true);
-  json["disparity_error_px"] = {{"median", number(summary.disparity_median)}, {"p90", number(summary.disparity_p90)},
+  json["disparity_error_px"] = {{"median", number(summary.disparity_median)},
+                                {"p90", number(summary.disparity_p90)},
                                 {"bias", number(summary.disparity_bias)}};
   json["across_error_px"] = {{"median", number(summary.across_median)}, {"p90", number(summary.across_p90)}};
   if (summary.temporal_frames > 0) {

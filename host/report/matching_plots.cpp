@@ -16,12 +16,12 @@ using evaluation::FrameMatching;
 using evaluation::MatchingResult;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kMostBars = 24;   // frames that get a bar each
-constexpr int kCountBins = 16;          // about
+constexpr std::size_t kMostBars = 24;  // frames that get a bar each
+constexpr int kCountBins = 16;         // about
 
 /// One chart of counts. `values[f]`: one entry per series, NaN: no value in this frame.
-std::string count_chart(const std::string& title, const std::vector<std::string>& series, const std::vector<std::string>& names,
-                        const std::vector<std::vector<double>>& values) {
+std::string count_chart(const std::string& title, const std::vector<std::string>& series,
+                        const std::vector<std::string>& names, const std::vector<std::vector<double>>& values) {
   BarChart chart;
   chart.title = title;
   chart.width = 2 * kSmallPlotWidth;
@@ -49,7 +49,8 @@ std::string count_chart(const std::string& title, const std::vector<std::string>
   const auto ticks = PlotAxis(smallest, largest, false).ticks(kCountBins);
   const double width = std::max(1.0, ticks[1].value - ticks[0].value), first = std::floor(smallest / width) * width;
   const auto count = static_cast<std::size_t>((largest - first) / width) + 1;
-  for (std::size_t bin = 0; bin < count; ++bin) chart.categories.push_back(axis_number(first + static_cast<double>(bin) * width, 0));
+  for (std::size_t bin = 0; bin < count; ++bin)
+    chart.categories.push_back(axis_number(first + static_cast<double>(bin) * width, 0));
   for (std::size_t s = 0; s < series.size(); ++s) {
     std::vector<double> bins(count, 0);
     for (const double value : column(s)) ++bins[static_cast<std::size_t>((value - first) / width)];
@@ -100,7 +101,9 @@ std::vector<std::string> count_plots(const std::vector<MatchingResult>& results)
     for (std::size_t f = 0; f < result.frames.size(); ++f) {
       const FrameMatching& frame = result.frames[f];
       const std::string number = std::to_string(f);
-      names.push_back(results.size() == 1 ? number : result.frames.size() == 1 ? result.name : result.name + " " + number);
+      names.push_back(results.size() == 1         ? number
+                      : result.frames.size() == 1 ? result.name
+                                                  : result.name + " " + number);
       const bool in_time = frame.counts.temporal_left + frame.counts.temporal_right > 0;
       const auto counted = [&](int count) { return in_time ? static_cast<double>(count) : kNan; };
       edges.push_back({static_cast<double>(frame.counts.edges_left), static_cast<double>(frame.counts.edges_right)});
@@ -112,7 +115,8 @@ std::vector<std::string> count_plots(const std::vector<MatchingResult>& results)
   std::vector<std::string> plots = {count_chart("Edges", {"left", "right"}, names, edges),
                                     count_chart("Stereo edges", {""}, names, stereo)};
   if (std::any_of(quads.begin(), quads.end(), [](const auto& values) { return !std::isnan(values[0]); })) {
-    plots.push_back(count_chart("Stereo edges with a match in time", {"in the left images", "in the right images"}, names, temporal));
+    plots.push_back(count_chart("Stereo edges with a match in time", {"in the left images", "in the right images"},
+                                names, temporal));
     plots.push_back(count_chart("Quads", {""}, names, quads));
   }
   return plots;
@@ -121,9 +125,12 @@ std::vector<std::string> count_plots(const std::vector<MatchingResult>& results)
 AccuracyPlots accuracy_plots(const std::vector<MatchingResult>& results) {
   AccuracyPlots plots;
   Plot rotation = small_plot("Motion of single pairs: rotation", "precision of the pairs [%]", "median error [deg]");
-  Plot translation = small_plot("Motion of single pairs: translation", "precision of the pairs [%]", "median error [mm]");
-  Plot whole_rotation = small_plot("Motion of all quads: rotation", "precision of the pairs, all constraints [%]", "error [deg]");
-  Plot whole_translation = small_plot("Motion of all quads: translation", "precision of the pairs, all constraints [%]", "error [mm]");
+  Plot translation =
+      small_plot("Motion of single pairs: translation", "precision of the pairs [%]", "median error [mm]");
+  Plot whole_rotation =
+      small_plot("Motion of all quads: rotation", "precision of the pairs, all constraints [%]", "error [deg]");
+  Plot whole_translation =
+      small_plot("Motion of all quads: translation", "precision of the pairs, all constraints [%]", "error [mm]");
   for (auto* plot : {&rotation, &translation, &whole_rotation, &whole_translation}) plot->y_logarithmic = true;
   rotation.width = translation.width = 2 * kSmallPlotWidth;
   rotation.height = translation.height = 300;

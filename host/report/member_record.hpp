@@ -1,5 +1,6 @@
 #pragma once
-/// \file member_record.hpp  member.json: what a batch notes in the folder of each of its sequences when that is done with.
+/// \file member_record.hpp  member.json: what a batch notes in the folder of each of its sequences when that is done
+/// with.
 
 #include <optional>
 #include <string>
@@ -8,13 +9,13 @@ namespace quadedge::report {
 
 /// One sequence of a batch that was run, well or not.
 struct MemberRecord {
-  std::string name;      ///< in the batch
-  std::string path;      ///< of the recording
-  std::string format;    ///< layout; empty where the folder is none
-  std::string key;       ///< fingerprint of input, configuration, device and program; empty where the input cannot be opened
-  int exit_code = 0;     ///< of the run, as README lists them; 1 where a signal ended it
-  std::string message;   ///< why it failed; empty where it did not
-  int jobs = 1;          ///< sequences that ran at the same time: with more than one, latencies are not those of a lone run
+  std::string name;    ///< in the batch
+  std::string path;    ///< of the recording
+  std::string format;  ///< layout; empty where the folder is none
+  std::string key;  ///< fingerprint of input, configuration, device and program; empty where the input cannot be opened
+  int exit_code = 0;    ///< of the run, as README lists them; 1 where a signal ended it
+  std::string message;  ///< why it failed; empty where it did not
+  int jobs = 1;  ///< sequences that ran at the same time: with more than one, latencies are not those of a lone run
 };
 
 /// Text of member.json. It holds no times: two runs of the same input give the same bytes.

@@ -5,11 +5,12 @@
 
 namespace quadedge::report {
 
-/// Four significant digits, at most nine decimals, never an exponent (0 for what is smaller); a dash for a value that does not exist.
+/// Four significant digits, at most nine decimals, never an exponent (0 for what is smaller); a dash for a value that
+/// does not exist.
 std::string significant(double value);
 
-/// The value, and in brackets by how much it differs from `baseline`, with its sign and as many decimals as the value; "=" where
-/// these decimals show no difference. `separator` stands between the two.
+/// The value, and in brackets by how much it differs from `baseline`, with its sign and as many decimals as the value;
+/// "=" where these decimals show no difference. `separator` stands between the two.
 std::string with_difference(double value, double baseline, const std::string& separator = " ");
 
 /// "58 / 86 (67.4 %)"; a dash for none of none.

@@ -8,7 +8,7 @@
 namespace quadedge::report {
 namespace {
 
-constexpr double kAir = 0.04;             // of the range, beyond the outermost values
+constexpr double kAir = 0.04;            // of the range, beyond the outermost values
 constexpr int kSmallestWrittenOut = -4;  // powers of ten below are written as "1e-5"
 
 /// The round number (1, 2 or 5 times a power of ten) near `step`: at most a quarter below it.
@@ -51,7 +51,8 @@ PlotAxis::PlotAxis(double low, double high, bool logarithmic) : low_(low), high_
   }
 }
 
-PlotAxis PlotAxis::around(const std::vector<double>& values, bool logarithmic, std::optional<double> low, std::optional<double> high) {
+PlotAxis PlotAxis::around(const std::vector<double>& values, bool logarithmic, std::optional<double> low,
+                          std::optional<double> high) {
   double smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
   for (const double value : values) {
     if (!std::isfinite(value) || (logarithmic && !(value > 0))) continue;
@@ -78,7 +79,8 @@ double PlotAxis::share(double value) const {
 std::vector<Tick> PlotAxis::ticks(int wanted) const {
   std::vector<Tick> ticks;
   if (logarithmic_ && high_ / low_ >= 10) {
-    const int first = static_cast<int>(std::floor(std::log10(low_))), last = static_cast<int>(std::ceil(std::log10(high_)));
+    const int first = static_cast<int>(std::floor(std::log10(low_))),
+              last = static_cast<int>(std::ceil(std::log10(high_)));
     const int every = std::max(1, (last - first) / std::max(wanted, 1));
     const bool between = last - first <= 2;
     for (int power = first; power <= last; power += every) {

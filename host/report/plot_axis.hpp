@@ -19,8 +19,8 @@ class PlotAxis {
   /// An empty range grows around its value, one of a logarithmic axis that reaches zero or below is cut there.
   PlotAxis(double low, double high, bool logarithmic);
 
-  /// The range of the finite values (of the positive ones on a logarithmic axis) with a little air; it begins at zero where the
-  /// values come near zero. `low` and `high`, where given, hold. Without any value: 0 to 1, or 0.1 to 1.
+  /// The range of the finite values (of the positive ones on a logarithmic axis) with a little air; it begins at zero
+  /// where the values come near zero. `low` and `high`, where given, hold. Without any value: 0 to 1, or 0.1 to 1.
   static PlotAxis around(const std::vector<double>& values, bool logarithmic, std::optional<double> low = {},
                          std::optional<double> high = {});
 
@@ -29,7 +29,8 @@ class PlotAxis {
   bool logarithmic() const { return logarithmic_; }
   /// 0 at `low`, 1 at `high`; NaN for a value that a logarithmic axis cannot show.
   double share(double value) const;
-  /// Round values within the range, about `wanted` of them (at most a third more), each with as many digits as it takes to tell them apart.
+  /// Round values within the range, about `wanted` of them (at most a third more), each with as many digits as it takes
+  /// to tell them apart.
   std::vector<Tick> ticks(int wanted) const;
 
  private:

@@ -14,9 +14,9 @@ constexpr const char* kInk = "stroke=\"#888\"";
 
 }  // namespace
 
-PlotFrame::PlotFrame(int width, int height, const std::string& title, const std::string& x_label, const std::string& y_label,
-                     const std::vector<LegendEntry>& legend, const std::vector<Tick>& y_ticks, double bottom,
-                     double left)
+PlotFrame::PlotFrame(int width, int height, const std::string& title, const std::string& x_label,
+                     const std::string& y_label, const std::vector<LegendEntry>& legend,
+                     const std::vector<Tick>& y_ticks, double bottom, double left)
     : width_(width), height_(height), title_(title), x_label_(x_label), y_label_(y_label), legend_(legend) {
   double widest = 0;
   for (const auto& tick : y_ticks) widest = std::max(widest, svg::text_width(tick.label, kFont));
@@ -39,21 +39,25 @@ PlotFrame::PlotFrame(int width, int height, const std::string& title, const std:
 std::string PlotFrame::decorations() const {
   std::string result;
   if (!title_.empty()) {
-    result += svg::text(area_.left, 16, title_, svg::Anchor::start, "font-size=\"13\" font-weight=\"600\" fill=\"#111\"");
+    result +=
+        svg::text(area_.left, 16, title_, svg::Anchor::start, "font-size=\"13\" font-weight=\"600\" fill=\"#111\"");
   }
   const double legend_top = (title_.empty() ? 8 : 26) + 9;
   for (std::size_t i = 0; i < legend_.size(); ++i) {
     const double x = legend_x_[i], y = legend_top + legend_line_[i] * kLegendLine;
     const std::string colour = "\"" + legend_[i].colour + "\"";
     if (legend_[i].dot) {
-      result += "<circle cx=\"" + svg::number(x + kSwatch / 2) + "\" cy=\"" + svg::number(y - 4) + "\" r=\"3.5\" fill=" + colour + "/>";
+      result += "<circle cx=\"" + svg::number(x + kSwatch / 2) + "\" cy=\"" + svg::number(y - 4) +
+                "\" r=\"3.5\" fill=" + colour + "/>";
     } else {
-      result += svg::line(x, y - 4, x + kSwatch, y - 4,
-                          "stroke=" + colour + " stroke-width=\"2.5\"" + (legend_[i].dashed ? " stroke-dasharray=\"5 3\"" : ""));
+      result += svg::line(
+          x, y - 4, x + kSwatch, y - 4,
+          "stroke=" + colour + " stroke-width=\"2.5\"" + (legend_[i].dashed ? " stroke-dasharray=\"5 3\"" : ""));
     }
     result += svg::text(x + kSwatch + 5, y, legend_[i].name, svg::Anchor::start);
   }
-  if (!x_label_.empty()) result += svg::text((area_.left + area_.right) / 2, height_ - 5, x_label_, svg::Anchor::middle);
+  if (!x_label_.empty())
+    result += svg::text((area_.left + area_.right) / 2, height_ - 5, x_label_, svg::Anchor::middle);
   if (!y_label_.empty()) {
     const std::string middle = svg::number((area_.top + area_.bottom) / 2);
     result += svg::text(0, 0, y_label_, svg::Anchor::middle, "transform=\"translate(11 " + middle + ") rotate(-90)\"");
@@ -83,8 +87,8 @@ std::string PlotFrame::horizontal_axis(const PlotAxis& axis, const std::vector<T
 }
 
 std::string PlotFrame::border() const {
-  return "<rect x=\"" + svg::number(area_.left) + "\" y=\"" + svg::number(area_.top) + "\" width=\"" + svg::number(area_.width()) +
-         "\" height=\"" + svg::number(area_.height()) + "\" fill=\"none\" " + kInk + "/>";
+  return "<rect x=\"" + svg::number(area_.left) + "\" y=\"" + svg::number(area_.top) + "\" width=\"" +
+         svg::number(area_.width()) + "\" height=\"" + svg::number(area_.height()) + "\" fill=\"none\" " + kInk + "/>";
 }
 
 }  // namespace quadedge::report

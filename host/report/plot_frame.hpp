@@ -18,15 +18,15 @@ struct PlotArea {
 /// One entry of a legend.
 struct LegendEntry {
   std::string name, colour;
-  bool dot = false;     ///< a dot instead of a stroke
+  bool dot = false;  ///< a dot instead of a stroke
   bool dashed = false;
 };
 
 /// Title, legend and labels with the space that they take.
 class PlotFrame {
  public:
-  /// `bottom`: height of what stands below the data, `left`: of what stands beside it, where that is more than the labels of
-  /// `y_ticks` need [px].
+  /// `bottom`: height of what stands below the data, `left`: of what stands beside it, where that is more than the
+  /// labels of `y_ticks` need [px].
   PlotFrame(int width, int height, const std::string& title, const std::string& x_label, const std::string& y_label,
             const std::vector<LegendEntry>& legend, const std::vector<Tick>& y_ticks, double bottom, double left = 0);
 

@@ -9,13 +9,14 @@ constexpr std::size_t kErrorColumns = 10;
 
 /// Cells of the four errors, mean and standard deviation each; `baseline` may be null.
 void add_errors(std::vector<std::string>& row, const SummaryAccuracy& accuracy, const SummaryAccuracy* baseline,
-                PoseErrors SummaryAccuracy::* alignment) {
+                PoseErrors SummaryAccuracy::*alignment) {
   for (const auto error : {&PoseErrors::ape_rotation_deg, &PoseErrors::ape_translation_m, &PoseErrors::rpe_rotation_deg,
                            &PoseErrors::rpe_translation_m}) {
     const ErrorStatistics& value = (accuracy.*alignment).*error;
     for (const auto number : {&ErrorStatistics::mean, &ErrorStatistics::std}) {
-      row.push_back(baseline == nullptr ? significant(value.*number)
-                                        : with_difference(value.*number, ((baseline->*alignment).*error).*number, "\n"));
+      row.push_back(baseline == nullptr
+                        ? significant(value.*number)
+                        : with_difference(value.*number, ((baseline->*alignment).*error).*number, "\n"));
     }
   }
 }
@@ -25,7 +26,8 @@ const SummaryAccuracy* baseline_accuracy(const SequenceResults& sequence) {
 }
 
 /// The row of everything together. A baseline is compared where it has all of the sequences alone.
-std::vector<std::string> row_over_all(const std::vector<SequenceResults>& sequences, PoseErrors SummaryAccuracy::* alignment) {
+std::vector<std::string> row_over_all(const std::vector<SequenceResults>& sequences,
+                                      PoseErrors SummaryAccuracy::*alignment) {
   std::vector<const SummaryAccuracy*> own, other;
   for (const auto& sequence : sequences) {
     if (!sequence.row.accuracy) continue;
@@ -41,7 +43,7 @@ std::vector<std::string> row_over_all(const std::vector<SequenceResults>& sequen
 }
 
 std::vector<std::string> peer_over_all(const std::vector<SequenceResults>& sequences, const Peer& peer,
-                                       PoseErrors SummaryAccuracy::* alignment) {
+                                       PoseErrors SummaryAccuracy::*alignment) {
   std::vector<SummaryAccuracy> parts;
   for (const auto& sequence : sequences) {
     for (const auto& trajectory : sequence.trajectories) {
@@ -62,7 +64,7 @@ std::vector<std::string> peer_over_all(const std::vector<SequenceResults>& seque
 }  // namespace
 
 HtmlTable error_table(const std::vector<SequenceResults>& sequences, const std::vector<Peer>& peers,
-                      PoseErrors SummaryAccuracy::* alignment, const std::string& caption) {
+                      PoseErrors SummaryAccuracy::*alignment, const std::string& caption) {
   HtmlTable table;
   table.caption = caption;
   table.groups = {{"", 1}, {"", 1}, {"APE_R [deg]", 2}, {"APE_T [m]", 2}, {"RPE_R [deg]", 2}, {"RPE_T [m]", 2}};
@@ -106,8 +108,8 @@ HtmlTable latency_table(const std::vector<SequenceResults>& sequences) {
         row.back() += " (" + std::string(more > 0 ? "+" : "") + std::to_string(more) + ")";
       }
       row.push_back(std::to_string(own.key_rigs));
-      for (const auto value : {&LatencySummary::median, &LatencySummary::p90, &LatencySummary::p99, &LatencySummary::max,
-                               &LatencySummary::first}) {
+      for (const auto value : {&LatencySummary::median, &LatencySummary::p90, &LatencySummary::p99,
+                               &LatencySummary::max, &LatencySummary::first}) {
         row.push_back(sequence.baseline ? with_difference(own.latency.*value, sequence.baseline->latency.*value)
                                         : significant(own.latency.*value));
       }

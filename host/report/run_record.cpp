@@ -8,14 +8,16 @@
 namespace quadedge::report {
 namespace {
 
-/// The first frame has no frame before it and pays for warming up; it is left out of summaries unless it is the only one.
+/// The first frame has no frame before it and pays for warming up; it is left out of summaries unless it is the only
+/// one.
 std::size_t first_counted(std::size_t frames) { return frames > 1 ? 1 : 0; }
 
 }  // namespace
 
 LatencySummary latency_summary(const std::vector<FrameRecord>& frames) {
   std::vector<double> values;
-  for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i) values.push_back(frames[i].result.latency_ms);
+  for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i)
+    values.push_back(frames[i].result.latency_ms);
   LatencySummary summary;
   summary.median = median(values);
   summary.p90 = percentile(values, 0.9);
@@ -57,9 +59,12 @@ std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& 
 }
 
 std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts) {
-  return {{"edges_left", counts.edges_left},       {"edges_right", counts.edges_right},
-          {"stereo_edges", counts.stereo_edges},   {"temporal_left", counts.temporal_left},
-          {"temporal_right", counts.temporal_right}, {"quads", counts.quads},
+  return {{"edges_left", counts.edges_left},
+          {"edges_right", counts.edges_right},
+          {"stereo_edges", counts.stereo_edges},
+          {"temporal_left", counts.temporal_left},
+          {"temporal_right", counts.temporal_right},
+          {"quads", counts.quads},
           {"inliers", counts.inliers}};
 }
 

@@ -11,9 +11,10 @@
 namespace quadedge::report {
 namespace {
 
-constexpr int kTrajectoryWidth = 610, kTrajectoryHeight = 360, kErrorPlotWidth = 302, kErrorPlotHeight = 260, kFramePlotWidth = 408;  // px
-constexpr double kNanosecond = 1e-9;   // s
-constexpr double kSameStamp = 1e-5;    // s; what a stamp may lose when it is read as a double
+constexpr int kTrajectoryWidth = 610, kTrajectoryHeight = 360, kErrorPlotWidth = 302, kErrorPlotHeight = 260,
+              kFramePlotWidth = 408;  // px
+constexpr double kNanosecond = 1e-9;  // s
+constexpr double kSameStamp = 1e-5;   // s; what a stamp may lose when it is read as a double
 constexpr const char* kTime = "time since the first frame [s]";
 constexpr const char* kKeyRig = "new key stereo rig";
 using PerPose = TrajectoryEvaluation::PerPose;
@@ -21,7 +22,9 @@ using PerPose = TrajectoryEvaluation::PerPose;
 /// Time of a stamp on the plots' axis [s].
 double seconds(std::int64_t stamp_ns, double start) { return static_cast<double>(stamp_ns) * kNanosecond - start; }
 
-double start_of(const SequenceResults& results) { return results.frames.stamp_s.empty() ? 0 : results.frames.stamp_s.front(); }
+double start_of(const SequenceResults& results) {
+  return results.frames.stamp_s.empty() ? 0 : results.frames.stamp_s.front();
+}
 
 std::vector<double> times(const SequenceResults& results) {
   std::vector<double> times;
@@ -98,7 +101,8 @@ std::string trajectory_plot(const SequenceResults& results, int points, bool abo
     plot.add_line("ground truth", curve.xs, curve.ys, true);
   }
   std::vector<double> own_times;
-  for (const auto& pose : results.trajectories.front().poses) own_times.push_back(seconds(pose.stamp_ns, start_of(results)));
+  for (const auto& pose : results.trajectories.front().poses)
+    own_times.push_back(seconds(pose.stamp_ns, start_of(results)));
   const Curve own = projected(results.trajectories.front().poses, above);
   const Curve changes = every_kth(at_times(own, own_times, key_rig_times(results)), points);
   if (!changes.xs.empty()) plot.add_points(kKeyRig, changes.xs, changes.ys);
@@ -106,7 +110,7 @@ std::string trajectory_plot(const SequenceResults& results, int points, bool abo
 }
 
 std::string error_plot(const SequenceResults& results, int points, const std::string& title, const std::string& label,
-                       double PerPose::* error) {
+                       double PerPose::*error) {
   Plot plot;
   plot.width = kErrorPlotWidth;
   plot.height = kErrorPlotHeight;
@@ -133,7 +137,8 @@ std::string error_plot(const SequenceResults& results, int points, const std::st
 }
 
 /// Some of the counts over time, by their names in frames.csv and on the plot.
-Plot count_plot(const SequenceResults& results, int points, const std::vector<std::pair<std::string, std::string>>& counts) {
+Plot count_plot(const SequenceResults& results, int points,
+                const std::vector<std::pair<std::string, std::string>>& counts) {
   Plot plot;
   plot.width = kFramePlotWidth;
   plot.x_label = kTime;
@@ -149,7 +154,8 @@ Plot count_plot(const SequenceResults& results, int points, const std::vector<st
 }
 
 std::string edge_plot(const SequenceResults& results, int points) {
-  Plot plot = count_plot(results, points, {{"edges_left", "left"}, {"edges_right", "right"}, {"stereo_edges", "stereo edges"}});
+  Plot plot =
+      count_plot(results, points, {{"edges_left", "left"}, {"edges_right", "right"}, {"stereo_edges", "stereo edges"}});
   plot.title = "Edges";
   plot.y_label = "edges per frame";
   return plot.svg();
@@ -239,10 +245,14 @@ std::vector<std::string> trajectory_plots(const SequenceResults& results, int po
 
 std::vector<std::string> error_plots(const SequenceResults& results, int points) {
   if (results.truth.empty()) return {};
-  return {error_plot(results, points, "Absolute error of the position", "APE translation [m]", &PerPose::ape_translation_m),
-          error_plot(results, points, "Absolute error of the orientation", "APE rotation [deg]", &PerPose::ape_rotation_deg),
-          error_plot(results, points, "Error of the position per frame", "RPE translation [m]", &PerPose::rpe_translation_m),
-          error_plot(results, points, "Error of the orientation per frame", "RPE rotation [deg]", &PerPose::rpe_rotation_deg)};
+  return {
+      error_plot(results, points, "Absolute error of the position", "APE translation [m]", &PerPose::ape_translation_m),
+      error_plot(results, points, "Absolute error of the orientation", "APE rotation [deg]",
+                 &PerPose::ape_rotation_deg),
+      error_plot(results, points, "Error of the position per frame", "RPE translation [m]",
+                 &PerPose::rpe_translation_m),
+      error_plot(results, points, "Error of the orientation per frame", "RPE rotation [deg]",
+                 &PerPose::rpe_rotation_deg)};
 }
 
 std::vector<std::string> frame_plots(const SequenceResults& results, int points) {

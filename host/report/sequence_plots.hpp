@@ -8,8 +8,8 @@
 
 namespace quadedge::report {
 
-/// All functions return finished SVG pictures. `points`: largest number of points of a curve; longer ones are thinned, those over
-/// time so that their extremes stay.
+/// All functions return finished SVG pictures. `points`: largest number of points of a curve; longer ones are thinned,
+/// those over time so that their extremes stay.
 
 /// The trajectory from above and from the side, with the ground truth and the other trajectories.
 std::vector<std::string> trajectory_plots(const SequenceResults& results, int points);

@@ -16,10 +16,12 @@ std::optional<std::pair<StampedPose, StampedPose>> first_match(const Trajectory&
   const auto earlier = [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; };
   for (const auto& pose : poses) {
     auto near = std::lower_bound(others.begin(), others.end(), pose.stamp_ns, earlier);
-    if (near != others.begin() && (near == others.end() || pose.stamp_ns - std::prev(near)->stamp_ns < near->stamp_ns - pose.stamp_ns)) {
+    if (near != others.begin() &&
+        (near == others.end() || pose.stamp_ns - std::prev(near)->stamp_ns < near->stamp_ns - pose.stamp_ns)) {
       --near;
     }
-    if (near != others.end() && std::abs(near->stamp_ns - pose.stamp_ns) <= kToleranceNs) return std::make_pair(pose, *near);
+    if (near != others.end() && std::abs(near->stamp_ns - pose.stamp_ns) <= kToleranceNs)
+      return std::make_pair(pose, *near);
   }
   return std::nullopt;
 }
@@ -78,8 +80,8 @@ std::vector<std::string> thumbnails(const fs::path& folder) {
 
 std::optional<SummaryAccuracy> ComparedTrajectory::accuracy() const {
   if (!evaluation) return std::nullopt;
-  return SummaryAccuracy{evaluation->origin_aligned, evaluation->se3_aligned, evaluation->matched, evaluation->path_length_m,
-                         evaluation->end_drift_percent};
+  return SummaryAccuracy{evaluation->origin_aligned, evaluation->se3_aligned, evaluation->matched,
+                         evaluation->path_length_m, evaluation->end_drift_percent};
 }
 
 SequenceResults read_sequence_results(const std::string& output, const std::string& name, double min_tracked,

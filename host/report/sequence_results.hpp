@@ -17,7 +17,8 @@ struct Peer {
   std::string name, folder;
 };
 
-/// One trajectory in the world of the plots: the first left camera that has ground truth, x right, y down, z forward [m].
+/// One trajectory in the world of the plots: the first left camera that has ground truth, x right, y down, z forward
+/// [m].
 struct ComparedTrajectory {
   std::string name;
   Trajectory poses;
@@ -28,16 +29,18 @@ struct ComparedTrajectory {
 /// One sequence of a batch with its comparisons.
 struct SequenceResults {
   SummaryRow row;
-  std::optional<SummaryRow> baseline;            ///< the same sequence in the other batch, if that ran
-  std::vector<ComparedTrajectory> trajectories;  ///< this run, then the baseline's, then the peers that have one; empty if failed
-  Trajectory truth;                              ///< in the same world; empty without ground truth
+  std::optional<SummaryRow> baseline;  ///< the same sequence in the other batch, if that ran
+  std::vector<ComparedTrajectory>
+      trajectories;  ///< this run, then the baseline's, then the peers that have one; empty if failed
+  Trajectory truth;  ///< in the same world; empty without ground truth
   FramesTable frames;
-  std::vector<std::string> thumbnails;           ///< files, in order of their frames
-  std::vector<std::string> notes;                ///< peers that could not be compared, and why
+  std::vector<std::string> thumbnails;  ///< files, in order of their frames
+  std::vector<std::string> notes;       ///< peers that could not be compared, and why
   bool ran() const { return row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked; }
 };
 
-/// Reads the results of a sequence. `baseline`: folder of the other batch, or empty. \throws DataError for damaged results.
+/// Reads the results of a sequence. `baseline`: folder of the other batch, or empty. \throws DataError for damaged
+/// results.
 SequenceResults read_sequence_results(const std::string& output, const std::string& name, double min_tracked,
                                       const std::string& baseline, const std::vector<Peer>& peers);
 

@@ -11,8 +11,8 @@ double percentile(std::vector<double> values, double share);
 /// Middle value; NaN for no values.
 inline double median(const std::vector<double>& values) { return percentile(values, 0.5); }
 
-/// Spearman's rank correlation, from -1 to 1; equal values share their mean rank. NaN for fewer than three pairs, or where all
-/// values of one kind are equal.
+/// Spearman's rank correlation, from -1 to 1; equal values share their mean rank. NaN for fewer than three pairs, or
+/// where all values of one kind are equal.
 double rank_correlation(const std::vector<double>& xs, const std::vector<double>& ys);
 
 }  // namespace quadedge::report

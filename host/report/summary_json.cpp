@@ -21,8 +21,10 @@ Json read_json(const std::string& file, const char* expected) {
 }
 
 Json accuracy_json(const SummaryAccuracy& accuracy) {
-  return {{"origin_aligned", to_json(accuracy.origin_aligned)}, {"se3_aligned", to_json(accuracy.se3_aligned)},
-          {"matched_poses", accuracy.matched},                  {"path_length_m", to_json(accuracy.path_length_m)},
+  return {{"origin_aligned", to_json(accuracy.origin_aligned)},
+          {"se3_aligned", to_json(accuracy.se3_aligned)},
+          {"matched_poses", accuracy.matched},
+          {"path_length_m", to_json(accuracy.path_length_m)},
           {"end_drift_percent", to_json(accuracy.end_drift_percent)}};
 }
 
@@ -35,9 +37,9 @@ void take_report(SummaryRow& row, const Json& report) {
   row.latency = to_latency(report.at("latency_ms"));
   if (!report.contains("accuracy")) return;
   const Json& accuracy = report.at("accuracy");
-  row.accuracy = SummaryAccuracy{to_pose_errors(accuracy.at("origin_aligned")), to_pose_errors(accuracy.at("se3_aligned")),
-                                 accuracy.at("matched_poses").get<int>(), to_number(accuracy.at("path_length_m")),
-                                 to_number(accuracy.at("end_drift_percent"))};
+  row.accuracy = SummaryAccuracy{to_pose_errors(accuracy.at("origin_aligned")),
+                                 to_pose_errors(accuracy.at("se3_aligned")), accuracy.at("matched_poses").get<int>(),
+                                 to_number(accuracy.at("path_length_m")), to_number(accuracy.at("end_drift_percent"))};
 }
 
 }  // namespace
@@ -79,9 +81,10 @@ std::string summary_json(const BatchSummary& summary) {
   json["min_tracked_percent"] = summary.min_tracked;
   json["sequences"] = Json::array();
   for (const auto& row : summary.rows) {
-    Json entry = {{"name", row.member.name},           {"status", to_string(row.status)}, {"exit_code", row.member.exit_code},
-                  {"message", row.member.message},     {"path", row.member.path},         {"format", row.member.format},
-                  {"jobs", row.member.jobs}};
+    Json entry = {
+        {"name", row.member.name},       {"status", to_string(row.status)}, {"exit_code", row.member.exit_code},
+        {"message", row.member.message}, {"path", row.member.path},         {"format", row.member.format},
+        {"jobs", row.member.jobs}};
     if (row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked) {
       entry["device"] = row.device;
       entry["frames"] = row.frames;
@@ -96,7 +99,8 @@ std::string summary_json(const BatchSummary& summary) {
   Json& all = json["all"];
   all["frames"] = summary.frames;
   all["frames_tracked"] = summary.tracked;
-  all["tracked_fraction"] = summary.frames > 0 ? Json(static_cast<double>(summary.tracked) / summary.frames) : Json(nullptr);
+  all["tracked_fraction"] =
+      summary.frames > 0 ? Json(static_cast<double>(summary.tracked) / summary.frames) : Json(nullptr);
   if (summary.pooled) all["pooled"] = accuracy_json(*summary.pooled);
   if (summary.average) all["average"] = accuracy_json(*summary.average);
   all["latency_ms"] = to_json(summary.latency);

@@ -42,24 +42,27 @@ double text_width(const std::string& text, double font_size) {
 
 std::string text(double x, double y, const std::string& content, Anchor anchor, const std::string& attributes) {
   constexpr const char* kNames[] = {"start", "middle", "end"};
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + kNames[static_cast<int>(anchor)] + "\"" +
-         (attributes.empty() ? "" : " " + attributes) + ">" + escape(content) + "</text>";
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + kNames[static_cast<int>(anchor)] +
+         "\"" + (attributes.empty() ? "" : " " + attributes) + ">" + escape(content) + "</text>";
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& attributes) {
-  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) + "\" " +
-         attributes + "/>";
+  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) +
+         "\" " + attributes + "/>";
 }
 
 std::string open(int width, int height, const std::string& title) {
   const std::string w = std::to_string(width), h = std::to_string(height);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + " " + h +
-         "\" role=\"img\" font-family=\"sans-serif\" font-size=\"11\" fill=\"#333\" style=\"max-width:100%;height:auto\"><title>" +
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + " " +
+         h +
+         "\" role=\"img\" font-family=\"sans-serif\" font-size=\"11\" fill=\"#333\" "
+         "style=\"max-width:100%;height:auto\"><title>" +
          escape(title) + "</title>";
 }
 
 const std::string& series_colour(std::size_t index) {
-  static const std::array<std::string, 7> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555"};
+  static const std::array<std::string, 7> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                     "#e69f00", "#56b4e9", "#555555"};
   return colours[index % colours.size()];
 }
 

@@ -22,7 +22,8 @@ std::string text(double x, double y, const std::string& content, Anchor anchor, 
 /// A straight line.
 std::string line(double x1, double y1, double x2, double y2, const std::string& attributes);
 
-/// The opening tag of a picture that never grows beyond its width and shrinks with the page; `title` is what screen readers say.
+/// The opening tag of a picture that never grows beyond its width and shrinks with the page; `title` is what screen
+/// readers say.
 std::string open(int width, int height, const std::string& title);
 
 /// Colours of series in their order, told apart by the colour-blind too (Okabe and Ito).

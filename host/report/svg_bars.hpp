@@ -13,14 +13,14 @@ class BarChart {
   std::string title, x_label, y_label;
   int width = 420, height = 290;  ///< px
   std::vector<std::string> categories;
-  std::optional<double> y_high;   ///< end of the vertical axis; chosen from the data where not given
+  std::optional<double> y_high;  ///< end of the vertical axis; chosen from the data where not given
 
   /// One value per category, drawn next to those of the other series; NaN: no bar.
   /// \throws UsageError when there are not as many values as categories.
   void add_series(const std::string& name, const std::vector<double>& values);
 
-  /// One <svg> element without references. Category names that do not fit side by side are written at a slant, and shortened
-  /// where they are very long.
+  /// One <svg> element without references. Category names that do not fit side by side are written at a slant, and
+  /// shortened where they are very long.
   std::string svg() const;
 
  private:

@@ -37,13 +37,16 @@ void equalise(PlotAxis& x, PlotAxis& y, const PlotArea& area) {
   }
 }
 
-/// From values to places within the rectangle of the data [px]. What lies far outside is held back, so that numbers stay short.
+/// From values to places within the rectangle of the data [px]. What lies far outside is held back, so that numbers
+/// stay short.
 struct Scale {
   const PlotAxis &x, &y;
   double width, height;
   double place_x(double value) const { return std::clamp(x.share(value), -10.0, 11.0) * width; }
   double place_y(double value) const { return (1 - std::clamp(y.share(value), -10.0, 11.0)) * height; }
-  bool can_show(double x_value, double y_value) const { return std::isfinite(x.share(x_value)) && std::isfinite(y.share(y_value)); }
+  bool can_show(double x_value, double y_value) const {
+    return std::isfinite(x.share(x_value)) && std::isfinite(y.share(y_value));
+  }
 };
 
 /// Circles for the values within the plot.
@@ -63,13 +66,15 @@ struct Curve {
   std::string path, filled;
 };
 Curve curve(const Scale& scale, const std::vector<double>& xs, const std::vector<double>& ys) {
-  const std::string floor = svg::number(scale.place_y(scale.y.logarithmic() ? scale.y.low() : std::max(0.0, scale.y.low())));
+  const std::string floor =
+      svg::number(scale.place_y(scale.y.logarithmic() ? scale.y.low() : std::max(0.0, scale.y.low())));
   Curve result;
   double first_x = 0, last_x = 0;
   bool pen_down = false;
   for (std::size_t k = 0; k <= xs.size(); ++k) {
     if (k == xs.size() || !scale.can_show(xs[k], ys[k])) {
-      if (pen_down) result.filled += "L" + svg::number(last_x) + " " + floor + "L" + svg::number(first_x) + " " + floor + "Z";
+      if (pen_down)
+        result.filled += "L" + svg::number(last_x) + " " + floor + "L" + svg::number(first_x) + " " + floor + "Z";
       pen_down = false;
       continue;
     }
@@ -84,7 +89,8 @@ Curve curve(const Scale& scale, const std::vector<double>& xs, const std::vector
 }
 
 /// The outline of the space between two curves.
-std::string band(const Scale& scale, const std::vector<double>& xs, const std::vector<double>& lows, const std::vector<double>& highs) {
+std::string band(const Scale& scale, const std::vector<double>& xs, const std::vector<double>& lows,
+                 const std::vector<double>& highs) {
   std::string there, back;
   for (std::size_t k = 0; k < xs.size(); ++k) {
     if (!scale.can_show(xs[k], lows[k]) || !scale.can_show(xs[k], highs[k])) continue;
@@ -105,7 +111,8 @@ void Plot::add(const std::string& name, const std::vector<double>& xs, const std
   series_.push_back({name, xs, ys, style, {}});
 }
 
-void Plot::add_line(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys, bool dashed) {
+void Plot::add_line(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys,
+                    bool dashed) {
   add(name, xs, ys, dashed ? Style::dashed : Style::line);
 }
 
@@ -115,7 +122,8 @@ void Plot::add_area(const std::string& name, const std::vector<double>& xs, cons
 
 void Plot::add_band(const std::string& name, const std::vector<double>& xs, const std::vector<double>& lows,
                     const std::vector<double>& highs) {
-  if (lows.size() != highs.size()) throw UsageError("plot '" + title + "': band '" + name + "' has two sides of different length");
+  if (lows.size() != highs.size())
+    throw UsageError("plot '" + title + "': band '" + name + "' has two sides of different length");
   add(name, xs, highs, Style::band);
   series_.back().lows = lows;
 }
@@ -138,25 +146,30 @@ std::string Plot::svg() const {
     all_y.insert(all_y.end(), series.lows.begin(), series.lows.end());
     if (series.style == Style::area) all_y.push_back(0);
     if (!series.name.empty()) {
-      legend.push_back({series.name, svg::series_colour(i), series.style == Style::points, series.style == Style::dashed});
+      legend.push_back(
+          {series.name, svg::series_colour(i), series.style == Style::points, series.style == Style::dashed});
     }
   }
   for (const auto& marker : markers_) all_x.push_back(marker.x);
   PlotAxis x_axis = PlotAxis::around(all_x, x_logarithmic, x_low, x_high);
   PlotAxis y_axis = PlotAxis::around(all_y, y_logarithmic, y_low, y_high);
-  const auto y_ticks_of = [&] { return y_axis.ticks(std::max(2, static_cast<int>((height - 90) / kVerticalTickEvery))); };
+  const auto y_ticks_of = [&] {
+    return y_axis.ticks(std::max(2, static_cast<int>((height - 90) / kVerticalTickEvery)));
+  };
   if (equal_units && !x_logarithmic && !y_logarithmic) {
-    equalise(x_axis, y_axis, PlotFrame(width, height, title, x_label, y_label, legend, y_ticks_of(), kNumberAxisHeight).area());
+    equalise(x_axis, y_axis,
+             PlotFrame(width, height, title, x_label, y_label, legend, y_ticks_of(), kNumberAxisHeight).area());
   }
   const auto y_ticks = y_ticks_of();
   const PlotFrame frame(width, height, title, x_label, y_label, legend, y_ticks, kNumberAxisHeight);
   const PlotArea& area = frame.area();
 
   std::string result = svg::open(width, height, title.empty() ? x_label : title) + frame.decorations() +
-                       frame.horizontal_axis(x_axis, horizontal_ticks(x_axis, area.width())) + frame.vertical_axis(y_axis, y_ticks);
+                       frame.horizontal_axis(x_axis, horizontal_ticks(x_axis, area.width())) +
+                       frame.vertical_axis(y_axis, y_ticks);
   // Everything in the inner picture is cut off at its borders.
-  result += "<svg x=\"" + svg::number(area.left) + "\" y=\"" + svg::number(area.top) + "\" width=\"" + svg::number(area.width()) +
-            "\" height=\"" + svg::number(area.height()) + "\">";
+  result += "<svg x=\"" + svg::number(area.left) + "\" y=\"" + svg::number(area.top) + "\" width=\"" +
+            svg::number(area.width()) + "\" height=\"" + svg::number(area.height()) + "\">";
   const Scale scale{x_axis, y_axis, area.width(), area.height()};
   bool anything = false;
   std::string all_dots;  // drawn whole also at the border
@@ -177,8 +190,10 @@ std::string Plot::svg() const {
     }
     const Curve drawn = curve(scale, series.xs, series.ys);
     anything = anything || !drawn.path.empty();
-    if (series.style == Style::area) result += "<path d=\"" + drawn.filled + "\" fill=\"" + colour + "\" fill-opacity=\"0.15\"/>";
-    result += "<path d=\"" + drawn.path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"1.8\" stroke-linejoin=\"round\"" +
+    if (series.style == Style::area)
+      result += "<path d=\"" + drawn.filled + "\" fill=\"" + colour + "\" fill-opacity=\"0.15\"/>";
+    result += "<path d=\"" + drawn.path + "\" fill=\"none\" stroke=\"" + colour +
+              "\" stroke-width=\"1.8\" stroke-linejoin=\"round\"" +
               (series.style == Style::dashed ? " stroke-dasharray=\"5 3\"" : "") + "/>";
   }
   double top_label = 12, bottom_label = area.height() - 6;
@@ -189,13 +204,15 @@ std::string Plot::svg() const {
     const bool to_the_left = x + 6 + svg::text_width(marker.label, kMarkerFont) > area.width();
     if (marker.label.empty()) continue;
     const auto anchor = to_the_left ? svg::Anchor::end : svg::Anchor::start;
-    result += svg::text(x + (to_the_left ? -4 : 4), marker.label_at_bottom ? bottom_label : top_label, marker.label, anchor,
-                        "font-size=\"10.5\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"");
+    result +=
+        svg::text(x + (to_the_left ? -4 : 4), marker.label_at_bottom ? bottom_label : top_label, marker.label, anchor,
+                  "font-size=\"10.5\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"");
     (marker.label_at_bottom ? bottom_label : top_label) += marker.label_at_bottom ? -kMarkerLine : kMarkerLine;
   }
-  if (!anything) result += svg::text(area.width() / 2, area.height() / 2, "no data", svg::Anchor::middle, "fill=\"#888\"");
-  return result + "</svg>" + frame.border() + "<g transform=\"translate(" + svg::number(area.left) + " " + svg::number(area.top) +
-         ")\">" + all_dots + "</g></svg>\n";
+  if (!anything)
+    result += svg::text(area.width() / 2, area.height() / 2, "no data", svg::Anchor::middle, "fill=\"#888\"");
+  return result + "</svg>" + frame.border() + "<g transform=\"translate(" + svg::number(area.left) + " " +
+         svg::number(area.top) + ")\">" + all_dots + "</g></svg>\n";
 }
 
 }  // namespace quadedge::report

@@ -11,13 +11,14 @@ namespace quadedge::report {
 class Plot {
  public:
   std::string title, x_label, y_label;
-  int width = 420, height = 290;       ///< px
+  int width = 420, height = 290;  ///< px
   bool x_logarithmic = false, y_logarithmic = false;
-  bool equal_units = false;            ///< one unit is as long on x as on y (maps and trajectories)
+  bool equal_units = false;                            ///< one unit is as long on x as on y (maps and trajectories)
   std::optional<double> x_low, x_high, y_low, y_high;  ///< ends of the axes; chosen from the data where not given
 
   /// Values that are not finite break a line. All functions \throw UsageError when xs and ys are not of one size.
-  void add_line(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys, bool dashed = false);
+  void add_line(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys,
+                bool dashed = false);
   /// A line with the space down to the axis filled.
   void add_area(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys);
   /// The space between two curves, filled: one layer of a stack. Values that are not finite are left out.

@@ -1,20 +1,21 @@
 #pragma once
-/// \file candidate_filters.hpp  Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists, in stereo and in time.
+/// \file candidate_filters.hpp  Stage 4b: NCC, SIFT and the nearly-best filters over candidate lists, in stereo and in
+/// time.
 
 #include <map>
 #include <string>
 
+#include "common/filter_limits.hpp"
 #include "opencl/kernel.hpp"
 #include "stages/device_candidates.hpp"
-#include "stages/filter_limits.hpp"
 
 namespace quadedge::stages {
 
 /// Descriptions of a set of edges, with the numbers under which an edge's own stand there.
 struct DescribedEdges {
-  const opencl::Buffer<cl_char>& patches;    ///< see host/reference/patches.hpp
+  const opencl::Buffer<cl_char>& patches;  ///< see host/reference/patches.hpp
   const opencl::Buffer<cl_int>& patch_of;
-  const opencl::Buffer<cl_uchar>& sift;      ///< see host/reference/sift.hpp
+  const opencl::Buffer<cl_uchar>& sift;  ///< see host/reference/sift.hpp
   const opencl::Buffer<cl_int>& sift_of;
 };
 
@@ -36,9 +37,9 @@ class CandidateFilters {
 
   opencl::Context& context_;
   std::size_t local_size_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_int>, In<cl_char>,
-                 In<cl_int>, In<cl_uchar>, In<cl_int>, cl_float, cl_float, cl_float, cl_float, cl_int, cl_int, cl_int, Out<cl_float>,
-                 Out<cl_float>, Out<cl_uchar>, Out<cl_int>>
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_int>,
+                 In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_int>, cl_float, cl_float, cl_float, cl_float, cl_int,
+                 cl_int, cl_int, Out<cl_float>, Out<cl_float>, Out<cl_uchar>, Out<cl_int>>
       kernel_;
 };
 

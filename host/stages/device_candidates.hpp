@@ -9,8 +9,8 @@
 
 namespace quadedge::stages {
 
-/// Candidate lists in compressed rows with one set of scores per candidate. The capacity is explicit: a sweep that finds more
-/// makes room and runs again, so nothing is lost.
+/// Candidate lists in compressed rows with one set of scores per candidate. The capacity is explicit: a sweep that
+/// finds more makes room and runs again, so nothing is lost.
 struct DeviceCandidates {
   opencl::Buffer<cl_int> counts;         ///< scratch of the first sweep
   opencl::Buffer<cl_int> first;          ///< rows + 1
@@ -50,7 +50,8 @@ struct DeviceCandidates {
   /// Rows that kept a candidate through the filters.
   int living_rows() const {
     const auto counts_per_row = alive.read(static_cast<std::size_t>(rows));
-    return static_cast<int>(std::count_if(counts_per_row.begin(), counts_per_row.end(), [](cl_int n) { return n > 0; }));
+    return static_cast<int>(
+        std::count_if(counts_per_row.begin(), counts_per_row.end(), [](cl_int n) { return n > 0; }));
   }
 
   /// Candidates that no filter of order <= `order` has rejected, for a tap.

@@ -13,9 +13,9 @@ struct DeviceEdges {
   opencl::Buffer<cl_float> strength;   ///< grey levels per pixel
   opencl::Buffer<cl_int> row_first;    ///< 2 * height + 1 starts of the rows of the doubled grid
   opencl::Buffer<cl_int> count;        ///< {number of edges, edges cut off because the capacity ran out}
-  cl_int host_values[2] = {0, 0};  ///< `count` on its way to the host
-  int host_count = 0;    ///< count[0] after read_count()
-  int host_dropped = 0;  ///< count[1] after read_count(); not zero is an overflow that the frame reports
+  cl_int host_values[2] = {0, 0};      ///< `count` on its way to the host
+  int host_count = 0;                  ///< count[0] after read_count()
+  int host_dropped = 0;                ///< count[1] after read_count(); not zero is an overflow that the frame reports
 
   /// Waits for the detection and copies the two numbers of `count` to the host.
   void read_count() {

@@ -1,5 +1,6 @@
 #pragma once
-/// \file device_stereo_edges.hpp  The stereo edges of one rig on the device, with what the matching in time needs of them.
+/// \file device_stereo_edges.hpp  The stereo edges of one rig on the device, with what the matching in time needs of
+/// them.
 
 #include <utility>
 
@@ -9,18 +10,19 @@
 
 namespace quadedge::stages {
 
-/// Stereo edges in the scan order of their left edges. Everything a later frame needs stands here, so that the edges of the frame
-/// itself can be overwritten.
+/// Stereo edges in the scan order of their left edges. Everything a later frame needs stands here, so that the edges of
+/// the frame itself can be overwritten.
 struct DeviceStereoEdges {
   opencl::Buffer<cl_int> left_index, right_index;
   /// Six blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad].
   opencl::Buffer<cl_float> packed;
   opencl::Buffer<cl_float> right_x, right_y, right_direction;  ///< the right blocks again, for cutting patches
   opencl::Buffer<cl_float> ncc;
-  opencl::Buffer<cl_char> left_patches;                        ///< of every edge of the left image, see host/reference/patches.hpp
-  opencl::Buffer<cl_char> right_patches;                       ///< of every stereo edge, cut at its refined place
-  DeviceImage left_image, right_image;                         ///< undistorted, for SIFT descriptors when a search asks for them
-  opencl::Buffer<cl_uchar> left_sift, right_sift;              ///< of every stereo edge, where has_sift; see host/reference/sift.hpp
+  opencl::Buffer<cl_char> left_patches;   ///< of every edge of the left image, see host/reference/patches.hpp
+  opencl::Buffer<cl_char> right_patches;  ///< of every stereo edge, cut at its refined place
+  DeviceImage left_image, right_image;    ///< undistorted, for SIFT descriptors when a search asks for them
+  opencl::Buffer<cl_uchar> left_sift,
+      right_sift;  ///< of every stereo edge, where has_sift; see host/reference/sift.hpp
   bool has_sift = false;
   int stride = 0;
   int count = 0;
@@ -28,12 +30,14 @@ struct DeviceStereoEdges {
   /// Copies the rows to the host; waits for the device once.
   void read(StereoEdges& edges) const {
     const auto size = static_cast<std::size_t>(count), step = static_cast<std::size_t>(stride);
-    for (auto [buffer, values] : {std::pair(&left_index, &edges.left_index), std::pair(&right_index, &edges.right_index)}) {
+    for (auto [buffer, values] :
+         {std::pair(&left_index, &edges.left_index), std::pair(&right_index, &edges.right_index)}) {
       values->resize(size);
       buffer->read_later(values->data(), size);
     }
     std::size_t block = 0;
-    for (auto* values : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y, &edges.right_direction}) {
+    for (auto* values : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y,
+                         &edges.right_direction}) {
       values->resize(size);
       packed.read_later(values->data(), size, step * block++);
     }

@@ -1,8 +1,7 @@
 #include "stages/edge_description.hpp"
 
+#include "common/byte_layouts.hpp"
 #include "opencl/variants.hpp"
-#include "reference/patches.hpp"
-#include "reference/sift.hpp"
 
 namespace quadedge::stages {
 namespace {
@@ -30,7 +29,8 @@ EdgeDescription::EdgeDescription(opencl::Context& context, int width, int height
   const auto& patches_variant = opencl::choose_variant("patches", context, variants);
   patches_local_ = static_cast<std::size_t>(patches_variant.local_size);
   patches_items_ = items_per_edge(patches_variant);
-  const auto patches_program = context.program({"direction.cl", "photometric.cl", "photometric_lanes.cl", "patches.cl"}, patches_variant.defines);
+  const auto patches_program = context.program({"direction.cl", "photometric.cl", "photometric_lanes.cl", "patches.cl"},
+                                               patches_variant.defines);
   patches_kernel_ = {context, patches_program, "side_patches"};
 
   const auto& sift_variant = opencl::choose_variant("sift", context, variants);
@@ -66,9 +66,10 @@ void EdgeDescription::prepare_sift(const opencl::Buffer<cl_uchar>& image) {
   const std::size_t group = 16;
   blur_down_kernel_({(stride - 2 * kPadding) / kSiftVector + 2, height, group, 1}, image, width_, height_, stride_,
                     blurred_down_);
-  blur_along_kernel_({(stride - 2 * kPadding) / kSiftVector, height, group, 1}, blurred_down_, height_, stride_, blurred_);
-  gradient_kernel_({stride / kSiftVector, height + 2 * kPadding, group, 1}, blurred_, width_, height_, stride_, magnitude_,
-                   angle_);
+  blur_along_kernel_({(stride - 2 * kPadding) / kSiftVector, height, group, 1}, blurred_down_, height_, stride_,
+                     blurred_);
+  gradient_kernel_({stride / kSiftVector, height + 2 * kPadding, group, 1}, blurred_, width_, height_, stride_,
+                   magnitude_, angle_);
 }
 
 void EdgeDescription::cut_patches(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
@@ -76,16 +77,17 @@ void EdgeDescription::cut_patches(const opencl::Buffer<cl_float>& x, const openc
                                   opencl::Buffer<cl_char>& patches) {
   context_.begin_stage("patches");
   const auto edges = static_cast<std::size_t>(count);
-  patches.ensure(context_, edges * reference::kEdgePatchBytes);
-  patches_kernel_({edges * patches_items_, patches_local_}, corners_.values(), width_, height_, x, y, direction, count, patch_offset_,
-                  patches);
+  patches.ensure(context_, edges * kEdgePatchBytes);
+  patches_kernel_({edges * patches_items_, patches_local_}, corners_.values(), width_, height_, x, y, direction, count,
+                  patch_offset_, patches);
 }
 
 void EdgeDescription::describe_sift(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
-                                    const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_uchar>& sift) {
+                                    const opencl::Buffer<cl_float>& direction, int count,
+                                    opencl::Buffer<cl_uchar>& sift) {
   context_.begin_stage("sift");
   const auto edges = static_cast<std::size_t>(count);
-  sift.ensure(context_, edges * reference::kEdgeSiftBytes);
+  sift.ensure(context_, edges * kEdgeSiftBytes);
   sift_kernel_({edges * sift_items_, sift_local_}, magnitude_, angle_, width_, height_, stride_, x, y, direction, count,
                sift_offset_, sift);
 }

@@ -11,8 +11,8 @@
 
 namespace quadedge::stages {
 
-/// Describes edges on the device. One object per camera: it keeps the prepared image until the next one, so that patches
-/// can be cut anew at refined places.
+/// Describes edges on the device. One object per camera: it keeps the prepared image until the next one, so that
+/// patches can be cut anew at refined places.
 class EdgeDescription {
  public:
   /// For images of width x height pixels. Variants of the stages "patches" and "sift".

@@ -4,14 +4,14 @@
 #include <sstream>
 #include <vector>
 
+#include "common/gaussian_taps.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
-#include "reference/gaussian_taps.hpp"
 
 namespace quadedge::stages {
 namespace {
 
-constexpr int kStripRows = 64;    // rows of the doubled grid that one work-item filters: two more are computed twice
+constexpr int kStripRows = 64;  // rows of the doubled grid that one work-item filters: two more are computed twice
 constexpr std::size_t kPadGroup = 32;  // work-items per group of the padding kernel
 constexpr int kLinesPerStrip = 20;
 constexpr int kLineFront = 16;
@@ -28,13 +28,14 @@ std::string float_literal(double value) {
 
 /// Weights of the pairs at k + phase and -k: for phase 0 those of G, then of G', then the same for phase 1.
 std::vector<cl_float> pair_taps(double sigma) {
-  const int radius = reference::kernel_radius(sigma);
+  const int radius = kernel_radius(sigma);
   std::vector<cl_float> taps;
   for (int phase = 0; phase < 2; ++phase) {
     for (std::size_t order = 0; order < 2; ++order) {
       for (int k = 0; k <= radius; ++k) {
-        // The pixel at k + phase seen from the centre at phase / 2. The middle pixel of phase 0 counts twice in its pair.
-        const double weight = reference::gaussian_derivatives(0.5 * phase - (k + phase), sigma)[order];
+        // The pixel at k + phase seen from the centre at phase / 2. The middle pixel of phase 0 counts twice in its
+        // pair.
+        const double weight = gaussian_derivatives(0.5 * phase - (k + phase), sigma)[order];
         taps.push_back(static_cast<cl_float>(phase == 0 && k == 0 ? 0.5 * weight : weight));
       }
     }
@@ -49,8 +50,8 @@ EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, co
     : context_(context), width_(width), height_(height), config_(config), scan_(context, variants) {
   if (width < 1 || height < 1) throw UsageError("edge detection needs an image of at least 1 x 1 pixels");
   build(variants);
-  const int radius = reference::kernel_radius(config.sigma);
-  const int pad_x = 16 * ((radius + 18) / 16), pad_y = radius + 2;  // as in kernels/edges.cl
+  const int radius = kernel_radius(config.sigma);
+  const int pad_x = 16 * ((radius + 18) / 16), pad_y = radius + 2;  // as in kernels/edge_detection.cl
   plane_.stride = pad_x + round_up(width + radius + 18, 16);
   plane_.rows = height + 2 * pad_y;
   plane_.pixels.ensure(context, static_cast<std::size_t>(plane_.stride) * static_cast<std::size_t>(plane_.rows));
@@ -63,7 +64,8 @@ EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, co
   if (strips_) {
     line_ = kLineFront + round_up(width + 2 * radius + 2 + 32, 16);
     const int strips = (2 * height + kStripRows - 1) / kStripRows;
-    scratch_.ensure(context, static_cast<std::size_t>(strips) * kLinesPerStrip * static_cast<std::size_t>(line_) + kLineFront);
+    scratch_.ensure(context,
+                    static_cast<std::size_t>(strips) * kLinesPerStrip * static_cast<std::size_t>(line_) + kLineFront);
   } else {
     flags_.ensure(context, cells);
     compact_.ensure(context, 4 * capacity);
@@ -76,15 +78,15 @@ EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, co
 }
 
 void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
-  const auto& variant = opencl::choose_variant("edges", context_, variants);
+  const auto& variant = opencl::choose_variant("edge_detection", context_, variants);
   strips_ = variant.name.rfind("strip", 0) == 0;
   local_size_ = static_cast<std::size_t>(variant.local_size);
   opencl::Defines defines = variant.defines;
-  defines["RADIUS"] = std::to_string(reference::kernel_radius(config_.sigma));
+  defines["RADIUS"] = std::to_string(kernel_radius(config_.sigma));
   defines["SIGMA"] = float_literal(config_.sigma);
   defines["AT_CELL"] = config_.direction_at == "cell" ? "1" : "0";
   if (strips_) {
-    const cl::Program program = context_.program({"edges.cl", "edges_strip.cl"}, defines);
+    const cl::Program program = context_.program({"edge_detection.cl", "edge_detection_strip.cl"}, defines);
     pad_ = {context_, program, "edges_pad"};
     strip_maxima_ = {context_, program, "edges_strip_maxima"};
     strip_directions_ = {context_, program, "edges_strip_directions"};
@@ -93,7 +95,7 @@ void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
     tiles_x_ = (width_ + tile_x - 1) / tile_x;
     tiles_y_ = (height_ + tile_y - 1) / tile_y;
     defines["LOCAL"] = std::to_string(variant.local_size);
-    const cl::Program program = context_.program({"edges.cl", "edges_tile.cl"}, defines);
+    const cl::Program program = context_.program({"edge_detection.cl", "edge_detection_tile.cl"}, defines);
     pad_ = {context_, program, "edges_pad"};
     tile_maxima_ = {context_, program, "edges_tile_maxima"};
     tile_count_ = {context_, program, "edges_tile_count"};
@@ -101,7 +103,7 @@ void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
     tile_directions_ = {context_, program, "edges_tile_directions"};
   }
   if (config_.thinning) {
-    const cl::Program program = context_.program({"edges_thinning.cl"}, {});
+    const cl::Program program = context_.program({"edge_thinning.cl"}, {});
     thinning_flags_ = {context_, program, "edges_thinning_flags"};
     thinning_move_ = {context_, program, "edges_thinning_move"};
   }
@@ -116,7 +118,7 @@ void EdgeDetection::reserve(DeviceEdges& edges) const {
 }
 
 void EdgeDetection::run(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges) {
-  context_.begin_stage("edges");
+  context_.begin_stage("edge_detection");
   reserve(edges);
   if (config_.thinning) {
     detect(image, all_);
@@ -129,20 +131,21 @@ void EdgeDetection::run(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edge
 void EdgeDetection::detect(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges) {
   const float newton_max = config_.direction_at == "cell" ? 0.0F : static_cast<float>(config_.newton_max);
   const auto rows = static_cast<std::size_t>(2 * height_);
-  pad_({static_cast<std::size_t>(plane_.stride / 16), static_cast<std::size_t>(plane_.rows), kPadGroup, 1}, image, width_, height_,
-       plane_.pixels, plane_.stride);
+  pad_({static_cast<std::size_t>(plane_.stride / 16), static_cast<std::size_t>(plane_.rows), kPadGroup, 1}, image,
+       width_, height_, plane_.pixels, plane_.stride);
   if (strips_) {
     find_maxima_in_strips();
     scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
     strip_directions_({rows, local_size_}, plane_.pixels, plane_.stride, width_, 2 * height_, winners_, counts_,
-                      edges.row_first, config_.max_edges, newton_max, edges.x, edges.y, edges.direction, edges.strength);
+                      edges.row_first, config_.max_edges, newton_max, edges.x, edges.y, edges.direction,
+                      edges.strength);
   } else {
     find_maxima_in_tiles();
     scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
-    tile_compact_({rows * local_size_, local_size_}, flags_, 2 * width_, winners_, edges.row_first, config_.max_edges, compact_,
-                  rows_);
-    tile_directions_({8 * static_cast<std::size_t>(config_.max_edges), local_size_}, plane_.pixels, plane_.stride, compact_,
-                     rows_, edges.count, newton_max, edges.x, edges.y, edges.direction, edges.strength);
+    tile_compact_({rows * local_size_, local_size_}, flags_, 2 * width_, winners_, edges.row_first, config_.max_edges,
+                  compact_, rows_);
+    tile_directions_({8 * static_cast<std::size_t>(config_.max_edges), local_size_}, plane_.pixels, plane_.stride,
+                     compact_, rows_, edges.count, newton_max, edges.x, edges.y, edges.direction, edges.strength);
   }
 }
 
@@ -163,8 +166,8 @@ void EdgeDetection::thin(DeviceEdges& edges) {
   const opencl::Range rows(2 * static_cast<std::size_t>(height_), local_size_);
   thinning_flags_(rows, all_.x, all_.y, all_.direction, all_.strength, all_.row_first, 2 * height_, flags_, counts_);
   scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
-  thinning_move_(rows, all_.x, all_.y, all_.direction, all_.strength, all_.row_first, 2 * height_, flags_, edges.row_first,
-                 edges.x, edges.y, edges.direction, edges.strength);
+  thinning_move_(rows, all_.x, all_.y, all_.direction, all_.strength, all_.row_first, 2 * height_, flags_,
+                 edges.row_first, edges.x, edges.y, edges.direction, edges.strength);
   // What was cut off was cut off before the thinning.
   edges.count.copy(all_.count, 1, 1);
 }

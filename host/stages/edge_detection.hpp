@@ -1,5 +1,5 @@
 #pragma once
-/// \file edge_detection.hpp  Stage 2: third-order edges of one image on the device. SPEC section 1.
+/// \file edge_detection.hpp  Stage 2: third-order edges of one image on the device. doc/method.md section 1.
 
 #include <map>
 #include <string>
@@ -11,21 +11,22 @@
 
 namespace quadedge::stages {
 
-/// Detects edges in images of one size. Owns its kernels and scratch memory; enqueues only, and may be used for one image after
-/// the other. All variants give the same bytes.
+/// Detects edges in images of one size. Owns its kernels and scratch memory; enqueues only, and may be used for one
+/// image after the other. All variants give the same bytes.
 class EdgeDetection {
  public:
-  /// `variants`: stage "edges" (strip, tile...) and stage "scan". \throws UsageError for an unknown variant or an empty image,
-  /// DeviceError when the kernels do not build.
+  /// `variants`: stage "edge_detection" (strip, tile...) and stage "scan". \throws UsageError for an unknown variant or
+  /// an empty image, DeviceError when the kernels do not build.
   EdgeDetection(opencl::Context& context, int width, int height, const EdgesConfig& config,
                 const std::map<std::string, std::string>& variants);
 
-  /// Enqueues the detection in `image` (height x width, packed). At most config.max_edges edges; what does not fit is cut off at
-  /// the end of the scan order and counted in `edges.count`. Call edges.read_count() before the number is needed on the host.
+  /// Enqueues the detection in `image` (height x width, packed). At most config.max_edges edges; what does not fit is
+  /// cut off at the end of the scan order and counted in `edges.count`. Call edges.read_count() before the number is
+  /// needed on the host.
   void run(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges);
 
  private:
-  /// Floats of the image with its replicated border, see kernels/edges.cl.
+  /// Floats of the image with its replicated border, see kernels/edge_detection.cl.
   struct PaddedPlane {
     int stride = 0, rows = 0;
     opencl::Buffer<cl_float> pixels;
@@ -66,13 +67,13 @@ class EdgeDetection {
 
   PaddedPlane plane_;
   opencl::Buffer<cl_float> taps_;
-  opencl::Buffer<cl_float> scratch_;   ///< strips: lines of column sums and gradients
-  opencl::Buffer<cl_float> winners_;   ///< 4 floats per cell of the doubled grid
-  opencl::Buffer<cl_int> counts_;      ///< winners, then kept edges, per row of the doubled grid
-  opencl::Buffer<cl_uchar> flags_;     ///< tiles: cells that won; thinning: edges that stay
-  opencl::Buffer<cl_float> compact_;   ///< tiles: winners in scan order
-  opencl::Buffer<cl_int> rows_;        ///< tiles: their rows
-  DeviceEdges all_;                    ///< thinning: the edges before it
+  opencl::Buffer<cl_float> scratch_;  ///< strips: lines of column sums and gradients
+  opencl::Buffer<cl_float> winners_;  ///< 4 floats per cell of the doubled grid
+  opencl::Buffer<cl_int> counts_;     ///< winners, then kept edges, per row of the doubled grid
+  opencl::Buffer<cl_uchar> flags_;    ///< tiles: cells that won; thinning: edges that stay
+  opencl::Buffer<cl_float> compact_;  ///< tiles: winners in scan order
+  opencl::Buffer<cl_int> rows_;       ///< tiles: their rows
+  DeviceEdges all_;                   ///< thinning: the edges before it
 };
 
 }  // namespace quadedge::stages

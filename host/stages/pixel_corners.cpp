@@ -3,7 +3,7 @@
 namespace quadedge::stages {
 
 PixelCorners::PixelCorners(opencl::Context& context)
-    : context_(&context), kernel_(context, context.program({"corners.cl"}, {}), "pixel_corners") {}
+    : context_(&context), kernel_(context, context.program({"pixel_corners.cl"}, {}), "pixel_corners") {}
 
 void PixelCorners::prepare(const opencl::Buffer<cl_uchar>& image, int width, int height) {
   width_ = width;

@@ -5,7 +5,7 @@
 
 namespace quadedge::stages {
 
-/// Holds the corners of one image, kernels/corners.cl, until the next one.
+/// Holds the corners of one image, kernels/pixel_corners.cl, until the next one.
 class PixelCorners {
  public:
   explicit PixelCorners(opencl::Context& context);

@@ -14,8 +14,8 @@ class Scan {
   Scan() = default;
   Scan(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
-  /// Enqueues first[i] = min(counts[0] + ... + counts[i - 1], capacity) for i = 0 .. count, and total = {elements that fit,
-  /// elements cut off}. `counts` holds at least `count` values that are not negative; their sum must fit an int.
+  /// Enqueues first[i] = min(counts[0] + ... + counts[i - 1], capacity) for i = 0 .. count, and total = {elements that
+  /// fit, elements cut off}. `counts` holds at least `count` values that are not negative; their sum must fit an int.
   /// `first` (count + 1) and `total` (2) are made large enough.
   void run(const opencl::Buffer<cl_int>& counts, int count, int capacity, opencl::Buffer<cl_int>& first,
            opencl::Buffer<cl_int>& total);
@@ -24,7 +24,8 @@ class Scan {
   opencl::Context* context_ = nullptr;
   std::size_t local_size_ = 1;
   opencl::Kernel<opencl::In<cl_int>, cl_int, opencl::Out<cl_int>> sums_;
-  opencl::Kernel<opencl::In<cl_int>, cl_int, opencl::In<cl_int>, cl_int, opencl::Out<cl_int>, opencl::Out<cl_int>> write_;
+  opencl::Kernel<opencl::In<cl_int>, cl_int, opencl::In<cl_int>, cl_int, opencl::Out<cl_int>, opencl::Out<cl_int>>
+      write_;
   opencl::Buffer<cl_int> group_sums_;
 };
 

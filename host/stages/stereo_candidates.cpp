@@ -31,8 +31,7 @@ void StereoCandidates::run(const DeviceEdges& left, const DeviceEdges& right, in
          right_height, geometry, candidates.counts, noted_);
   candidates.build(context_, scan_, [&] {
     fill_(range, left.x, left.y, left.direction, left.host_count, right.x, right.y, right.direction, right.row_first,
-          right_height, geometry, candidates.first, candidates.capacity, noted_,
-          candidates.target);
+          right_height, geometry, candidates.first, candidates.capacity, noted_, candidates.target);
   });
 }
 

@@ -4,21 +4,21 @@
 #include <map>
 #include <string>
 
+#include "common/epipolar_geometry.hpp"
 #include "opencl/kernel.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
-#include "stages/epipolar_geometry.hpp"
 
 namespace quadedge::stages {
 
-/// Filters 1 to 3 of SPEC section 3. Variants of the stage "stereo_candidates".
+/// Filters 1 to 3 of doc/method.md section 3. Variants of the stage "stereo_candidates".
 class StereoCandidates {
  public:
   StereoCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
   /// One row per left edge. `right_height` [px]; `geometry` packed (EpipolarGeometry::packed).
-  void run(const DeviceEdges& left, const DeviceEdges& right, int right_height, const opencl::Buffer<cl_float>& geometry,
-           DeviceCandidates& candidates);
+  void run(const DeviceEdges& left, const DeviceEdges& right, int right_height,
+           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates);
 
  private:
   template <class T>
@@ -30,11 +30,11 @@ class StereoCandidates {
   std::size_t local_size_;
   Scan scan_;
   opencl::Buffer<cl_int> noted_;  ///< the first candidates of every row
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, cl_int,
-                 In<cl_float>, Out<cl_int>, Out<cl_int>>
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
+                 cl_int, In<cl_float>, Out<cl_int>, Out<cl_int>>
       count_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, cl_int,
-                 In<cl_float>, In<cl_int>, cl_int, In<cl_int>, Out<cl_int>>
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
+                 cl_int, In<cl_float>, In<cl_int>, cl_int, In<cl_int>, Out<cl_int>>
       fill_;
 };
 

@@ -16,8 +16,7 @@ StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& con
     : context_(context), config_(config), scan_(context, variants) {
   const auto& variant = opencl::choose_variant("stereo_clusters", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program =
-      context.program({"direction.cl", "epipolar.cl", "stereo_clusters.cl"}, variant.defines);
+  const auto program = context.program({"direction.cl", "epipolar.cl", "stereo_clusters.cl"}, variant.defines);
   cluster_ = {context, program, "stereo_clusters"};
   claim_ = {context, program, "stereo_claim"};
   owner_ = {context, program, "stereo_owner"};
@@ -26,8 +25,8 @@ StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& con
 }
 
 void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, EdgeDescription& right_description,
-                         const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates, const DeviceRefined& refined,
-                         DeviceClusters& clusters, DeviceStereoEdges& result) {
+                         const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates,
+                         const DeviceRefined& refined, DeviceClusters& clusters, DeviceStereoEdges& result) {
   context_.begin_stage("stereo_clusters");
   const int n = left.host_count;
   const auto edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
@@ -49,12 +48,12 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, Edge
   cluster_(range, candidates.first, candidates.target, candidates.capacity, n, right.direction, candidates.rejected_by,
            refined.place, refined.likeness, static_cast<float>(config_.cluster_gap),
            static_cast<float>(config_.cluster_orientation * kDegree), config_.cluster_size_max,
-           static_cast<float>(config_.cluster_sigma), static_cast<float>(config_.refined_ncc_min), clusters.order, clusters.count,
-           clusters.place, clusters.direction, clusters.anchor, clusters.likeness, clusters.best);
+           static_cast<float>(config_.cluster_sigma), static_cast<float>(config_.refined_ncc_min), clusters.order,
+           clusters.count, clusters.place, clusters.direction, clusters.anchor, clusters.likeness, clusters.best);
   claim_(range, clusters.best, clusters.anchor, clusters.likeness, n, clusters.claimed);
   owner_(range, clusters.best, clusters.anchor, clusters.likeness, n, clusters.claimed, clusters.owner);
-  mutual_(range, clusters.best, clusters.anchor, n, left.x, left.y, static_cast<float>(config_.mutual_radius), clusters.owner,
-          clusters.keep);
+  mutual_(range, clusters.best, clusters.anchor, n, left.x, left.y, static_cast<float>(config_.mutual_radius),
+          clusters.owner, clusters.keep);
   scan_.run(clusters.keep, n, n, clusters.keep_first, clusters.total);
 
   result.stride = n;
@@ -71,7 +70,8 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, Edge
   cl_int total[2];
   clusters.total.read(total, 2);
   result.count = total[0];
-  right_description.cut_patches(result.right_x, result.right_y, result.right_direction, result.count, result.right_patches);
+  right_description.cut_patches(result.right_x, result.right_y, result.right_direction, result.count,
+                                result.right_patches);
 }
 
 }  // namespace quadedge::stages

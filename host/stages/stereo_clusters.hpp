@@ -16,13 +16,13 @@ namespace quadedge::stages {
 
 /// Clusters of one frame's candidates, in the rows of the candidates.
 struct DeviceClusters {
-  opencl::Buffer<cl_int> order;      ///< scratch
-  opencl::Buffer<cl_int> count;      ///< clusters per left edge
-  opencl::Buffer<cl_float> place;    ///< on the epipolar line [px from the point at infinity]
+  opencl::Buffer<cl_int> order;    ///< scratch
+  opencl::Buffer<cl_int> count;    ///< clusters per left edge
+  opencl::Buffer<cl_float> place;  ///< on the epipolar line [px from the point at infinity]
   opencl::Buffer<cl_float> direction;
-  opencl::Buffer<cl_int> anchor;     ///< right edge of the representative
+  opencl::Buffer<cl_int> anchor;  ///< right edge of the representative
   opencl::Buffer<cl_float> likeness;
-  opencl::Buffer<cl_int> best;       ///< best cluster per left edge, -1: none
+  opencl::Buffer<cl_int> best;            ///< best cluster per left edge, -1: none
   opencl::Buffer<cl_int> claimed, owner;  ///< per right edge
   opencl::Buffer<cl_int> keep, keep_first, total;
 };
@@ -30,10 +30,11 @@ struct DeviceClusters {
 /// SPEC 8c to 10. Variants of the stage "stereo_clusters".
 class StereoClusters {
  public:
-  StereoClusters(opencl::Context& context, const StereoConfig& config, const std::map<std::string, std::string>& variants);
+  StereoClusters(opencl::Context& context, const StereoConfig& config,
+                 const std::map<std::string, std::string>& variants);
 
-  /// Clusters, best and mutual; waits for the number of stereo edges and fills the rows of `result` and its right patches.
-  /// `right_description` has the right image prepared.
+  /// Clusters, best and mutual; waits for the number of stereo edges and fills the rows of `result` and its right
+  /// patches. `right_description` has the right image prepared.
   void run(const DeviceEdges& left, const DeviceEdges& right, EdgeDescription& right_description,
            const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates, const DeviceRefined& refined,
            DeviceClusters& clusters, DeviceStereoEdges& result);
@@ -48,9 +49,9 @@ class StereoClusters {
   StereoConfig config_;
   std::size_t local_size_;
   Scan scan_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_float>, cl_float, cl_float,
-                 cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>, Out<cl_int>, Out<cl_float>,
-                 Out<cl_int>>
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_float>,
+                 cl_float, cl_float, cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>,
+                 Out<cl_int>, Out<cl_float>, Out<cl_int>>
       cluster_;
   opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, Out<cl_int>> claim_;
   opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, In<cl_int>, Out<cl_int>> owner_;

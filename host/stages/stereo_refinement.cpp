@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "common/filter_names.hpp"
 #include "opencl/variants.hpp"
-#include "reference/stereo_refinement.hpp"
 
 namespace quadedge::stages {
 namespace {
@@ -15,34 +15,36 @@ constexpr std::size_t kLanes = 8;  ///< work-items per edge; twin: LANES in kern
 
 StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
                                    const std::map<std::string, std::string>& variants)
-    : context_(context),
-      config_(config),
-      patch_offset_(static_cast<float>(patch_offset)) {
+    : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const bool lanes = variant.defines.count("GROUP") != 0;
   items_per_edge_ = lanes ? kLanes : 1;
-  const auto program =
-      lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl", "candidate_places.cl", "stereo_refinement_lanes.cl"},
-                              variant.defines)
-            : context.program({"direction.cl", "epipolar.cl", "photometric.cl", "candidate_places.cl", "stereo_refinement.cl"}, variant.defines);
+  const auto program = lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl",
+                                                "candidate_places.cl", "stereo_refinement_lanes.cl"},
+                                               variant.defines)
+                             : context.program({"direction.cl", "epipolar.cl", "photometric.cl", "candidate_places.cl",
+                                                "stereo_refinement.cl"},
+                                               variant.defines);
   kernel_ = {context, program, "stereo_refinement"};
 }
 
 void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
                            const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches,
-                           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined) {
+                           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates,
+                           DeviceRefined& refined) {
   context_.begin_stage("stereo_refinement");
   refined.place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
   refined.likeness.ensure(context_, static_cast<std::size_t>(candidates.capacity));
-  kernel_({static_cast<std::size_t>(candidates.rows) * items_per_edge_, local_size_}, candidates.first, candidates.target, candidates.ncc, candidates.capacity,
-          candidates.rows, left_image.values(), left_image.width(), left_image.height(), right_image.values(), right_image.width(),
-          right_image.height(), left_patches, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
+  kernel_({static_cast<std::size_t>(candidates.rows) * items_per_edge_, local_size_}, candidates.first,
+          candidates.target, candidates.ncc, candidates.capacity, candidates.rows, left_image.values(),
+          left_image.width(), left_image.height(), right_image.values(), right_image.width(), right_image.height(),
+          left_patches, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
           static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
           static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2)), config_.refine_steps,
           static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
-          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min), reference::kStereoRefinementOrder, candidates.rejected_by, refined.place,
-          refined.likeness);
+          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min), kStereoRefinementOrder,
+          candidates.rejected_by, refined.place, refined.likeness);
 }
 
 }  // namespace quadedge::stages

@@ -14,8 +14,9 @@ namespace quadedge::stages {
 
 /// What the refinement finds for every candidate.
 struct DeviceRefined {
-  opencl::Buffer<cl_float> place;     ///< on the left edge's epipolar line [px from the point at infinity]
-  opencl::Buffer<cl_float> likeness;  ///< of the refined places: mean of the NCC of the edges' own patches and of the better side
+  opencl::Buffer<cl_float> place;  ///< on the left edge's epipolar line [px from the point at infinity]
+  opencl::Buffer<cl_float>
+      likeness;  ///< of the refined places: mean of the NCC of the edges' own patches and of the better side
 };
 
 /// SPEC 8a and 8b. Variants of the stage "stereo_refinement".
@@ -26,8 +27,9 @@ class StereoRefinement {
 
   /// Living candidates get a place and a likeness; those that diverge are rejected. Both images prepared for sampling;
   /// `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.
-  void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left, const DeviceEdges& right,
-           const opencl::Buffer<cl_char>& left_patches, const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
+  void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
+           const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches,
+           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
 
  private:
   template <class T>
@@ -39,10 +41,10 @@ class StereoRefinement {
   StereoConfig config_;
   float patch_offset_;
   std::size_t local_size_, items_per_edge_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int,
-                 In<cl_char>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
-                 cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float, cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>,
-                 Out<cl_float>>
+  opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int,
+                 cl_int, In<cl_char>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
+                 In<cl_float>, In<cl_float>, cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float,
+                 cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>, Out<cl_float>>
       kernel_;
 };
 

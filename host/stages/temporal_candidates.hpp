@@ -1,13 +1,14 @@
 #pragma once
-/// \file temporal_candidates.hpp  Stage 6a: current stereo edges near the predicted places, in the left or the right images.
+/// \file temporal_candidates.hpp  Stage 6a: current stereo edges near the predicted places, in the left or the right
+/// images.
 
 #include <map>
 #include <string>
 
+#include "common/temporal_search.hpp"
 #include "opencl/kernel.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_point_index.hpp"
-#include "stages/temporal_search.hpp"
 
 namespace quadedge::stages {
 
@@ -24,14 +25,15 @@ struct DevicePlaces {
   }
 };
 
-/// Filters 1 and 2 of SPEC section 4. Variants of the stage "temporal_candidates".
+/// Filters 1 and 2 of doc/method.md section 4. Variants of the stage "temporal_candidates".
 class TemporalCandidates {
  public:
   TemporalCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
-  /// `radius` [px], `orientation` [rad]. Every row_step-th predicted place has a row. `current`: the stereo edges of one side.
-  void run(const DevicePlaces& predicted, int row_step, const DevicePointIndex& current, float radius, float orientation,
-           DeviceCandidates& candidates);
+  /// `radius` [px], `orientation` [rad]. Every row_step-th predicted place has a row. `current`: the stereo edges of
+  /// one side.
+  void run(const DevicePlaces& predicted, int row_step, const DevicePointIndex& current, float radius,
+           float orientation, DeviceCandidates& candidates);
 
  private:
   template <class T>
@@ -42,11 +44,11 @@ class TemporalCandidates {
   opencl::Context& context_;
   std::size_t local_size_;
   Scan scan_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
-                 In<cl_int>, cl_int, cl_int, cl_float, cl_float, Out<cl_int>>
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>,
+                 In<cl_int>, In<cl_int>, cl_int, cl_int, cl_float, cl_float, Out<cl_int>>
       count_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
-                 In<cl_int>, cl_int, cl_int, cl_float, cl_float, In<cl_int>, cl_int, Out<cl_int>>
+  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>,
+                 In<cl_int>, In<cl_int>, cl_int, cl_int, cl_float, cl_float, In<cl_int>, cl_int, Out<cl_int>>
       fill_;
 };
 

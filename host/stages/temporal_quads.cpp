@@ -1,7 +1,7 @@
 #include "stages/temporal_quads.hpp"
 
+#include "common/filter_names.hpp"
 #include "opencl/variants.hpp"
-#include "reference/temporal_quads.hpp"
 
 namespace quadedge::stages {
 namespace {
@@ -10,7 +10,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 }  // namespace
 
-TemporalQuads::TemporalQuads(opencl::Context& context, const TemporalConfig& config, const std::map<std::string, std::string>& variants)
+TemporalQuads::TemporalQuads(opencl::Context& context, const TemporalConfig& config,
+                             const std::map<std::string, std::string>& variants)
     : context_(context), config_(config) {
   const auto& variant = opencl::choose_variant("temporal_quads", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
@@ -22,27 +23,31 @@ TemporalQuads::TemporalQuads(opencl::Context& context, const TemporalConfig& con
 void TemporalQuads::agree(DeviceCandidates& left, const DeviceCandidates& right) {
   context_.begin_stage("temporal_quads");
   score_.ensure(context_, static_cast<std::size_t>(left.capacity));
-  agree_({static_cast<std::size_t>(left.rows), local_size_}, left.first, left.target, left.capacity, left.ncc, left.rejected_by,
-         right.first, right.target, right.capacity, right.ncc, right.rejected_by, left.rows, reference::kAgreementOrder, score_);
+  agree_({static_cast<std::size_t>(left.rows), local_size_}, left.first, left.target, left.capacity, left.ncc,
+         left.rejected_by, right.first, right.target, right.capacity, right.ncc, right.rejected_by, left.rows,
+         kAgreementOrder, score_);
 }
 
-TemporalMatches TemporalQuads::collect(const DeviceStereoEdges& current, const StereoEdges& edges, const TemporalSearch& search,
-                                       const DevicePlaces& predicted, const DeviceCandidates& left) {
+TemporalMatches TemporalQuads::collect(const DeviceStereoEdges& current, const StereoEdges& edges,
+                                       const TemporalSearch& search, const DevicePlaces& predicted,
+                                       const DeviceCandidates& left) {
   const auto rows = static_cast<std::size_t>(left.rows);
   label_.ensure(context_, static_cast<std::size_t>(left.capacity));
   best_.ensure(context_, rows);
   rivals_.ensure(context_, rows);
   best_score_.ensure(context_, rows);
-  best_kernel_({rows, local_size_}, left.first, left.target, left.capacity, left.rows, search.step, current.packed, current.stride,
-               left.rejected_by, score_, predicted.x, predicted.y,
-               static_cast<float>(config_.distance_weight) / (search.radius * search.radius), static_cast<float>(config_.cluster_gap),
-               static_cast<float>(config_.cluster_orientation * kDegree), label_, best_, rivals_, best_score_);
+  best_kernel_({rows, local_size_}, left.first, left.target, left.capacity, left.rows, search.step, current.packed,
+               current.stride, left.rejected_by, score_, predicted.x, predicted.y,
+               static_cast<float>(config_.distance_weight) / (search.radius * search.radius),
+               static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree),
+               label_, best_, rivals_, best_score_);
   const auto best = best_.read(rows);
   const auto rivals = rivals_.read(rows);
   const auto scores = best_score_.read(rows);
   TemporalMatches matches;
   for (std::size_t row = 0; row < rows; ++row) {
-    if (best[row] >= 0) matches.append(static_cast<std::int32_t>(row) * search.step, best[row], edges, scores[row], rivals[row]);
+    if (best[row] >= 0)
+      matches.append(static_cast<std::int32_t>(row) * search.step, best[row], edges, scores[row], rivals[row]);
   }
   return matches;
 }

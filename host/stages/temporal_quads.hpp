@@ -4,20 +4,22 @@
 #include <map>
 #include <string>
 
+#include "common/temporal_search.hpp"
 #include "opencl/kernel.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_stereo_edges.hpp"
 #include "stages/temporal_candidates.hpp"
-#include "stages/temporal_search.hpp"
 
 namespace quadedge::stages {
 
-/// The closing of the circle and the choice of the best (SPEC section 4). Variants of the stage "temporal_quads".
+/// The closing of the circle and the choice of the best (doc/method.md section 4). Variants of the stage
+/// "temporal_quads".
 class TemporalQuads {
  public:
-  TemporalQuads(opencl::Context& context, const TemporalConfig& config, const std::map<std::string, std::string>& variants);
+  TemporalQuads(opencl::Context& context, const TemporalConfig& config,
+                const std::map<std::string, std::string>& variants);
 
   /// Enqueues the agreement: marks left candidates that the right list does not hold alive.
   void agree(DeviceCandidates& left, const DeviceCandidates& right);
@@ -37,11 +39,12 @@ class TemporalQuads {
   std::size_t local_size_;
   opencl::Buffer<cl_float> score_, best_score_;
   opencl::Buffer<cl_int> label_, best_, rivals_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, Out<cl_uchar>, In<cl_int>, In<cl_int>, cl_int, In<cl_float>,
-                 In<cl_uchar>, cl_int, cl_int, Out<cl_float>>
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, Out<cl_uchar>, In<cl_int>, In<cl_int>, cl_int,
+                 In<cl_float>, In<cl_uchar>, cl_int, cl_int, Out<cl_float>>
       agree_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_float>, cl_int, In<cl_uchar>, In<cl_float>, In<cl_float>,
-                 In<cl_float>, cl_float, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_int>, Out<cl_float>>
+  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_float>, cl_int, In<cl_uchar>, In<cl_float>,
+                 In<cl_float>, In<cl_float>, cl_float, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_int>,
+                 Out<cl_float>>
       best_kernel_;
 };
 

@@ -6,7 +6,9 @@ namespace quadedge::stages {
 
 Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
                            const std::map<std::string, std::string>& variants)
-    : context_(context), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), active_(!table.empty()) {
+    : context_(context),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      active_(!table.empty()) {
   if (!active_) return;
   const auto& variant = opencl::choose_variant("undistortion", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
@@ -20,8 +22,8 @@ void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& t
   target.ensure(context_, width * height);
   context_.count_to_device(width * height);
   try {
-    context_.queue().enqueueWriteBufferRect(target.memory(), CL_TRUE, {0, 0, 0}, {0, 0, 0}, {width, height, 1}, width, 0,
-                                            static_cast<std::size_t>(recorded.stride), 0, recorded.pixels);
+    context_.queue().enqueueWriteBufferRect(target.memory(), CL_TRUE, {0, 0, 0}, {0, 0, 0}, {width, height, 1}, width,
+                                            0, static_cast<std::size_t>(recorded.stride), 0, recorded.pixels);
   } catch (const cl::Error& error) {
     opencl::throw_device_error("uploading an image", error.err(), context_.name());
   }

@@ -30,7 +30,8 @@ class Undistortion {
   bool active_ = false;
   opencl::Buffer<cl_float> source_x_, source_y_;
   opencl::Buffer<cl_uchar> recorded_;
-  opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>, opencl::Out<cl_uchar>, cl_int>
+  opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
+                 opencl::Out<cl_uchar>, cl_int>
       kernel_;
 };
 

@@ -1,15 +1,13 @@
 #include "stages/wide_description.hpp"
 
+#include "common/byte_layouts.hpp"
 #include "opencl/variants.hpp"
-#include "reference/wide_description.hpp"
 
 namespace quadedge::stages {
 
-WideDescription::WideDescription(opencl::Context& context, int width, int height, const std::map<std::string, std::string>& variants)
-    : context_(context),
-      width_(width),
-      small_width_(width / reference::kWideShrink),
-      small_height_(height / reference::kWideShrink) {
+WideDescription::WideDescription(opencl::Context& context, int width, int height,
+                                 const std::map<std::string, std::string>& variants)
+    : context_(context), width_(width), small_width_(width / kWideShrink), small_height_(height / kWideShrink) {
   const auto& variant = opencl::choose_variant("wide_description", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto program = context.program({"direction.cl", "wide_description.cl"}, variant.defines);
@@ -28,9 +26,9 @@ int WideDescription::describe(const opencl::Buffer<cl_float>& small, const Devic
                               opencl::Buffer<cl_uchar>& descriptors) {
   context_.begin_stage("wide_description");
   const int rows = (edges.count + step - 1) / step;
-  descriptors.ensure(context_, static_cast<std::size_t>(rows) * reference::kWideBytes);
-  describe_({static_cast<std::size_t>(rows), local_size_}, small, small_width_, small_height_, edges.packed, edges.stride, rows, step,
-            descriptors);
+  descriptors.ensure(context_, static_cast<std::size_t>(rows) * kWideBytes);
+  describe_({static_cast<std::size_t>(rows), local_size_}, small, small_width_, small_height_, edges.packed,
+            edges.stride, rows, step, descriptors);
   return rows;
 }
 

@@ -19,7 +19,8 @@ class WideDescription {
   void prepare(const opencl::Buffer<cl_uchar>& image, opencl::Buffer<cl_float>& small);
 
   /// Descriptors of every step-th stereo edge, 128 bytes each. \returns how many.
-  int describe(const opencl::Buffer<cl_float>& small, const DeviceStereoEdges& edges, int step, opencl::Buffer<cl_uchar>& descriptors);
+  int describe(const opencl::Buffer<cl_float>& small, const DeviceStereoEdges& edges, int step,
+               opencl::Buffer<cl_uchar>& descriptors);
 
  private:
   template <class T>

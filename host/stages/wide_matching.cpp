@@ -1,7 +1,7 @@
 #include "stages/wide_matching.hpp"
 
+#include "common/byte_layouts.hpp"
 #include "opencl/variants.hpp"
-#include "reference/wide_description.hpp"
 
 namespace quadedge::stages {
 namespace {
@@ -12,7 +12,8 @@ int count_blocks(int descriptors) { return (descriptors + kBlockLanes - 1) / kBl
 
 }  // namespace
 
-WideMatching::WideMatching(opencl::Context& context, const TemporalConfig& config, const std::map<std::string, std::string>& variants)
+WideMatching::WideMatching(opencl::Context& context, const TemporalConfig& config,
+                           const std::map<std::string, std::string>& variants)
     : context_(context),
       neighbourhood_(static_cast<float>(config.wide_neighbourhood)),
       ratio_(static_cast<float>(config.wide_ratio)) {
@@ -31,25 +32,27 @@ WideMatching::WideMatching(opencl::Context& context, const TemporalConfig& confi
 
 void WideMatching::transpose(const DeviceWideEdges& edges, opencl::Buffer<cl_uchar>& blocks) {
   const int count = count_blocks(edges.rows);
-  blocks.ensure(context_, static_cast<std::size_t>(count) * kBlockLanes * reference::kWideBytes);
+  blocks.ensure(context_, static_cast<std::size_t>(count) * kBlockLanes * kWideBytes);
   transpose_({static_cast<std::size_t>(count), local_size_}, edges.descriptors, edges.rows, blocks);
 }
 
-TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWideEdges& current, const StereoEdges& current_edges) {
+TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWideEdges& current,
+                                  const StereoEdges& current_edges) {
   context_.begin_stage("wide_matching");
   const auto rows = static_cast<std::size_t>(earlier.rows);
   best_.ensure(context_, rows);
   likeness_.ensure(context_, rows);
   if (rows_per_item_ == 0) {
-    kernel_({rows, local_size_}, earlier.descriptors, earlier.edges.packed, earlier.edges.stride, earlier.rows, earlier.step,
-            current.descriptors, current.edges.packed, current.edges.stride, current.rows, current.step, neighbourhood_, ratio_, best_,
-            likeness_);
+    kernel_({rows, local_size_}, earlier.descriptors, earlier.edges.packed, earlier.edges.stride, earlier.rows,
+            earlier.step, current.descriptors, current.edges.packed, current.edges.stride, current.rows, current.step,
+            neighbourhood_, ratio_, best_, likeness_);
   } else {
     transpose(earlier, earlier_blocks_);
     transpose(current, current_blocks_);
-    blocks_kernel_({(rows + rows_per_item_ - 1) / rows_per_item_, local_size_}, earlier.descriptors, earlier_blocks_, earlier.edges.packed,
-                   earlier.edges.stride, earlier.rows, earlier.step, current.descriptors, current_blocks_, current.edges.packed,
-                   current.edges.stride, current.rows, current.step, neighbourhood_, ratio_, best_, likeness_);
+    blocks_kernel_({(rows + rows_per_item_ - 1) / rows_per_item_, local_size_}, earlier.descriptors, earlier_blocks_,
+                   earlier.edges.packed, earlier.edges.stride, earlier.rows, earlier.step, current.descriptors,
+                   current_blocks_, current.edges.packed, current.edges.stride, current.rows, current.step,
+                   neighbourhood_, ratio_, best_, likeness_);
   }
   std::vector<cl_int> best(rows);
   best_.read_later(best.data(), rows);
@@ -57,7 +60,8 @@ TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWi
   TemporalMatches matches;
   for (std::size_t row = 0; row < rows; ++row) {
     if (best[row] < 0) continue;
-    matches.append(static_cast<std::int32_t>(row) * earlier.step, best[row] * current.step, current_edges, likeness[row], 0);
+    matches.append(static_cast<std::int32_t>(row) * earlier.step, best[row] * current.step, current_edges,
+                   likeness[row], 0);
   }
   return matches;
 }

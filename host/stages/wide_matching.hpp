@@ -1,6 +1,6 @@
 #pragma once
-/// \file wide_matching.hpp  Finds stereo edges of an earlier rig anywhere in the current left image: kernels/wide_matching.cl and
-/// kernels/wide_matching_blocks.cl.
+/// \file wide_matching.hpp  Finds stereo edges of an earlier rig anywhere in the current left image:
+/// kernels/wide_matching.cl and kernels/wide_matching_blocks.cl.
 
 #include <map>
 #include <string>
@@ -23,7 +23,8 @@ struct DeviceWideEdges {
 /// Variants of the stage "wide_matching".
 class WideMatching {
  public:
-  WideMatching(opencl::Context& context, const TemporalConfig& config, const std::map<std::string, std::string>& variants);
+  WideMatching(opencl::Context& context, const TemporalConfig& config,
+               const std::map<std::string, std::string>& variants);
 
   /// See reference::wide_matches(). `current_edges` are those of `current` on the host.
   TemporalMatches run(const DeviceWideEdges& earlier, const DeviceWideEdges& current, const StereoEdges& current_edges);
@@ -43,12 +44,12 @@ class WideMatching {
   opencl::Buffer<cl_uchar> earlier_blocks_, current_blocks_;
   opencl::Buffer<cl_int> best_;
   opencl::Buffer<cl_float> likeness_;
-  opencl::Kernel<In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, cl_float, cl_float,
-                 Out<cl_int>, Out<cl_float>>
+  opencl::Kernel<In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int,
+                 cl_float, cl_float, Out<cl_int>, Out<cl_float>>
       kernel_;
   opencl::Kernel<In<cl_uchar>, cl_int, Out<cl_uchar>> transpose_;
-  opencl::Kernel<In<cl_uchar>, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_uchar>, In<cl_float>, cl_int, cl_int,
-                 cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_float>>
+  opencl::Kernel<In<cl_uchar>, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_uchar>,
+                 In<cl_float>, cl_int, cl_int, cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_float>>
       blocks_kernel_;
 };
 

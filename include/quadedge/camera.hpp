@@ -31,9 +31,9 @@ struct PinholeCamera {
 /// For every pixel of the pinhole image, the place in the recorded image that shows it (pixels, sub-pixel).
 /// Points outside the recorded image are replicated from its border.
 struct UndistortionTable {
-  int width = 0, height = 0;       ///< size of the pinhole image
-  std::vector<float> source_x;     ///< height x width, row-major
-  std::vector<float> source_y;     ///< height x width, row-major
+  int width = 0, height = 0;    ///< size of the pinhole image
+  std::vector<float> source_x;  ///< height x width, row-major
+  std::vector<float> source_y;  ///< height x width, row-major
   bool empty() const { return source_x.empty(); }
 };
 

@@ -21,35 +21,37 @@ struct FrameFiles {
 
 /// A sequence or a pair on disk: calibration, frame list, and how far disparities reach. Images are not loaded yet.
 struct Dataset {
-  std::string format;   ///< kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 | middlebury-2006 | middlebury-2014 | viso2-quad
-  std::string path;     ///< the sequence's own folder
-  std::string name;     ///< short name for tables
+  std::string format;  ///< kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 |
+                       ///< middlebury-2006 | middlebury-2014 | viso2-quad
+  std::string path;    ///< the sequence's own folder
+  std::string name;    ///< short name for tables
   StereoRig rig;
   std::vector<FrameFiles> frames;
-  /// Largest disparity that this kind of data holds [px], measured from a point at infinity: f x baseline / nearest depth.
-  /// Where the principal points differ (doffs of Middlebury) the plain difference of columns is smaller by that.
+  /// Largest disparity that this kind of data holds [px], measured from a point at infinity: f x baseline / nearest
+  /// depth. Where the principal points differ (doffs of Middlebury) the plain difference of columns is smaller by that.
   double max_disparity = 0;
   /// Ground-truth poses of the LEFT CAMERA, empty when there are none. Only evaluation may look at it.
   Trajectory truth;
-  std::string truth_file;    ///< where it came from
+  std::string truth_file;       ///< where it came from
   std::string disparity_truth;  ///< file with the left view's disparity, empty when there is none
-  double disparity_truth_scale = 1;  ///< px of this image per unit stored in `disparity_truth` (8-bit files: 0 is unknown)
-  std::vector<std::string> notes;    ///< what a user should know: nominal calibration, assumed times, skipped images
+  double disparity_truth_scale =
+      1;  ///< px of this image per unit stored in `disparity_truth` (8-bit files: 0 is unknown)
+  std::vector<std::string> notes;  ///< what a user should know: nominal calibration, assumed times, skipped images
 };
 
 /// Choices of the user.
 struct DatasetOptions {
   std::string format = "auto";  ///< or one of dataset_formats()
-  std::string sequence;   ///< KITTI: the sequence's name when `path` holds several
-  int first_frame = 0;    ///< half-open range of frames
-  int last_frame = -1;    ///< -1: to the end
+  std::string sequence;         ///< KITTI: the sequence's name when `path` holds several
+  int first_frame = 0;          ///< half-open range of frames
+  int last_frame = -1;          ///< -1: to the end
 };
 
 /// The names that DatasetOptions::format takes besides "auto".
 std::vector<std::string> dataset_formats();
 
-/// Recognises the layout and reads calibration, frame list and ground truth; checks that every image file exists and that
-/// stamps increase. \throws DataError naming the file, what was found and what was expected.
+/// Recognises the layout and reads calibration, frame list and ground truth; checks that every image file exists and
+/// that stamps increase. \throws DataError naming the file, what was found and what was expected.
 Dataset open_dataset(const std::string& path, const DatasetOptions& options = {});
 
 /// What `quadedge check` prints: everything wrong with the data, not only the first thing; also decodes every image.

@@ -9,12 +9,12 @@ namespace quadedge {
 
 /// What a device says of itself.
 struct DeviceInfo {
-  int index = 0;         ///< flat number over all platforms, as `quadedge devices` prints it
+  int index = 0;  ///< flat number over all platforms, as `quadedge devices` prints it
   std::string platform;
   std::string name;
   std::string driver;
-  std::string opencl;    ///< version string
-  std::string type;      ///< cpu | gpu | accelerator | reference
+  std::string opencl;  ///< version string
+  std::string type;    ///< cpu | gpu | accelerator | reference
   unsigned compute_units = 0;
   unsigned long long memory_bytes = 0;
 };
@@ -29,10 +29,10 @@ class Context;
 /// A chosen device: an OpenCL context with its queue and built kernels, or the plain C++ reference.
 class Device {
  public:
-  /// `choice`: auto (first GPU, else first CPU), cpu, gpu, reference, a number of list_devices(), or a text found in the
-  /// platform's or the device's name (case does not matter).
-  /// `kernel_folder`: when not empty, kernels are read from there instead of the embedded ones.
-  /// \throws DeviceError with installation help and the list of devices when nothing matches.
+  /// `choice`: auto (first GPU, else first CPU), cpu, gpu, reference, a number of list_devices(), or a text found in
+  /// the platform's or the device's name (case does not matter). `kernel_folder`: when not empty, kernels are read from
+  /// there instead of the embedded ones. \throws DeviceError with installation help and the list of devices when
+  /// nothing matches.
   explicit Device(const std::string& choice = "auto", const std::string& kernel_folder = "", bool profiling = false);
   ~Device();
   Device(Device&&) noexcept;

@@ -7,42 +7,45 @@
 
 namespace quadedge {
 
-/// How far an edge may lie from the grid row that holds it [px]: 0.354 by the parabola and the longest Newton step allowed.
+/// How far an edge may lie from the grid row that holds it [px]: 0.354 by the parabola and the longest Newton step
+/// allowed.
 constexpr float kEdgeRowReach = 0.5F;
 
-/// Third-order edges of one image in scan order of the doubled grid (row by row, left to right). SPEC section 1.
+/// Third-order edges of one image in scan order of the doubled grid (row by row, left to right). doc/method.md
+/// section 1.
 struct EdgeSet {
-  std::vector<float> x, y;        ///< pixels, centre of the top-left pixel is (0, 0)
-  /// Tangent, radians in (-pi, pi]: the brightness gradient turned by -90 degrees on screen (vertical edge, bright on the
-  /// right: -90 degrees). The bright side lies at (-sin, cos), the dark side at (sin, -cos).
+  std::vector<float> x, y;  ///< pixels, centre of the top-left pixel is (0, 0)
+  /// Tangent, radians in (-pi, pi]: the brightness gradient turned by -90 degrees on screen (vertical edge, bright on
+  /// the right: -90 degrees). The bright side lies at (-sin, cos), the dark side at (sin, -cos).
   std::vector<float> direction;
-  std::vector<float> strength;    ///< peak gradient magnitude, grey levels per pixel
-  /// Where each row of the doubled grid starts: row r holds edges row_first[r] .. row_first[r + 1]. Size 2 * height + 1.
-  /// The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
+  std::vector<float> strength;  ///< peak gradient magnitude, grey levels per pixel
+  /// Where each row of the doubled grid starts: row r holds edges row_first[r] .. row_first[r + 1]. Size 2 * height
+  /// + 1. The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
   std::vector<std::int32_t> row_first;
 
   std::size_t size() const { return x.size(); }
 };
 
-/// Stereo edges in the scan order of their left edges, mutually best. SPEC section 3.
+/// Stereo edges in the scan order of their left edges, mutually best. doc/method.md section 3.
 struct StereoEdges {
-  std::vector<std::int32_t> left_index;   ///< the left edge
-  std::vector<std::int32_t> right_index;  ///< the right edge that was refined; neighbours on one left curve may share it
+  std::vector<std::int32_t> left_index;  ///< the left edge
+  std::vector<std::int32_t>
+      right_index;  ///< the right edge that was refined; neighbours on one left curve may share it
   std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge, pixels and radians
   std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
-  std::vector<float> ncc;                 ///< likeness of the refined pair: mean NCC of the edges' own patches and of the better side
+  std::vector<float> ncc;  ///< likeness of the refined pair: mean NCC of the edges' own patches and of the better side
 
   std::size_t size() const { return left_index.size(); }
 };
 
-/// Matches in time between the stereo edges of two rigs: quads that close the circle. SPEC section 4.
+/// Matches in time between the stereo edges of two rigs: quads that close the circle. doc/method.md section 4.
 struct TemporalMatches {
-  std::vector<std::int32_t> previous;  ///< index into the previous rig's stereo edges
-  std::vector<std::int32_t> current;   ///< index into the current rig's stereo edges
-  std::vector<float> left_x, left_y;   ///< detected place in the current left image, pixels
-  std::vector<float> right_x, right_y; ///< its refined right point
-  std::vector<float> ncc;              ///< mean of the left and the right similarity
-  std::vector<std::int32_t> rivals;    ///< how many other clusters the previous edge has (0: unambiguous)
+  std::vector<std::int32_t> previous;   ///< index into the previous rig's stereo edges
+  std::vector<std::int32_t> current;    ///< index into the current rig's stereo edges
+  std::vector<float> left_x, left_y;    ///< detected place in the current left image, pixels
+  std::vector<float> right_x, right_y;  ///< its refined right point
+  std::vector<float> ncc;               ///< mean of the left and the right similarity
+  std::vector<std::int32_t> rivals;     ///< how many other clusters the previous edge has (0: unambiguous)
 
   std::size_t size() const { return previous.size(); }
   /// Keeps the memory.
@@ -51,7 +54,8 @@ struct TemporalMatches {
     for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
   }
   /// Adds a match with stereo edge `current_edge` of `edges`, at its places.
-  void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity, std::int32_t rival_count) {
+  void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity,
+              std::int32_t rival_count) {
     const auto j = static_cast<std::size_t>(current_edge);
     previous.push_back(previous_edge);
     current.push_back(current_edge);

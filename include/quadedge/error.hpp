@@ -6,7 +6,7 @@
 
 namespace quadedge {
 
-/// Exit codes of the command line (DESIGN section 9); every error class belongs to one of them.
+/// Exit codes of the command line (doc/design.md section 9); every error class belongs to one of them.
 enum class ExitCode : int {
   done = 0,
   internal = 1,

@@ -7,7 +7,8 @@
 
 namespace quadedge {
 
-/// A view of a grey image that somebody else owns. height x width, row-major; the centre of the top-left pixel is (0, 0).
+/// A view of a grey image that somebody else owns. height x width, row-major; the centre of the top-left pixel is (0,
+/// 0).
 struct ImageView {
   const std::uint8_t* pixels = nullptr;
   int width = 0;

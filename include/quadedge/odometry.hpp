@@ -24,20 +24,21 @@ struct StereoFrame {
 
 /// What happened to a frame.
 enum class FrameStatus {
-  first,                  ///< the origin of the trajectory
-  tracked,                ///< pose found against the key stereo rig or the frame before
-  lost_too_few_edges,     ///< not enough stereo edges in this frame
-  lost_too_few_quads,     ///< edges, but not enough quads with a frame before
-  lost_no_consensus,      ///< quads, but no motion that enough of them share
+  first,               ///< the origin of the trajectory
+  tracked,             ///< pose found against the key stereo rig or the frame before
+  lost_too_few_edges,  ///< not enough stereo edges in this frame
+  lost_too_few_quads,  ///< edges, but not enough quads with a frame before
+  lost_no_consensus,   ///< quads, but no motion that enough of them share
 };
 const char* to_string(FrameStatus status);
 inline bool is_tracked(FrameStatus status) { return status == FrameStatus::first || status == FrameStatus::tracked; }
 
-/// Counts of one frame; SPEC sections 1 to 7.
+/// Counts of one frame; doc/method.md sections 1 to 7.
 struct FrameCounts {
   int edges_left = 0, edges_right = 0;
   int stereo_edges = 0;
-  int temporal_left = 0, temporal_right = 0;  ///< previous stereo edges that keep a candidate in the left / right images
+  int temporal_left = 0,
+      temporal_right = 0;  ///< previous stereo edges that keep a candidate in the left / right images
   int quads = 0;           ///< with the key stereo rig, or with the frame before where that one is out of sight
   int inliers = 0;
 };
@@ -56,7 +57,8 @@ struct FrameResult {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   /// Gamma_current = current_from_reference * Gamma_reference, reference = key stereo rig.
   Eigen::Isometry3d current_from_reference = Eigen::Isometry3d::Identity();
-  /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current left frame.
+  /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current
+  /// left frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double disparity_offset = 0;  ///< found so far, added to every disparity [px]
   int reference_frame = 0;      ///< number of the frame that was the key stereo rig
@@ -71,9 +73,9 @@ struct FrameResult {
 /// What one frame was made of; for drawing and for evaluation. Copied only on request.
 struct FrameDetails {
   EdgeSet left_edges, right_edges;
-  StereoEdges previous_stereo, stereo;   ///< of the frame that this one was matched with, and of this one
-  TemporalMatches quads;                 ///< indices into previous_stereo and stereo
-  std::vector<std::uint8_t> quad_inlier; ///< one per quad
+  StereoEdges previous_stereo, stereo;    ///< of the frame that this one was matched with, and of this one
+  TemporalMatches quads;                  ///< indices into previous_stereo and stereo
+  std::vector<std::uint8_t> quad_inlier;  ///< one per quad
 };
 
 class Tap;

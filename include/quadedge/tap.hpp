@@ -1,5 +1,5 @@
 #pragma once
-/// \file tap.hpp  Observing the production pipeline after every filter (DESIGN section 3).
+/// \file tap.hpp  Observing the production pipeline after every filter (doc/design.md section 3).
 
 #include <cstdint>
 #include <string>
@@ -23,7 +23,8 @@ struct ExpectedEdges {
   std::vector<float> x, y, direction;
 };
 
-/// Receives copies of what each stage leaves. All functions have empty defaults; overriding one makes the pipeline read back.
+/// Receives copies of what each stage leaves. All functions have empty defaults; overriding one makes the pipeline read
+/// back.
 class Tap {
  public:
   virtual ~Tap() = default;
@@ -35,7 +36,8 @@ class Tap {
   }
   /// The final stereo edges of a frame.
   virtual void stereo(const StereoEdges& edges) { (void)edges; }
-  /// Before every search in time: it looks within `radius` px of the expected places of every `step`-th previous stereo edge.
+  /// Before every search in time: it looks within `radius` px of the expected places of every `step`-th previous stereo
+  /// edge.
   virtual void temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double radius, int step) {
     (void)left, (void)right, (void)radius, (void)step;
   }

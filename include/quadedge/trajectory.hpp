@@ -21,7 +21,8 @@ Trajectory read_tum(const std::string& path);
 /// Written to a temporary name and renamed. \throws DataError when the file cannot be written (full disk included).
 void write_tum(const std::string& path, const Trajectory& trajectory);
 
-/// KITTI format: 12 numbers per line, row-major 3 x 4. Stamps are taken from `stamps_ns` (same length) or are the row numbers in ns.
+/// KITTI format: 12 numbers per line, row-major 3 x 4. Stamps are taken from `stamps_ns` (same length) or are the row
+/// numbers in ns.
 Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& stamps_ns = {});
 void write_kitti(const std::string& path, const Trajectory& trajectory);
 

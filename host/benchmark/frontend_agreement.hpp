@@ -1,0 +1,36 @@
+#pragma once
+/// \file frontend_agreement.hpp  Whether two runs of the frontend on the same two frames see the same.
+
+#include "frontend/frontend.hpp"
+#include "quadedge/dataset.hpp"
+
+namespace quadedge::bench {
+
+/// What a frontend makes of two frames.
+struct FrontendOutput {
+  EdgeSet left_edges, right_edges;
+  StereoEdges previous, current;
+  TemporalMatches scouted, quads;  ///< by a scout with its strict limits, and by a guided search
+  TemporalMatches anywhere;        ///< edges found anywhere in the left image
+};
+
+/// Edges of the first frame stay where they were in both later images, within the radius of a scout or of a guided
+/// search.
+TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool scout);
+
+/// Both frames through the frontend, with the quads that both kinds of search find between them around no motion.
+FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,
+                            const FramePrefetcher::Frame& second, const Config& config);
+
+/// Every byte of places, directions, indices and likenesses.
+bool same_bytes(const FrontendOutput& a, const FrontendOutput& b);
+
+/// Shares of the stereo edges and of the quads that the other side holds too, within 0.02 px; the smaller one of both
+/// ways. A device and the reference round differently, so that candidates at a threshold may differ.
+struct Agreement {
+  double stereo = 0, quads = 0;
+  bool good() const { return stereo > 0.995 && quads > 0.99; }
+};
+Agreement agreement(const FrontendOutput& a, const FrontendOutput& b);
+
+}  // namespace quadedge::bench

@@ -1,0 +1,169 @@
+#include "benchmark/latency.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sys/resource.h>
+#include <thread>
+
+#include "opencl/context.hpp"
+#include "quadedge/error.hpp"
+#include "reference/edge_detection.hpp"
+#include "stages/edge_detection.hpp"
+#include "stages/undistortion.hpp"
+
+namespace quadedge::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kMegabyte = 1024.0 * 1024.0;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Largest resident size of this process so far.
+double host_peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts KiB
+}
+
+StereoFrame view(const FramePrefetcher::Frame& frame) {
+  return {frame.stamp_ns, frame.left.view(), frame.right.view()};
+}
+
+bool is_warm_up(std::size_t frame, const BenchRecord& record) {
+  return frame >= 1 && frame <= static_cast<std::size_t>(record.warm_up);
+}
+
+/// Detects edges in single images of one size.
+class Detector {
+ public:
+  Detector(opencl::Context& context, const ImageView& image, const Config& config)
+      : context_(context),
+        upload_(context, {}, image.width, image.height, config.variants),
+        detection_(context, image.width, image.height, config.edges, config.variants) {}
+
+  /// Returns after the device is done.
+  void run(const ImageView& image) {
+    upload_.run(image, pixels_);
+    detection_.run(pixels_, edges_);
+    context_.finish();
+  }
+  int count(const ImageView& image) {
+    run(image);
+    edges_.read_count();
+    return edges_.host_count + edges_.host_dropped;
+  }
+
+ private:
+  opencl::Context& context_;
+  stages::Undistortion upload_;
+  stages::EdgeDetection detection_;
+  opencl::Buffer<cl_uchar> pixels_;
+  stages::DeviceEdges edges_;
+};
+
+}  // namespace
+
+void measure_start(const StereoRig& rig, const std::function<Device()>& open_device,
+                   const std::function<void(const Device&, Config&)>& complete, BenchRecord& record) {
+  const auto start = Clock::now();
+  Device device = open_device();
+  complete(device, record.run.config);
+  const StereoOdometry odometry(rig, device, record.run.config);
+  record.run.start_ms = milliseconds_since(start);
+  record.run.kernel_build_ms = odometry.kernel_build_ms();
+  record.run.device = device.info();
+  record.run.variants = odometry.variants();
+  const unsigned processors =
+      device.info().type == "cpu" ? device.info().compute_units : std::thread::hardware_concurrency();
+  record.threads = static_cast<int>(std::max(1u, processors));
+}
+
+void measure_latency(const Subject& subject, BenchRecord& record) {
+  Device device = subject.open_device(false);
+  StereoOdometry odometry(subject.rig, device, subject.config);
+  const auto start = Clock::now();
+  opencl::Context::Moved before;
+  const int total = static_cast<int>(subject.frames.size());
+  for (std::size_t i = 0; i < subject.frames.size(); ++i) {
+    if (i == 1 + static_cast<std::size_t>(record.warm_up) && device.context() != nullptr)
+      before = device.context()->moved();
+    report::FrameRecord frame;
+    frame.start_ms = milliseconds_since(start);
+    frame.result = odometry.track(view(subject.frames[i]));
+    if (!is_warm_up(i, record)) record.run.frames.push_back(std::move(frame));
+    subject.progress("latency", static_cast<int>(i) + 1, total);
+  }
+  record.run.host_peak_mb = host_peak_mb();
+  if (device.context() == nullptr) return;
+  const auto& moved = device.context()->moved();
+  const double frames = std::max(1, total - 1 - record.warm_up), scale = 1 / (kMegabyte * frames);
+  record.to_device_mb = static_cast<double>(moved.to_device - before.to_device) * scale;
+  record.waits = static_cast<double>(moved.waits - before.waits) / frames;
+  record.to_host_mb = static_cast<double>(moved.to_host - before.to_host) * scale;
+  record.run.device_peak_mb = static_cast<double>(device.context()->peak_bytes()) / kMegabyte;
+}
+
+void measure_edge_detection(const Subject& subject, int repetitions, BenchRecord& record) {
+  constexpr int kWarmUp = 2;
+  Device device = subject.open_device(false);
+  if (device.is_reference()) return;
+  const ImageView image = subject.frames.front().left.view();
+  Detector detector(*device.context(), image, subject.config);
+  for (int i = 0; i < kWarmUp; ++i) detector.run(image);
+  for (int i = 0; i < repetitions; ++i) {
+    const auto start = Clock::now();
+    detector.run(image);
+    record.edges_ms.push_back(milliseconds_since(start));
+    subject.progress("edge detection", i + 1, repetitions);
+  }
+}
+
+void measure_kernels(const Subject& subject, BenchRecord& record) {
+  const std::string prefix = "device ";  // the pipeline marks kernel times by it
+  Device device = subject.open_device(true);
+  if (device.is_reference()) return;
+  StereoOdometry odometry(subject.rig, device, subject.config);
+  for (std::size_t i = 0; i < subject.frames.size(); ++i) {
+    const auto result = odometry.track(view(subject.frames[i]));
+    std::vector<StageTime> kernels;
+    for (const auto& stage : result.stages) {
+      if (stage.stage.rfind(prefix, 0) == 0) kernels.push_back({stage.stage.substr(prefix.size()), stage.ms});
+    }
+    if (!is_warm_up(i, record)) record.run.kernel_times.push_back(std::move(kernels));
+    subject.progress("kernel times", static_cast<int>(i) + 1, static_cast<int>(subject.frames.size()));
+  }
+}
+
+double threshold_for_edges(const FramePrefetcher::Frame& frame, int wanted, Device& device, const Config& config) {
+  if (device.is_reference())
+    throw UsageError("--edges needs an OpenCL device; give --edges 0 and --edges.threshold to the reference");
+  if (wanted > config.edges.max_edges) {
+    throw UsageError("--edges " + std::to_string(wanted) + ": edges.max_edges allows " +
+                     std::to_string(config.edges.max_edges));
+  }
+  const auto mean_count = [&](double threshold) {
+    Config tried = config;
+    tried.edges.threshold = threshold;
+    double sum = 0;
+    for (const auto* image : {&frame.left, &frame.right}) {
+      sum += Detector(*device.context(), image->view(), tried).count(image->view());
+    }
+    return sum / 2;
+  };
+  double low = 0, high = 255;  // more edges than wanted, fewer than wanted
+  if (mean_count(low) <= wanted) return low;
+  while (high - low > 0.01) {
+    // Edges thin out by ratios: the geometric mean, once there is a lower bound above zero.
+    const double middle = low > 0 ? std::sqrt(low * high) : std::min(1.0, high / 2);
+    const double count = mean_count(middle);
+    if (std::abs(count - wanted) <= 0.01 * wanted) return middle;
+    (count > wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace quadedge::bench

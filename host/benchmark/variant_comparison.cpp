@@ -1,0 +1,239 @@
+#include "benchmark/variant_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "benchmark/bench_record.hpp"
+#include "benchmark/frontend_agreement.hpp"
+#include "benchmark/stage_work.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/synthetic.hpp"
+#include "report/json_values.hpp"
+#include "report/statistics.hpp"
+
+namespace quadedge::bench {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kGuidedMatch = "temporal_match";  // one of its variants is a sequence of other stages
+constexpr double kWorthChanging = 0.97;                 // of the default's time
+
+/// The names under which the pipeline books the kernels of a stage with variants.
+std::vector<std::string> booked_as(const std::string& stage) {
+  if (stage == kGuidedMatch) return {kGuidedMatch, "temporal_candidates", "temporal_filters", "temporal_quads"};
+  if (stage == "candidate_filters") return {"stereo_filters", "temporal_filters"};
+  if (stage == "scan") return {"edge_detection", "stereo_candidates", "temporal_candidates"};  // the stages that use it
+  return {stage};
+}
+
+/// One variant with a device and a pipeline of its own.
+struct Candidate {
+  std::unique_ptr<Device> device;
+  std::unique_ptr<frontend::Frontend> frontend;
+  FrontendOutput output;
+  std::vector<double> times;
+};
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+constexpr double kPaperSiftMax = 500;
+
+/// The configuration with a variant, changed where it would not run the stage at all.
+Config with_variant(Config config, const std::string& stage, const std::string& name) {
+  if (stage == "sift" && config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;
+  if (stage == "temporal_candidates" || stage == "temporal_quads") config.variants[kGuidedMatch] = "lists";
+  config.variants[stage] = name;
+  return config;
+}
+
+/// Runs the second frame again; the stage's kernel time, NaN when none ran.
+double measure_once(const std::string& stage, const VariantInput& input, Candidate& candidate) {
+  auto& context = *candidate.device->context();
+  context.take_profile();
+  candidate.frontend->process({input.second.stamp_ns, input.second.left.view(), input.second.right.view()});
+  const StereoEdges& previous = candidate.frontend->base(Base::previous);
+  const auto match = [&](bool scout) {
+    candidate.frontend->match(Base::previous, search_in_place(previous, input.config.temporal, scout));
+  };
+  match(false);
+  if (stage != kGuidedMatch) match(true);
+  candidate.frontend->match_anywhere(Base::previous);
+  const auto names = booked_as(stage);
+  double sum = kNaN;
+  for (const auto& [name, ms] : context.take_profile()) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) sum = std::isnan(sum) ? ms : sum + ms;
+  }
+  return sum;
+}
+
+}  // namespace
+
+struct ReferenceCheck::Small {
+  SyntheticSequence sequence;
+  Config config;
+  FramePrefetcher::Frame frames[2];
+  FrontendOutput expected;
+
+  static SyntheticOptions options() {
+    SyntheticOptions options;
+    options.width = 161;  // no multiple of any work-group
+    options.height = 97;
+    options.focal = 0.575 * options.width;
+    options.baseline = 0.15;
+    options.frames = 2;
+    return options;
+  }
+  explicit Small(const Config& method) : sequence(options()), config(method) {
+    config.stereo.max_disparity = sequence.max_disparity();
+    config.stereo.min_depth = 0;
+    config.variants.clear();
+    if (config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;  // every stage shall run
+    for (int i = 0; i < 2; ++i) {
+      frames[i].stamp_ns = sequence.stamp_ns(i);
+      frames[i].left = sequence.render(i, false).image;
+      frames[i].right = sequence.render(i, true).image;
+    }
+    Device reference("reference");
+    expected = run_frontend(*frontend::make_frontend(sequence.rig(), reference, config), frames[0], frames[1], config);
+  }
+};
+
+ReferenceCheck::ReferenceCheck(const Config& config) : small_(std::make_unique<Small>(config)) {}
+ReferenceCheck::~ReferenceCheck() = default;
+
+std::string ReferenceCheck::difference(Device& device, const std::map<std::string, std::string>& variants) const {
+  Config config = small_->config;
+  config.variants = variants;
+  const auto frontend = frontend::make_frontend(small_->sequence.rig(), device, config);
+  const auto share = agreement(run_frontend(*frontend, small_->frames[0], small_->frames[1], config), small_->expected);
+  if (share.good()) return {};
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "differs from the reference: %.1f %% of the stereo edges and %.1f %% of the quads are the same",
+                100 * share.stereo, 100 * share.quads);
+  return text;
+}
+
+std::string StageResult::best() const {
+  std::string best;
+  double fastest = 1;
+  for (const auto& variant : variants) {
+    if (!variant.agrees || !std::isfinite(variant.median_ms)) continue;
+    if (variant.is_default && best.empty()) best = variant.name;
+    if (variant.ratio_to_default < std::min(fastest, kWorthChanging)) {
+      best = variant.name;
+      fastest = variant.ratio_to_default;
+    }
+  }
+  return best;
+}
+
+StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
+                             const Ceilings& ceilings, const std::function<void(const std::string&)>& progress) {
+  StageResult result;
+  result.stage = stage;
+  std::vector<Candidate> candidates;
+  std::size_t by_default = 0;
+  for (const auto& variant : opencl::all_variants()) {
+    if (variant.stage != stage) continue;
+    progress("checking " + stage + " " + variant.name);
+    VariantResult row;
+    row.name = variant.name;
+    row.median_ms = row.ratio_to_default = row.bandwidth_share = row.arithmetic_share = kNaN;
+    Candidate candidate;
+    candidate.device = std::make_unique<Device>(input.open_device());
+    row.is_default = opencl::choose_variant(stage, *candidate.device->context(), {}).name == variant.name;
+    if (row.is_default) by_default = result.variants.size();
+    try {
+      const Config config = with_variant(input.config, stage, variant.name);
+      row.why = check.difference(*candidate.device, config.variants);
+      row.agrees = row.why.empty();
+      if (row.agrees) {
+        candidate.frontend = frontend::make_frontend(input.rig, *candidate.device, config);
+        candidate.output = run_frontend(*candidate.frontend, input.first, input.second, config);
+      }
+    } catch (const DeviceError& error) {
+      if (row.is_default) throw;
+      row.runs = row.agrees = false;
+      row.why = first_line(error.what());
+    }
+    result.variants.push_back(std::move(row));
+    candidates.push_back(std::move(candidate));
+  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    auto& row = result.variants[i];
+    if (!row.agrees || !result.variants[by_default].agrees ||
+        same_bytes(candidates[i].output, candidates[by_default].output))
+      continue;
+    row.agrees = false;
+    row.why = "differs from the default's bytes";
+  }
+  for (int repetition = 0; repetition < input.repetitions; ++repetition) {
+    progress("measuring " + stage);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (result.variants[i].agrees) candidates[i].times.push_back(measure_once(stage, input, candidates[i]));
+    }
+  }
+  const FrontendOutput& seen = candidates[by_default].output;
+  const FrameSize size{static_cast<double>(input.second.left.pixels.size() + input.second.right.pixels.size()),
+                       static_cast<double>(seen.left_edges.size() + seen.right_edges.size())};
+  const StageWork work = least_work(stage, size, input.config);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    auto& row = result.variants[i];
+    const bool timed = !candidates[i].times.empty() && std::isfinite(candidates[i].times.front());
+    if (row.agrees && !timed) row.why = "this input never runs the stage";
+    if (!timed) continue;
+    row.median_ms = report::median(candidates[i].times);
+    row.ratio_to_default = row.median_ms / report::median(candidates[by_default].times);
+    row.bandwidth_share = work.bytes / (row.median_ms * 1e6) / ceilings.bandwidth_gb_s;
+    row.arithmetic_share = work.operations / (row.median_ms * 1e6) / ceilings.arithmetic_gflop_s;
+  }
+  return result;
+}
+
+std::vector<std::string> stages_with_variants() {
+  std::vector<std::string> names;
+  for (const auto& variant : opencl::all_variants()) {
+    if (names.empty() || names.back() != variant.stage) names.push_back(variant.stage);
+  }
+  return names;
+}
+
+std::string comparison_json(const DeviceInfo& device, const Ceilings& ceilings, const std::vector<StageResult>& stages,
+                            const std::string& command) {
+  using report::Json;
+  using report::to_json;
+  Json json;
+  json["schema"] = kBenchSchema;
+  json["version"] = QUADEDGE_VERSION;
+  json["commit"] = *source_commit() == '\0' ? Json(nullptr) : Json(source_commit());
+  json["command"] = command;
+  json["device"] = {{"name", device.name},
+                    {"platform", device.platform},
+                    {"driver", device.driver},
+                    {"opencl", device.opencl},
+                    {"type", device.type}};
+  json["ceilings"] = {{"bandwidth_gb_s", ceilings.bandwidth_gb_s}, {"arithmetic_gflop_s", ceilings.arithmetic_gflop_s}};
+  json["stages"] = Json::array();
+  for (const auto& stage : stages) {
+    Json rows = Json::array();
+    for (const auto& variant : stage.variants) {
+      rows.push_back({{"name", variant.name},
+                      {"default", variant.is_default},
+                      {"agrees", variant.agrees},
+                      {"why", variant.why},
+                      {"median_ms", to_json(variant.median_ms)},
+                      {"ratio_to_default", to_json(variant.ratio_to_default)},
+                      {"bandwidth_share", to_json(variant.bandwidth_share)},
+                      {"arithmetic_share", to_json(variant.arithmetic_share)}});
+    }
+    json["stages"].push_back({{"stage", stage.stage}, {"best", stage.best()}, {"variants", rows}});
+  }
+  return report::json_text(json);
+}
+
+}  // namespace quadedge::bench

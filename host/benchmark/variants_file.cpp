@@ -1,0 +1,81 @@
+#include "benchmark/variants_file.hpp"
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+
+#include "data/atomic_file.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/error.hpp"
+#include "report/json_values.hpp"
+
+namespace quadedge::bench {
+namespace {
+
+using report::Json;
+
+constexpr const char* kContent = "quadedge kernel variants";
+constexpr int kSchema = 1;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw UsageError(path + ": " + why + "; remove the file, or make it again with `quadedge compare --save`");
+}
+
+}  // namespace
+
+std::string variants_file_name(const DeviceInfo& device) {
+  std::string name;
+  for (const unsigned char c : device.name) {
+    if (std::isalnum(c)) {
+      name += static_cast<char>(c);
+    } else if (!name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  return "variants-" + name + ".json";
+}
+
+void write_variants_file(const std::string& path, const DeviceInfo& device,
+                         const std::map<std::string, std::string>& variants) {
+  Json json;
+  json["content"] = kContent;
+  json["schema"] = kSchema;
+  json["version"] = QUADEDGE_VERSION;
+  json["device"] = {{"name", device.name}, {"platform", device.platform}, {"driver", device.driver}};
+  json["variants"] = variants;
+  std::error_code failed;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), failed);
+  if (failed) throw DataError(path + ": its folder cannot be made: " + failed.message());
+  data::write_atomically(path, report::json_text(json));
+}
+
+std::map<std::string, std::string> read_variants_file(const std::string& path, const DeviceInfo& device) {
+  if (!std::filesystem::exists(path)) return {};
+  std::ifstream stream(path);
+  if (!stream) refuse(path, "cannot be read");
+  std::map<std::string, std::string> variants;
+  try {
+    const Json json = Json::parse(stream);
+    if (json.at("content") != kContent) refuse(path, "holds something else than kernel variants");
+    if (json.at("schema") != kSchema) {
+      refuse(path, "has schema " + json.at("schema").dump() + ", this program reads " + std::to_string(kSchema));
+    }
+    const auto name = json.at("device").at("name").get<std::string>(),
+               platform = json.at("device").at("platform").get<std::string>();
+    if (name != device.name || platform != device.platform) {
+      refuse(path,
+             "was made on " + name + " (" + platform + "), this is " + device.name + " (" + device.platform + ")");
+    }
+    variants = json.at("variants").get<std::map<std::string, std::string>>();
+  } catch (const Json::exception& error) {
+    refuse(path, std::string("is no file of kernel variants (") + error.what() + ")");
+  }
+  try {
+    opencl::check_variants(variants);
+  } catch (const UsageError& error) {
+    refuse(path, error.what());
+  }
+  return variants;
+}
+
+}  // namespace quadedge::bench

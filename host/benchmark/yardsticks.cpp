@@ -1,0 +1,58 @@
+#include "benchmark/yardsticks.hpp"
+
+#include <chrono>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace quadedge::bench {
+namespace {
+
+constexpr int kTaps = 35;
+constexpr int kFilters = 9;
+
+cv::Mat view(const Image& image) {
+  const ImageView pixels = image.view();
+  return cv::Mat(pixels.height, pixels.width, CV_8UC1, const_cast<std::uint8_t*>(pixels.pixels),
+                 static_cast<std::size_t>(pixels.stride));
+}
+
+template <class Function>
+double milliseconds(const Function& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int threads, int repetitions,
+                              const std::function<void(int done, int total)>& progress) {
+  const int threads_before = cv::getNumThreads();
+  cv::setNumThreads(threads);
+  const auto sift = cv::SIFT::create();
+  cv::Mat doubled, filtered, descriptors;
+  cv::resize(view(frame.left), doubled, {}, 2, 2, cv::INTER_LINEAR);
+  doubled.convertTo(doubled, CV_32F);
+  const cv::Mat taps = cv::getGaussianKernel(kTaps, 4.0, CV_32F);
+  std::vector<cv::KeyPoint> points;
+  const auto both_sifts = [&] {
+    for (const auto* image : {&frame.left, &frame.right})
+      sift->detectAndCompute(view(*image), cv::noArray(), points, descriptors);
+  };
+  const auto nine_filters = [&] {
+    for (int i = 0; i < kFilters; ++i) cv::sepFilter2D(doubled, filtered, CV_32F, taps, taps);
+  };
+  both_sifts();
+  nine_filters();
+  Yardsticks result;
+  result.threads = threads;
+  for (int i = 0; i < repetitions; ++i) {
+    result.sift_both_ms.push_back(milliseconds(both_sifts));
+    result.sepfilter_nine_ms.push_back(milliseconds(nine_filters));
+    progress(i + 1, repetitions);
+  }
+  cv::setNumThreads(threads_before);
+  return result;
+}
+
+}  // namespace quadedge::bench

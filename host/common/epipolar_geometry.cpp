@@ -1,0 +1,93 @@
+#include "common/epipolar_geometry.hpp"
+
+#include <cmath>
+
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr float kSegmentTolerance = 1.0f;  // px beyond either end of the segment, doc/method.md section 3 filter 2
+constexpr float kWholeImage = 1e5f;        // px, longer than any line
+
+}  // namespace
+
+std::vector<float> EpipolarGeometry::packed() const {
+  std::vector<float> values(h.begin(), h.end());
+  values.insert(values.end(), t.begin(), t.end());
+  values.insert(values.end(), epipole.begin(), epipole.end());
+  values.insert(values.end(),
+                {inverse_min_depth, max_disparity, tolerance, epipolar_distance, orientation, min_epipolar_sine});
+  return values;
+}
+
+EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig& config) {
+  if (config.max_disparity <= 0 && config.min_depth <= 0) {
+    throw UsageError("stereo.max_disparity [px] or stereo.min_depth [m] must be given: nothing limits the disparity");
+  }
+  const Eigen::Matrix3d rotation = rig.right_from_left.linear();
+  const Eigen::Vector3d translation = rig.right_from_left.translation();
+  const Eigen::Matrix3d h = rig.right.matrix() * rotation * rig.left.matrix().inverse();
+  const Eigen::Vector3d t = rig.right.matrix() * translation;
+  // Scaled to unit length: only its direction counts.
+  const Eigen::Vector3d epipole = (rig.left.matrix() * (-(rotation.transpose() * translation))).normalized();
+
+  EpipolarGeometry geometry{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      geometry.h[static_cast<std::size_t>(3 * row + column)] = static_cast<float>(h(row, column));
+    }
+    geometry.t[static_cast<std::size_t>(row)] = static_cast<float>(t(row));
+    geometry.epipole[static_cast<std::size_t>(row)] = static_cast<float>(epipole(row));
+  }
+  geometry.inverse_min_depth = config.max_disparity > 0 ? 0.0f : static_cast<float>(1.0 / config.min_depth);
+  geometry.max_disparity = static_cast<float>(config.max_disparity);
+  geometry.tolerance = kSegmentTolerance;
+  geometry.epipolar_distance = static_cast<float>(config.epipolar_distance);
+  geometry.orientation = static_cast<float>(config.orientation * kDegree);
+  geometry.min_epipolar_sine = static_cast<float>(std::sin(config.min_epipolar_angle * kDegree));
+  return geometry;
+}
+
+EpipolarGeometry without_limits(EpipolarGeometry geometry, bool all_disparities, bool all_orientations) {
+  if (all_disparities) {
+    geometry.tolerance = kWholeImage;
+  }
+  if (all_orientations) {
+    geometry.orientation = 4.0f;  // more than any angle
+  }
+  return geometry;
+}
+
+EpipolarLine epipolar_line(const EpipolarGeometry& g, float x, float y) {
+  EpipolarLine line;
+  const float hx = g.h[0] * x + g.h[1] * y + g.h[2];
+  const float hy = g.h[3] * x + g.h[4] * y + g.h[5];
+  const float hz = g.h[6] * x + g.h[7] * y + g.h[8];
+  line.x = hx / hz;
+  line.y = hy / hz;
+  const float dx = g.t[0] - line.x * g.t[2];
+  const float dy = g.t[1] - line.y * g.t[2];
+  const float length = std::sqrt(dx * dx + dy * dy);
+  line.valid = hz > 1e-6f && length > 1e-6f;
+  line.ex = dx / length;
+  line.ey = dy / length;
+  line.s_max = g.max_disparity;
+  if (g.inverse_min_depth > 0.0f) {
+    const float w = g.inverse_min_depth;
+    const float nz = hz + w * g.t[2];
+    const float nx = (hx + w * g.t[0]) / nz - line.x;
+    const float ny = (hy + w * g.t[1]) / nz - line.y;
+    line.s_max = nz > 1e-6f ? std::sqrt(nx * nx + ny * ny) : 1e5f;
+  }
+  return line;
+}
+
+float left_epipolar_sine(const EpipolarGeometry& g, float x, float y, float direction) {
+  const float dx = g.epipole[0] - g.epipole[2] * x;
+  const float dy = g.epipole[1] - g.epipole[2] * y;
+  return std::fabs(std::cos(direction) * dy - std::sin(direction) * dx) / std::sqrt(dx * dx + dy * dy);
+}
+
+}  // namespace quadedge

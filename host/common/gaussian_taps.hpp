@@ -1,0 +1,22 @@
+#pragma once
+/// \file gaussian_taps.hpp  Sampled Gaussian derivatives; the host tables of the device kernels come from here too.
+
+#include <array>
+#include <cmath>
+
+namespace quadedge {
+
+/// The Gaussian and its first three derivatives at offset `u` [px] for scale `sigma` [px]; analytic, not renormalised.
+/// Element n is the derivative of order n. A derivative of the image at x is the sum over pixels k of I(k) G^(n)(x -
+/// k).
+inline std::array<double, 4> gaussian_derivatives(double u, double sigma) {
+  const double s2 = sigma * sigma;
+  const double g = std::exp(-u * u / (2.0 * s2)) / (std::sqrt(2.0 * 3.14159265358979323846) * sigma);
+  return {g, -u / s2 * g, (u * u - s2) / (s2 * s2) * g, u * (3.0 * s2 - u * u) / (s2 * s2 * s2) * g};
+}
+
+/// Pixels that a kernel reaches to either side: at least 4 sigma. Kernels centred on a pixel have 2 R + 1 taps, kernels
+/// centred half-way between two pixels 2 R + 2, both symmetric, so that a constant image has no gradient.
+inline int kernel_radius(double sigma) { return static_cast<int>(std::ceil(4.0 * sigma)); }
+
+}  // namespace quadedge

@@ -1,0 +1,56 @@
+#pragma once
+/// \file row_blocks.hpp  Loops over many rows on all processors, with results that do not depend on how many there are.
+
+#include <algorithm>
+#include <cstddef>
+#include <tbb/parallel_for.h>
+#include <vector>
+
+namespace quadedge {
+
+constexpr std::size_t kBlockRows = 1024;
+
+inline std::size_t block_count(std::size_t rows) { return (rows + kBlockRows - 1) / kBlockRows; }
+
+/// Calls body(block, begin, end) for consecutive blocks of rows, in any order and at the same time.
+template <class Body>
+void for_row_blocks(std::size_t rows, Body&& body) {
+  const auto one = [&](std::size_t block) {
+    body(block, block * kBlockRows, std::min(rows, (block + 1) * kBlockRows));
+  };
+  if (rows <= kBlockRows) {
+    if (rows > 0) one(0);
+  } else {
+    tbb::parallel_for(std::size_t{0}, block_count(rows), one);
+  }
+}
+
+/// Sum over all rows: body(begin, end, sum) adds a block's rows to a sum that starts as `zero`; the blocks' sums are
+/// added in order.
+template <class Sum, class Body>
+Sum sum_row_blocks(std::size_t rows, const Sum& zero, Body&& body) {
+  Sum total = zero;
+  if (rows <= kBlockRows) {
+    body(std::size_t{0}, rows, total);
+    return total;
+  }
+  std::vector<Sum> sums(block_count(rows), zero);
+  for_row_blocks(rows, [&](std::size_t block, std::size_t begin, std::size_t end) { body(begin, end, sums[block]); });
+  for (const Sum& sum : sums) total += sum;
+  return total;
+}
+
+/// The same for sums that hold memory, which `blocks` and `total` keep between calls.
+template <class Sum, class Body>
+void sum_row_blocks(std::size_t rows, const Sum& zero, std::vector<Sum>& blocks, Sum& total, Body&& body) {
+  const std::size_t count = block_count(rows);
+  if (blocks.size() < count) blocks.resize(count, zero);
+  for_row_blocks(rows, [&](std::size_t block, std::size_t begin, std::size_t end) {
+    blocks[block] = zero;
+    body(begin, end, blocks[block]);
+  });
+  total = zero;
+  for (std::size_t block = 0; block < count; ++block) total += blocks[block];
+}
+
+}  // namespace quadedge

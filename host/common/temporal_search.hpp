@@ -1,0 +1,24 @@
+#pragma once
+/// \file temporal_search.hpp  Where the matching in time looks.
+
+#include <vector>
+
+namespace quadedge {
+
+/// Places and directions of stereo edges in one image [px, rad]; NaN where there is none.
+struct PlacedEdges {
+  std::vector<float> x, y, direction;
+};
+
+/// Which rig the current one is matched with.
+enum class Base { previous, key };
+
+/// One entry per stereo edge of the base: where it is expected in the current images.
+struct TemporalSearch {
+  PlacedEdges left, right;
+  float radius = 0;    ///< px around the expected place
+  int step = 1;        ///< only every step-th previous edge is looked for
+  bool scout = false;  ///< the limits of TemporalConfig::scout_* hold
+};
+
+}  // namespace quadedge

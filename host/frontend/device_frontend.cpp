@@ -1,0 +1,197 @@
+#include "frontend/device_frontend.hpp"
+
+#include <numeric>
+
+#include "common/byte_layouts.hpp"
+#include "common/filter_names.hpp"
+#include "common/point_index.hpp"
+
+namespace quadedge::frontend {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+}  // namespace
+
+DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
+                               const Config& config)
+    : undistortion(context, table, camera.width, camera.height, config.variants),
+      detection(context, camera.width, camera.height, config.edges, config.variants),
+      description(context, camera.width, camera.height, config.patches, config.sift, config.variants) {}
+
+DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
+    : context_(context),
+      config_(config),
+      epipolar_(make_epipolar_geometry(rig, config.stereo)),
+      rig_(rig),
+      left_(context, rig.left, rig.left_undistortion, config),
+      right_(context, rig.right, rig.right_undistortion, config),
+      stereo_candidates_(context, config.variants),
+      filters_(context, config.variants),
+      refinement_(context, config.stereo, config.patches.offset, config.variants),
+      clustering_(context, config.stereo, config.variants),
+      temporal_candidates_(context, config.variants),
+      temporal_quads_(context, config.temporal, config.variants),
+      temporal_match_(context, config.temporal, config.variants),
+      wide_description_(context, rig.left.width, rig.left.height, config.variants),
+      wide_matching_(context, config.temporal, config.variants) {
+  geometry_.write(context, epipolar_.packed());
+  for (auto& slot : rigs_) {
+    slot.left_image.width = rig.left.width;
+    slot.left_image.height = rig.left.height;
+    slot.right_image.width = rig.right.width;
+    slot.right_image.height = rig.right.height;
+  }
+  std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
+  std::iota(itself.begin(), itself.end(), 0);
+  itself_.write(context, itself);
+}
+
+void DeviceFrontend::process(const StereoFrame& frame) {
+  stages::DeviceStereoEdges& rig = rigs_[now_];
+  left_.undistortion.run(frame.left, rig.left_image.pixels);
+  right_.undistortion.run(frame.right, rig.right_image.pixels);
+  left_.detection.run(rig.left_image.pixels, left_.edges);
+  right_.detection.run(rig.right_image.pixels, right_.edges);
+  left_.edges.request_count();
+  right_.edges.read_count();
+  left_.edges.take_count();
+  counts_ = {};
+  counts_.edges_left = left_.edges.host_count;
+  counts_.edges_right = right_.edges.host_count;
+  counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
+  if (tap_ != nullptr) tap_->edges(edges(false), edges(true));
+
+  left_.description.prepare(rig.left_image.pixels);
+  right_.description.prepare(rig.right_image.pixels);
+  left_.description.cut_patches(left_.edges, rig.left_patches);
+  right_.description.cut_patches(right_.edges, right_patches_);
+  if (tap_ != nullptr || config_.stereo.sift_max > 0) {
+    left_.description.prepare_sift(rig.left_image.pixels);
+    right_.description.prepare_sift(rig.right_image.pixels);
+    left_.description.describe_sift(left_.edges, left_sift_);
+    right_.description.describe_sift(right_.edges, right_sift_);
+  }
+  if (tap_ != nullptr) tap_candidates_without_limits();
+  stereo_candidates_.run(left_.edges, right_.edges, rig_.right.height, geometry_, candidates_);
+  context_.begin_stage("stereo_filters");
+  filters_.run({rig.left_patches, itself_, left_sift_, itself_}, {right_patches_, itself_, right_sift_, itself_},
+               stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
+  refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges,
+                  rig.left_patches, geometry_, candidates_, refined_);
+  clustering_.run(left_.edges, right_.edges, right_.description, geometry_, candidates_, refined_, clusters_, rig);
+  rig.read(current_);
+  rig.has_sift = false;
+  indexed_ = false;
+  if (tap_ != nullptr) tap_stereo();
+}
+
+void DeviceFrontend::keep(bool as_key) {
+  previous_rig_ = now_;
+  previous_ = current_;
+  if (as_key) {
+    key_rig_ = now_;
+    key_ = current_;
+  }
+  while (now_ == previous_rig_ || now_ == key_rig_) now_ = (now_ + 1) % 3;
+}
+
+void DeviceFrontend::index_current() {
+  if (indexed_) return;
+  left_index_.build(context_, current_.left_x, current_.left_y, current_.left_direction, rig_.left.width,
+                    rig_.left.height);
+  right_index_.build(context_, current_.right_x, current_.right_y, current_.right_direction, rig_.right.width,
+                     rig_.right.height);
+  indexed_ = true;
+}
+
+stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges& rig, bool right) const {
+  if (right) return {rig.right_patches, itself_, rig.right_sift, itself_};
+  return {rig.left_patches, rig.left_index, rig.left_sift, itself_};
+}
+
+void DeviceFrontend::describe_by_sift(stages::DeviceStereoEdges& rig, const StereoEdges& edges) {
+  if (rig.has_sift) return;
+  const auto describe = [&](stages::EdgeDescription& description, const stages::DeviceImage& image,
+                            const PlacedEdges& places, opencl::Buffer<cl_uchar>& sift) {
+    described_places_.write(context_, places);
+    description.prepare_sift(image.pixels);
+    description.describe_sift(described_places_.x, described_places_.y, described_places_.direction,
+                              described_places_.count, sift);
+  };
+  describe(left_.description, rig.left_image, {edges.left_x, edges.left_y, edges.left_direction}, rig.left_sift);
+  describe(right_.description, rig.right_image, {edges.right_x, edges.right_y, edges.right_direction}, rig.right_sift);
+  rig.has_sift = true;
+}
+
+void DeviceFrontend::previous_to_key() {
+  key_rig_ = previous_rig_;
+  key_ = previous_;
+}
+
+void DeviceFrontend::match_side(int side, Base base, const TemporalSearch& search,
+                                stages::DeviceCandidates& candidates) {
+  stages::DeviceStereoEdges& before = rig_of(base);
+  temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius,
+                           static_cast<float>(config_.temporal.orientation * kDegree), candidates);
+  const FilterLimits limits = temporal_limits(config_.temporal, search);
+  if (tap_ != nullptr || limits.sift_max > 0) {
+    describe_by_sift(before, this->base(base));
+    describe_by_sift(rigs_[now_], current_);
+  }
+  context_.begin_stage("temporal_filters");
+  filters_.run(described(before, side == 1), described(rigs_[now_], side == 1), limits, search.step, tap_ != nullptr,
+               candidates);
+  if (tap_ != nullptr) tap_temporal(side, search);
+}
+
+void DeviceFrontend::match_by_lists(Base base, const TemporalSearch& search, TemporalMatches& matches) {
+  match_side(0, base, search, temporal_left_);
+  match_side(1, base, search, temporal_right_);
+  counts_.temporal_left = temporal_left_.living_rows();
+  counts_.temporal_right = temporal_right_.living_rows();
+  temporal_quads_.agree(temporal_left_, temporal_right_);
+  if (tap_ != nullptr) {
+    tap_->temporal_filter(kAgreementOrder, kTemporalFilters[kAgreementOrder], 0,
+                          temporal_left_.alive_after(kAgreementOrder, nullptr));
+  }
+  matches = temporal_quads_.collect(rigs_[now_], current_, search, predicted_[0], temporal_left_);
+}
+
+void DeviceFrontend::match(Base base, const TemporalSearch& search, TemporalMatches& matches) {
+  index_current();
+  predicted_[0].write(context_, search.left);
+  predicted_[1].write(context_, search.right);
+  if (tap_ != nullptr) {
+    tap_->temporal_search({search.left.x, search.left.y, search.left.direction},
+                          {search.right.x, search.right.y, search.right.direction}, search.radius, search.step);
+  } else if (temporal_match_.serves(search)) {
+    if (const auto alive = temporal_match_.run(predicted_[0], predicted_[1], search, rig_of(base), rigs_[now_],
+                                               left_index_, right_index_, itself_, current_, matches)) {
+      counts_.temporal_left = alive->left;
+      counts_.temporal_right = alive->right;
+      return;
+    }
+  }
+  match_by_lists(base, search, matches);
+  if (tap_ != nullptr) tap_->quads(matches);
+}
+
+void DeviceFrontend::match_anywhere(Base base, TemporalMatches& matches) {
+  const stages::DeviceStereoEdges& before = rig_of(base);
+  const stages::DeviceStereoEdges& current = rigs_[now_];
+  const int before_step = wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);
+  const int step = wide_step(static_cast<std::size_t>(current.count), 2 * config_.temporal.wide_edges);
+  wide_description_.prepare(before.left_image.pixels, small_);
+  const int before_rows = wide_description_.describe(small_, before, before_step, wide_before_);
+  wide_description_.prepare(current.left_image.pixels, small_);
+  const int rows = wide_description_.describe(small_, current, step, wide_now_);
+  matches =
+      wide_matching_.run({before, before_step, before_rows, wide_before_}, {current, step, rows, wide_now_}, current_);
+}
+
+EdgeSet DeviceFrontend::edges(bool right) {
+  return right ? right_.edges.read(rig_.right.height) : left_.edges.read(rig_.left.height);
+}
+
+}  // namespace quadedge::frontend

@@ -1,0 +1,89 @@
+#pragma once
+/// \file device_frontend.hpp  The frontend on an OpenCL device.
+
+#include "common/epipolar_geometry.hpp"
+#include "frontend/frontend.hpp"
+#include "stages/candidate_filters.hpp"
+#include "stages/edge_description.hpp"
+#include "stages/edge_detection.hpp"
+#include "stages/stereo_candidates.hpp"
+#include "stages/stereo_clusters.hpp"
+#include "stages/stereo_refinement.hpp"
+#include "stages/temporal_candidates.hpp"
+#include "stages/temporal_match.hpp"
+#include "stages/temporal_quads.hpp"
+#include "stages/undistortion.hpp"
+#include "stages/wide_description.hpp"
+#include "stages/wide_matching.hpp"
+
+namespace quadedge::frontend {
+
+/// Owns every stage and the memory of three rigs.
+class DeviceFrontend : public Frontend {
+ public:
+  DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config);
+
+  void process(const StereoFrame& frame) override;
+  void keep(bool as_key) override;
+  void previous_to_key() override;
+  void match(Base base, const TemporalSearch& search, TemporalMatches& matches) override;
+  void match_anywhere(Base base, TemporalMatches& matches) override;
+  EdgeSet edges(bool right) override;
+  std::size_t device_bytes() const override { return context_.bytes(); }
+
+ private:
+  /// Stages 1 to 3 of one camera.
+  struct Camera {
+    stages::Undistortion undistortion;
+    stages::EdgeDetection detection;
+    stages::EdgeDescription description;
+    stages::DeviceEdges edges;
+    Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table, const Config& config);
+  };
+
+  /// Indexes the current stereo edges of both images, once per frame.
+  void index_current();
+  stages::DeviceStereoEdges& rig_of(Base base) { return rigs_[base == Base::key ? key_rig_ : previous_rig_]; }
+  stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, bool right) const;
+  /// SIFT descriptors of a rig's stereo edges, unless it has them; `edges`: the same on the host.
+  void describe_by_sift(stages::DeviceStereoEdges& rig, const StereoEdges& edges);
+  void match_side(int side, Base base, const TemporalSearch& search, stages::DeviceCandidates& candidates);
+  void match_by_lists(Base base, const TemporalSearch& search, TemporalMatches& matches);
+  void tap_stereo();
+  void tap_candidates_without_limits();
+  void tap_temporal(int side, const TemporalSearch& search);
+
+  opencl::Context& context_;
+  Config config_;
+  EpipolarGeometry epipolar_;
+  opencl::Buffer<cl_float> geometry_;
+  StereoRig rig_;
+  Camera left_, right_;
+  stages::StereoCandidates stereo_candidates_;
+  stages::CandidateFilters filters_;
+  stages::StereoRefinement refinement_;
+  stages::StereoClusters clustering_;
+  stages::TemporalCandidates temporal_candidates_;
+  stages::TemporalQuads temporal_quads_;
+  stages::TemporalMatch temporal_match_;
+  stages::WideDescription wide_description_;
+  stages::WideMatching wide_matching_;
+
+  stages::DeviceCandidates candidates_, temporal_left_, temporal_right_;
+  opencl::Buffer<cl_float> small_;  ///< scratch of match_anywhere(), as are these descriptors
+  opencl::Buffer<cl_uchar> wide_before_, wide_now_;
+  stages::DeviceRefined refined_;
+  stages::DeviceClusters clusters_;
+  stages::DevicePlaces predicted_[2];  ///< left, right
+  stages::DevicePointIndex left_index_, right_index_;
+  bool indexed_ = false;                   ///< of the current frame
+  opencl::Buffer<cl_char> right_patches_;  ///< of every edge of the right image
+  opencl::Buffer<cl_uchar> left_sift_{context_, 0},
+      right_sift_{context_, 0};  ///< of every edge, where the stereo cascade asks for SIFT
+  stages::DevicePlaces described_places_;
+  opencl::Buffer<cl_int> itself_;  ///< 0, 1, 2 ...
+  stages::DeviceStereoEdges rigs_[3];
+  int now_ = 0, previous_rig_ = 1, key_rig_ = 1;  ///< places in rigs_
+};
+
+}  // namespace quadedge::frontend

@@ -1,0 +1,15 @@
+#include "frontend/frontend.hpp"
+
+#include "frontend/device_frontend.hpp"
+#include "frontend/reference_frontend.hpp"
+#include "opencl/variants.hpp"
+
+namespace quadedge::frontend {
+
+std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config) {
+  opencl::check_variants(config.variants);
+  if (device.is_reference()) return std::make_unique<ReferenceFrontend>(rig, config);
+  return std::make_unique<DeviceFrontend>(rig, *device.context(), config);
+}
+
+}  // namespace quadedge::frontend

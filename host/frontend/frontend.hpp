@@ -1,0 +1,75 @@
+#pragma once
+/// \file frontend.hpp  Everything of a frame above the host's line: from two images to stereo edges and quads
+/// (doc/design.md section 1).
+
+#include <memory>
+
+#include "common/temporal_search.hpp"
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
+#include "quadedge/edges.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/tap.hpp"
+
+namespace quadedge::frontend {
+
+/// What can be counted of the current frame.
+struct FrontendCounts {
+  int edges_left = 0, edges_right = 0;
+  int dropped_edges = 0;                      ///< beyond edges.max_edges, both images
+  int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() that keep a candidate before the agreement
+};
+
+/// Two implementations: the OpenCL stages, and the plain C++ reference. Holds three rigs: the current one,
+/// the previous one and the key rig (which may be the previous one).
+class Frontend {
+ public:
+  virtual ~Frontend() = default;
+
+  /// Stages 1 to 5 of SPEC: images to stereo edges. Overwrites the current rig.
+  virtual void process(const StereoFrame& frame) = 0;
+  /// The current rig becomes the previous one, and the key rig too if `as_key`.
+  virtual void keep(bool as_key) = 0;
+  /// The previous rig becomes the key rig too.
+  virtual void previous_to_key() = 0;
+  /// Stage 6: quads between a base and the current rig. `search` has one entry per stereo edge of the base.
+  /// Replaces `matches`, as match_anywhere() does.
+  virtual void match(Base base, const TemporalSearch& search, TemporalMatches& matches) = 0;
+  /// Quads between a part of a base's edges and the current rig, found anywhere in the left image by what surrounds
+  /// them.
+  virtual void match_anywhere(Base base, TemporalMatches& matches) = 0;
+  TemporalMatches match(Base base, const TemporalSearch& search) {
+    TemporalMatches matches;
+    match(base, search, matches);
+    return matches;
+  }
+  TemporalMatches match_anywhere(Base base) {
+    TemporalMatches matches;
+    match_anywhere(base, matches);
+    return matches;
+  }
+
+  const StereoEdges& current() const { return current_; }
+  const StereoEdges& base(Base base) const { return base == Base::key ? key_ : previous_; }
+  const FrontendCounts& counts() const { return counts_; }
+
+  /// Edges of the current left or right image.
+  virtual EdgeSet edges(bool right) = 0;
+  virtual std::size_t device_bytes() const = 0;
+
+  /// Observes every filter from now on; null stops.
+  void set_tap(Tap* tap) { tap_ = tap; }
+
+ protected:
+  StereoEdges current_, previous_, key_;
+  FrontendCounts counts_;
+  Tap* tap_ = nullptr;
+};
+
+/// The OpenCL stages on `device`, or the reference where the device says so.
+/// \throws UsageError for a variant that does not exist or limits that make no sense, DeviceError when kernels do not
+/// build.
+std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config);
+
+}  // namespace quadedge::frontend

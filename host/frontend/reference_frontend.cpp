@@ -1,0 +1,148 @@
+#include "frontend/reference_frontend.hpp"
+
+#include "common/filter_names.hpp"
+#include "reference/edge_detection.hpp"
+#include "reference/patches.hpp"
+#include "reference/sift.hpp"
+#include "reference/stereo_clusters.hpp"
+#include "reference/temporal_quads.hpp"
+#include "reference/undistortion.hpp"
+#include "reference/wide_description.hpp"
+#include "reference/wide_matching.hpp"
+
+namespace quadedge::frontend {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
+  if (!table.empty()) return reference::undistort(recorded, table);
+  Image image(recorded.width, recorded.height);
+  for (int y = 0; y < recorded.height; ++y) {
+    std::copy_n(recorded.pixels + y * recorded.stride, recorded.width, image.pixels.begin() + y * recorded.width);
+  }
+  return image;
+}
+
+/// The first edges.max_edges edges in scan order.
+EdgeSet detect(const Image& image, const EdgesConfig& config, int& dropped) {
+  EdgeSet edges = reference::to_edge_set(reference::detect_edges(image.view(), config));
+  const auto limit = static_cast<std::size_t>(config.max_edges);
+  if (edges.size() > limit) {
+    dropped += static_cast<int>(edges.size() - limit);
+    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength}) values->resize(limit);
+    for (auto& first : edges.row_first) first = std::min(first, static_cast<std::int32_t>(limit));
+  }
+  return edges;
+}
+
+template <class T>
+std::vector<T> rows_of(const std::vector<T>& values, const std::vector<std::int32_t>& indices, std::size_t width) {
+  std::vector<T> result;
+  result.reserve(indices.size() * width);
+  for (const auto index : indices) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(index) * width);
+    result.insert(result.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
+  }
+  return result;
+}
+
+reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, const Config& config) {
+  return {reference::side_patches(image.view(), edges.x, edges.y, edges.direction, config.patches),
+          reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction, config.sift)};
+}
+
+int living_rows(const reference::Candidates& candidates, const reference::CandidateScores& scores) {
+  int rows = 0;
+  for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
+    const auto begin = scores.rejected_by.begin() + candidates.first[row],
+               end = scores.rejected_by.begin() + candidates.first[row + 1];
+    if (std::find(begin, end, 0) != end) ++rows;
+  }
+  return rows;
+}
+
+}  // namespace
+
+ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
+    : rig_(rig), config_(config), epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
+
+void ReferenceFrontend::process(const StereoFrame& frame) {
+  counts_ = {};
+  now_.left = pinhole_image(frame.left, rig_.left_undistortion);
+  now_.right = pinhole_image(frame.right, rig_.right_undistortion);
+  left_edges_ = detect(now_.left, config_.edges, counts_.dropped_edges);
+  right_edges_ = detect(now_.right, config_.edges, counts_.dropped_edges);
+  counts_.edges_left = static_cast<int>(left_edges_.size());
+  counts_.edges_right = static_cast<int>(right_edges_.size());
+  const auto left = describe(now_.left, left_edges_, config_), right = describe(now_.right, right_edges_, config_);
+
+  const auto candidates = reference::stereo_candidates(left_edges_, right_edges_, epipolar_);
+  auto scores = reference::candidate_filters(candidates, left, right, stereo_limits(config_.stereo));
+  const auto refined =
+      reference::stereo_refinement(now_.left.view(), now_.right.view(), left.patches, left_edges_, right_edges_,
+                                   epipolar_, candidates, config_.stereo, config_.patches.offset, scores);
+  const auto clusters = reference::stereo_clusters(candidates, scores, refined, right_edges_, config_.stereo);
+  current_ = reference::stereo_mutual(clusters, reference::stereo_best(clusters, config_.stereo), left_edges_,
+                                      epipolar_, config_.stereo);
+
+  now_.left_descriptions = {rows_of(left.patches, current_.left_index, kEdgePatchBytes),
+                            rows_of(left.sift, current_.left_index, kEdgeSiftBytes)};
+  now_.right_descriptions = {reference::side_patches(now_.right.view(), current_.right_x, current_.right_y,
+                                                     current_.right_direction, config_.patches),
+                             reference::sift_descriptors(now_.right.view(), current_.right_x, current_.right_y,
+                                                         current_.right_direction, config_.sift)};
+}
+
+void ReferenceFrontend::keep(bool as_key) {
+  if (as_key) {
+    key_memory_ = now_;
+    key_ = current_;
+  }
+  before_ = std::move(now_);
+  now_ = {};
+  previous_ = current_;
+}
+
+void ReferenceFrontend::previous_to_key() {
+  key_memory_ = before_;
+  key_ = previous_;
+}
+
+reference::Candidates ReferenceFrontend::side_candidates(int side, const TemporalSearch& search) const {
+  const PlacedEdges current = side == 0 ? PlacedEdges{current_.left_x, current_.left_y, current_.left_direction}
+                                        : PlacedEdges{current_.right_x, current_.right_y, current_.right_direction};
+  const PinholeCamera& camera = side == 0 ? rig_.left : rig_.right;
+  PointIndex index;
+  make_point_index(current.x, current.y, camera.width, camera.height, index);
+  return reference::temporal_candidates(side == 0 ? search.left : search.right, current, index, search.radius,
+                                        static_cast<float>(config_.temporal.orientation * kDegree), search.step);
+}
+
+void ReferenceFrontend::match(Base base, const TemporalSearch& search, TemporalMatches& matches) {
+  const RigMemory& before = base == Base::key ? key_memory_ : before_;
+  const auto limits = temporal_limits(config_.temporal, search);
+  const auto left = side_candidates(0, search), right = side_candidates(1, search);
+  auto left_scores =
+      reference::candidate_filters(left, before.left_descriptions, now_.left_descriptions, limits, search.step);
+  const auto right_scores =
+      reference::candidate_filters(right, before.right_descriptions, now_.right_descriptions, limits, search.step);
+  counts_.temporal_left = living_rows(left, left_scores);
+  counts_.temporal_right = living_rows(right, right_scores);
+  const auto agreement = reference::temporal_agreement(left, left_scores, right, right_scores);
+  matches = reference::temporal_best(left, left_scores, agreement, current_, config_.temporal, search);
+}
+
+void ReferenceFrontend::match_anywhere(Base base_name, TemporalMatches& matches) {
+  const RigMemory& before = base_name == Base::key ? key_memory_ : before_;
+  const auto describe_some = [](const Image& image, const StereoEdges& edges, int wanted) {
+    const int step = wide_step(edges.size(), wanted);
+    return reference::WideEdges{edges, step,
+                                reference::wide_descriptions(reference::shrink(image.view()), edges, step)};
+  };
+  matches =
+      reference::wide_matches(describe_some(before.left, base(base_name), config_.temporal.wide_edges),
+                              describe_some(now_.left, current_, 2 * config_.temporal.wide_edges), config_.temporal);
+}
+
+}  // namespace quadedge::frontend

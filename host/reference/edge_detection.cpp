@@ -1,0 +1,218 @@
+#include "reference/edge_detection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/gaussian_taps.hpp"
+#include "quadedge/error.hpp"
+#include "reference/edge_thinning.hpp"
+
+namespace quadedge::reference {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// One derivative order at one phase: taps for the pixels i + first .. i + first + size - 1 around pixel i.
+struct Kernel {
+  int first = 0;
+  std::vector<double> taps;
+};
+
+/// `half`: centred at i + 1/2 instead of i.
+Kernel make_kernel(double sigma, bool half, std::size_t order) {
+  const int radius = kernel_radius(sigma);
+  Kernel kernel;
+  kernel.first = -radius;
+  for (int k = -radius; k <= radius + (half ? 1 : 0); ++k) {
+    kernel.taps.push_back(gaussian_derivatives((half ? 0.5 : 0.0) - k, sigma)[order]);
+  }
+  return kernel;
+}
+
+int clamp_index(int i, int size) { return std::clamp(i, 0, size - 1); }
+
+}  // namespace
+
+double GradientField::magnitude(int cell_x, int cell_y) const {
+  const std::size_t i = index(cell_x, cell_y);
+  return std::sqrt(ix[i] * ix[i] + iy[i] * iy[i]);
+}
+
+GradientField gradient_field(ImageView image, const EdgesConfig& config) {
+  if (image.empty()) throw UsageError("edge detection needs an image of at least 1 x 1 pixels");
+  GradientField field;
+  field.columns = 2 * image.width - 1;
+  field.rows = 2 * image.height - 1;
+  field.ix.resize(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows));
+  field.iy.resize(field.ix.size());
+
+  Kernel smooth[2], slope[2];
+  for (int phase = 0; phase < 2; ++phase) {
+    smooth[phase] = make_kernel(config.sigma, phase == 1, 0);
+    slope[phase] = make_kernel(config.sigma, phase == 1, 1);
+  }
+  // Along y first: one line of column sums per row of the doubled grid, then along x.
+  std::vector<double> smoothed(static_cast<std::size_t>(image.width)), sloped(smoothed.size());
+  for (int cell_y = 0; cell_y < field.rows; ++cell_y) {
+    const Kernel& g = smooth[cell_y % 2];
+    const Kernel& dg = slope[cell_y % 2];
+    for (int x = 0; x < image.width; ++x) {
+      double sum = 0, sum_slope = 0;
+      for (std::size_t k = 0; k < g.taps.size(); ++k) {
+        const double grey = image.at(x, clamp_index(cell_y / 2 + g.first + static_cast<int>(k), image.height));
+        sum += g.taps[k] * grey;
+        sum_slope += dg.taps[k] * grey;
+      }
+      smoothed[static_cast<std::size_t>(x)] = sum;
+      sloped[static_cast<std::size_t>(x)] = sum_slope;
+    }
+    for (int cell_x = 0; cell_x < field.columns; ++cell_x) {
+      const Kernel& h = smooth[cell_x % 2];
+      const Kernel& dh = slope[cell_x % 2];
+      double ix = 0, iy = 0;
+      for (std::size_t k = 0; k < h.taps.size(); ++k) {
+        const auto x = static_cast<std::size_t>(clamp_index(cell_x / 2 + h.first + static_cast<int>(k), image.width));
+        ix += dh.taps[k] * smoothed[x];
+        iy += h.taps[k] * sloped[x];
+      }
+      field.ix[field.index(cell_x, cell_y)] = ix;
+      field.iy[field.index(cell_x, cell_y)] = iy;
+    }
+  }
+  return field;
+}
+
+Probe probe_maximum(const GradientField& field, int cell_x, int cell_y) {
+  const std::size_t i = field.index(cell_x, cell_y);
+  Probe probe;
+  probe.magnitude = field.magnitude(cell_x, cell_y);
+  probe.gx = field.ix[i] / probe.magnitude;
+  probe.gy = field.iy[i] / probe.magnitude;
+  const double ax = std::abs(field.ix[i]), ay = std::abs(field.iy[i]);
+  const int sx = field.ix[i] > 0 ? 1 : -1, sy = field.iy[i] > 0 ? 1 : -1;
+  const int axis_x = ax >= ay ? sx : 0, axis_y = ax >= ay ? 0 : sy;
+  const double q = std::min(ax, ay) / std::max(ax, ay);
+  const auto interpolate = [&](int sign) {
+    return (1.0 - q) * field.magnitude(cell_x + sign * axis_x, cell_y + sign * axis_y) +
+           q * field.magnitude(cell_x + sign * sx, cell_y + sign * sy);
+  };
+  probe.ahead = interpolate(1);
+  probe.behind = interpolate(-1);
+  probe.step = std::sqrt(1.0 + q * q);
+  return probe;
+}
+
+Derivatives derivatives_at(ImageView image, double x, double y, double sigma) {
+  const int radius = kernel_radius(sigma);
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const auto grey_at = [&](int column, int row) {
+    return static_cast<double>(image.at(clamp_index(column, image.width), clamp_index(row, image.height)));
+  };
+  const double level = 0.25 * (grey_at(x0, y0) + grey_at(x0 + 1, y0) + grey_at(x0, y0 + 1) + grey_at(x0 + 1, y0 + 1));
+  Derivatives d{};
+  for (int row = y0 - radius; row <= y0 + radius + 1; ++row) {
+    double along_x[4] = {0, 0, 0, 0};
+    for (int column = x0 - radius; column <= x0 + radius + 1; ++column) {
+      const double grey = grey_at(column, row) - level;
+      const std::array<double, 4> taps = gaussian_derivatives(x - column, sigma);
+      for (std::size_t order = 0; order < 4; ++order) along_x[order] += taps[order] * grey;
+    }
+    const std::array<double, 4> taps = gaussian_derivatives(y - row, sigma);
+    d.ix += taps[0] * along_x[1];
+    d.iy += taps[1] * along_x[0];
+    d.ixx += taps[0] * along_x[2];
+    d.ixy += taps[1] * along_x[1];
+    d.iyy += taps[2] * along_x[0];
+    d.ixxx += taps[0] * along_x[3];
+    d.ixxy += taps[1] * along_x[2];
+    d.ixyy += taps[2] * along_x[1];
+    d.iyyy += taps[3] * along_x[0];
+  }
+  return d;
+}
+
+namespace {
+
+/// Gradient of F = grad(I)^T Hess(I) grad(I), which is normal to the edge and points to its dark side (REFERENCE a.3).
+std::array<double, 2> gradient_of_f(const Derivatives& d) {
+  const double shared = 2.0 * d.ixy * (d.ixx + d.iyy);
+  return {2.0 * d.ix * (d.ixx * d.ixx + d.ixy * d.ixy) + d.iy * shared + d.ix * d.ix * d.ixxx +
+              2.0 * d.ix * d.iy * d.ixxy + d.iy * d.iy * d.ixyy,
+          2.0 * d.iy * (d.iyy * d.iyy + d.ixy * d.ixy) + d.ix * shared + d.ix * d.ix * d.ixxy +
+              2.0 * d.ix * d.iy * d.ixyy + d.iy * d.iy * d.iyyy};
+}
+
+/// Signed step along the gradient onto F = 0 [px], clamped. F falls across an edge towards the bright side; where it
+/// does not, there is no edge to step to.
+double newton_step(const Derivatives& d, const std::array<double, 2>& gradient_f, double longest) {
+  const double f = d.ix * d.ix * d.ixx + 2.0 * d.ix * d.iy * d.ixy + d.iy * d.iy * d.iyy;
+  const double m = std::hypot(d.ix, d.iy);
+  const double slope = (gradient_f[0] * d.ix + gradient_f[1] * d.iy) / m;
+  return slope < 0 ? std::clamp(-f / slope, -longest, longest) : 0.0;
+}
+
+ReferenceEdges thin(const ReferenceEdges& edges) {
+  const std::vector<std::uint8_t> kept = kept_by_thinning(to_edge_set(edges));
+  ReferenceEdges result;
+  for (std::size_t row = 0; row + 1 < edges.row_first.size(); ++row) {
+    result.row_first.push_back(static_cast<std::int32_t>(result.size()));
+    for (auto i = static_cast<std::size_t>(edges.row_first[row]);
+         i < static_cast<std::size_t>(edges.row_first[row + 1]); ++i) {
+      if (!kept[i]) continue;
+      result.x.push_back(edges.x[i]);
+      result.y.push_back(edges.y[i]);
+      result.direction.push_back(edges.direction[i]);
+      result.strength.push_back(edges.strength[i]);
+      result.cell_x.push_back(edges.cell_x[i]);
+      result.cell_y.push_back(edges.cell_y[i]);
+    }
+  }
+  result.row_first.push_back(static_cast<std::int32_t>(result.size()));
+  return result;
+}
+
+}  // namespace
+
+ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config) {
+  const GradientField field = gradient_field(image, config);
+  ReferenceEdges edges;
+  for (int cell_y = 0; cell_y < 2 * image.height; ++cell_y) {
+    edges.row_first.push_back(static_cast<std::int32_t>(edges.size()));
+    // Strictly inside the margin: the parabola shifts by at most 0.354 px, the Newton step by newton_max.
+    if (cell_y <= 2 * config.margin || cell_y >= 2 * (image.height - 1 - config.margin)) continue;
+    for (int cell_x = 2 * config.margin + 1; cell_x < 2 * (image.width - 1 - config.margin); ++cell_x) {
+      if (!(field.magnitude(cell_x, cell_y) > config.threshold)) continue;
+      const Probe probe = probe_maximum(field, cell_x, cell_y);
+      if (!probe.is_maximum()) continue;
+      // Parabola through (-step, behind), (0, magnitude), (step, ahead).
+      const double a = (probe.ahead + probe.behind - 2.0 * probe.magnitude) / (2.0 * probe.step * probe.step);
+      const double b = (probe.ahead - probe.behind) / (2.0 * probe.step);
+      const double shift = -b / (2.0 * a);
+      const double x = 0.5 * (cell_x + shift * probe.gx), y = 0.5 * (cell_y + shift * probe.gy);
+      const bool at_cell = config.direction_at == "cell";
+      const Derivatives d = at_cell ? derivatives_at(image, 0.5 * cell_x, 0.5 * cell_y, config.sigma)
+                                    : derivatives_at(image, x, y, config.sigma);
+      const std::array<double, 2> f = gradient_of_f(d);
+      const double direction = std::atan2(f[0], -f[1]);
+      const double step = at_cell ? 0.0 : newton_step(d, f, config.newton_max);
+      const double m = std::hypot(d.ix, d.iy);
+      edges.x.push_back(x + step * d.ix / m);
+      edges.y.push_back(y + step * d.iy / m);
+      edges.direction.push_back(direction > -kPi ? direction : kPi);
+      edges.strength.push_back(probe.magnitude + 0.5 * b * shift);
+      edges.cell_x.push_back(cell_x);
+      edges.cell_y.push_back(cell_y);
+    }
+  }
+  edges.row_first.push_back(static_cast<std::int32_t>(edges.size()));
+  return config.thinning ? thin(edges) : edges;
+}
+
+EdgeSet to_edge_set(const ReferenceEdges& edges) {
+  const auto to_float = [](const std::vector<double>& values) {
+    return std::vector<float>(values.begin(), values.end());
+  };
+  return {to_float(edges.x), to_float(edges.y), to_float(edges.direction), to_float(edges.strength), edges.row_first};
+}
+
+}  // namespace quadedge::reference

@@ -1,0 +1,193 @@
+#include "synthetic/render.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <future>
+#include <thread>
+
+#include "synthetic/hash.hpp"
+
+namespace quadedge::synthetic {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int kTile = 8;  // [px] rays of a tile try only the surfaces that may show in it
+
+struct Hit {
+  double inverse_depth = 0.0;
+  const VisibleSurface* surface = nullptr;
+  const void* object() const { return surface ? surface->object() : nullptr; }
+};
+
+using Candidates = std::vector<const VisibleSurface*>;
+
+struct BoxedSurface {
+  const VisibleSurface* surface;
+  PixelBox box;
+};
+
+/// The nearest surface; the first of several at the same depth.
+Hit cast(const Candidates& candidates, const Vector3d& ray) {
+  Hit hit;
+  for (const VisibleSurface* surface : candidates) {
+    const double inverse = surface->inverse_depth(ray);
+    if (inverse > hit.inverse_depth) hit = {inverse, surface};
+  }
+  return hit;
+}
+
+/// count * count places in the pixel square [-0.5, 0.5)^2.
+std::vector<Vector2d> regular_grid(int count) {
+  std::vector<Vector2d> offsets;
+  for (int j = 0; j < count; ++j)
+    for (int i = 0; i < count; ++i) offsets.emplace_back((i + 0.5) / count - 0.5, (j + 0.5) / count - 0.5);
+  return offsets;
+}
+
+/// Hammersley's set in the unit square: any upright or level edge is placed to 1 / count.
+std::vector<Vector2d> hammersley(int count) {
+  std::vector<Vector2d> offsets;
+  for (int i = 0; i < count; ++i) {
+    double reversed = 0.0, digit = 0.5;
+    for (int rest = i; rest > 0; rest /= 2, digit *= 0.5) reversed += digit * (rest % 2);
+    offsets.emplace_back((i + 0.5) / count, reversed);
+  }
+  return offsets;
+}
+
+/// Lists of the surfaces that may show in each tile of the image.
+struct TiledView {
+  TiledView(const VisibleSurfaces& parts, const PinholeCamera& camera)
+      : columns((camera.width + kTile - 1) / kTile),
+        rows((camera.height + kTile - 1) / kTile),
+        tiles(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {
+    for (const auto& part : parts) {
+      const PixelBox box = part->pixels(camera);
+      if (box.x0 >= box.x1 || box.y0 >= box.y1) continue;
+      for (int y = box.y0 / kTile; y <= (box.y1 - 1) / kTile; ++y)
+        for (int x = box.x0 / kTile; x <= (box.x1 - 1) / kTile; ++x)
+          tiles[static_cast<std::size_t>(y * columns + x)].push_back({part.get(), box});
+    }
+  }
+  int columns, rows;
+  std::vector<std::vector<BoxedSurface>> tiles;
+};
+
+class TileRenderer {
+ public:
+  TileRenderer(const PinholeCamera& camera, int supersampling, Radiance& view)
+      : camera_(camera),
+        grid_(regular_grid(supersampling)),
+        fine_(hammersley(4 * supersampling * supersampling)),
+        view_(view) {}
+
+  void render(const std::vector<BoxedSurface>& surfaces, int left, int top) const {
+    const int columns = std::min(kTile, camera_.width - left), rows = std::min(kTile, camera_.height - top);
+    std::array<std::array<Candidates, kTile>, kTile> candidates;  // of each pixel
+    for (std::size_t j = 0; j < kTile; ++j) {
+      for (std::size_t i = 0; i < kTile; ++i) {
+        const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
+        for (const auto& [surface, box] : surfaces)
+          if (x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1) candidates[j][i].push_back(surface);
+      }
+    }
+    std::array<std::array<const void*, kTile + 1>, kTile + 1> corner{};  // object at (left - 0.5 + i, top - 0.5 + j)
+    for (int j = 0; j <= rows; ++j) {
+      for (int i = 0; i <= columns; ++i) {
+        const auto near_i = static_cast<std::size_t>(std::min(i, columns - 1));
+        const auto near_j = static_cast<std::size_t>(std::min(j, rows - 1));
+        corner[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] =
+            cast(candidates[near_j][near_i], camera_.ray({left + i - 0.5, top + j - 0.5})).object();
+      }
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(rows); ++j) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(columns); ++i) {
+        const Candidates& nearby = candidates[j][i];
+        const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
+        const Hit centre = cast(nearby, camera_.ray(Vector2d(x, y)));
+        const void* object = centre.object();
+        bool mixed = corner[j][i] != object || corner[j][i + 1] != object || corner[j + 1][i] != object ||
+                     corner[j + 1][i + 1] != object;
+        double grey = 0.0;
+        if (!mixed) grey = coarse(nearby, x, y, object, mixed);
+        if (mixed) grey = fine(nearby, x, y);
+        const auto pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x);
+        view_.grey[pixel] = grey;
+        view_.depth[pixel] = centre.surface ? static_cast<float>(1.0 / centre.inverse_depth) : 0.0f;
+      }
+    }
+  }
+
+ private:
+  static double radiance(const Hit& hit, const Vector3d& ray) {
+    return hit.surface ? hit.surface->radiance(ray, 1.0 / hit.inverse_depth) : 0.0;
+  }
+
+  /// Mean over the grid; stops at a ray that meets another object.
+  double coarse(const Candidates& candidates, int x, int y, const void* object, bool& mixed) const {
+    double sum = 0.0;
+    for (const Vector2d& offset : grid_) {
+      const Vector3d ray = camera_.ray(Vector2d(x, y) + offset);
+      const Hit hit = cast(candidates, ray);
+      if (hit.object() != object) {
+        mixed = true;
+        return 0.0;
+      }
+      sum += radiance(hit, ray);
+    }
+    return sum / static_cast<double>(grid_.size());
+  }
+
+  double fine(const Candidates& candidates, int x, int y) const {
+    const std::uint64_t key = combine(combine(0, x), y);
+    const Vector2d shift(uniform(mix(key)), uniform(mix(~key)));
+    double sum = 0.0;
+    for (const Vector2d& offset : fine_) {
+      Vector2d place = offset + shift;
+      place -= Vector2d(std::floor(place.x()) + 0.5, std::floor(place.y()) + 0.5);
+      const Vector3d ray = camera_.ray(Vector2d(x, y) + place);
+      sum += radiance(cast(candidates, ray), ray);
+    }
+    return sum / static_cast<double>(fine_.size());
+  }
+
+  const PinholeCamera& camera_;
+  std::vector<Vector2d> grid_, fine_;
+  Radiance& view_;
+};
+
+}  // namespace
+
+Radiance render(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world,
+                int supersampling, int threads, const Surface* extra) {
+  VisibleSurfaces parts;
+  for (const auto& surface : scene.surfaces) surface->view(camera_from_world, parts);
+  if (extra != nullptr) extra->view(camera_from_world, parts);
+  const TiledView tiled(parts, camera);
+
+  Radiance view;
+  view.grey.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  view.depth.resize(view.grey.size());
+  const TileRenderer renderer(camera, supersampling, view);
+
+  std::atomic<int> next{0};
+  const int count = tiled.columns * tiled.rows;
+  const auto work = [&] {
+    for (int tile = next++; tile < count; tile = next++)
+      renderer.render(tiled.tiles[static_cast<std::size_t>(tile)], tile % tiled.columns * kTile,
+                      tile / tiled.columns * kTile);
+  };
+  const int workers = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::vector<std::future<void>> others;
+  for (int i = 1; i < workers; ++i) others.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& other : others) other.get();
+  return view;
+}
+
+}  // namespace quadedge::synthetic

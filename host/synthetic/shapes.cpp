@@ -1,0 +1,212 @@
+#include "synthetic/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace quadedge::synthetic {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kNear = 0.01;     // [m] surfaces are cut here
+constexpr double kAmbient = 0.72;  // of textured surfaces
+
+/// Corners of the box |x| <= half in the frame of `camera_from_box`.
+std::vector<Vector3d> corners(const Isometry3d& camera_from_box, const Vector3d& half) {
+  std::vector<Vector3d> result;
+  for (int i = 0; i < 8; ++i)
+    result.push_back(camera_from_box * Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(half));
+  return result;
+}
+
+class VisiblePlane : public VisibleSurface {
+ public:
+  VisiblePlane(const Isometry3d& camera_from_surface, double half_width, double half_height, const Texture& texture,
+               bool elliptic)
+      : half_width_(half_width), half_height_(half_height), texture_(texture), elliptic_(elliptic) {
+    const Eigen::Matrix3d axes = camera_from_surface.linear();
+    const Vector3d centre = camera_from_surface.translation();
+    u_ = axes.col(0);
+    v_ = axes.col(1);
+    u_offset_ = u_.dot(centre);
+    v_offset_ = v_.dot(centre);
+    inverse_ = axes.col(2) / axes.col(2).dot(centre);
+    for (const auto& [u, v] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+      outline_.push_back(camera_from_surface * Vector3d(u * half_width, v * half_height, 0.0));
+  }
+
+  void set_shade(double factor) { shade_ = factor; }
+
+  double inverse_depth(const Vector3d& ray) const override {
+    const double inverse = inverse_.dot(ray);
+    if (inverse <= 0.0) return 0.0;
+    const double u = u_.dot(ray) - u_offset_ * inverse, v = v_.dot(ray) - v_offset_ * inverse;  // both / depth
+    const double width = half_width_ * inverse, height = half_height_ * inverse;
+    if (std::abs(u) > width || std::abs(v) > height) return 0.0;
+    if (elliptic_ && u * u * height * height + v * v * width * width > width * width * height * height) return 0.0;
+    return inverse;
+  }
+
+  double radiance(const Vector3d& ray, double depth) const override {
+    return shade_ * texture_.sample(u_.dot(ray) * depth - u_offset_, v_.dot(ray) * depth - v_offset_);
+  }
+
+  PixelBox pixels(const PinholeCamera& camera) const override {
+    std::vector<Vector3d> clipped;
+    for (std::size_t i = 0; i < outline_.size(); ++i) {
+      const Vector3d& a = outline_[i];
+      const Vector3d& b = outline_[(i + 1) % outline_.size()];
+      if (a.z() >= kNear) clipped.push_back(a);
+      if ((a.z() >= kNear) != (b.z() >= kNear)) {
+        Vector3d cut = a + (b - a) * ((kNear - a.z()) / (b.z() - a.z()));
+        cut.z() = kNear;
+        clipped.push_back(cut);
+      }
+    }
+    return clipped.empty() ? PixelBox{} : box_around(clipped, camera);
+  }
+
+ private:
+  Vector3d u_, v_, inverse_;
+  double u_offset_, v_offset_, half_width_, half_height_, shade_ = 1.0;
+  const Texture& texture_;
+  bool elliptic_;
+  std::vector<Vector3d> outline_;
+};
+
+class VisibleSphere : public VisibleSurface {
+ public:
+  VisibleSphere(const Isometry3d& camera_from_surface, double radius, const Texture& texture, const Vector3d& light)
+      : surface_from_camera_(camera_from_surface.inverse().linear()),
+        camera_from_surface_(camera_from_surface),
+        centre_(camera_from_surface.translation()),
+        light_(light),
+        radius_(radius),
+        constant_(centre_.squaredNorm() - radius * radius),
+        texture_(texture) {}
+
+  double inverse_depth(const Vector3d& ray) const override {
+    const double half_b = ray.dot(centre_), root = half_b * half_b - ray.squaredNorm() * constant_;
+    if (root < 0.0 || half_b <= 0.0 || constant_ <= 0.0) return 0.0;
+    return (half_b + std::sqrt(root)) / constant_;  // 1 / smaller root, without cancellation
+  }
+
+  double radiance(const Vector3d& ray, double depth) const override {
+    const Vector3d normal = (depth * ray - centre_) / radius_, place = surface_from_camera_ * normal;
+    const double side = std::hypot(place.x(), place.y());
+    const double stretch = side > 1e-12 ? radius_ * std::atan2(side, -place.z()) / side : radius_;
+    return shade(normal, light_, kAmbient) * texture_.sample(stretch * place.x(), stretch * place.y());
+  }
+
+  PixelBox pixels(const PinholeCamera& camera) const override {
+    return box_around(corners(camera_from_surface_, Vector3d::Constant(radius_)), camera);
+  }
+
+ private:
+  Eigen::Matrix3d surface_from_camera_;
+  Isometry3d camera_from_surface_;
+  Vector3d centre_, light_;
+  double radius_, constant_;
+  const Texture& texture_;
+};
+
+class VisibleCylinder : public VisibleSurface {
+ public:
+  VisibleCylinder(const Isometry3d& camera_from_surface, double radius, double half_height, const Texture& texture,
+                  const Vector3d& light)
+      : surface_from_camera_(camera_from_surface.inverse()),
+        camera_from_surface_(camera_from_surface),
+        light_(surface_from_camera_.linear() * light),
+        radius_(radius),
+        half_height_(half_height),
+        texture_(texture) {}
+
+  double inverse_depth(const Vector3d& ray) const override {
+    const Vector3d d = surface_from_camera_.linear() * ray;
+    const Vector3d& o = surface_from_camera_.translation();
+    const double a = d.x() * d.x() + d.z() * d.z(), half_b = -(d.x() * o.x() + d.z() * o.z());
+    const double c = o.x() * o.x() + o.z() * o.z() - radius_ * radius_, root = half_b * half_b - a * c;
+    if (root < 0.0 || half_b <= 0.0 || c <= 0.0) return 0.0;
+    const double inverse = (half_b + std::sqrt(root)) / c;
+    return std::abs(o.y() * inverse + d.y()) <= half_height_ * inverse ? inverse : 0.0;
+  }
+
+  double radiance(const Vector3d& ray, double depth) const override {
+    const Vector3d place = surface_from_camera_ * (depth * ray);
+    const double angle = std::atan2(place.x(), -place.z());
+    const Vector3d normal = Vector3d(place.x(), 0.0, place.z()) / radius_;
+    return shade(normal, light_, kAmbient) * texture_.sample(radius_ * angle, place.y());
+  }
+
+  PixelBox pixels(const PinholeCamera& camera) const override {
+    return box_around(corners(camera_from_surface_, {radius_, half_height_, radius_}), camera);
+  }
+
+ private:
+  Isometry3d surface_from_camera_, camera_from_surface_;
+  Vector3d light_;
+  double radius_, half_height_;
+  const Texture& texture_;
+};
+
+}  // namespace
+
+Vector3d light_direction() { return Vector3d(-0.5, -0.75, -0.45).normalized(); }
+
+PixelBox box_around(const std::vector<Vector3d>& points, const PinholeCamera& camera) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
+  for (const Vector3d& point : points) {
+    if (point.z() < kNear) return {0, 0, camera.width, camera.height};
+    const Eigen::Vector2d pixel = camera.project(point);
+    low = low.cwiseMin(pixel);
+    high = high.cwiseMax(pixel);
+  }
+  const auto clip = [](double value, int size) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+  };
+  constexpr double first = 0.5 - 0.01,
+                   last = 1.5 + 0.01;  // a pixel's square reaches half a pixel; 0.01 px for rounding
+  return {clip(std::floor(low.x() + first), camera.width), clip(std::floor(low.y() + first), camera.height),
+          clip(std::floor(high.x() + last), camera.width), clip(std::floor(high.y() + last), camera.height)};
+}
+
+PlaneSurface::PlaneSurface(const Isometry3d& world_from_surface, double half_width, double half_height,
+                           std::shared_ptr<const Texture> texture, bool elliptic)
+    : world_from_surface_(world_from_surface),
+      half_width_(half_width),
+      half_height_(half_height),
+      texture_(std::move(texture)),
+      elliptic_(elliptic) {}
+
+void PlaneSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
+  const Isometry3d camera_from_surface = camera_from_world * world_from_surface_;
+  if (camera_from_surface.linear().col(2).dot(camera_from_surface.translation()) < 1e-6) return;  // seen from behind
+  auto part = std::make_unique<VisiblePlane>(camera_from_surface, half_width_, half_height_, *texture_, elliptic_);
+  part->set_shade(shade(-world_from_surface_.linear().col(2), light_direction(), kAmbient));
+  parts.push_back(std::move(part));
+}
+
+SphereSurface::SphereSurface(const Isometry3d& world_from_surface, double radius,
+                             std::shared_ptr<const Texture> texture)
+    : world_from_surface_(world_from_surface), radius_(radius), texture_(std::move(texture)) {}
+
+void SphereSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
+  parts.push_back(std::make_unique<VisibleSphere>(camera_from_world * world_from_surface_, radius_, *texture_,
+                                                  camera_from_world.linear() * light_direction()));
+}
+
+CylinderSurface::CylinderSurface(const Isometry3d& world_from_surface, double radius, double half_height,
+                                 std::shared_ptr<const Texture> texture)
+    : world_from_surface_(world_from_surface),
+      radius_(radius),
+      half_height_(half_height),
+      texture_(std::move(texture)) {}
+
+void CylinderSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
+  parts.push_back(std::make_unique<VisibleCylinder>(camera_from_world * world_from_surface_, radius_, half_height_,
+                                                    *texture_, camera_from_world.linear() * light_direction()));
+}
+
+}  // namespace quadedge::synthetic

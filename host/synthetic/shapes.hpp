@@ -1,0 +1,111 @@
+#pragma once
+/// \file shapes.hpp  Surfaces of the synthetic scenes and their exact intersection with viewing rays.
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "quadedge/camera.hpp"
+#include "synthetic/texture.hpp"
+
+namespace quadedge::synthetic {
+
+/// Pixels [x0, x1) x [y0, y1) that a surface may touch.
+struct PixelBox {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// A surface in one camera's frame. Rays are normalised: (x, y, 1), so that a hit is at depth * ray.
+class VisibleSurface {
+ public:
+  virtual ~VisibleSurface() = default;
+  /// 1 / depth [1/m] of the first hit in front of the camera; 0 where the ray misses.
+  virtual double inverse_depth(const Eigen::Vector3d& ray) const = 0;
+  /// Radiance [grey levels] at a hit that inverse_depth found.
+  virtual double radiance(const Eigen::Vector3d& ray, double depth) const = 0;
+  /// Contains every pixel whose square shows the surface.
+  virtual PixelBox pixels(const PinholeCamera& camera) const = 0;
+  /// The same for parts that join without a step.
+  virtual const void* object() const { return this; }
+};
+using VisibleSurfaces = std::vector<std::unique_ptr<VisibleSurface>>;
+
+/// A surface in the world.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  /// Adds the surface, or the parts of it, as seen from a camera. The surface outlives what it adds.
+  virtual void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const = 0;
+};
+
+/// A scene with diffuse surfaces and one distant light.
+struct Scene {
+  std::vector<std::unique_ptr<Surface>> surfaces;
+  double nearest = 0.0;  ///< no surface in view is nearer to the camera along its path [m]
+};
+
+/// Direction towards the scenes' distant light, world frame.
+Eigen::Vector3d light_direction();
+/// Share of the reflectance that a diffuse surface returns, from `ambient` (facing away) to 1 (facing the light);
+/// smooth in between. Both directions have unit length and the same frame.
+inline double shade(const Eigen::Vector3d& normal, const Eigen::Vector3d& light, double ambient) {
+  return ambient + (1.0 - ambient) * (0.5 + 0.5 * normal.dot(light));
+}
+/// The pixels whose squares meet the box around points of the camera's frame; the whole image if one is not in front of
+/// it.
+PixelBox box_around(const std::vector<Eigen::Vector3d>& points, const PinholeCamera& camera);
+
+/// Rectangle or ellipse |u| <= half_width, |v| <= half_height in the plane z = 0 of `world_from_surface`, seen from -z
+/// only (so that u points right and v down on it).
+class PlaneSurface : public Surface {
+ public:
+  PlaneSurface(const Eigen::Isometry3d& world_from_surface, double half_width, double half_height,
+               std::shared_ptr<const Texture> texture, bool elliptic = false);
+  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
+
+ private:
+  Eigen::Isometry3d world_from_surface_;
+  double half_width_, half_height_;
+  std::shared_ptr<const Texture> texture_;
+  bool elliptic_;
+};
+
+/// Sphere; the texture is laid around the point that faces -z of `world_from_surface` (azimuthal equidistant).
+class SphereSurface : public Surface {
+ public:
+  SphereSurface(const Eigen::Isometry3d& world_from_surface, double radius, std::shared_ptr<const Texture> texture);
+  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
+
+ private:
+  Eigen::Isometry3d world_from_surface_;
+  double radius_;
+  std::shared_ptr<const Texture> texture_;
+};
+
+/// Side of a cylinder around the y axis of `world_from_surface`, |y| <= half_height; the texture's seam faces +z.
+class CylinderSurface : public Surface {
+ public:
+  CylinderSurface(const Eigen::Isometry3d& world_from_surface, double radius, double half_height,
+                  std::shared_ptr<const Texture> texture);
+  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
+
+ private:
+  Eigen::Isometry3d world_from_surface_;
+  double radius_, half_height_;
+  std::shared_ptr<const Texture> texture_;
+};
+
+/// Tube of constant radius around a uniform cubic B-spline.
+class TubeSurface : public Surface {
+ public:
+  /// `control`: at least 4 control points in the world [m]. The curve is cut into links so short that the chain stays
+  /// within `tolerance` [m] of it; normals are interpolated, so shading has no facets.
+  TubeSurface(const std::vector<Eigen::Vector3d>& control, double radius, double reflectance, double tolerance);
+  void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const override;
+
+ private:
+  std::vector<Eigen::Vector3d> points_, tangents_;  // world frame; unit tangents
+  double radius_, reflectance_;
+};
+
+}  // namespace quadedge::synthetic

@@ -1,0 +1,112 @@
+#include "quadedge/synthetic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "quadedge/error.hpp"
+#include "synthetic/disturbance.hpp"
+#include "synthetic/hash.hpp"
+#include "synthetic/path.hpp"
+#include "synthetic/scenes.hpp"
+
+namespace quadedge {
+namespace {
+
+constexpr std::int64_t kFramePeriod = 50'000'000;  // [ns]
+
+void require(bool allowed, const char* name, double value, const char* range) {
+  if (allowed) return;
+  std::ostringstream message;
+  message << "synthetic sequence: " << name << " = " << value << ", allowed: " << range;
+  throw UsageError(message.str());
+}
+
+void check(const SyntheticOptions& options) {
+  if (options.scene != "room" && options.scene != "cables")
+    throw UsageError("synthetic sequence: unknown scene '" + options.scene + "', allowed: room, cables");
+  require(options.frames >= 1, "frames", options.frames, "at least 1");
+  require(options.width >= 8 && options.width <= 8192, "width", options.width, "8 to 8192 px");
+  require(options.height >= 8 && options.height <= 8192, "height", options.height, "8 to 8192 px");
+  require(options.focal >= 4.0 && options.focal <= 1e5, "focal", options.focal, "4 to 100000 px");
+  require(options.baseline >= 1e-3 && options.baseline <= 0.5, "baseline", options.baseline, "0.001 to 0.5 m");
+  require(options.noise >= 0.0 && options.noise <= 100.0, "noise", options.noise, "0 to 100 grey levels");
+  require(options.gain >= 0.1 && options.gain <= 10.0, "gain", options.gain, "0.1 to 10");
+  require(options.right_gain >= 0.1 && options.right_gain <= 10.0, "right_gain", options.right_gain, "0.1 to 10");
+  require(options.blur >= 0.0 && options.blur <= 50.0, "blur", options.blur, "0 to 50 px");
+  require(options.mover >= 0.0 && options.mover <= 0.6, "mover", options.mover, "0 to 0.6");
+  require(options.supersampling >= 1 && options.supersampling <= 64, "supersampling", options.supersampling, "1 to 64");
+  require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads, "0 (one per processor) to 1024");
+}
+
+StereoRig make_rig(const SyntheticOptions& options) {
+  StereoRig rig;
+  // The optical axis misses the middle by a little, as in a real camera.
+  rig.left = {options.focal,
+              options.focal,
+              0.5 * (options.width - 1) + 0.011 * options.width,
+              0.5 * (options.height - 1) - 0.013 * options.height,
+              options.width,
+              options.height};
+  rig.right = rig.left;
+  rig.right_from_left.translation().x() = -options.baseline;
+  return rig;
+}
+
+}  // namespace
+
+class SyntheticSequence::Implementation {
+ public:
+  SyntheticOptions options;
+  StereoRig rig;
+  synthetic::Scene scene;
+  std::optional<synthetic::MovingBoard> board;
+};
+
+SyntheticSequence::SyntheticSequence(const SyntheticOptions& options)
+    : implementation_(std::make_unique<Implementation>()) {
+  check(options);
+  implementation_->options = options;
+  implementation_->rig = make_rig(options);
+  implementation_->scene = options.scene == "room" ? synthetic::make_room(options.seed, options.focal)
+                                                   : synthetic::make_cables(options.seed, options.focal);
+  if (options.mover > 0.0) implementation_->board.emplace(implementation_->rig.left, options.mover, options.seed);
+}
+
+SyntheticSequence::~SyntheticSequence() = default;
+
+const StereoRig& SyntheticSequence::rig() const { return implementation_->rig; }
+
+int SyntheticSequence::frames() const { return implementation_->options.frames; }
+
+std::int64_t SyntheticSequence::stamp_ns(int frame) const { return frame * kFramePeriod; }
+
+Eigen::Isometry3d SyntheticSequence::world_from_left(int frame) const { return synthetic::world_from_left(frame); }
+
+RenderedView SyntheticSequence::render(int frame, bool right) const {
+  const SyntheticOptions& options = implementation_->options;
+  require(frame >= 0 && frame < options.frames, "frame", frame, "0 to frames - 1");
+  const synthetic::MovingBoard* board = implementation_->board ? &*implementation_->board : nullptr;
+  synthetic::Radiance radiance = synthetic::expose(implementation_->scene, board, rig(), right, frame, options.blur,
+                                                   options.supersampling, options.threads);
+  const double gain = (frame % 2 == 1 ? options.gain : 1.0) * (right ? options.right_gain : 1.0);
+
+  RenderedView view;
+  view.image = Image(options.width, options.height);
+  view.depth = std::move(radiance.depth);
+  const std::uint64_t key = synthetic::combine(synthetic::combine(options.seed, frame), right ? 1 : 0);
+  for (std::size_t i = 0; i < radiance.grey.size(); ++i) {
+    double grey = gain * radiance.grey[i];
+    if (options.noise > 0.0)
+      grey += options.noise * synthetic::normal(synthetic::combine(key, static_cast<std::int64_t>(i)));
+    view.image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::floor(grey + 0.5), 0.0, 255.0));
+  }
+  return view;
+}
+
+double SyntheticSequence::max_disparity() const {
+  return std::ceil(implementation_->rig.left.fx * implementation_->options.baseline / implementation_->scene.nearest);
+}
+
+}  // namespace quadedge

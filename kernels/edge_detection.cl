@@ -1,0 +1,164 @@
+// edge_detection.cl: third-order edges, what both ways of detecting them share (edge_detection_strip.cl for CPUs, edge_detection_tile.cl for GPUs).
+//
+// doc/method.md section 1; reference: host/reference/edge_detection.cpp. Both ways give the same bytes: every number is computed by the macros
+// and functions of this file, with one order of operations. fma is used where one rounding is wanted, and it is exact in
+// vectors and scalars alike; exp and atan2 are written out for the same reason.
+//
+// Data: plane = the image as floats with replicated border (edges_pad); pixel (i, j) lies at (j + PAD_Y) * stride + i + PAD_X.
+// Cell (X, Y) of the doubled grid lies at pixel (X / 2, Y / 2); Y even: phase 0, on a pixel row; Y odd: phase 1, between two.
+// taps = for phase 0, then phase 1: RADIUS + 1 weights of G, then of G', for the pairs of pixels at k + phase and -k.
+// winners = 4 floats per cell that won the maximum test: x, y, strength, X.
+
+#ifndef RADIUS
+#define RADIUS 8
+#define SIGMA 2.0f
+#endif
+#ifndef AT_CELL
+#define AT_CELL 0
+#endif
+
+#define PAIRS (RADIUS + 1)
+#define TAPS (2 * RADIUS + 2)    // per axis around an edge: at least RADIUS to either side
+#define BLOCKS ((TAPS + 7) / 8)  // the taps along x in lanes of 8
+#define COLUMNS (8 * BLOCKS)
+#define PAD_X (16 * ((RADIUS + 18) / 16))
+#define PAD_Y (RADIUS + 2)
+
+// Weights of one phase and order.
+#define SMOOTH_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS)
+#define SLOPE_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS + PAIRS)
+
+// result = sum over k of weights[k] * (AT(k + phase) +- AT(-k)), in this order. AT(k) is the sample k pixels further on.
+#define SMOOTH(T, result, AT, weights, phase)                                                                        \
+  {                                                                                                                  \
+    T sum_ = (T)((weights)[0]) * (AT(phase) + AT(0));                                                                \
+    _Pragma("unroll") for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) + AT(-k), sum_); \
+    result = sum_;                                                                                                   \
+  }
+#define SLOPE(T, result, AT, weights, phase)                                                                         \
+  {                                                                                                                  \
+    T sum_ = (T)((weights)[0]) * (AT(phase) - AT(0));                                                                \
+    _Pragma("unroll") for (int k = 1; k < PAIRS; ++k) sum_ = fma((T)((weights)[k]), AT(k + (phase)) - AT(-k), sum_); \
+    result = sum_;                                                                                                   \
+  }
+
+// Gradient magnitude one step ahead of and behind a cell along its gradient, on the ring of its eight neighbours
+// (l, r, u, d: left, right, up, down).
+#define DEFINE_PROBES(NAME, T)                                                                                 \
+  inline void NAME(const T gx, const T gy, const T l, const T r, const T u, const T d, const T ul, const T ur, \
+                   const T dl, const T dr, T* ahead, T* behind) {                                              \
+    const T ax = fabs(gx), ay = fabs(gy);                                                                      \
+    const T q = fmin(ax, ay) / fmax(ax, ay);                                                                   \
+    const T axis_ahead = ax >= ay ? (gx > 0.0f ? r : l) : (gy > 0.0f ? d : u);                                 \
+    const T axis_behind = ax >= ay ? (gx > 0.0f ? l : r) : (gy > 0.0f ? u : d);                                \
+    const T diagonal_ahead = gy > 0.0f ? (gx > 0.0f ? dr : dl) : (gx > 0.0f ? ur : ul);                        \
+    const T diagonal_behind = gy > 0.0f ? (gx > 0.0f ? ul : ur) : (gx > 0.0f ? dl : dr);                       \
+    *ahead = fma(q, diagonal_ahead - axis_ahead, axis_ahead);                                                  \
+    *behind = fma(q, diagonal_behind - axis_behind, axis_behind);                                              \
+  }
+DEFINE_PROBES(probes, float)
+DEFINE_PROBES(probes16, float16)
+
+#define MAGNITUDE(gx, gy) sqrt(fma(gy, gy, (gx) * (gx)))
+
+// No smaller than either probe and larger than one.
+#define IS_MAXIMUM(m, ahead, behind) ((((m) > (behind)) & ((m) >= (ahead))) | (((m) >= (behind)) & ((m) > (ahead))))
+
+// Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) grid steps away, which cancels.
+inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, const float gy, const float magnitude,
+                            const float ahead, const float behind) {
+  const float rise = ahead - behind;
+  const float t = -0.5f * rise / ((ahead - magnitude) + (behind - magnitude));
+  const float scale = 0.5f * t / fmax(fabs(gx), fabs(gy));
+  return (float4)(fma(scale, gx, 0.5f * (float)cell_x), fma(scale, gy, 0.5f * (float)cell_y),
+                  fma(0.25f * rise, t, magnitude), (float)cell_x);
+}
+
+// Weights of G, G', G'', G''' at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at
+// index - RADIUS from the point's whole part; `fraction` is the rest. Zero beyond TAPS.
+#define DEFINE_WEIGHTS(NAME, T, I, CONVERT_I, CONVERT_T, AS_T)                                              \
+  inline void NAME(const float fraction, const I index, T* g0, T* g1, T* g2, T* g3) {                       \
+    const T u = fraction - CONVERT_T(index - RADIUS);                                                       \
+    const T uu = u * u;                                                                                     \
+    const T e = uu * (-0.5f / (SIGMA * SIGMA));                                                             \
+    const T n = fma(e, (T)1.44269504f, (T)12582912.0f) - 12582912.0f; /* rounds to a whole number */        \
+    const T r = fma(n, (T)-1.42860677e-6f, fma(n, (T)-0.693145752f, e));                                    \
+    T p = fma(r, (T)1.38888889e-3f, (T)8.33333333e-3f);                                                     \
+    p = fma(r, p, (T)4.16666667e-2f);                                                                       \
+    p = fma(r, p, (T)1.66666667e-1f);                                                                       \
+    p = fma(r, p, (T)0.5f);                                                                                 \
+    p = fma(r, p, (T)1.0f);                                                                                 \
+    p = fma(r, p, (T)1.0f);                                                                                 \
+    const T g = p * AS_T((CONVERT_I(n) + 127) << 23) * (0.398942280f / SIGMA);                              \
+    *g0 = index < TAPS ? g : (T)0.0f;                                                                       \
+    *g1 = *g0 * u * (-1.0f / (SIGMA * SIGMA));                                                              \
+    *g2 = *g0 * (uu - SIGMA * SIGMA) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA));                            \
+    *g3 = *g0 * u * (3.0f * SIGMA * SIGMA - uu) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA * SIGMA * SIGMA)); \
+  }
+DEFINE_WEIGHTS(weights, float, int, convert_int, convert_float, as_float)
+DEFINE_WEIGHTS(weights8, float8, int8, convert_int8, convert_float8, as_float8)
+
+// First pixel of the third-order window around the point whose whole part is (x, y).
+#define WINDOW(plane, stride, x, y) ((plane) + ((y)-RADIUS + PAD_Y) * (stride) + (x)-RADIUS + PAD_X)
+
+// Grey level that the third-order window is taken relative to: mean of the four pixels around the point.
+inline float window_level(global const float* plane, const int stride, const int x, const int y) {
+  global const float* at = plane + (y + PAD_Y) * stride + x + PAD_X;
+  return 0.25f * ((at[0] + at[1]) + (at[stride] + at[stride + 1]));
+}
+
+// atan2 in [-pi, pi], to 2e-7; polynomial of atan(a) / a on [0, 1] fitted for the smallest largest error.
+#define DEFINE_ANGLE(NAME, T)                                  \
+  inline T NAME(const T y, const T x) {                        \
+    const T ax = fabs(x), ay = fabs(y);                        \
+    const T high = fmax(ax, ay);                               \
+    const T a = high > 0.0f ? fmin(ax, ay) / high : (T)0.0f;   \
+    const T t = a * a;                                         \
+    T p = fma(t, (T)-0.00490985345f, (T)0.025035454f);         \
+    p = fma(t, p, (T)-0.0606097877f);                          \
+    p = fma(t, p, (T)0.0999545604f);                           \
+    p = fma(t, p, (T)-0.140503764f);                           \
+    p = fma(t, p, (T)0.199756086f);                            \
+    p = fma(t, p, (T)-0.333324641f);                           \
+    const T eighth = fma(a * t, p, a);                         \
+    const T quarter = ay > ax ? 0.5f * PI_F - eighth : eighth; \
+    return copysign(x < 0.0f ? PI_F - quarter : quarter, y);   \
+  }
+
+// From the nine derivatives d = ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy at (x, y) to the direction, and the Newton step
+// onto F = 0, which moves x and y.
+#define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                      \
+  inline T NAME(const T* d, const float newton_max, T* x, T* y) {                                               \
+    const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                               \
+    const T xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];                                        \
+    const T fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7]; \
+    const T fy = 2.0f * d[1] * (d[4] * d[4] + d[3] * d[3]) + d[0] * shared + xx * d[6] + xy * d[7] + yy * d[8]; \
+    const T theta = ANGLE(fx, -fy);                                                                             \
+    const T slope = fx * d[0] + fy * d[1]; /* times |grad I| */                                                 \
+    const T f = xx * d[2] + xy * d[3] + yy * d[4];                                                              \
+    const T magnitude = MAGNITUDE(d[0], d[1]);                                                                  \
+    const T longest = (T)newton_max;                                                                            \
+    const T step = slope < 0.0f ? clamp(-f * magnitude / slope, -longest, longest) / magnitude : (T)0.0f;       \
+    *x = fma(step, d[0], *x);                                                                                   \
+    *y = fma(step, d[1], *y);                                                                                   \
+    return theta > -PI_F ? theta : (T)PI_F;                                                                     \
+  }
+DEFINE_ANGLE(angle, float)
+DEFINE_ANGLE(angle8, float8)
+DEFINE_THIRD_ORDER(third_order, float, angle)
+DEFINE_THIRD_ORDER(third_order8, float8, angle8)
+
+// The image as floats, border replicated. One work-item = 16 neighbouring floats of the plane.
+kernel void edges_pad(global const uchar* image, const int width, const int height, global float* plane,
+                      const int stride) {
+  const int x = 16 * (int)get_global_id(0) - PAD_X;
+  const int row = (int)get_global_id(1);
+  if (x + PAD_X >= stride || row >= height + 2 * PAD_Y) return;
+  global const uchar* source = image + clamp(row - PAD_Y, 0, height - 1) * width;
+  global float* target = plane + row * stride + x + PAD_X;
+  if (x >= 0 && x + 16 <= width) {
+    vstore16(convert_float16(vload16(0, source + x)), 0, target);
+  } else {
+    for (int k = 0; k < 16; ++k) target[k] = (float)source[clamp(x + k, 0, width - 1)];
+  }
+}

@@ -1,0 +1,215 @@
+// edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs edge_detection.cl.
+
+// Floats of a line of the strip's scratch memory: 16 in front of the first pixel, then the columns.
+#define LINE_FRONT 16
+
+// Vectors at any float's address. PoCL splits vload16 into pairs of floats; a packed structure becomes two plain loads.
+typedef struct __attribute__((packed)) {
+  float16 lanes;
+} packed16;
+typedef struct __attribute__((packed)) {
+  float8 lanes;
+} packed8;
+#define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
+#define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
+
+// Lanes of a comparison as bits: lane k at bit 2 k.
+inline uint lane_bits(const int16 lanes) {
+  const int16 bits = lanes & (int16)(1, 1 << 2, 1 << 4, 1 << 6, 1 << 8, 1 << 10, 1 << 12, 1 << 14, 1 << 16, 1 << 18,
+                                     1 << 20, 1 << 22, 1 << 24, 1 << 26, 1 << 28, 1 << 30);
+  const int8 eight = bits.lo | bits.hi;
+  const int4 four = eight.lo | eight.hi;
+  const int2 two = four.lo | four.hi;
+  return as_uint(two.x | two.y);
+}
+
+// Gradient and maximum test of strip_rows rows of the doubled grid per work-item.
+//
+// scratch: 20 lines of `line` floats per work-item (2 of column sums, then for 3 rows x 2 phases gx, gy and magnitude).
+// Out: winners, the cells of grid row r from 4 * r * 2 * width on, in scan order; counts[r], for all 2 * height rows.
+kernel void edges_strip_maxima(global const float* plane, const int stride, const int width, const int height,
+                               global const float* taps, const float threshold, const int margin, const int strip_rows,
+                               global float* scratch, const int line, global float* winners, global int* counts) {
+  const int strip = (int)get_global_id(0);
+  const int first_row = strip * strip_rows, last_row = min(first_row + strip_rows, 2 * height);
+  if (first_row >= last_row) return;
+  global float* lines = scratch + (size_t)strip * 20 * line + LINE_FRONT;
+  global float* smooth_y = lines;
+  global float* slope_y = lines + line;
+  // Rows and columns of cells strictly inside the margin; the pixels that hold them and their neighbours.
+  const int begin_y = max(first_row, 2 * margin + 1), end_y = min(last_row, 2 * (height - 1 - margin));
+  const int begin_x = 2 * margin + 1, end_x = 2 * (width - 1 - margin);
+  const int pixels = end_x > begin_x ? width - 2 * margin : 0;
+  for (int row = first_row; row < last_row; ++row) {
+    if (row < begin_y || row >= end_y || pixels == 0) counts[row] = 0;
+  }
+  if (pixels == 0) return;
+
+  for (int row = begin_y - 1; row <= end_y; ++row) {
+    if (begin_y >= end_y) break;
+    // Along y: column sums for the pixels margin - RADIUS .. width - 1 - margin + RADIUS + 1.
+    const int phase_y = row & 1;
+    global const float* source = plane + ((row >> 1) + PAD_Y) * stride + PAD_X + margin - RADIUS;
+    global const float* weights_g = SMOOTH_TAPS(taps, phase_y);
+    global const float* weights_dg = SLOPE_TAPS(taps, phase_y);
+    for (int i = 0; i < pixels + 2 * PAIRS; i += 16) {
+#define AT(k) LOAD(source + i + (k)*stride)
+      float16 g, dg;
+      SMOOTH(float16, g, AT, weights_g, phase_y)
+      SLOPE(float16, dg, AT, weights_dg, phase_y)
+#undef AT
+      vstore16(g, 0, smooth_y + i);
+      vstore16(dg, 0, slope_y + i);
+    }
+    // Along x: gradient and magnitude of both phases.
+    global float* now = lines + (2 + 6 * ((row + 3) % 3)) * line;
+    for (int i = 0; i < pixels; i += 16) {
+      float16 gx0, gx1, gy0, gy1;
+#define AT(k) LOAD(smooth_y + i + RADIUS + (k))
+      SLOPE(float16, gx0, AT, SLOPE_TAPS(taps, 0), 0)
+      SLOPE(float16, gx1, AT, SLOPE_TAPS(taps, 1), 1)
+#undef AT
+#define AT(k) LOAD(slope_y + i + RADIUS + (k))
+      SMOOTH(float16, gy0, AT, SMOOTH_TAPS(taps, 0), 0)
+      SMOOTH(float16, gy1, AT, SMOOTH_TAPS(taps, 1), 1)
+#undef AT
+      vstore16(gx0, 0, now + i);
+      vstore16(gy0, 0, now + line + i);
+      vstore16(MAGNITUDE(gx0, gy0), 0, now + 2 * line + i);
+      vstore16(gx1, 0, now + 3 * line + i);
+      vstore16(gy1, 0, now + 4 * line + i);
+      vstore16(MAGNITUDE(gx1, gy1), 0, now + 5 * line + i);
+    }
+    if (row <= begin_y) continue;
+
+    // Maximum test of the row before.
+    const int cell_y = row - 1;
+    global const float* here = lines + (2 + 6 * ((cell_y + 3) % 3)) * line;
+    global const float* above = lines + (2 + 6 * ((cell_y + 2) % 3)) * line;
+    global const float* below = now;
+    global float* target = winners + (size_t)cell_y * 8 * width;
+    int found = 0;
+    for (int i = 0; i < pixels; i += 16) {
+      const float16 m0 = LOAD(here + 2 * line + i), m1 = LOAD(here + 5 * line + i);
+      const int16 pixel = i + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      // Cell 2 (margin + pixel) needs pixel >= 1; either phase needs pixel < pixels - 1.
+      int16 win0 = (m0 > threshold) & (pixel >= 1) & (pixel < pixels - 1);
+      int16 win1 = (m1 > threshold) & (pixel < pixels - 1);
+      if (lane_bits(win0 | win1) == 0) continue;
+      const float16 u0 = LOAD(above + 2 * line + i), u1 = LOAD(above + 5 * line + i);
+      const float16 d0 = LOAD(below + 2 * line + i), d1 = LOAD(below + 5 * line + i);
+      const float16 gx0 = LOAD(here + i), gy0 = LOAD(here + line + i);
+      const float16 gx1 = LOAD(here + 3 * line + i), gy1 = LOAD(here + 4 * line + i);
+      float16 ahead0, behind0, ahead1, behind1;
+      probes16(gx0, gy0, LOAD(here + 5 * line + i - 1), m1, u0, d0, LOAD(above + 5 * line + i - 1), u1,
+               LOAD(below + 5 * line + i - 1), d1, &ahead0, &behind0);
+      probes16(gx1, gy1, m0, LOAD(here + 2 * line + i + 1), u1, d1, u0, LOAD(above + 2 * line + i + 1), d0,
+               LOAD(below + 2 * line + i + 1), &ahead1, &behind1);
+      win0 &= IS_MAXIMUM(m0, ahead0, behind0);
+      win1 &= IS_MAXIMUM(m1, ahead1, behind1);
+      uint won = lane_bits(win0) | (lane_bits(win1) << 1);  // bit n: cell n of the 32
+      if (won == 0) continue;
+      float ahead[32], behind[32];
+      vstore16(ahead0, 0, ahead);
+      vstore16(ahead1, 1, ahead);
+      vstore16(behind0, 0, behind);
+      vstore16(behind1, 1, behind);
+      for (; won != 0; won &= won - 1) {
+        const int n = 31 - clz(won & -won), lane = n >> 1, phase = n & 1;
+        global const float* cell = here + 3 * phase * line + i + lane;
+        vstore4(parabola_peak(2 * (margin + i) + n, cell_y, cell[0], cell[line], cell[2 * line],
+                              ahead[16 * phase + lane], behind[16 * phase + lane]),
+                found++, target);
+      }
+    }
+    counts[cell_y] = found;
+  }
+}
+
+// The nine derivatives at (x, y), written to d[0], d[8], d[16] ...; the columns of the window lie in lanes of 8.
+inline void window_derivatives(global const float* plane, const int stride, const float x, const float y, float* d) {
+  const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const int whole_x = (int)x, whole_y = (int)y;
+  float weights_y[4][COLUMNS];
+  float8 wx[4][BLOCKS], sums[4][BLOCKS];
+#pragma unroll
+  for (int b = 0; b < BLOCKS; ++b) {
+    float8 w0, w1, w2, w3;
+    weights8(y - (float)whole_y, lanes + 8 * b, &w0, &w1, &w2, &w3);
+    vstore8(w0, b, weights_y[0]);
+    vstore8(w1, b, weights_y[1]);
+    vstore8(w2, b, weights_y[2]);
+    vstore8(w3, b, weights_y[3]);
+    weights8(x - (float)whole_x, lanes + 8 * b, &wx[0][b], &wx[1][b], &wx[2][b], &wx[3][b]);
+    sums[0][b] = sums[1][b] = sums[2][b] = sums[3][b] = (float8)0.0f;
+  }
+  const float8 level = (float8)window_level(plane, stride, whole_x, whole_y);
+  global const float* window = WINDOW(plane, stride, whole_x, whole_y);
+  // Two blocks at a time, so that the sums stay in registers.
+#pragma unroll
+  for (int b = 0; b < BLOCKS; b += 2) {
+    global const float* row = window + 8 * b;
+    for (int k = 0; k < TAPS; ++k, row += stride) {
+      const float8 low = LOAD8(row) - level;
+      const float8 high = b + 1 < BLOCKS ? LOAD8(row + 8) - level : low;
+#pragma unroll
+      for (int order = 0; order < 4; ++order) {
+        const float8 weight = (float8)weights_y[order][k];
+        sums[order][b] = fma(weight, low, sums[order][b]);
+        if (b + 1 < BLOCKS) sums[order][b + 1] = fma(weight, high, sums[order][b + 1]);
+      }
+    }
+  }
+#define DOT(place, order_x, order_y)                                                                       \
+  {                                                                                                        \
+    float8 sum_ = wx[order_x][0] * sums[order_y][0];                                                       \
+    _Pragma("unroll") for (int b = 1; b < BLOCKS; ++b) sum_ = fma(wx[order_x][b], sums[order_y][b], sum_); \
+    const float4 four_ = sum_.lo + sum_.hi;                                                                \
+    const float2 two_ = four_.lo + four_.hi;                                                               \
+    d[8 * (place)] = two_.x + two_.y;                                                                      \
+  }
+  DOT(0, 1, 0)
+  DOT(1, 0, 1)
+  DOT(2, 2, 0)
+  DOT(3, 1, 1)
+  DOT(4, 0, 2)
+  DOT(5, 3, 0)
+  DOT(6, 2, 1)
+  DOT(7, 1, 2)
+  DOT(8, 0, 3)
+}
+
+// Third-order direction and Newton step of the winners, written in their place in scan order.
+// One work-item = one row of the doubled grid, 8 edges at a time.
+kernel void edges_strip_directions(global const float* plane, const int stride, const int width, const int rows,
+                                   global const float* winners, global const int* counts, global const int* row_first,
+                                   const int max_edges, const float newton_max, global float* xs, global float* ys,
+                                   global float* directions, global float* strengths) {
+  const int row = (int)get_global_id(0);
+  if (row >= rows) return;
+  const int first = row_first[row], count = min(counts[row], max_edges - first);
+  float derivatives[9 * 8], x[8], y[8], theta[8];
+  for (int k = 0; k < 72; ++k) derivatives[k] = 0.0f;
+  for (int k = 0; k < 8; ++k) x[k] = y[k] = 0.0f;
+  for (int begin = 0; begin < count; begin += 8) {
+    const int size = min(8, count - begin);
+    for (int k = 0; k < size; ++k) {
+      const float4 winner = vload4(begin + k, winners + (size_t)row * 8 * width);
+      x[k] = winner.x;
+      y[k] = winner.y;
+      strengths[first + begin + k] = winner.z;
+      window_derivatives(plane, stride, AT_CELL ? 0.5f * winner.w : winner.x, AT_CELL ? 0.5f * (float)row : winner.y,
+                         derivatives + k);
+    }
+    float8 d[9], edge_x = vload8(0, x), edge_y = vload8(0, y);
+    for (int j = 0; j < 9; ++j) d[j] = vload8(j, derivatives);
+    vstore8(third_order8(d, newton_max, &edge_x, &edge_y), 0, theta);
+    vstore8(edge_x, 0, x);
+    vstore8(edge_y, 0, y);
+    for (int k = 0; k < size; ++k) {
+      xs[first + begin + k] = x[k];
+      ys[first + begin + k] = y[k];
+      directions[first + begin + k] = theta[k];
+    }
+  }
+}

@@ -1,0 +1,171 @@
+// edge_detection_tile.cl: edge detection for GPUs. One work-group per tile, per row or for a few edges; needs edge_detection.cl.
+
+#ifndef LOCAL
+#define LOCAL 64
+#define TILE_X 16
+#define TILE_Y 8
+#endif
+
+#define TILE_ROWS (2 * TILE_Y + 2)   // rows of the doubled grid: the tile's and one more on either side
+#define TILE_CELLS (2 * TILE_X + 4)  // cells per row: those of the tile's pixels and of one more on either side
+#define TILE_COLUMNS (TILE_X + 2 + 2 * PAIRS)  // column sums that these cells need
+
+// Gradient and maximum test of TILE_X x TILE_Y pixels per work-group of LOCAL.
+//
+// Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's place (4 * (r * 2 * width + X)) where it did.
+kernel void edges_tile_maxima(global const float* plane, const int stride, const int width, const int height,
+                              global const float* taps, const float threshold, const int margin, const int tiles_x,
+                              global float* winners, global uchar* flags) {
+  local float smooth_y[TILE_ROWS * TILE_COLUMNS], slope_y[TILE_ROWS * TILE_COLUMNS];
+  local float gx[TILE_ROWS * TILE_CELLS], gy[TILE_ROWS * TILE_CELLS], magnitude[TILE_ROWS * TILE_CELLS];
+  const int item = (int)get_local_id(0);
+  const int x0 = ((int)get_group_id(0) % tiles_x) * TILE_X, y0 = ((int)get_group_id(0) / tiles_x) * TILE_Y;
+
+  // Along y: rows 2 y0 - 1 .. 2 (y0 + TILE_Y) of the doubled grid, columns from x0 - 1 - RADIUS on. What reaches beyond the
+  // plane belongs to no cell of the image.
+  for (int i = item; i < TILE_ROWS * TILE_COLUMNS; i += LOCAL) {
+    const int row = 2 * y0 - 1 + i / TILE_COLUMNS, phase = row & 1;
+    const int y = min(row >> 1, height), x = min(x0 - 1 - RADIUS + i % TILE_COLUMNS, width + RADIUS);
+    global const float* source = plane + (y + PAD_Y) * stride + x + PAD_X;
+#define AT(k) source[(k)*stride]
+    SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps, phase), phase)
+    SLOPE(float, slope_y[i], AT, SLOPE_TAPS(taps, phase), phase)
+#undef AT
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  // Along x: cells 2 (x0 - 1) .. 2 (x0 + TILE_X) + 1.
+  for (int i = item; i < TILE_ROWS * TILE_CELLS; i += LOCAL) {
+    const int phase = (i % TILE_CELLS) & 1;
+    const int column = i / TILE_CELLS * TILE_COLUMNS + (i % TILE_CELLS) / 2 + RADIUS;
+    float x_slope, y_slope;
+#define AT(k) smooth_y[column + (k)]
+    SLOPE(float, x_slope, AT, SLOPE_TAPS(taps, phase), phase)
+#undef AT
+#define AT(k) slope_y[column + (k)]
+    SMOOTH(float, y_slope, AT, SMOOTH_TAPS(taps, phase), phase)
+#undef AT
+    gx[i] = x_slope;
+    gy[i] = y_slope;
+    magnitude[i] = MAGNITUDE(x_slope, y_slope);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (int i = item; i < 4 * TILE_X * TILE_Y; i += LOCAL) {
+    const int cell_x = 2 * x0 + i % (2 * TILE_X), cell_y = 2 * y0 + i / (2 * TILE_X);
+    if (cell_x >= 2 * width || cell_y >= 2 * height) continue;
+    const int at = (i / (2 * TILE_X) + 1) * TILE_CELLS + i % (2 * TILE_X) + 2;
+    uchar won = 0;
+    if (cell_x > 2 * margin && cell_x < 2 * (width - 1 - margin) && cell_y > 2 * margin &&
+        cell_y < 2 * (height - 1 - margin) && magnitude[at] > threshold) {
+      float ahead, behind;
+      local const float* m = magnitude + at;
+      probes(gx[at], gy[at], m[-1], m[1], m[-TILE_CELLS], m[TILE_CELLS], m[-TILE_CELLS - 1], m[-TILE_CELLS + 1],
+             m[TILE_CELLS - 1], m[TILE_CELLS + 1], &ahead, &behind);
+      if (IS_MAXIMUM(m[0], ahead, behind)) {
+        won = 1;
+        vstore4(parabola_peak(cell_x, cell_y, gx[at], gy[at], m[0], ahead, behind), (size_t)cell_y * 2 * width + cell_x,
+                winners);
+      }
+    }
+    flags[(size_t)cell_y * 2 * width + cell_x] = won;
+  }
+}
+
+// counts[row] = winners of the row. One work-group per row of the doubled grid.
+kernel void edges_tile_count(global const uchar* flags, const int cells, global int* counts) {
+  local int sums[LOCAL];
+  const int item = (int)get_local_id(0), row = (int)get_group_id(0);
+  int sum = 0;
+  for (int i = item; i < cells; i += LOCAL) sum += flags[(size_t)row * cells + i];
+  sums[item] = sum;
+  for (int distance = LOCAL / 2; distance > 0; distance /= 2) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (item < distance) sums[item] += sums[item + distance];
+  }
+  if (item == 0) counts[row] = sums[0];
+}
+
+// Moves the winners of a row to their place in scan order, as far as the capacity reaches; rows[place] = row of the doubled
+// grid. One work-group per row.
+kernel void edges_tile_compact(global const uchar* flags, const int cells, global const float* winners,
+                               global const int* row_first, const int max_edges, global float* compact,
+                               global int* rows) {
+  local int sums[LOCAL];
+  const int item = (int)get_local_id(0), row = (int)get_group_id(0);
+  int base = row_first[row];
+  for (int begin = 0; begin < cells; begin += LOCAL) {
+    const int i = begin + item;
+    const int won = i < cells ? flags[(size_t)row * cells + i] : 0;
+    sums[item] = won;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (int step = 1; step < LOCAL; step *= 2) {
+      const int other = item >= step ? sums[item - step] : 0;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      sums[item] += other;
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    const int place = base + sums[item] - won;
+    if (won && place < max_edges) {
+      vstore4(vload4((size_t)row * cells + i, winners), place, compact);
+      rows[place] = row;
+    }
+    base += sums[LOCAL - 1];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+}
+
+// Third-order direction and Newton step. 8 work-items per edge: lane l sums the columns l, l + 8, l + 16 ... of the window.
+kernel void edges_tile_directions(global const float* plane, const int stride, global const float* compact,
+                                  global const int* rows, global const int* total, const float newton_max,
+                                  global float* xs, global float* ys, global float* directions,
+                                  global float* strengths) {
+  local float weights_y[LOCAL / 8][4][COLUMNS];
+  local float sums[9][LOCAL];
+  const int item = (int)get_local_id(0), lane = item & 7, group = item >> 3;
+  const int n = (int)get_global_id(0) >> 3;
+  const bool active = n < total[0];
+  const float4 winner = active ? vload4(n, compact) : (float4)0.0f;
+  const float x = AT_CELL ? 0.5f * winner.w : winner.x, y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
+  const int whole_x = (int)x, whole_y = (int)y;
+  for (int k = lane; k < COLUMNS; k += 8) {
+    float w0, w1, w2, w3;
+    weights(y - (float)whole_y, k, &w0, &w1, &w2, &w3);
+    weights_y[group][0][k] = w0;
+    weights_y[group][1][k] = w1;
+    weights_y[group][2][k] = w2;
+    weights_y[group][3][k] = w3;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const float level = window_level(plane, stride, whole_x, whole_y);
+  global const float* window = WINDOW(plane, stride, whole_x, whole_y);
+  float s[9];
+  for (int column = lane; column < COLUMNS; column += 8) {
+    float d0 = 0.0f, d1 = 0.0f, d2 = 0.0f, d3 = 0.0f;
+    for (int k = 0; k < TAPS; ++k) {
+      const float grey = window[k * stride + column] - level;
+      d0 = fma(weights_y[group][0][k], grey, d0);
+      d1 = fma(weights_y[group][1][k], grey, d1);
+      d2 = fma(weights_y[group][2][k], grey, d2);
+      d3 = fma(weights_y[group][3][k], grey, d3);
+    }
+    float w0, w1, w2, w3;
+    weights(x - (float)whole_x, column, &w0, &w1, &w2, &w3);
+    const float wx[9] = {w1, w0, w2, w1, w0, w3, w2, w1, w0};
+    const float dy[9] = {d0, d1, d0, d1, d2, d0, d1, d2, d3};
+    for (int j = 0; j < 9; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
+  }
+  for (int j = 0; j < 9; ++j) sums[j][item] = s[j];
+  for (int distance = 4; distance > 0; distance /= 2) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (lane < distance) {
+      for (int j = 0; j < 9; ++j) sums[j][item] += sums[j][item + distance];
+    }
+  }
+  if (active && lane == 0) {
+    float d[9], edge_x = winner.x, edge_y = winner.y;
+    for (int j = 0; j < 9; ++j) d[j] = sums[j][item];
+    directions[n] = third_order(d, newton_max, &edge_x, &edge_y);
+    xs[n] = edge_x;
+    ys[n] = edge_y;
+    strengths[n] = winner.z;
+  }
+}

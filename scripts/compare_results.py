@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Runs two builds of the program on the same sequences and tells whether their results are the same bytes.
+
+  scripts/compare_results.py OLD NEW [--data DIR] [--quick] [--work DIR]
+
+OLD and NEW are `quadedge` programs. DIR holds recorded data (default: QUADEDGE_DATA); without it only the built-in scenes run.
+Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv every column but the times.
+Results of OLD stay in the work folder and serve again. Exit code 0: all the same, 1: some differ, 2: a run failed.
+"""
+import argparse
+import csv
+import filecmp
+import os
+import pathlib
+import subprocess
+import sys
+
+RECORDED = {
+    "kitti_06": ["kitti_odometry", "--sequence", "06"],
+    "kitti_01": ["kitti_odometry", "--sequence", "01"],
+    "euroc_at_rest": ["euroc_v1_01_easy_at_rest"],
+    "euroc_keyframes": ["euroc_v1_01_easy_keyframes"],
+    "euroc_flight": ["euroc_mh_01_easy"],
+}
+IMAGE = "kitti_odometry/sequences/06/image_0/000000.png"
+
+
+def jobs(data, quick):
+    """Name and arguments of every run; each leaves a folder, or a CSV file of edges."""
+    frames = ["--frames", "0:6"] if quick else []
+    if data:
+        for name, (folder, *options) in RECORDED.items():
+            yield name, ["run", str(data / folder), *options, *frames, "--quiet", "--force", "--output"]
+        yield "edges.csv", ["edges", str(data / IMAGE), "--force", "--csv"]
+    for scene in ("room", "cables"):
+        yield scene, ["demo", "--scene", scene, "--frames", "4" if quick else "60", "--quiet", "--force", "--output"]
+
+
+def run(program, name, arguments, folder):
+    """0 and 5 (tracked few frames) are results; anything else stops."""
+    done = subprocess.run([program, *arguments, str(folder / name)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode not in (0, 5):
+        print(f"{name}: {program} ended with code {done.returncode}: {done.stderr.strip()}", file=sys.stderr)
+        sys.exit(2)
+
+
+def untimed_rows(path):
+    """Rows of frames.csv by position, without the columns that hold milliseconds."""
+    with open(path, newline="") as file:
+        header, *rows = list(csv.reader(file))
+    kept = [i for i, name in enumerate(header) if not name.endswith("_ms")]
+    return [[row[i] for i in kept] for row in rows]
+
+
+def differences(old, new):
+    if old.suffix == ".csv":
+        return [] if filecmp.cmp(old, new, shallow=False) else [old.name]
+    found = [name for name in ("trajectory.txt", "trajectory_kitti.txt") if not filecmp.cmp(old / name, new / name, shallow=False)]
+    if untimed_rows(old / "frames.csv") != untimed_rows(new / "frames.csv"):
+        found.append("frames.csv")
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("old")
+    parser.add_argument("new")
+    parser.add_argument("--data", type=pathlib.Path, default=os.environ.get("QUADEDGE_DATA"))
+    parser.add_argument("--quick", action="store_true", help="a few frames of each sequence")
+    parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("compare_results"))
+    options = parser.parse_args()
+    data = pathlib.Path(options.data) if options.data else None
+    kind = "quick" if options.quick else "whole"
+    old, new = options.work / f"old_{kind}", options.work / f"new_{kind}"
+    old.mkdir(parents=True, exist_ok=True)
+    new.mkdir(parents=True, exist_ok=True)
+    different = 0
+    for name, arguments in jobs(data, options.quick):
+        if not (old / name).exists():
+            run(options.old, name, arguments, old)
+        run(options.new, name, arguments, new)
+        found = differences(old / name, new / name)
+        different += bool(found)
+        print(f"{name:16} {'different: ' + ', '.join(found) if found else 'same bytes'}", flush=True)
+    return 1 if different else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

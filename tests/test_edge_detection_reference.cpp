@@ -1,0 +1,265 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "edge_images.hpp"
+#include "quadedge/error.hpp"
+#include "reference/edge_detection.hpp"
+#include "reference/edge_thinning.hpp"
+
+using namespace quadedge;
+using reference::ReferenceEdges;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+
+/// Blur of the rendered edges as the detector sees it: its Gaussian and the box of the pixel's area.
+double effective_sigma(const EdgesConfig& config) { return std::sqrt(config.sigma * config.sigma + 1.0 / 12.0); }
+
+double angle_error(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * kPi)); }
+
+void check_structure(const ReferenceEdges& edges, int width, int height, const EdgesConfig& config) {
+  REQUIRE(edges.row_first.size() == static_cast<std::size_t>(2 * height + 1));
+  CHECK(edges.row_first.front() == 0);
+  CHECK(edges.row_first.back() == static_cast<int>(edges.size()));
+  for (int row = 0; row < 2 * height; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    REQUIRE(edges.row_first[r] <= edges.row_first[r + 1]);
+    for (auto i = static_cast<std::size_t>(edges.row_first[r]); i < static_cast<std::size_t>(edges.row_first[r + 1]);
+         ++i) {
+      REQUIRE(edges.cell_y[i] == row);
+      if (i > static_cast<std::size_t>(edges.row_first[r])) REQUIRE(edges.cell_x[i - 1] < edges.cell_x[i]);
+      REQUIRE(std::abs(edges.y[i] - 0.5 * row) < kEdgeRowReach);
+    }
+  }
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    REQUIRE(edges.strength[i] > config.threshold);
+    REQUIRE((edges.direction[i] > -kPi && edges.direction[i] <= kPi));
+    REQUIRE((edges.x[i] > config.margin && edges.x[i] < width - 1 - config.margin));
+    REQUIRE((edges.y[i] > config.margin && edges.y[i] < height - 1 - config.margin));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("edges: a straight edge of any direction lies at its true place to 0.004 px and 0.08 degrees (rms)",
+          "[edges]") {
+  const EdgesConfig config;
+  const double truth_strength = 120.0 / (std::sqrt(2.0 * kPi) * effective_sigma(config));
+  double squares = 0, square_distances = 0;
+  std::size_t count = 0;
+  for (int k = 0; k < 24; ++k) {
+    const double angle = (15.0 * k + 3.7) * kDegree, px = 31.5 + 0.37 * std::sin(3.0 * k),
+                 py = 32.1 + 0.41 * std::cos(5.0 * k);
+    const Image image = render_half_plane(64, 64, px, py, angle);
+    const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+    check_structure(edges, 64, 64, config);
+    INFO("angle " << angle / kDegree);
+    REQUIRE(edges.size() > 40);
+    count += edges.size();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const double distance = (edges.x[i] - px) * std::cos(angle) + (edges.y[i] - py) * std::sin(angle);
+      REQUIRE(std::abs(distance) < 0.02);
+      square_distances += distance * distance;
+      // The tangent is the brightness gradient turned by -90 degrees.
+      // Rounding to 8 bits costs most where the edge is nearly upright and whole columns are rounded alike.
+      const double error = angle_error(edges.direction[i], angle - 0.5 * kPi);
+      REQUIRE(error < 0.4 * kDegree);
+      squares += error * error;
+      // The parabola over the interpolated ring may miss the peak by a percent or so.
+      REQUIRE(edges.strength[i] == Approx(truth_strength).epsilon(0.015));
+    }
+  }
+  CHECK(std::sqrt(square_distances / static_cast<double>(count)) < 0.004);
+  CHECK(std::sqrt(squares / static_cast<double>(count)) < 0.08 * kDegree);
+}
+
+TEST_CASE("edges: a vertical edge that is bright on the right points up, and contrast turns the direction", "[edges]") {
+  const std::pair<double, double> bright_side_and_direction[] = {{0, -90}, {90, 0}, {180, 90}, {270, 180}};
+  for (const auto& [side, direction] : bright_side_and_direction) {
+    const Image image = render_half_plane(48, 48, 23.3, 23.8, side * kDegree);
+    const ReferenceEdges edges = reference::detect_edges(image.view(), {});
+    REQUIRE(edges.size() > 20);
+    for (const double found : edges.direction) REQUIRE(angle_error(found, direction * kDegree) < 0.1 * kDegree);
+  }
+}
+
+TEST_CASE("edges: pixel centres are integers, so a step between columns 31 and 32 lies at 31.5", "[edges]") {
+  const Image image = render_shape(64, 48, 10, 250, [](double x, double) { return x > 31.5; });
+  const ReferenceEdges edges = reference::detect_edges(image.view(), {});
+  REQUIRE(edges.size() == 53);  // one per grid row strictly inside the margin: 21 .. 73
+  for (const double x : edges.x) REQUIRE(std::abs(x - 31.5) < 1e-5);
+
+  const Image lying = render_shape(48, 64, 10, 250, [](double, double y) { return y > 20.5; });
+  for (const double y : reference::detect_edges(lying.view(), {}).y) REQUIRE(std::abs(y - 20.5) < 1e-5);
+}
+
+TEST_CASE("edges: a circle is found inward by the known sigma^2 / 2r and its tangents turn with it", "[edges]") {
+  for (const double radius : {20.0, 30.0, 50.0}) {
+    for (const bool bright_inside : {true, false}) {
+      const double cx = 64.27, cy = 63.81;
+      const Image image = render_shape(128, 128, bright_inside ? 80 : 200, bright_inside ? 200 : 80,
+                                       [=](double x, double y) { return std::hypot(x - cx, y - cy) < radius; });
+      const EdgesConfig config;
+      const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+      check_structure(edges, 128, 128, config);
+      REQUIRE(static_cast<double>(edges.size()) > 2.0 * kPi * radius);
+      double bias = 0;
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const double dx = edges.x[i] - cx, dy = edges.y[i] - cy;
+        bias += std::hypot(dx, dy) - radius;
+        const double towards_bright = std::atan2(dy, dx) + (bright_inside ? kPi : 0.0);
+        REQUIRE(angle_error(edges.direction[i], towards_bright - 0.5 * kPi) < 0.5 * kDegree);
+      }
+      bias /= static_cast<double>(edges.size());
+      const double sigma = effective_sigma(config);
+      // Smoothing a curved edge moves its steepest place towards the centre of curvature, to first order by sigma^2 /
+      // 2r.
+      CHECK(bias == Approx(-sigma * sigma / (2.0 * radius)).margin(0.003));
+    }
+  }
+}
+
+TEST_CASE("edges: the Newton step onto F = 0 brings straight edges nearer to their place", "[edges]") {
+  EdgesConfig with, without;
+  without.newton_max = 0;
+  double squares_with = 0, squares_without = 0;
+  for (int k = 0; k < 12; ++k) {
+    const double angle = (30.0 * k + 11.0) * kDegree;
+    const Image image = render_half_plane(64, 64, 31.6, 32.3, angle);
+    const auto squares = [&](const EdgesConfig& config) {
+      const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+      double sum = 0;
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        sum += std::pow((edges.x[i] - 31.6) * std::cos(angle) + (edges.y[i] - 32.3) * std::sin(angle), 2);
+      }
+      return sum / static_cast<double>(edges.size());
+    };
+    squares_with += squares(with);
+    squares_without += squares(without);
+  }
+  CHECK(squares_with < 0.25 * squares_without);
+}
+
+TEST_CASE("edges: the threshold 2 lets a contrast of 11 grey levels through and not one of 9", "[edges]") {
+  // Peak gradient of a step of height D: D / (sqrt(2 pi) sigma) = 0.2 D within a percent.
+  const auto count = [](double contrast) {
+    return reference::detect_edges(render_half_plane(64, 64, 31.5, 31.5, 0.0, 100, 100 + contrast).view(), {}).size();
+  };
+  CHECK(count(9) == 0);
+  CHECK(count(11) > 50);
+}
+
+TEST_CASE("edges: a flat image has none, at any level", "[edges]") {
+  for (const int level : {0, 128, 255}) {
+    Image image(40, 40);
+    std::fill(image.pixels.begin(), image.pixels.end(), static_cast<std::uint8_t>(level));
+    EdgesConfig config;
+    config.threshold = 1e-6;
+    config.margin = 0;
+    CHECK(reference::detect_edges(image.view(), config).size() == 0);
+  }
+}
+
+TEST_CASE("edges: small and odd sizes keep the structure, with and without a margin", "[edges]") {
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
+    const Image image = textured_image(width, height);
+    for (const int margin : {0, 3, 10}) {
+      EdgesConfig config;
+      config.margin = margin;
+      const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+      check_structure(edges, width, height, config);
+      if (2 * margin + 2 >= width || 2 * margin + 2 >= height) CHECK(edges.size() == 0);
+      const EdgeSet set = reference::to_edge_set(edges);
+      CHECK(set.size() == edges.size());
+      CHECK(set.row_first == edges.row_first);
+    }
+  }
+  CHECK_THROWS_AS(reference::detect_edges(ImageView{}, {}), UsageError);
+}
+
+TEST_CASE("edges: rows of a padded image are read with their stride", "[edges]") {
+  const Image image = textured_image(50, 40);
+  std::vector<std::uint8_t> padded(64 * 40, 7);
+  for (int y = 0; y < 40; ++y) std::copy_n(image.pixels.begin() + y * 50, 50, padded.begin() + y * 64);
+  const ReferenceEdges packed = reference::detect_edges(image.view(), {});
+  const ReferenceEdges strided = reference::detect_edges({padded.data(), 50, 40, 64}, {});
+  REQUIRE(packed.size() > 20);
+  CHECK(packed.x == strided.x);
+  CHECK(packed.direction == strided.direction);
+}
+
+TEST_CASE("edges: another scale detects the same straight edge with its own strength", "[edges]") {
+  for (const double sigma : {1.0, 1.5, 3.0}) {
+    EdgesConfig config;
+    config.sigma = sigma;
+    config.margin = 14;
+    const Image image = render_half_plane(64, 64, 31.7, 31.2, 25.0 * kDegree);
+    const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+    REQUIRE(edges.size() > 30);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const double distance =
+          (edges.x[i] - 31.7) * std::cos(25.0 * kDegree) + (edges.y[i] - 31.2) * std::sin(25.0 * kDegree);
+      REQUIRE(std::abs(distance) < 0.02);
+      REQUIRE(edges.strength[i] == Approx(120.0 / (std::sqrt(2.0 * kPi) * effective_sigma(config))).epsilon(0.05));
+    }
+  }
+}
+
+TEST_CASE("edges: directions at the winning cell agree with those at the sub-pixel point on straight edges",
+          "[edges]") {
+  const Image image = render_half_plane(64, 64, 31.4, 32.2, 37.0 * kDegree);
+  EdgesConfig cell;
+  cell.direction_at = "cell";
+  const ReferenceEdges edges = reference::detect_edges(image.view(), cell);
+  REQUIRE(edges.size() > 40);
+  for (const double direction : edges.direction)
+    REQUIRE(angle_error(direction, (37.0 - 90.0) * kDegree) < 0.2 * kDegree);
+  // Published edge maps have the peak of the parabola: no Newton step.
+  EdgesConfig parabola;
+  parabola.newton_max = 0;
+  CHECK(edges.x == reference::detect_edges(image.view(), parabola).x);
+}
+
+TEST_CASE("thinning: the strongest of a pixel survives, directions 45 degrees apart do not meet", "[edges]") {
+  EdgeSet edges;
+  const auto add = [&](float x, float y, double direction_deg, float strength) {
+    edges.x.push_back(x);
+    edges.y.push_back(y);
+    edges.direction.push_back(static_cast<float>(direction_deg * kDegree));
+    edges.strength.push_back(strength);
+  };
+  add(5.2F, 7.4F, 10, 3);     // 0: weaker neighbour of 1
+  add(4.6F, 6.6F, 50, 4);     // 1: strongest of pixel (5, 7)
+  add(5.0F, 7.0F, 96, 3.5F);  // 2: more than 45 degrees from 1
+  add(5.6F, 7.0F, 10, 1);     // 3: alone in pixel (6, 7)
+  add(9.1F, 7.0F, 175, 2);    // 4: equal to 5, comes first
+  add(8.9F, 7.0F, -175, 2);   // 5: 10 degrees from 4 across the wrap
+  add(8.8F, 7.0F, -5, 1);     // 6: opposite contrast
+  CHECK(reference::kept_by_thinning(edges) == std::vector<std::uint8_t>{0, 1, 1, 1, 1, 0, 1});
+}
+
+TEST_CASE("thinning: along a curve every pixel keeps one edge and none is left without", "[edges]") {
+  const Image image = render_half_plane(64, 64, 31.4, 32.2, 41.0 * kDegree);
+  EdgesConfig thin;
+  thin.thinning = true;
+  const ReferenceEdges all = reference::detect_edges(image.view(), {}),
+                       thinned = reference::detect_edges(image.view(), thin);
+  check_structure(thinned, 64, 64, thin);
+  const auto pixels = [](const ReferenceEdges& edges) {
+    std::vector<std::pair<int, int>> found;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      found.emplace_back(static_cast<int>(std::floor(edges.x[i] + 0.5)),
+                         static_cast<int>(std::floor(edges.y[i] + 0.5)));
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  auto occupied = pixels(all);
+  occupied.erase(std::unique(occupied.begin(), occupied.end()), occupied.end());
+  CHECK(all.size() > thinned.size());
+  CHECK(pixels(thinned) == occupied);
+}
