@@ -1,5 +1,6 @@
 #pragma once
-/// \file latency.hpp  Measures frames whose images lie in host memory (CONVENTIONS: two kinds of time, never mixed).
+/// \file latency.hpp  Measures frames whose images lie in host memory (doc/design.md section 5: two kinds of time,
+/// never mixed).
 
 #include <functional>
 #include <vector>

@@ -7,7 +7,7 @@
 
 namespace quadedge {
 
-/// Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 5. The orders are the filters'
+/// Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 6. The orders are the filters'
 /// places in their cascade; the nearly-best filters follow at the larger one + 1 and + 2. sift_max = 0: SIFT takes no
 /// part.
 struct FilterLimits {

@@ -27,7 +27,7 @@ class Frontend {
  public:
   virtual ~Frontend() = default;
 
-  /// Stages 1 to 5 of SPEC: images to stereo edges. Overwrites the current rig.
+  /// Stages 1 to 5 of doc/design.md section 1: images to stereo edges. Overwrites the current rig.
   virtual void process(const StereoFrame& frame) = 0;
   /// The current rig becomes the previous one, and the key rig too if `as_key`.
   virtual void keep(bool as_key) = 0;

@@ -133,7 +133,8 @@ Derivatives derivatives_at(ImageView image, double x, double y, double sigma) {
 
 namespace {
 
-/// Gradient of F = grad(I)^T Hess(I) grad(I), which is normal to the edge and points to its dark side (REFERENCE a.3).
+/// Gradient of F = grad(I)^T Hess(I) grad(I), which is normal to the edge and points to its dark side (doc/method.md
+/// section 1).
 std::array<double, 2> gradient_of_f(const Derivatives& d) {
   const double shared = 2.0 * d.ixy * (d.ixx + d.iyy);
   return {2.0 * d.ix * (d.ixx * d.ixx + d.ixy * d.ixy) + d.iy * shared + d.ix * d.ix * d.ixxx +

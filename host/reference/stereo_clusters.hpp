@@ -16,14 +16,15 @@ struct StereoClusters {
   std::vector<double> likeness;  ///< of that member
 };
 
-/// Clusters the living candidates along their epipolar line (SPEC 8c).
+/// Clusters the living candidates along their epipolar line (doc/method.md section 3, 8c).
 ///
-/// The most alike member stands for its cluster: SPEC's centroid lies beside every member where two curves run within a
-/// pixel (terrace_2s: 96.3 % recall and precision instead of 98.2 %).
+/// The most alike member stands for its cluster: the paper's centroid lies beside every member where two curves run
+/// within a pixel (terrace_2s: 96.3 % recall and precision instead of 98.2 %).
 StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
                                const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config);
 
-/// The most alike cluster of every left edge that reaches refined_ncc_min, -1 for none (SPEC filters 9 and 10).
+/// The most alike cluster of every left edge that reaches refined_ncc_min, -1 for none (doc/method.md section 3,
+/// filters 9 and 10).
 std::vector<std::int32_t> stereo_best(const StereoClusters& clusters, const StereoConfig& config);
 
 /// Keeps a left edge if the best left edge of its right edge is itself or lies within `mutual_radius` on the same

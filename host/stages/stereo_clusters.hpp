@@ -27,7 +27,7 @@ struct DeviceClusters {
   opencl::Buffer<cl_int> keep, keep_first, total;
 };
 
-/// SPEC 8c to 10. Variants of the stage "stereo_clusters".
+/// doc/method.md section 3, 8c to 10. Variants of the stage "stereo_clusters".
 class StereoClusters {
  public:
   StereoClusters(opencl::Context& context, const StereoConfig& config,

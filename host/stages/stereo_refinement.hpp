@@ -19,7 +19,7 @@ struct DeviceRefined {
       likeness;  ///< of the refined places: mean of the NCC of the edges' own patches and of the better side
 };
 
-/// SPEC 8a and 8b. Variants of the stage "stereo_refinement".
+/// doc/method.md section 3, 8a and 8b. Variants of the stage "stereo_refinement".
 class StereoRefinement {
  public:
   StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
