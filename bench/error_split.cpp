@@ -189,8 +189,8 @@ class Split {
     estimate(9, all, pose);
     pose = config_.pose;
     pose.refine = false;
-    pose.local_rounds = 0;
-    pose.local_widening = 1;
+    pose.local_optimisation_rounds = 0;
+    pose.local_optimisation_widening = 1;
     estimate(10, all, pose, false);
   }
 

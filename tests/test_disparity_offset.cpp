@@ -9,8 +9,8 @@ using odometry::DisparityOffset;
 
 TEST_CASE("disparity offset: the corrected rig sees points nearer by the offset", "[odometry]") {
   PoseConfig config;
-  config.offset_sigma = 0.3;
-  config.offset_drift = 0.01;
+  config.disparity_offset_sigma = 0.3;
+  config.disparity_offset_drift = 0.01;
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
     DisparityOffset offset(rig, config);
     CHECK(offset.variance() == Approx(0.09));
@@ -29,7 +29,7 @@ TEST_CASE("disparity offset: the corrected rig sees points nearer by the offset"
 
 TEST_CASE("disparity offset: switched off, nothing moves", "[odometry]") {
   PoseConfig config;
-  config.offset_sigma = 0;
+  config.disparity_offset_sigma = 0;
   DisparityOffset offset(generated::car_rig(), config);
   CHECK(offset.variance() == 0);
   offset.update(0.25, 0.0004, 1);

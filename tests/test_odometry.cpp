@@ -246,7 +246,7 @@ TEST_CASE("odometry: a new key rig after as many frames as allowed", "[odometry]
   Config config = room().config;
   config.odometry.key_max_frames = 3;
   config.odometry.key_min_quads = 0;
-  config.odometry.key_min_share = 0;
+  config.odometry.key_min_quad_ratio = 0;
   const auto results = track(room(), all_devices().front(), config);
   const std::vector<int> expected = {0, 0, 0, 0, 3, 3, 3, 6};
   for (std::size_t i = 0; i < results.size(); ++i) {

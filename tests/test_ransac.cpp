@@ -121,8 +121,8 @@ TEST_CASE("The search stops early when most quads agree, and the same seed gives
 
 TEST_CASE("Without local optimisation the motion is the one of two quads as they were measured", "[pose][ransac]") {
   quadedge::PoseConfig config;
-  config.local_rounds = 0;
-  config.local_widening = 1;
+  config.local_optimisation_rounds = 0;
+  config.local_optimisation_widening = 1;
   generated::Problem problem = drive();
   problem.quads = 300;
   const auto exact = generated::generate(problem, 44);

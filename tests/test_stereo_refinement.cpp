@@ -29,7 +29,7 @@ struct Scene {
   explicit Scene(int count, std::uint64_t seed = 2) {
     config.max_disparity = 20;
     // The candidates lie farther off than edges do: the images alone decide, and need more steps, down to the end.
-    config.refine_prior = 100;
+    config.refine_prior_sigma = 100;
     config.refine_steps = 20;
     config.refine_tolerance = 1e-3;
     geometry = make_epipolar_geometry(rig, config);
@@ -177,10 +177,10 @@ TEST_CASE("stereo refinement: a strong prior holds the shifted place, the defaul
   Scene scene(60);
   auto result = scene.scores;
   const auto free = scene.refine(result).place;
-  scene.config.refine_prior = 0.002;
+  scene.config.refine_prior_sigma = 0.002;
   result = scene.scores;
   const auto held = scene.refine(result).place;
-  scene.config.refine_prior = StereoConfig{}.refine_prior;
+  scene.config.refine_prior_sigma = StereoConfig{}.refine_prior_sigma;
   result = scene.scores;
   const auto weighed = scene.refine(result).place;
   int moved = 0;

@@ -63,7 +63,7 @@ TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig
   TemporalSearch search;
   search.left = {previous.left_x, previous.left_y, previous.left_direction};
   search.right = {previous.right_x, previous.right_y, previous.right_direction};
-  search.radius = static_cast<float>(scout ? config.scout_radius : config.radius);
+  search.radius = static_cast<float>(scout ? config.coarse_radius : config.radius);
   search.scout = scout;
   return search;
 }

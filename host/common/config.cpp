@@ -64,8 +64,9 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("stereo.refine_tolerance", &stereo.refine_tolerance, "step that ends the refinement [px]", 0, 1);
   visit("stereo.refine_huber", &stereo.refine_huber, "Huber threshold of the refinement [grey levels]", 0.01, 255);
   visit("stereo.refine_clamp", &stereo.refine_clamp, "longest move of the refinement along the line [px]", 0, 100);
-  visit("stereo.refine_prior", &stereo.refine_prior, "spread of a detected edge across itself [px]", 0.001, 100);
-  visit("stereo.refine_noise", &stereo.refine_noise,
+  visit("stereo.refine_prior_sigma", &stereo.refine_prior_sigma, "spread of a detected edge across itself [px]", 0.001,
+        100);
+  visit("stereo.refine_noise_sigma", &stereo.refine_noise_sigma,
         "difference of true patches that the prior is weighed against [grey levels]", 0, 255);
   visit("stereo.refined_ncc_min", &stereo.refined_ncc_min,
         "smallest likeness (NCC of centre and a side) of the refined places", 0.01, 1);
@@ -83,14 +84,14 @@ void visit_config(Config& config, const std::function<void(const std::string& na
         0.1, 1000);
   visit("temporal.distance_weight", &temporal.distance_weight,
         "NCC that a candidate at the end of the radius has to be better", 0, 1);
-  visit("temporal.sure_support", &temporal.sure_support,
+  visit("temporal.confident_support", &temporal.confident_support,
         "a motion with a smaller support has to agree with edges found anywhere [share of the edges in view]", 0, 1);
   visit("temporal.min_support", &temporal.min_support, "smallest share of inliers among the base's edges in view", 0,
         1);
   visit("temporal.rounds", &temporal.rounds, "searches at most, each around what the last one found", 1, 10);
-  visit("temporal.scout_radius", &temporal.scout_radius,
+  visit("temporal.coarse_radius", &temporal.coarse_radius,
         "scout's radius around the place that constant velocity predicts [px]", 0.1, 1000);
-  visit("temporal.scout_radius_wide", &temporal.scout_radius_wide,
+  visit("temporal.coarse_wide_radius_ratio", &temporal.coarse_wide_radius_ratio,
         "scout's radius where there is no prediction, or it fails, with wide_edges = 0 [share of the image width]",
         0.001, 1);
   visit("temporal.wide_edges", &temporal.wide_edges,
@@ -100,18 +101,18 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("temporal.wide_neighbourhood", &temporal.wide_neighbourhood, "then: what is nearer is no rival [px]", 0, 1000);
   visit("temporal.wide_inlier_distance", &temporal.wide_inlier_distance,
         "then: reprojection distance of an inlier [px]", 0.01, 100);
-  visit("temporal.scout_edges", &temporal.scout_edges, "the scout looks for about this many stereo edges", 100,
+  visit("temporal.coarse_edges", &temporal.coarse_edges, "the scout looks for about this many stereo edges", 100,
         1000000);
-  visit("temporal.scout_min_inlier_share", &temporal.scout_min_inlier_share,
+  visit("temporal.coarse_min_inlier_ratio", &temporal.coarse_min_inlier_ratio,
         "smallest inlier share of the scout's quads", 0, 1);
-  visit("temporal.scout_ncc_min", &temporal.scout_ncc_min, "scout's smallest NCC", 0.01, 1);
-  visit("temporal.scout_sift_max", &temporal.scout_sift_max,
+  visit("temporal.coarse_ncc_min", &temporal.coarse_ncc_min, "scout's smallest NCC", 0.01, 1);
+  visit("temporal.coarse_sift_max", &temporal.coarse_sift_max,
         "scout's largest SIFT distance around a prediction; 0: without SIFT", 0, kUnlimited);
-  visit("temporal.scout_wide_sift_max", &temporal.scout_wide_sift_max, "and in the wider circles; 0: without SIFT", 0,
+  visit("temporal.coarse_wide_sift_max", &temporal.coarse_wide_sift_max, "and in the wider circles; 0: without SIFT", 0,
         kUnlimited);
-  visit("temporal.scout_ncc_nearly_best", &temporal.scout_ncc_nearly_best, "scout's share of the best NCC that is kept",
-        0, 1);
-  visit("temporal.scout_sift_nearly_best", &temporal.scout_sift_nearly_best,
+  visit("temporal.coarse_ncc_nearly_best", &temporal.coarse_ncc_nearly_best,
+        "scout's share of the best NCC that is kept", 0, 1);
+  visit("temporal.coarse_sift_nearly_best", &temporal.coarse_sift_nearly_best,
         "scout's ratio of best SIFT distance to distance that is kept", 0, 1);
   visit("temporal.orientation", &temporal.orientation, "largest difference of directions, modulo 360 [deg]", 0, 180);
   visit("temporal.ncc_min", &temporal.ncc_min, "smallest NCC", 0.01, 1);
@@ -140,12 +141,12 @@ void visit_config(Config& config, const std::function<void(const std::string& na
         1);
   visit("pose.scoring_cell", &pose.scoring_cell, "cells that have the same say about hypotheses; 0: quads have [px]", 0,
         1000);
-  visit("pose.scored", &pose.scored, "quads on which promising hypotheses are compared", 2, kLargestInt);
-  visit("pose.preview", &pose.preview, "quads on which all hypotheses are compared", 2, kLargestInt);
-  visit("pose.local_widening", &pose.local_widening,
+  visit("pose.scoring_quads", &pose.scoring_quads, "quads on which promising hypotheses are compared", 2, kLargestInt);
+  visit("pose.preview_quads", &pose.preview_quads, "quads on which all hypotheses are compared", 2, kLargestInt);
+  visit("pose.local_optimisation_widening", &pose.local_optimisation_widening,
         "first inlier distance of the local optimisation, times inlier_distance", 1, 100);
-  visit("pose.local_rounds", &pose.local_rounds, "rounds of the local optimisation; 0: samples are not polished at all",
-        0, 100);
+  visit("pose.local_optimisation_rounds", &pose.local_optimisation_rounds,
+        "rounds of the local optimisation; 0: samples are not polished at all", 0, 100);
   visit("pose.refine", &pose.refine, "least squares over the inliers at the end", 0, 1);
   visit("pose.refine_rounds", &pose.refine_rounds, "selections of inliers, each followed by a fit", 1, 100);
   visit("pose.fit_steps", &pose.fit_steps, "Gauss-Newton steps of one fit", 1, 100);
@@ -156,19 +157,20 @@ void visit_config(Config& config, const std::function<void(const std::string& na
   visit("pose.fit_tolerance", &pose.fit_tolerance, "step that ends a fit [share of the standard deviation]", 0, 1);
   visit("pose.student_dof", &pose.student_dof, "degrees of freedom of the residuals' Student-t distribution", 1,
         1000000);
-  visit("pose.vote_cell", &pose.vote_cell, "side of the cells whose edges may share their error [px]", 1, 1000);
-  visit("pose.offset_sigma", &pose.offset_sigma,
+  visit("pose.inflation_cell", &pose.inflation_cell, "side of the cells whose edges may share their error [px]", 1,
+        1000);
+  visit("pose.disparity_offset_sigma", &pose.disparity_offset_sigma,
         "spread of an offset that all disparities share; 0: there is none [px]", 0, 10);
-  visit("pose.offset_drift", &pose.offset_drift, "growth of that spread per frame [px]", 0, 10);
+  visit("pose.disparity_offset_drift", &pose.disparity_offset_drift, "growth of that spread per frame [px]", 0, 10);
   visit("pose.min_inliers", &pose.min_inliers, "fewer give no pose", 2, kLargestInt);
-  visit("pose.min_inlier_share", &pose.min_inlier_share, "a smaller share gives no pose", 0, 1);
+  visit("pose.min_inlier_ratio", &pose.min_inlier_ratio, "a smaller share gives no pose", 0, 1);
   visit("pose.min_spread", &pose.min_spread, "smallest spread of the inliers [share of the image diagonal]", 0, 1);
 
   auto& odometry = config.odometry;
   visit("odometry.key_rig", &odometry.key_rig, "track against a key stereo rig; false: frame to frame only", 0, 1);
-  visit("odometry.key_min_share", &odometry.key_min_share, "new key rig below this share of quads", 0, 1);
+  visit("odometry.key_min_quad_ratio", &odometry.key_min_quad_ratio, "new key rig below this share of quads", 0, 1);
   visit("odometry.key_min_quads", &odometry.key_min_quads, "new key rig below this number of quads", 0, kLargestInt);
-  visit("odometry.key_min_inlier_share", &odometry.key_min_inlier_share, "new key rig below this share of inliers", 0,
+  visit("odometry.key_min_inlier_ratio", &odometry.key_min_inlier_ratio, "new key rig below this share of inliers", 0,
         1);
   visit("odometry.key_max_parallax", &odometry.key_max_parallax, "new key rig above this median parallax [px]", 0,
         10000);

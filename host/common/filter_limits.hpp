@@ -33,11 +33,11 @@ inline FilterLimits temporal_limits(const TemporalConfig& config, const Temporal
             kTemporalNccOrder,
             kTemporalSiftOrder};
   }
-  const bool wide = search.radius > static_cast<float>(config.scout_radius);
-  return {static_cast<float>(config.scout_ncc_min),
-          static_cast<float>(wide ? config.scout_wide_sift_max : config.scout_sift_max),
-          static_cast<float>(config.scout_ncc_nearly_best),
-          static_cast<float>(config.scout_sift_nearly_best),
+  const bool wide = search.radius > static_cast<float>(config.coarse_radius);
+  return {static_cast<float>(config.coarse_ncc_min),
+          static_cast<float>(wide ? config.coarse_wide_sift_max : config.coarse_sift_max),
+          static_cast<float>(config.coarse_ncc_nearly_best),
+          static_cast<float>(config.coarse_sift_nearly_best),
           kTemporalNccOrder,
           kTemporalSiftOrder};
 }

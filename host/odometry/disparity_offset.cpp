@@ -6,8 +6,8 @@ DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
     : rig_(rig),
       cx_(rig.right.cx),
       cy_(rig.right.cy),
-      drift_(config.offset_drift),
-      variance_(config.offset_sigma * config.offset_sigma) {
+      drift_(config.disparity_offset_drift),
+      variance_(config.disparity_offset_sigma * config.disparity_offset_sigma) {
   rig_.left_undistortion = rig_.right_undistortion = {};
   // At the image's middle, from a hundred base lines to fifty.
   const Eigen::Vector3d ray = rig.left.ray({0.5 * (rig.left.width - 1), 0.5 * (rig.left.height - 1)});

@@ -31,8 +31,8 @@ void KeyRig::start(int frame, const Eigen::Isometry3d& world_from_key) {
 
 bool KeyRig::is_worn(const KeyRigState& state, const OdometryConfig& config) {
   if (first_count_ < 0) first_count_ = state.quads;
-  return state.quads < config.key_min_share * first_count_ || state.quads < config.key_min_quads ||
-         state.inlier_share < config.key_min_inlier_share || state.median_parallax > config.key_max_parallax ||
+  return state.quads < config.key_min_quad_ratio * first_count_ || state.quads < config.key_min_quads ||
+         state.inlier_share < config.key_min_inlier_ratio || state.median_parallax > config.key_max_parallax ||
          state.rotation > config.key_max_rotation * kDegree || state.frames >= config.key_max_frames;
 }
 

@@ -52,10 +52,10 @@ void MotionSearch::estimate(const std::optional<Eigen::Isometry3d>& prediction, 
 /// Looks for the motion since the base with a part of the edges. What it suggests need not convince.
 StepHandle MotionSearch::scout(const MotionPrior& prior, double radius) {
   PoseConfig lenient = config_.pose;
-  lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
+  lenient.min_inlier_ratio = config_.temporal.coarse_min_inlier_ratio;
   lenient.min_spread = 0;
   const StereoEdges& base = frontend_.base(prior.base);
-  const int every = std::max(1, static_cast<int>(base.size()) / config_.temporal.scout_edges);
+  const int every = std::max(1, static_cast<int>(base.size()) / config_.temporal.coarse_edges);
   predict_places(offset_.rig(), base, measured(prior.base, prior), prior.prediction, radius, every, search_);
   search_.scout = true;
   StepHandle step = new_step(prior.base);
@@ -67,7 +67,7 @@ StepHandle MotionSearch::scout(const MotionPrior& prior, double radius) {
 void MotionSearch::suggest_anywhere(const MotionPrior& prior, MotionStep& step) {
   PoseConfig lenient = config_.pose;
   lenient.inlier_distance = config_.temporal.wide_inlier_distance;
-  lenient.min_inlier_share = config_.temporal.scout_min_inlier_share;
+  lenient.min_inlier_ratio = config_.temporal.coarse_min_inlier_ratio;
   lenient.min_spread = 0;
   estimate(std::nullopt, lenient, prior, step);
 }
@@ -134,7 +134,7 @@ bool MotionSearch::is_seen(const MotionStep& anywhere, const MotionStep& found, 
   if (found.base != prior.base) motion = motion * prior.base_from_key->inverse();
   pose::select_inliers(anywhere.quads.scoring, pose::LaterCameras(offset_.rig(), motion),
                        config_.temporal.wide_inlier_distance, radians(config_.pose.inlier_orientation), agrees_);
-  return pose::count_cells(anywhere.quads.scoring, agrees_, config_.pose.vote_cell) >= config_.pose.min_inliers;
+  return pose::count_cells(anywhere.quads.scoring, agrees_, config_.pose.inflation_cell) >= config_.pose.min_inliers;
 }
 
 /// Matches all edges of a base within a few pixels of where a motion predicts them, again around what that finds until
@@ -185,10 +185,10 @@ StepHandle MotionSearch::find(const MotionPrior& prior) {
   const bool anywhere = config_.temporal.wide_edges > 0;
   StepHandle near;
   if (prior.prediction) {
-    near = scout_and_confirm(prior, config_.temporal.scout_radius);
-    if (near->ok() && (!anywhere || near->support >= config_.temporal.sure_support)) return near;
+    near = scout_and_confirm(prior, config_.temporal.coarse_radius);
+    if (near->ok() && (!anywhere || near->support >= config_.temporal.confident_support)) return near;
   }
-  if (!anywhere) return scout_and_confirm(prior, config_.temporal.scout_radius_wide * rig_.left.width);
+  if (!anywhere) return scout_and_confirm(prior, config_.temporal.coarse_wide_radius_ratio * rig_.left.width);
   StepHandle seen = look_anywhere(prior), step;
   if (seen->ok()) {
     step = confirm(seen->motion.current_from_previous, prior);

@@ -78,7 +78,7 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
                                       radians(config.inlier_orientation), estimate.inlier);
   }
   estimate.share = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
-  if (estimate.inliers < config.min_inliers || estimate.share < config.min_inlier_share) return;
+  if (estimate.inliers < config.min_inliers || estimate.share < config.min_inlier_ratio) return;
   if (!solved || spread(quads, estimate.inlier, rig.left) < config.min_spread) {
     estimate.status = MotionStatus::badly_spread;
     return;

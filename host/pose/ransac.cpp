@@ -140,7 +140,8 @@ class Search {
   Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
          ConsensusWorkspace& workspace)
       : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), limits_(config), work_(workspace) {
-    const auto scored = static_cast<std::size_t>(config.scored), preview = static_cast<std::size_t>(config.preview);
+    const auto scored = static_cast<std::size_t>(config.scoring_quads),
+               preview = static_cast<std::size_t>(config.preview_quads);
     if (config.scoring_cell > 0) {
       balanced_subset(random_, quads.scoring, config.scoring_cell, scored, work_);
     } else {
@@ -199,7 +200,7 @@ class Search {
       std::swap(after.first, after.second);
     }
     auto motion = solve_two_quads(before, after, limits_.max_cosine);
-    if (!motion || config_.local_rounds == 0) return motion;
+    if (!motion || config_.local_optimisation_rounds == 0) return motion;
     work_.pair_terms[0] = make_term(quads_, a, noise_);
     work_.pair_terms[1] = make_term(quads_, b, noise_);
     Eigen::Isometry3d polished = *motion;
@@ -209,21 +210,21 @@ class Search {
 
   void consider(const Eigen::Isometry3d& motion) {
     ++best_.hypotheses;
-    const double raw =
-        truncated_cost(work_.preview, LaterCameras(rig_, motion), config_.local_widening * config_.inlier_distance);
+    const double raw = truncated_cost(work_.preview, LaterCameras(rig_, motion),
+                                      config_.local_optimisation_widening * config_.inlier_distance);
     if (best_.found && raw >= best_raw_) return;
     best_raw_ = raw;
     accept(motion);
-    if (config_.local_rounds == 0) return;
+    if (config_.local_optimisation_rounds == 0) return;
     if (const auto better = optimise(motion)) accept(*better);
   }
 
   /// Fits over the preview's inliers, the distance narrowing geometrically to the inlier distance.
   std::optional<Eigen::Isometry3d> optimise(Eigen::Isometry3d motion) {
-    const int rounds = config_.local_rounds;
+    const int rounds = config_.local_optimisation_rounds;
     for (int round = 0; round < rounds; ++round) {
       const double share = rounds > 1 ? static_cast<double>(round) / (rounds - 1) : 1.0;
-      const double distance = config_.inlier_distance * std::pow(config_.local_widening, 1.0 - share);
+      const double distance = config_.inlier_distance * std::pow(config_.local_optimisation_widening, 1.0 - share);
       select_inliers(work_.preview, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation),
                      work_.mask);
       mask_to_rows(work_.mask, work_.inlier_rows);

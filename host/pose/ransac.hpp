@@ -45,19 +45,19 @@ struct ConsensusWorkspace {
 
 /// Samples pairs of quads, best first (fewest rivals, then highest NCC, then lowest index; the pool grows with the
 /// draws as in PROSAC), solves each pair that passes the six constraints and whose quads lie apart in the image, and
-/// scores it on a fixed random subset of config.preview quads, as many from each cell of config.scoring_cell px as it
+/// scores it on a fixed random subset of config.preview_quads, as many from each cell of config.scoring_cell px as it
 /// has: a motion is judged by the area that it explains, not by the edges that this area happens to hold (a moving
 /// thing may be covered with most of them). Proposition 2 takes the rotation about the line through the pair from one
 /// tangent in space, whose depth slope is the least certain thing about an edge; fit_sample() on the two quads alone,
 /// which knows that, follows it. (On generated quads with a direction noise of 0.6 degrees it takes the median error
 /// elsewhere in the image from 28 to 7 px.) A correct sample is still some pixels off elsewhere: samples are compared
-/// with the inlier distance widened by config.local_widening, and each that beats all samples before it is optimised
-/// locally: fits over its inliers in the subset, the distance narrowing back to config.inlier_distance. Optimised
-/// motions are compared over config.scored quads, chosen likewise. Stops when another pair of inliers has been drawn
-/// with config.confidence, at config.max_hypotheses, or at config.max_draws draws; rejected draws count, so fewer than
-/// two quads, or quads of which no pair passes, end the search at once or after the draws. \param seed all randomness;
-/// the same seed gives the same bits. \param initial another hypothesis, scored first (a predicted pose, the
-/// frame-to-frame pose), current_from_previous.
+/// with the inlier distance widened by config.local_optimisation_widening, and each that beats all samples before it is
+/// optimised locally: fits over its inliers in the subset, the distance narrowing back to config.inlier_distance.
+/// Optimised motions are compared over config.scoring_quads, chosen likewise. Stops when another pair of inliers has
+/// been drawn with config.confidence, at config.max_hypotheses, or at config.max_draws draws; rejected draws count, so
+/// fewer than two quads, or quads of which no pair passes, end the search at once or after the draws. \param seed all
+/// randomness; the same seed gives the same bits. \param initial another hypothesis, scored first (a predicted pose,
+/// the frame-to-frame pose), current_from_previous.
 Consensus find_consensus(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                          std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
                          ConsensusWorkspace& workspace);

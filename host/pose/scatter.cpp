@@ -107,7 +107,7 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
 Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
                         const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& current_from_previous,
                         double offset, double place_scale, ScatterWorkspace& workspace) {
-  const CellGrid left_out(rig.left, config.vote_cell * (1 << kLeftOut));
+  const CellGrid left_out(rig.left, config.inflation_cell * (1 << kLeftOut));
   workspace.zero.cell_normal.assign(left_out.size(), Matrix6d::Zero());
   workspace.gradients.resize(rows.size());
   const StudentWeights weights{place_scale, config.student_dof};
@@ -136,7 +136,7 @@ Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>
   // w.
   const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
   const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kPlaceSize);
-  const Factors factors = cell_factors(rows, quads, rig.left, config.vote_cell, sums, inverse, workspace);
+  const Factors factors = cell_factors(rows, quads, rig.left, config.inflation_cell, sums, inverse, workspace);
   return {inverse, factors.largest / (flattening * flattening), factors.smallest_cells / (flattening * flattening)};
 }
 

@@ -54,12 +54,13 @@ struct Scatter {
 /// Dense edges come in rows of about two per pixel whose errors are alike, and some errors are alike along a whole
 /// cable or over a surface. So contributions of quads within one square cell are added up before they are squared:
 /// errors that agree within a cell then count once, however many edges tell of them, and independent errors count
-/// fully. Cells have sides of config.vote_cell px and two, four, eight and sixteen times that; the largest factor is
-/// taken, the one without cells included. The three larger sizes take part as a jackknife, the squared changes of the
-/// pose when each cell in turn is left out: plain sums over few cells come out too small, since the fit has adapted to
-/// each of them. A size with a cell that holds half of all information tells nothing and is skipped. What is alike over
-/// the whole image shows at no size. \param rows the quads of `terms`, their places tell the cells \param offset of all
-/// disparities that was found with the pose [px] \param place_scale variance of the places' errors over the assumed one
+/// fully. Cells have sides of config.inflation_cell px and two, four, eight and sixteen times that; the largest factor
+/// is taken, the one without cells included. The three larger sizes take part as a jackknife, the squared changes of
+/// the pose when each cell in turn is left out: plain sums over few cells come out too small, since the fit has adapted
+/// to each of them. A size with a cell that holds half of all information tells nothing and is skipped. What is alike
+/// over the whole image shows at no size. \param rows the quads of `terms`, their places tell the cells \param offset
+/// of all disparities that was found with the pose [px] \param place_scale variance of the places' errors over the
+/// assumed one
 Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
                         const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& current_from_previous,
                         double offset, double place_scale, ScatterWorkspace& workspace);

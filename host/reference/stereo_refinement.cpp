@@ -43,7 +43,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
     const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
     const double cosine = std::cos(left.direction[i]), sine = std::sin(left.direction[i]);
     const double line_sine = left_epipolar_sine(geometry, left.x[i], left.y[i], left.direction[i]);
-    const double stiffness = std::pow(config.refine_noise / config.refine_prior * line_sine, 2);
+    const double stiffness = std::pow(config.refine_noise_sigma / config.refine_prior_sigma * line_sine, 2);
     const PatchFrame left_frame = patch_frame(left.x[i], left.y[i], cosine, sine, 0, 0);
     const auto begin = static_cast<std::size_t>(candidates.first[i]),
                end = static_cast<std::size_t>(candidates.first[i + 1]);

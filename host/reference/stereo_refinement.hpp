@@ -26,7 +26,7 @@ struct RefinedCandidates {
 ///
 /// Where the paper aligns a side patch, the patch on the edge itself is aligned here, at equal contrast: it holds the
 /// edge's own profile, and the flank that another surface owns weighs little. A prior holds it around the detected
-/// place, as tightly as an edge is known along this line: refine_prior / sin(angle between edge and line).
+/// place, as tightly as an edge is known along this line: refine_prior_sigma / sin(angle between edge and line).
 /// `left_patches`: the side patches of the left edges, see reference/patches.hpp.
 ///
 /// Neighbours on one curve shift to the same place: of candidates within 0.5 px the one whose sides are most alike is

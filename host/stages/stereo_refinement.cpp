@@ -41,8 +41,8 @@ void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& r
           left_image.width(), left_image.height(), right_image.values(), right_image.width(), right_image.height(),
           left_patches, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
           static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
-          static_cast<float>(std::pow(config_.refine_noise / config_.refine_prior, 2)), config_.refine_steps,
-          static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
+          static_cast<float>(std::pow(config_.refine_noise_sigma / config_.refine_prior_sigma, 2)),
+          config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
           static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min), kStereoRefinementOrder,
           candidates.rejected_by, refined.place, refined.likeness);
 }

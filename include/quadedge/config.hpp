@@ -49,10 +49,11 @@ struct StereoConfig {
   double refine_tolerance = 0.05;   ///< [px]
   double refine_huber = 3.0;        ///< [grey levels]
   double refine_clamp = 2.0;        ///< longest move along the line [px]
-  double refine_prior = 0.1;  ///< spread of a detected edge across itself [px], more along a line that it is flat to
-  double refine_noise = 5.0;  ///< difference of two true patches that the prior is weighed against [grey levels]
-  double refined_ncc_min = 0.75;  ///< smallest likeness of the refined places: mean of the centre's and a side's NCC
-  double cluster_gap = 1.0;       ///< [px]
+  double refine_prior_sigma =
+      0.1;  ///< spread of a detected edge across itself [px], more along a line that it is flat to
+  double refine_noise_sigma = 5.0;  ///< difference of two true patches that the prior is weighed against [grey levels]
+  double refined_ncc_min = 0.75;    ///< smallest likeness of the refined places: mean of the centre's and a side's NCC
+  double cluster_gap = 1.0;         ///< [px]
   double cluster_orientation = 20.0;  ///< [deg]
   int cluster_size_max = 10;          ///< members
   double cluster_sigma = 2.0;         ///< of the weights in the mean direction of a cluster [px]
@@ -64,25 +65,26 @@ struct TemporalConfig {
   double radius = 3.0;  ///< around the place that the scouted motion predicts [px]
   double distance_weight =
       0.2;  ///< NCC that a candidate at the end of the radius has to be better than one at the predicted place
-  double scout_radius = 10.0;  ///< around the place that constant velocity predicts [px]
+  double coarse_radius = 10.0;  ///< around the place that constant velocity predicts [px]
   int wide_edges = 3000;  ///< where there is no prediction, or it fails: so many are looked for anywhere, among twice
                           ///< as many; 0: none
-  double scout_radius_wide = 0.1;    ///< scout's radius there with wide_edges = 0 [share of the image width]
+  double coarse_wide_radius_ratio = 0.1;  ///< scout's radius there with wide_edges = 0 [share of the image width]
   double wide_ratio = 0.8;           ///< distance of descriptors / distance of the best rival elsewhere that is kept
   double wide_neighbourhood = 12.0;  ///< what is nearer is no rival [px]
   double wide_inlier_distance =
-      4.0;                     ///< replaces pose.inlier_distance: found places are neighbours of the right one [px]
-  int scout_edges = 4000;      ///< the scout looks for about this many stereo edges; its motion then predicts for all
-  double sure_support = 0.35;  ///< a motion that less supports, see min_support, has to agree with edges found anywhere
+      4.0;                  ///< replaces pose.inlier_distance: found places are neighbours of the right one [px]
+  int coarse_edges = 4000;  ///< the scout looks for about this many stereo edges; its motion then predicts for all
+  double confident_support =
+      0.35;  ///< a motion that less supports, see min_support, has to agree with edges found anywhere
   double min_support =
       0.06;  ///< inliers, share of the base's edges that the motion brings into view: a wrong one finds about 0.03
   int rounds = 3;  ///< searches at most, each around what the last one found, until the places stay
-  double scout_min_inlier_share = 0.03;  ///< of the scout's quads; the search that follows has to convince
-  double scout_ncc_min = 0.8;
-  double scout_sift_max = 0.0;         ///< around a prediction; 0: without SIFT
-  double scout_wide_sift_max = 200.0;  ///< in the wider circles
-  double scout_ncc_nearly_best = 0.9;
-  double scout_sift_nearly_best = 0.6;
+  double coarse_min_inlier_ratio = 0.03;  ///< of the scout's quads; the search that follows has to convince
+  double coarse_ncc_min = 0.8;
+  double coarse_sift_max = 0.0;         ///< around a prediction; 0: without SIFT
+  double coarse_wide_sift_max = 200.0;  ///< in the wider circles
+  double coarse_ncc_nearly_best = 0.9;
+  double coarse_sift_nearly_best = 0.6;
   double orientation = 10.0;  ///< [deg], modulo 360
   double ncc_min = 0.6;
   double sift_max = 0.0;  ///< 0: without SIFT, which tells nothing more within a few pixels
@@ -108,11 +110,11 @@ struct PoseConfig {
   double min_pair_distance = 0.05;  ///< of a sample's two quads in the image, share of the image diagonal
   double scoring_cell = 32.0;  ///< square cells of the image have the same say about hypotheses, however many edges
                                ///< they hold [px]; 0: quads have
-  int scored = 4096;           ///< quads on which promising hypotheses are compared
-  int preview = 512;           ///< quads on which all hypotheses are compared
-  double local_widening =
+  int scoring_quads = 4096;    ///< quads on which promising hypotheses are compared
+  int preview_quads = 512;     ///< quads on which all hypotheses are compared
+  double local_optimisation_widening =
       4.0;  ///< inlier distance of raw samples and of the local optimisation's start, times inlier_distance
-  int local_rounds =
+  int local_optimisation_rounds =
       3;  ///< rounds of the local optimisation, narrowing to inlier_distance; 0: samples are not polished at all
   bool refine = true;            ///< least squares over the inliers at the end
   int refine_rounds = 4;         ///< selections of inliers, each followed by a fit
@@ -122,22 +124,23 @@ struct PoseConfig {
   double sigma_direction = 2.0;  ///< noise of an edge's direction in the image [deg]
   double slope_prior =
       1.0;  ///< plausible depth slope of a tangent; tempers slopes that are mostly noise when inliers are told
-  double fit_tolerance = 0.01;  ///< a step shorter than this share of the pose's standard deviation ends a fit
-  double student_dof = 5.0;     ///< degrees of freedom of the residuals' Student-t distribution; small: robust
-  double vote_cell = 16.0;      ///< edges of one square cell of this side may share their error [px]
-  double offset_sigma = 0.3;  ///< of an unknown offset that all disparities share, at the start [px]; 0: there is none
-  double offset_drift = 0.003;  ///< growth of its standard deviation per frame [px]
+  double fit_tolerance = 0.01;   ///< a step shorter than this share of the pose's standard deviation ends a fit
+  double student_dof = 5.0;      ///< degrees of freedom of the residuals' Student-t distribution; small: robust
+  double inflation_cell = 16.0;  ///< edges of one square cell of this side may share their error [px]
+  double disparity_offset_sigma =
+      0.3;  ///< of an unknown offset that all disparities share, at the start [px]; 0: there is none
+  double disparity_offset_drift = 0.003;  ///< growth of its standard deviation per frame [px]
   int min_inliers = 12;
-  double min_inlier_share = 0.15;
+  double min_inlier_ratio = 0.15;
   double min_spread = 0.1;  ///< standard deviation of the inliers' place, share of the image diagonal
 };
 
 /// Key stereo rig, doc/method.md section 7.
 struct OdometryConfig {
-  bool key_rig = true;         ///< false: frame to frame only
-  double key_min_share = 0.3;  ///< quads with the key rig, share of those at its first frame
+  bool key_rig = true;              ///< false: frame to frame only
+  double key_min_quad_ratio = 0.3;  ///< quads with the key rig, share of those at its first frame
   int key_min_quads = 300;
-  double key_min_inlier_share = 0.4;
+  double key_min_inlier_ratio = 0.4;
   double key_max_parallax = 16.0;  ///< median [px]
   double key_max_rotation = 10.0;  ///< [deg]
   int key_max_frames = 10;
