@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+"""Holds what doc/design.md says of the tree: who includes whom, lengths, names, and references that lead somewhere.
+
+    lint_structure.py REPOSITORY [--program PROGRAM] [CHECK...]
+
+CHECK is any of: includes lines functions twins references constants; without one, all of them. `functions` needs lizard
+(tests/requirements.txt), `constants` the program. Ends with 1 and one line per finding when something is wrong.
+"""
+
+import argparse
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+LONGEST_LINE = 120
+LONGEST_FUNCTION = 60
+CODE = {".cpp", ".hpp", ".cl", ".py", ".sh", ".cmake", ".toml", ".txt"}
+LAYERS = ("include/quadedge", "host", "bench", "tests")
+
+
+class Tree:
+    """The tracked and the new files of a repository, and their texts."""
+
+    def __init__(self, root: Path):
+        self.root = root
+        names = subprocess.run(["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard"],
+                               check=True, capture_output=True, text=True).stdout.split("\n")
+        self.files = sorted(name for name in names if name and (root / name).is_file())
+        self.base_names = {Path(name).name for name in self.files}
+        self.folders = {str(parent) for name in self.files for parent in Path(name).parents}
+
+    def text(self, name: str) -> str:
+        return (self.root / name).read_text(encoding="utf-8")
+
+    def with_suffix(self, *suffixes: str) -> list[str]:
+        return [name for name in self.files if Path(name).suffix in suffixes]
+
+    def table(self, name: str) -> list[list[str]]:
+        """The rows of the table between <!-- NAME --> and <!-- end of NAME --> in doc/design.md."""
+        found = re.search(rf"<!-- {name} -->\n(.*?)<!-- end of {name} -->", self.text("doc/design.md"), re.DOTALL)
+        if not found:
+            return []
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in found[1].strip().split("\n")]
+        return rows[2:]
+
+
+def folder_of(name: str) -> str:
+    parts = Path(name).parts
+    return parts[1] if parts[0] == "host" else parts[0]
+
+
+def check_includes(tree: Tree) -> list[str]:
+    """Arrows between folders run as the table says; the public interface includes nothing but itself."""
+    allowed = {row[0]: row[1] for row in tree.table("includes")}
+    findings = []
+    for name in tree.with_suffix(".cpp", ".hpp"):
+        if not name.startswith(LAYERS) or name.startswith("tests/consumer/"):
+            continue
+        folder = folder_of(name)
+        if folder not in allowed:
+            findings.append(f"{name}: doc/design.md does not say what the folder {folder} may include")
+            continue
+        targets = {target.strip() for target in allowed[folder].split(",")}
+        for number, line in enumerate(tree.text(name).split("\n"), 1):
+            included = re.match(r'#include "([a-z_]+)/', line)
+            if not included or "any" in targets:
+                continue
+            if included[1] not in targets | {folder, "quadedge"}:
+                findings.append(f"{name}:{number}: {folder} includes {included[1]}, which doc/design.md does not allow")
+    return findings
+
+
+def check_lines(tree: Tree) -> list[str]:
+    """No line of code beyond LONGEST_LINE columns, no tab, no space at an end."""
+    findings = []
+    for name in tree.files:
+        if Path(name).suffix not in CODE and Path(name).name != "Snakefile":
+            continue
+        for number, line in enumerate(tree.text(name).split("\n"), 1):
+            if len(line) > LONGEST_LINE:
+                findings.append(f"{name}:{number}: {len(line)} columns, at most {LONGEST_LINE}")
+            if line != line.rstrip() or "\t" in line:
+                findings.append(f"{name}:{number}: a tab, or space at the end of the line")
+    return findings
+
+
+def check_functions(tree: Tree) -> list[str]:
+    """No function beyond LONGEST_FUNCTION lines, unless a comment "LONG: reason" stands before it or in it."""
+    import lizard
+
+    findings = []
+    for name in tree.with_suffix(".cpp", ".hpp", ".cl", ".py"):
+        text = tree.text(name)
+        lines = text.split("\n")
+        # lizard knows OpenCL C by the name of C++.
+        shown = name[: -len(".cl")] + ".cpp" if name.endswith(".cl") else name
+        for function in lizard.analyze_file.analyze_source_code(shown, text).function_list:
+            length = function.end_line - function.start_line + 1
+            around = lines[max(function.start_line - 12, 0):function.end_line]
+            if length > LONGEST_FUNCTION and not any("LONG: " in line for line in around):
+                findings.append(f"{name}:{function.start_line}: {function.name} has {length} lines, "
+                                f"at most {LONGEST_FUNCTION} without a comment `LONG: reason`")
+    return findings
+
+
+def stages(tree: Tree) -> list[str]:
+    """The stages of the table of variants, in its order."""
+    names = re.findall(r'^\s*\{"([a-z_0-9]+)",', tree.text("host/opencl/variants.cpp"), re.MULTILINE)
+    return list(dict.fromkeys(names))
+
+
+def check_twins(tree: Tree, show: bool = True) -> list[str]:
+    """Kernel, stage, reference and test of a stage have its name, but for what the table says."""
+    excused = {(row[0].strip("`"), what.strip()) for row in tree.table("twins") for what in row[1].split(",")}
+    places = {"kernel": "kernels/{}.cl", "stage": "host/stages/{}.hpp", "reference": "host/reference/{}.hpp",
+              "test": "tests/test_{}.cpp"}
+    findings = []
+    if show:
+        print(f"{'stage':22}" + "".join(f"{what:11}" for what in places))
+    for stage in stages(tree):
+        row = f"{stage:22}"
+        for what, pattern in places.items():
+            there = pattern.format(stage) in tree.files
+            row += f"{'yes' if there else ('-' if (stage, what) in excused else 'MISSING'):11}"
+            if not there and (stage, what) not in excused:
+                findings.append(f"{pattern.format(stage)} is missing: the {what} of the stage {stage}")
+            if there and (stage, what) in excused:
+                findings.append(f"doc/design.md section 8 says that {stage} has no {what}, but there is one")
+        if show:
+            print(row)
+    for stage, what in sorted(excused):
+        if stage not in stages(tree) or what not in places:
+            findings.append(f"doc/design.md section 8 excuses {stage}, {what}: there is no such thing")
+    return findings
+
+
+def slug(heading: str) -> str:
+    """The anchor that a Markdown heading gets."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower().replace("`", "")).replace(" ", "-")
+
+
+def anchors(text: str) -> set[str]:
+    text = re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {slug(heading) for heading in headings} | set(re.findall(r'<a name="([^"]+)">', text))
+
+
+def check_references(tree: Tree) -> list[str]:
+    """Sections, files and links that comments and pages name exist."""
+    findings = []
+    sections = {page: set(re.findall(r"^## (\d+)\.", tree.text(f"doc/{page}.md"), re.MULTILINE))
+                for page in ("method", "design")}
+    written = {"kernel_sources.cpp", "source_commit.cpp"}  # by the build
+    path = re.compile(r"(?<![\w./<-])((?:[a-z_]+/)*[a-z_0-9]+\.(?:cl|cpp|hpp|py|sh|md|cmake|toml))(?![\w/])")
+    rooted = ("host/", "kernels/", "include/", "tests/", "scripts/", "doc/", "bench/", "cmake/", "examples/")
+    for name in tree.with_suffix(".cpp", ".hpp", ".cl", ".py", ".sh", ".md", ".cmake", ".txt"):
+        text = tree.text(name)
+        for number, line in enumerate(text.split("\n"), 1):
+            for page, section in re.findall(r"(method|design)\.md,? section (\d+)", line):
+                if section not in sections[page]:
+                    findings.append(f"{name}:{number}: doc/{page}.md has no section {section}")
+            comment = re.search(r"//.*", line) if Path(name).suffix in (".cpp", ".hpp", ".cl") else re.search(".*", line)
+            if not comment or line.startswith("#include"):
+                continue
+            for found in path.findall(comment[0]):
+                if Path(found).suffix in (".toml", ".md", ".py", ".sh") and not found.startswith(rooted):
+                    continue  # a user's file, or one beside a page
+                if found.startswith(rooted):
+                    known = found in tree.files or Path(found).name in written
+                elif name.endswith((".md", ".py", ".sh", ".txt", ".cmake")):
+                    continue
+                else:
+                    known = any(file == found or file.endswith("/" + found) for file in tree.files) or found in written
+                if not known:
+                    findings.append(f"{name}:{number}: there is no file {found}")
+        if name.endswith(".md"):
+            findings += broken_links(tree, name, text)
+    return findings
+
+
+def broken_links(tree: Tree, name: str, text: str) -> list[str]:
+    findings = []
+    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"```.*?```", "", text, flags=re.DOTALL)):
+        if re.match(r"[a-z]+:", target):
+            continue
+        file, _, anchor = target.partition("#")
+        linked = (tree.root / name).parent / file if file else tree.root / name
+        if not linked.exists():
+            findings.append(f"{name}: the link {target} leads nowhere")
+        elif anchor and linked.suffix == ".md" and anchor not in anchors(linked.read_text(encoding="utf-8")):
+            findings.append(f"{name}: {target} has no such heading")
+    return findings
+
+
+def check_constants(tree: Tree, program: str) -> list[str]:
+    """Constants that doc/method.md names exist, with the defaults that it gives."""
+    text = subprocess.run([program, "run", "--help-all"], check=True, capture_output=True, text=True).stdout
+    defaults = dict(re.findall(r"--((?:[a-z]+)\.(?:[a-z_0-9]+)) [A-Za-z|]+(?:=([^\s]+))?", text))
+    page = tree.text("doc/method.md")
+    findings = []
+    sections = {name.split(".")[0] for name in defaults}
+    for name in sorted(set(re.findall(r"`([a-z]+\.(?!cl`)[a-z_0-9]+)`", page))):
+        if name.split(".")[0] in sections and name not in defaults:
+            findings.append(f"doc/method.md: there is no constant {name}")
+    for name, value in re.findall(r"`([a-z]+\.[a-z_0-9]+)` = \"?(-?[\w.]*\w)", page):
+        given = defaults.get(name)
+        if given is None:
+            continue
+        same = float(given) == float(value) if re.match(r"-?[\d.]+$", given) else given == value
+        if not same:
+            findings.append(f"doc/method.md: {name} is {given}, not {value}")
+    return findings
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("repository", type=Path)
+    parser.add_argument("checks", nargs="*", metavar="CHECK")
+    parser.add_argument("--program")
+    options = parser.parse_args()
+    tree = Tree(options.repository)
+    checks = {"includes": check_includes, "lines": check_lines, "functions": check_functions, "twins": check_twins,
+              "references": check_references}
+    if options.program:
+        checks["constants"] = lambda tree: check_constants(tree, options.program)
+    findings = []
+    for check in options.checks or checks:
+        if check not in checks:
+            parser.error(f"there is no check {check}; there are {', '.join(checks)}")
+        found = checks[check](tree)
+        print(f"{check}: {len(found)} findings" if found else f"{check}: fine")
+        findings += found
+    print("\n".join(findings), file=sys.stderr)
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
