@@ -53,13 +53,14 @@ void run_stage(benchmark::State& state, const std::string& stage, const std::str
   Config config = scene().config;
   config.variants[stage] = variant;
   const auto frontend = frontend::make_frontend(scene().sequence.rig(), device, config);
-  bench::run_frontend(*frontend, scene().frames[0], scene().frames[1], config);  // to get warm
+  const auto warm = bench::run_frontend(*frontend, scene().frames[0], scene().frames[1], config);
+  const auto search = bench::search_in_place(warm.previous, config.temporal, false);
   const auto& second = scene().frames[1];
   device.context()->take_profile();
   for (auto unused : state) {
     (void)unused;
     frontend->process({second.stamp_ns, second.left.view(), second.right.view()});
-    frontend->match(Base::previous, bench::search_in_place(frontend->base(Base::previous), config.temporal, false));
+    frontend->match(*warm.first, search);
     double ms = 0;
     for (const auto& [name, time] : device.context()->take_profile()) {
       if (std::find(booked_as.begin(), booked_as.end(), name) != booked_as.end()) ms += time;

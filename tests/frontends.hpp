@@ -63,15 +63,13 @@ inline FrontendResult run_frontend(const RenderedScene& scene, const std::string
   config.variants = variants;
   const auto frontend = frontend::make_frontend(scene.rig, device, config);
   frontend->set_tap(tap);
-  frontend->process(scene.frame(0));
-  frontend->keep(true);
-  frontend->process(scene.frame(1));
+  const auto before = frontend->process(scene.frame(0)), now = frontend->process(scene.frame(1));
   FrontendResult result;
-  result.quads = frontend->match(Base::previous, search_around(frontend->base(Base::previous), radius, step));
+  result.quads = frontend->match(*before, search_around(before->edges, radius, step));
   result.left_edges = frontend->edges(false);
   result.right_edges = frontend->edges(true);
-  result.previous = frontend->base(Base::previous);
-  result.current = frontend->current();
+  result.previous = before->edges;
+  result.current = now->edges;
   return result;
 }
 

@@ -130,12 +130,10 @@ TEST_CASE("frontend: found anywhere, edges are the reference's on every device, 
   const auto find = [&](const std::string& device_name) {
     Device device(device_name);
     const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
-    frontend->process(scene.frame(0));
-    frontend->keep(true);
-    frontend->process(scene.frame(1));
-    const auto matches = frontend->match_anywhere(Base::previous);
-    CHECK(same_bytes(matches, frontend->match_anywhere(Base::key)));
-    const StereoEdges& before = frontend->base(Base::previous);
+    const auto first = frontend->process(scene.frame(0)), second = frontend->process(scene.frame(1));
+    const auto matches = frontend->match_anywhere(*first);
+    CHECK(same_bytes(matches, frontend->match_anywhere(*first)));
+    const StereoEdges& before = first->edges;
     std::size_t right = 0;
     for (std::size_t m = 0; m < matches.size(); ++m) {
       const auto i = static_cast<std::size_t>(matches.previous[m]);
@@ -160,6 +158,60 @@ TEST_CASE("frontend: found anywhere, edges are the reference's on every device, 
     CHECK(shared(found.left_x, found.left_y, found.right_x, expected.left_x, expected.left_y, expected.right_x) > 0.8);
     CHECK(shared(expected.left_x, expected.left_y, expected.right_x, found.left_x, found.left_y, found.right_x) > 0.8);
   }
+}
+
+TEST_CASE("frontend: a rig that is held stays as it was, one that nobody holds serves again", "[frontend][device]") {
+  const RenderedScene scene("cables", 120, 75, 4);
+  auto names = all_devices();
+  names.emplace_back("reference");
+  for (const auto& name : names) {
+    Device device(name);
+    const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+    const auto held = frontend->process(scene.frame(0));
+    const StereoEdges edges = held->edges;
+    const auto* free = frontend->process(scene.frame(1)).get();
+    const auto bytes = frontend->device_bytes();
+    CHECK(free != held.get());
+    CHECK(free->frame == 1);
+    auto second = frontend->process(scene.frame(2));
+    CHECK(second.get() == free);
+    CHECK(second->frame == 2);
+    CHECK(frontend->process(scene.frame(3)).get() != free);  // held by now
+    CHECK((name == "reference" || frontend->device_bytes() > bytes));
+    CHECK(held->frame == 0);
+    CHECK(same_bytes(held->edges, edges));
+
+    const auto other = frontend::make_frontend(scene.rig, device, scene.config);
+    other->process(scene.frame(1));
+    CHECK_THROWS_AS(other->match(*held, search_around(edges, 12)), std::invalid_argument);
+    CHECK_THROWS_AS(other->match_anywhere(*held), std::invalid_argument);
+  }
+}
+
+TEST_CASE("frontend: a rig measures its edges once per disparity offset", "[frontend]") {
+  const RenderedScene scene("cables", 120, 75, 2);
+  Device device("reference");
+  const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+  auto rig = frontend->process(scene.frame(0));
+  REQUIRE(rig->edges.size() > 20);
+  StereoRig nearer = scene.rig;
+  nearer.right.cx -= 0.5;
+  const auto depths = [&](const StereoRig& calibration, double offset) {
+    std::vector<double> values;
+    for (const auto& edge : rig->measured_edges(calibration, offset, 0.07))
+      if (edge) values.push_back(edge->inverse_depth);
+    return values;
+  };
+  const auto far = depths(scene.rig, 0);
+  REQUIRE(far.size() > 10);
+  CHECK(depths(nearer, 0) == far);  // measured already
+  CHECK(depths(nearer, 0.5).front() > far.front());
+  CHECK(depths(scene.rig, 0) == far);
+  const auto* memory = rig.get();
+  rig = nullptr;
+  rig = frontend->process(scene.frame(1));
+  REQUIRE(rig.get() == memory);
+  CHECK(depths(scene.rig, 0) != far);  // of the new frame's edges
 }
 
 TEST_CASE("frontend: every variant of every stage gives the default's bytes, and so does a second run",

@@ -201,6 +201,20 @@ TEST_CASE("odometry: a sequence that begins in the dark starts at the first fram
   check_pose(result, room().world_from_left[1], 4e-3, 0.1);
 }
 
+TEST_CASE("odometry: before the first frame there are no details", "[odometry][device]") {
+  auto names = all_devices();
+  names.emplace_back("reference");
+  for (const auto& name : names) {
+    Device device(name);
+    const StereoOdometry odometry(room().rig, device, room().config);
+    const FrameDetails details = odometry.details();
+    CHECK(details.left_edges.size() == 0);
+    CHECK(details.stereo.size() == 0);
+    CHECK(details.previous_stereo.size() == 0);
+    CHECK(details.quads.size() == 0);
+  }
+}
+
 TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odometry][device]") {
   Device device(all_devices().front());
   StereoOdometry odometry(room().rig, device, room().config);

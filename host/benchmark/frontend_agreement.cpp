@@ -70,17 +70,16 @@ TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig
 
 FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,
                             const FramePrefetcher::Frame& second, const Config& config) {
-  frontend.process(view(first));
-  frontend.keep(true);
-  frontend.process(view(second));
   FrontendOutput output;
-  output.previous = frontend.base(Base::previous);
-  output.scouted = frontend.match(Base::previous, search_in_place(output.previous, config.temporal, true));
-  output.quads = frontend.match(Base::previous, search_in_place(output.previous, config.temporal, false));
-  output.anywhere = frontend.match_anywhere(Base::previous);
+  output.first = frontend.process(view(first));
+  const auto now = frontend.process(view(second));
+  output.previous = output.first->edges;
+  output.scouted = frontend.match(*output.first, search_in_place(output.previous, config.temporal, true));
+  output.quads = frontend.match(*output.first, search_in_place(output.previous, config.temporal, false));
+  output.anywhere = frontend.match_anywhere(*output.first);
   output.left_edges = frontend.edges(false);
   output.right_edges = frontend.edges(true);
-  output.current = frontend.current();
+  output.current = now->edges;
   return output;
 }
 

@@ -8,6 +8,7 @@ namespace quadedge::bench {
 
 /// What a frontend makes of two frames.
 struct FrontendOutput {
+  frontend::RigHandle first;  ///< the first frame's rig
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
   TemporalMatches scouted, quads;  ///< by a scout with its strict limits, and by a guided search

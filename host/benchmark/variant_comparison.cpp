@@ -55,13 +55,13 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   auto& context = *candidate.device->context();
   context.take_profile();
   candidate.frontend->process({input.second.stamp_ns, input.second.left.view(), input.second.right.view()});
-  const StereoEdges& previous = candidate.frontend->base(Base::previous);
+  const frontend::Rig& first = *candidate.output.first;
   const auto match = [&](bool scout) {
-    candidate.frontend->match(Base::previous, search_in_place(previous, input.config.temporal, scout));
+    candidate.frontend->match(first, search_in_place(first.edges, input.config.temporal, scout));
   };
   match(false);
   if (stage != kGuidedMatch) match(true);
-  candidate.frontend->match_anywhere(Base::previous);
+  candidate.frontend->match_anywhere(first);
   const auto names = booked_as(stage);
   double sum = kNaN;
   for (const auto& [name, ms] : context.take_profile()) {

@@ -10,10 +10,7 @@ struct PlacedEdges {
   std::vector<float> x, y, direction;
 };
 
-/// Which rig the current one is matched with.
-enum class Base { previous, key };
-
-/// One entry per stereo edge of the base: where it is expected in the current images.
+/// One entry per stereo edge of the base, an earlier rig: where it is expected in the current images.
 struct TemporalSearch {
   PlacedEdges left, right;
   float radius = 0;    ///< px around the expected place

@@ -13,6 +13,13 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 }  // namespace
 
+DeviceRig::DeviceRig(const StereoRig& calibration) {
+  on_device.left_image.width = calibration.left.width;
+  on_device.left_image.height = calibration.left.height;
+  on_device.right_image.width = calibration.right.width;
+  on_device.right_image.height = calibration.right.height;
+}
+
 DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
                                const Config& config)
     : undistortion(context, table, camera.width, camera.height, config.variants),
@@ -23,7 +30,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
     : context_(context),
       config_(config),
       epipolar_(make_epipolar_geometry(rig, config.stereo)),
-      rig_(rig),
+      calibration_(rig),
       left_(context, rig.left, rig.left_undistortion, config),
       right_(context, rig.right, rig.right_undistortion, config),
       stereo_candidates_(context, config.variants),
@@ -36,19 +43,14 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       wide_description_(context, rig.left.width, rig.left.height, config.variants),
       wide_matching_(context, config.temporal, config.variants) {
   geometry_.write(context, epipolar_.packed());
-  for (auto& slot : rigs_) {
-    slot.left_image.width = rig.left.width;
-    slot.left_image.height = rig.left.height;
-    slot.right_image.width = rig.right.width;
-    slot.right_image.height = rig.right.height;
-  }
   std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
   std::iota(itself.begin(), itself.end(), 0);
   itself_.write(context, itself);
 }
 
-void DeviceFrontend::process(const StereoFrame& frame) {
-  stages::DeviceStereoEdges& rig = rigs_[now_];
+RigHandle DeviceFrontend::process(const StereoFrame& frame) {
+  DeviceRig& current = rigs_.next(calibration_);
+  stages::DeviceStereoEdges& rig = current.on_device;
   left_.undistortion.run(frame.left, rig.left_image.pixels);
   right_.undistortion.run(frame.right, rig.right_image.pixels);
   left_.detection.run(rig.left_image.pixels, left_.edges);
@@ -73,35 +75,27 @@ void DeviceFrontend::process(const StereoFrame& frame) {
     right_.description.describe_sift(right_.edges, right_sift_);
   }
   if (tap_ != nullptr) tap_candidates_without_limits();
-  stereo_candidates_.run(left_.edges, right_.edges, rig_.right.height, geometry_, candidates_);
+  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry_, candidates_);
   context_.begin_stage("stereo_filters");
   filters_.run({rig.left_patches, itself_, left_sift_, itself_}, {right_patches_, itself_, right_sift_, itself_},
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
   refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges,
                   rig.left_patches, geometry_, candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, right_.description, geometry_, candidates_, refined_, clusters_, rig);
-  rig.read(current_);
+  rig.read(current.edges);
   rig.has_sift = false;
   indexed_ = false;
   if (tap_ != nullptr) tap_stereo();
-}
-
-void DeviceFrontend::keep(bool as_key) {
-  previous_rig_ = now_;
-  previous_ = current_;
-  if (as_key) {
-    key_rig_ = now_;
-    key_ = current_;
-  }
-  while (now_ == previous_rig_ || now_ == key_rig_) now_ = (now_ + 1) % 3;
+  return rigs_.current_handle();
 }
 
 void DeviceFrontend::index_current() {
   if (indexed_) return;
-  left_index_.build(context_, current_.left_x, current_.left_y, current_.left_direction, rig_.left.width,
-                    rig_.left.height);
-  right_index_.build(context_, current_.right_x, current_.right_y, current_.right_direction, rig_.right.width,
-                     rig_.right.height);
+  const StereoEdges& edges = rigs_.current().edges;
+  left_index_.build(context_, edges.left_x, edges.left_y, edges.left_direction, calibration_.left.width,
+                    calibration_.left.height);
+  right_index_.build(context_, edges.right_x, edges.right_y, edges.right_direction, calibration_.right.width,
+                     calibration_.right.height);
   indexed_ = true;
 }
 
@@ -110,8 +104,8 @@ stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges
   return {rig.left_patches, rig.left_index, rig.left_sift, itself_};
 }
 
-void DeviceFrontend::describe_by_sift(stages::DeviceStereoEdges& rig, const StereoEdges& edges) {
-  if (rig.has_sift) return;
+void DeviceFrontend::describe_by_sift(DeviceRig& rig) {
+  if (rig.on_device.has_sift) return;
   const auto describe = [&](stages::EdgeDescription& description, const stages::DeviceImage& image,
                             const PlacedEdges& places, opencl::Buffer<cl_uchar>& sift) {
     described_places_.write(context_, places);
@@ -119,33 +113,31 @@ void DeviceFrontend::describe_by_sift(stages::DeviceStereoEdges& rig, const Ster
     description.describe_sift(described_places_.x, described_places_.y, described_places_.direction,
                               described_places_.count, sift);
   };
-  describe(left_.description, rig.left_image, {edges.left_x, edges.left_y, edges.left_direction}, rig.left_sift);
-  describe(right_.description, rig.right_image, {edges.right_x, edges.right_y, edges.right_direction}, rig.right_sift);
-  rig.has_sift = true;
+  const StereoEdges& edges = rig.edges;
+  describe(left_.description, rig.on_device.left_image, {edges.left_x, edges.left_y, edges.left_direction},
+           rig.on_device.left_sift);
+  describe(right_.description, rig.on_device.right_image, {edges.right_x, edges.right_y, edges.right_direction},
+           rig.on_device.right_sift);
+  rig.on_device.has_sift = true;
 }
 
-void DeviceFrontend::previous_to_key() {
-  key_rig_ = previous_rig_;
-  key_ = previous_;
-}
-
-void DeviceFrontend::match_side(int side, Base base, const TemporalSearch& search,
+void DeviceFrontend::match_side(int side, DeviceRig& base, const TemporalSearch& search,
                                 stages::DeviceCandidates& candidates) {
-  stages::DeviceStereoEdges& before = rig_of(base);
+  DeviceRig& current = rigs_.current();
   temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius,
                            static_cast<float>(config_.temporal.orientation * kDegree), candidates);
   const FilterLimits limits = temporal_limits(config_.temporal, search);
   if (tap_ != nullptr || limits.sift_max > 0) {
-    describe_by_sift(before, this->base(base));
-    describe_by_sift(rigs_[now_], current_);
+    describe_by_sift(base);
+    describe_by_sift(current);
   }
   context_.begin_stage("temporal_filters");
-  filters_.run(described(before, side == 1), described(rigs_[now_], side == 1), limits, search.step, tap_ != nullptr,
-               candidates);
+  filters_.run(described(base.on_device, side == 1), described(current.on_device, side == 1), limits, search.step,
+               tap_ != nullptr, candidates);
   if (tap_ != nullptr) tap_temporal(side, search);
 }
 
-void DeviceFrontend::match_by_lists(Base base, const TemporalSearch& search, TemporalMatches& matches) {
+void DeviceFrontend::match_by_lists(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
   match_side(0, base, search, temporal_left_);
   match_side(1, base, search, temporal_right_);
   counts_.temporal_left = temporal_left_.living_rows();
@@ -155,10 +147,13 @@ void DeviceFrontend::match_by_lists(Base base, const TemporalSearch& search, Tem
     tap_->temporal_filter(kAgreementOrder, kTemporalFilters[kAgreementOrder], 0,
                           temporal_left_.alive_after(kAgreementOrder, nullptr));
   }
-  matches = temporal_quads_.collect(rigs_[now_], current_, search, predicted_[0], temporal_left_);
+  const DeviceRig& current = rigs_.current();
+  matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_[0], temporal_left_);
 }
 
-void DeviceFrontend::match(Base base, const TemporalSearch& search, TemporalMatches& matches) {
+void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
+  DeviceRig& base = rigs_.own(base_rig);
+  const DeviceRig& current = rigs_.current();
   index_current();
   predicted_[0].write(context_, search.left);
   predicted_[1].write(context_, search.right);
@@ -166,8 +161,8 @@ void DeviceFrontend::match(Base base, const TemporalSearch& search, TemporalMatc
     tap_->temporal_search({search.left.x, search.left.y, search.left.direction},
                           {search.right.x, search.right.y, search.right.direction}, search.radius, search.step);
   } else if (temporal_match_.serves(search)) {
-    if (const auto alive = temporal_match_.run(predicted_[0], predicted_[1], search, rig_of(base), rigs_[now_],
-                                               left_index_, right_index_, itself_, current_, matches)) {
+    if (const auto alive = temporal_match_.run(predicted_[0], predicted_[1], search, base.on_device, current.on_device,
+                                               left_index_, right_index_, itself_, current.edges, matches)) {
       counts_.temporal_left = alive->left;
       counts_.temporal_right = alive->right;
       return;
@@ -177,21 +172,21 @@ void DeviceFrontend::match(Base base, const TemporalSearch& search, TemporalMatc
   if (tap_ != nullptr) tap_->quads(matches);
 }
 
-void DeviceFrontend::match_anywhere(Base base, TemporalMatches& matches) {
-  const stages::DeviceStereoEdges& before = rig_of(base);
-  const stages::DeviceStereoEdges& current = rigs_[now_];
+void DeviceFrontend::match_anywhere(const Rig& base, TemporalMatches& matches) {
+  const stages::DeviceStereoEdges& before = rigs_.own(base).on_device;
+  const stages::DeviceStereoEdges& current = rigs_.current().on_device;
   const int before_step = wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);
   const int step = wide_step(static_cast<std::size_t>(current.count), 2 * config_.temporal.wide_edges);
   wide_description_.prepare(before.left_image.pixels, small_);
   const int before_rows = wide_description_.describe(small_, before, before_step, wide_before_);
   wide_description_.prepare(current.left_image.pixels, small_);
   const int rows = wide_description_.describe(small_, current, step, wide_now_);
-  matches =
-      wide_matching_.run({before, before_step, before_rows, wide_before_}, {current, step, rows, wide_now_}, current_);
+  matches = wide_matching_.run({before, before_step, before_rows, wide_before_}, {current, step, rows, wide_now_},
+                               rigs_.current().edges);
 }
 
 EdgeSet DeviceFrontend::edges(bool right) {
-  return right ? right_.edges.read(rig_.right.height) : left_.edges.read(rig_.left.height);
+  return right ? right_.edges.read(calibration_.right.height) : left_.edges.read(calibration_.left.height);
 }
 
 }  // namespace quadedge::frontend

@@ -18,16 +18,20 @@
 
 namespace quadedge::frontend {
 
-/// Owns every stage and the memory of three rigs.
+/// A rig with its memory on the device.
+struct DeviceRig : Rig {
+  explicit DeviceRig(const StereoRig& calibration);
+  stages::DeviceStereoEdges on_device;
+};
+
+/// Owns every stage and the rigs.
 class DeviceFrontend : public Frontend {
  public:
   DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config);
 
-  void process(const StereoFrame& frame) override;
-  void keep(bool as_key) override;
-  void previous_to_key() override;
-  void match(Base base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_anywhere(Base base, TemporalMatches& matches) override;
+  RigHandle process(const StereoFrame& frame) override;
+  void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
+  void match_anywhere(const Rig& base, TemporalMatches& matches) override;
   EdgeSet edges(bool right) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
@@ -43,12 +47,11 @@ class DeviceFrontend : public Frontend {
 
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
-  stages::DeviceStereoEdges& rig_of(Base base) { return rigs_[base == Base::key ? key_rig_ : previous_rig_]; }
   stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, bool right) const;
-  /// SIFT descriptors of a rig's stereo edges, unless it has them; `edges`: the same on the host.
-  void describe_by_sift(stages::DeviceStereoEdges& rig, const StereoEdges& edges);
-  void match_side(int side, Base base, const TemporalSearch& search, stages::DeviceCandidates& candidates);
-  void match_by_lists(Base base, const TemporalSearch& search, TemporalMatches& matches);
+  /// SIFT descriptors of a rig's stereo edges, unless it has them.
+  void describe_by_sift(DeviceRig& rig);
+  void match_side(int side, DeviceRig& base, const TemporalSearch& search, stages::DeviceCandidates& candidates);
+  void match_by_lists(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches);
   void tap_stereo();
   void tap_candidates_without_limits();
   void tap_temporal(int side, const TemporalSearch& search);
@@ -57,7 +60,7 @@ class DeviceFrontend : public Frontend {
   Config config_;
   EpipolarGeometry epipolar_;
   opencl::Buffer<cl_float> geometry_;
-  StereoRig rig_;
+  StereoRig calibration_;
   Camera left_, right_;
   stages::StereoCandidates stereo_candidates_;
   stages::CandidateFilters filters_;
@@ -82,8 +85,7 @@ class DeviceFrontend : public Frontend {
       right_sift_{context_, 0};  ///< of every edge, where the stereo cascade asks for SIFT
   stages::DevicePlaces described_places_;
   opencl::Buffer<cl_int> itself_;  ///< 0, 1, 2 ...
-  stages::DeviceStereoEdges rigs_[3];
-  int now_ = 0, previous_rig_ = 1, key_rig_ = 1;  ///< places in rigs_
+  RigPool<DeviceRig> rigs_;
 };
 
 }  // namespace quadedge::frontend

@@ -29,7 +29,7 @@ void DeviceFrontend::tap_candidates_without_limits() {
   opencl::Buffer<cl_float> geometry;
   for (int order = 1; order < kStereoSiftOrder - 1; ++order) {
     geometry.write(context_, without_limits(epipolar_, order < 2, order < 3).packed());
-    stereo_candidates_.run(left_.edges, right_.edges, rig_.right.height, geometry, lists);
+    stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, lists);
     lists.rejected_by.fill(0, static_cast<std::size_t>(lists.host_total));
     tap_->stereo_filter(order, stereo_name(order), lists.alive_after(order, nullptr));
   }
@@ -63,7 +63,7 @@ void DeviceFrontend::tap_stereo() {
     const int order = only_similar ? 9 : 8;
     tap_->stereo_filter(order, stereo_name(order), lists);
   }
-  tap_->stereo(current_);
+  tap_->stereo(rigs_.current().edges);
 }
 
 void DeviceFrontend::tap_temporal(int side, const TemporalSearch& search) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "common/temporal_search.hpp"
+#include "frontend/rig.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
@@ -21,37 +22,32 @@ struct FrontendCounts {
   int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() that keep a candidate before the agreement
 };
 
-/// Two implementations: the OpenCL stages, and the plain C++ reference. Holds three rigs: the current one,
-/// the previous one and the key rig (which may be the previous one).
+/// Two implementations: the OpenCL stages, and the plain C++ reference. The caller decides which rigs are kept, by
+/// holding their handles.
 class Frontend {
  public:
   virtual ~Frontend() = default;
 
-  /// Stages 1 to 5 of doc/design.md section 1: images to stereo edges. Overwrites the current rig.
-  virtual void process(const StereoFrame& frame) = 0;
-  /// The current rig becomes the previous one, and the key rig too if `as_key`.
-  virtual void keep(bool as_key) = 0;
-  /// The previous rig becomes the key rig too.
-  virtual void previous_to_key() = 0;
-  /// Stage 6: quads between a base and the current rig. `search` has one entry per stereo edge of the base.
-  /// Replaces `matches`, as match_anywhere() does.
-  virtual void match(Base base, const TemporalSearch& search, TemporalMatches& matches) = 0;
+  /// Stages 1 to 5 of doc/design.md section 1: images to stereo edges. \returns the rig, which is the current one until
+  /// the next call; it is overwritten then unless somebody holds a handle.
+  virtual RigHandle process(const StereoFrame& frame) = 0;
+  /// Stage 6: quads between an earlier rig, the base, and the current one. `search` has one entry per stereo edge of
+  /// the base. Replaces `matches`, as match_anywhere() does.
+  virtual void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
   /// Quads between a part of a base's edges and the current rig, found anywhere in the left image by what surrounds
   /// them.
-  virtual void match_anywhere(Base base, TemporalMatches& matches) = 0;
-  TemporalMatches match(Base base, const TemporalSearch& search) {
+  virtual void match_anywhere(const Rig& base, TemporalMatches& matches) = 0;
+  TemporalMatches match(const Rig& base, const TemporalSearch& search) {
     TemporalMatches matches;
     match(base, search, matches);
     return matches;
   }
-  TemporalMatches match_anywhere(Base base) {
+  TemporalMatches match_anywhere(const Rig& base) {
     TemporalMatches matches;
     match_anywhere(base, matches);
     return matches;
   }
 
-  const StereoEdges& current() const { return current_; }
-  const StereoEdges& base(Base base) const { return base == Base::key ? key_ : previous_; }
   const FrontendCounts& counts() const { return counts_; }
 
   /// Edges of the current left or right image.
@@ -62,7 +58,6 @@ class Frontend {
   void set_tap(Tap* tap) { tap_ = tap; }
 
  protected:
-  StereoEdges current_, previous_, key_;
   FrontendCounts counts_;
   Tap* tap_ = nullptr;
 };

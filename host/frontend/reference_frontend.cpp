@@ -65,84 +65,71 @@ int living_rows(const reference::Candidates& candidates, const reference::Candid
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
-    : rig_(rig), config_(config), epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
+    : calibration_(rig), config_(config), epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
 
-void ReferenceFrontend::process(const StereoFrame& frame) {
+RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
+  ReferenceRig& now = rigs_.next();
   counts_ = {};
-  now_.left = pinhole_image(frame.left, rig_.left_undistortion);
-  now_.right = pinhole_image(frame.right, rig_.right_undistortion);
-  left_edges_ = detect(now_.left, config_.edges, counts_.dropped_edges);
-  right_edges_ = detect(now_.right, config_.edges, counts_.dropped_edges);
+  now.left = pinhole_image(frame.left, calibration_.left_undistortion);
+  now.right = pinhole_image(frame.right, calibration_.right_undistortion);
+  left_edges_ = detect(now.left, config_.edges, counts_.dropped_edges);
+  right_edges_ = detect(now.right, config_.edges, counts_.dropped_edges);
   counts_.edges_left = static_cast<int>(left_edges_.size());
   counts_.edges_right = static_cast<int>(right_edges_.size());
-  const auto left = describe(now_.left, left_edges_, config_), right = describe(now_.right, right_edges_, config_);
+  const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);
 
   const auto candidates = reference::stereo_candidates(left_edges_, right_edges_, epipolar_);
   auto scores = reference::candidate_filters(candidates, left, right, stereo_limits(config_.stereo));
   const auto refined =
-      reference::stereo_refinement(now_.left.view(), now_.right.view(), left.patches, left_edges_, right_edges_,
+      reference::stereo_refinement(now.left.view(), now.right.view(), left.patches, left_edges_, right_edges_,
                                    epipolar_, candidates, config_.stereo, config_.patches.offset, scores);
   const auto clusters = reference::stereo_clusters(candidates, scores, refined, right_edges_, config_.stereo);
-  current_ = reference::stereo_mutual(clusters, reference::stereo_best(clusters, config_.stereo), left_edges_,
-                                      epipolar_, config_.stereo);
+  now.edges = reference::stereo_mutual(clusters, reference::stereo_best(clusters, config_.stereo), left_edges_,
+                                       epipolar_, config_.stereo);
 
-  now_.left_descriptions = {rows_of(left.patches, current_.left_index, kEdgePatchBytes),
-                            rows_of(left.sift, current_.left_index, kEdgeSiftBytes)};
-  now_.right_descriptions = {reference::side_patches(now_.right.view(), current_.right_x, current_.right_y,
-                                                     current_.right_direction, config_.patches),
-                             reference::sift_descriptors(now_.right.view(), current_.right_x, current_.right_y,
-                                                         current_.right_direction, config_.sift)};
+  now.left_descriptions = {rows_of(left.patches, now.edges.left_index, kEdgePatchBytes),
+                           rows_of(left.sift, now.edges.left_index, kEdgeSiftBytes)};
+  now.right_descriptions = {reference::side_patches(now.right.view(), now.edges.right_x, now.edges.right_y,
+                                                    now.edges.right_direction, config_.patches),
+                            reference::sift_descriptors(now.right.view(), now.edges.right_x, now.edges.right_y,
+                                                        now.edges.right_direction, config_.sift)};
+  return rigs_.current_handle();
 }
 
-void ReferenceFrontend::keep(bool as_key) {
-  if (as_key) {
-    key_memory_ = now_;
-    key_ = current_;
-  }
-  before_ = std::move(now_);
-  now_ = {};
-  previous_ = current_;
-}
-
-void ReferenceFrontend::previous_to_key() {
-  key_memory_ = before_;
-  key_ = previous_;
-}
-
-reference::Candidates ReferenceFrontend::side_candidates(int side, const TemporalSearch& search) const {
-  const PlacedEdges current = side == 0 ? PlacedEdges{current_.left_x, current_.left_y, current_.left_direction}
-                                        : PlacedEdges{current_.right_x, current_.right_y, current_.right_direction};
-  const PinholeCamera& camera = side == 0 ? rig_.left : rig_.right;
+reference::Candidates ReferenceFrontend::side_candidates(int side, const TemporalSearch& search) {
+  const StereoEdges& edges = rigs_.current().edges;
+  const PlacedEdges current = side == 0 ? PlacedEdges{edges.left_x, edges.left_y, edges.left_direction}
+                                        : PlacedEdges{edges.right_x, edges.right_y, edges.right_direction};
+  const PinholeCamera& camera = side == 0 ? calibration_.left : calibration_.right;
   PointIndex index;
   make_point_index(current.x, current.y, camera.width, camera.height, index);
   return reference::temporal_candidates(side == 0 ? search.left : search.right, current, index, search.radius,
                                         static_cast<float>(config_.temporal.orientation * kDegree), search.step);
 }
 
-void ReferenceFrontend::match(Base base, const TemporalSearch& search, TemporalMatches& matches) {
-  const RigMemory& before = base == Base::key ? key_memory_ : before_;
+void ReferenceFrontend::match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) {
+  const ReferenceRig& before = rigs_.own(base);
+  const ReferenceRig& now = rigs_.current();
   const auto limits = temporal_limits(config_.temporal, search);
   const auto left = side_candidates(0, search), right = side_candidates(1, search);
   auto left_scores =
-      reference::candidate_filters(left, before.left_descriptions, now_.left_descriptions, limits, search.step);
+      reference::candidate_filters(left, before.left_descriptions, now.left_descriptions, limits, search.step);
   const auto right_scores =
-      reference::candidate_filters(right, before.right_descriptions, now_.right_descriptions, limits, search.step);
+      reference::candidate_filters(right, before.right_descriptions, now.right_descriptions, limits, search.step);
   counts_.temporal_left = living_rows(left, left_scores);
   counts_.temporal_right = living_rows(right, right_scores);
   const auto agreement = reference::temporal_agreement(left, left_scores, right, right_scores);
-  matches = reference::temporal_best(left, left_scores, agreement, current_, config_.temporal, search);
+  matches = reference::temporal_best(left, left_scores, agreement, now.edges, config_.temporal, search);
 }
 
-void ReferenceFrontend::match_anywhere(Base base_name, TemporalMatches& matches) {
-  const RigMemory& before = base_name == Base::key ? key_memory_ : before_;
-  const auto describe_some = [](const Image& image, const StereoEdges& edges, int wanted) {
-    const int step = wide_step(edges.size(), wanted);
-    return reference::WideEdges{edges, step,
-                                reference::wide_descriptions(reference::shrink(image.view()), edges, step)};
+void ReferenceFrontend::match_anywhere(const Rig& base, TemporalMatches& matches) {
+  const auto describe_some = [](const ReferenceRig& rig, int wanted) {
+    const int step = wide_step(rig.edges.size(), wanted);
+    return reference::WideEdges{rig.edges, step,
+                                reference::wide_descriptions(reference::shrink(rig.left.view()), rig.edges, step)};
   };
-  matches =
-      reference::wide_matches(describe_some(before.left, base(base_name), config_.temporal.wide_edges),
-                              describe_some(now_.left, current_, 2 * config_.temporal.wide_edges), config_.temporal);
+  matches = reference::wide_matches(describe_some(rigs_.own(base), config_.temporal.wide_edges),
+                                    describe_some(rigs_.current(), 2 * config_.temporal.wide_edges), config_.temporal);
 }
 
 }  // namespace quadedge::frontend

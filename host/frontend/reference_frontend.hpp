@@ -7,33 +7,31 @@
 
 namespace quadedge::frontend {
 
+/// A rig with its images and the descriptions of its stereo edges.
+struct ReferenceRig : Rig {
+  Image left, right;
+  reference::EdgeDescriptions left_descriptions, right_descriptions;
+};
+
 /// Slow, clear, single-threaded.
 class ReferenceFrontend : public Frontend {
  public:
   ReferenceFrontend(const StereoRig& rig, const Config& config);
 
-  void process(const StereoFrame& frame) override;
-  void keep(bool as_key) override;
-  void previous_to_key() override;
-  void match(Base base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_anywhere(Base base, TemporalMatches& matches) override;
+  RigHandle process(const StereoFrame& frame) override;
+  void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
+  void match_anywhere(const Rig& base, TemporalMatches& matches) override;
   EdgeSet edges(bool right) override { return right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
 
  private:
-  /// Images and descriptions of one rig's stereo edges.
-  struct RigMemory {
-    Image left, right;
-    reference::EdgeDescriptions left_descriptions, right_descriptions;
-  };
+  reference::Candidates side_candidates(int side, const TemporalSearch& search);
 
-  reference::Candidates side_candidates(int side, const TemporalSearch& search) const;
-
-  StereoRig rig_;
+  StereoRig calibration_;
   Config config_;
   EpipolarGeometry epipolar_;
   EdgeSet left_edges_, right_edges_;
-  RigMemory now_, before_, key_memory_;
+  RigPool<ReferenceRig> rigs_;
 };
 
 }  // namespace quadedge::frontend

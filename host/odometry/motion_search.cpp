@@ -20,15 +20,7 @@ constexpr double kExplained = 1.0 / 3.0;
 }  // namespace
 
 const pose::MeasuredEdges& MotionSearch::measured(Base base, const MotionPrior& prior) {
-  const bool key = base == Base::key;
-  MeasuredBase& known = key ? measured_key_ : measured_previous_;
-  const int frame = key ? prior.key_frame : prior.previous_frame;
-  if (known.frame != frame || known.offset != offset_.value()) {
-    known.frame = frame;
-    known.offset = offset_.value();
-    pose::measure_edges(offset_.rig(), frontend_.base(base), radians(config_.stereo.min_epipolar_angle), known.edges);
-  }
-  return known.edges;
+  return prior.rig(base).measured_edges(offset_.rig(), offset_.value(), radians(config_.stereo.min_epipolar_angle));
 }
 
 StepHandle MotionSearch::new_step(Base base) {
@@ -44,7 +36,7 @@ StepHandle MotionSearch::new_step(Base base) {
 void MotionSearch::estimate(const std::optional<Eigen::Isometry3d>& prediction, const PoseConfig& limits,
                             const MotionPrior& prior, MotionStep& step) {
   const StereoRig& rig = offset_.rig();
-  builder_.build(rig, measured(step.base, prior), frontend_.current(), step.matches, pose::QuadLimits(config_),
+  builder_.build(rig, measured(step.base, prior), prior.current->edges, step.matches, pose::QuadLimits(config_),
                  step.quads);
   estimator_.estimate(rig, step.quads, limits, prior.seed, prediction, offset_.variance(), step.motion);
 }
@@ -54,12 +46,12 @@ StepHandle MotionSearch::scout(const MotionPrior& prior, double radius) {
   PoseConfig lenient = config_.pose;
   lenient.min_inlier_ratio = config_.temporal.coarse_min_inlier_ratio;
   lenient.min_spread = 0;
-  const StereoEdges& base = frontend_.base(prior.base);
+  const StereoEdges& base = prior.rig(prior.base).edges;
   const int every = std::max(1, static_cast<int>(base.size()) / config_.temporal.coarse_edges);
   predict_places(offset_.rig(), base, measured(prior.base, prior), prior.prediction, radius, every, search_);
   search_.scout = true;
   StepHandle step = new_step(prior.base);
-  frontend_.match(prior.base, search_, step->matches);
+  frontend_.match(prior.rig(prior.base), search_, step->matches);
   estimate(prior.prediction, lenient, prior, *step);
   return step;
 }
@@ -75,7 +67,7 @@ void MotionSearch::suggest_anywhere(const MotionPrior& prior, MotionStep& step) 
 /// Looks for the motion since the base, however large, with edges that what surrounds them tells from all others.
 StepHandle MotionSearch::look_anywhere(const MotionPrior& prior) {
   StepHandle step = new_step(prior.base);
-  frontend_.match_anywhere(prior.base, step->matches);
+  frontend_.match_anywhere(prior.rig(prior.base), step->matches);
   suggest_anywhere(prior, *step);
   return step;
 }
@@ -89,7 +81,7 @@ StepHandle MotionSearch::look_beside(const MotionStep& seen, const MotionPrior& 
     agrees_[static_cast<std::size_t>(seen.quads.match[q])] = seen.motion.inlier[q];
   for (std::size_t m = 0; m < seen.matches.size(); ++m)
     if (agrees_[m] == 0)
-      step->matches.append(seen.matches.previous[m], seen.matches.current[m], frontend_.current(), seen.matches.ncc[m],
+      step->matches.append(seen.matches.previous[m], seen.matches.current[m], prior.current->edges, seen.matches.ncc[m],
                            seen.matches.rivals[m]);
   suggest_anywhere(prior, *step);
   return step;
@@ -141,13 +133,13 @@ bool MotionSearch::is_seen(const MotionStep& anywhere, const MotionStep& found, 
 /// the places stay. Within so few pixels a wrong motion finds some support too: a true one has to find more.
 StepHandle MotionSearch::match(Base base, Eigen::Isometry3d motion, const MotionPrior& prior) {
   const auto predict = [&](int every, TemporalSearch& search) {
-    predict_places(offset_.rig(), frontend_.base(base), measured(base, prior), motion, config_.temporal.radius, every,
+    predict_places(offset_.rig(), prior.rig(base).edges, measured(base, prior), motion, config_.temporal.radius, every,
                    search);
   };
   predict(1, search_);
   StepHandle step = new_step(base);
   for (int round = 0; round < config_.temporal.rounds; ++round) {
-    frontend_.match(base, search_, step->matches);
+    frontend_.match(prior.rig(base), search_, step->matches);
     estimate(motion, config_.pose, prior, *step);
     const int in_view = count_in_view(rig_.left, search_.left);
     step->support = step->motion.inliers / std::max(1.0, static_cast<double>(in_view));

@@ -15,6 +15,9 @@
 
 namespace quadedge::odometry {
 
+/// Which rig the current one is matched with.
+enum class Base { previous, key };
+
 /// Quads between a base and the current frame, and the motion they agree on.
 struct MotionStep {
   Base base = Base::previous;
@@ -31,11 +34,14 @@ using StepHandle = Pool<MotionStep>::Handle;
 
 /// What is known of the current frame's motion before its edges are matched with earlier ones.
 struct MotionPrior {
+  const frontend::Rig& rig(Base which) const { return which == Base::key ? *key : *previous; }
+
+  frontend::RigHandle current;
   Base base = Base::previous;                                  ///< the rig to start from
   std::optional<Eigen::Isometry3d> prediction = std::nullopt;  ///< current_from_base by constant velocity
   std::optional<Eigen::Isometry3d> base_from_key =
-      std::nullopt;                       ///< the key rig beyond the base, preferred where it is in sight
-  int key_frame = 0, previous_frame = 0;  ///< numbers of the frames that the frontend's rigs show
+      std::nullopt;  ///< the key rig beyond the base, preferred where it is in sight
+  frontend::RigHandle key, previous;
   std::uint64_t seed = 0;
 };
 
@@ -53,12 +59,6 @@ class MotionSearch {
   StepHandle find(const MotionPrior& prior);
 
  private:
-  /// A base's measured edges, kept while the rig and its calibration stay.
-  struct MeasuredBase {
-    int frame = -1;
-    double offset = 0;  ///< of the disparities
-    pose::MeasuredEdges edges;
-  };
   const pose::MeasuredEdges& measured(Base base, const MotionPrior& prior);
 
   StepHandle new_step(Base base);
@@ -78,7 +78,6 @@ class MotionSearch {
   Config config_;
   frontend::Frontend& frontend_;
   const DisparityOffset& offset_;
-  MeasuredBase measured_key_, measured_previous_;
 
   // Buffers that are kept from frame to frame.
   Pool<MotionStep> steps_;

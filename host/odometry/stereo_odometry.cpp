@@ -110,6 +110,7 @@ class StereoOdometry::Implementation {
   odometry::MotionSearch search_;
   odometry::KeyRig key_rig_;
 
+  frontend::RigHandle current_handle_, previous_handle_, key_handle_;
   int frame_ = -1;             ///< number of the current frame
   bool has_base_ = false;      ///< a frame that the next one is matched with
   bool keep_pending_ = false;  ///< the current frame is the next one's base
@@ -140,14 +141,16 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   FrameResult result;
   result.stamp_ns = frame.stamp_ns;
 
-  if (base_to_key_pending_) frontend_->previous_to_key();
-  if (keep_pending_) frontend_->keep(key_pending_);
+  if (base_to_key_pending_) key_handle_ = previous_handle_;
+  if (keep_pending_) previous_handle_ = current_handle_;
+  if (keep_pending_ && key_pending_) key_handle_ = current_handle_;
   base_to_key_pending_ = keep_pending_ = false;
-  frontend_->process(frame);
+  current_handle_ = nullptr;
+  current_handle_ = frontend_->process(frame);
   result.stages.push_back({"stereo", clock.lap()});
   result.counts.edges_left = frontend_->counts().edges_left;
   result.counts.edges_right = frontend_->counts().edges_right;
-  result.counts.stereo_edges = static_cast<int>(frontend_->current().size());
+  result.counts.stereo_edges = static_cast<int>(current_handle_->edges.size());
   if (frontend_->counts().dropped_edges > 0) {
     result.overflow = true;
     result.message = std::to_string(frontend_->counts().dropped_edges) + " edges beyond edges.max_edges were dropped";
@@ -198,17 +201,17 @@ odometry::StepHandle StereoOdometry::Implementation::find_motion(FrameResult& re
   odometry::MotionPrior prior;
   prior.seed = config_.seed + static_cast<std::uint64_t>(frame_);
   prior.prediction = predicted_motion();
-  prior.key_frame = key_rig_.frame();
-  prior.previous_frame = base_frame_;
+  prior.current = current_handle_;
+  prior.key = key_handle_;
+  prior.previous = previous_handle_;
   if (base_frame_ == key_rig_.frame()) {
-    prior.base = Base::key;
+    prior.base = odometry::Base::key;
   } else {
     prior.base_from_key = base_from_key_;
   }
   odometry::StepHandle step = search_.find(prior);
   if (step->ok() || !unplaced_) return step;
-  prior.base = Base::previous;
-  prior.previous_frame = unplaced_->frame;
+  prior.base = odometry::Base::previous;
   prior.prediction = std::nullopt;
   odometry::StepHandle restart = search_.find(prior);
   if (!restart->ok()) return step;
@@ -222,7 +225,7 @@ odometry::StepHandle StereoOdometry::Implementation::find_motion(FrameResult& re
 /// Pose against the key rig, or against the previous frame where the key rig is out of sight: then this frame is the
 /// next key rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
-  const bool by_key = step.base == Base::key;
+  const bool by_key = step.base == odometry::Base::key;
   Eigen::Isometry3d current_from_key = step.motion.current_from_previous;
   Eigen::Matrix<double, 6, 6> covariance = step.motion.covariance;
   if (!by_key) {
@@ -232,7 +235,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   odometry::KeyRigState state;
   state.quads = static_cast<int>(step.matches.size());
   state.inlier_share = step.motion.share;
-  state.median_parallax = odometry::median_parallax(frontend_->base(step.base), step.matches, distances_);
+  state.median_parallax =
+      odometry::median_parallax((by_key ? key_handle_ : previous_handle_)->edges, step.matches, distances_);
   state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();
   state.frames = frame_ - key_rig_.frame();
   result.disparity_offset = offset_.value() + step.motion.offset;
@@ -290,10 +294,12 @@ void StereoOdometry::Implementation::become_base(const FrameResult& result) {
 
 FrameDetails StereoOdometry::Implementation::details() const {
   FrameDetails details;
+  if (!current_handle_) return details;
   details.left_edges = frontend_->edges(false);
   details.right_edges = frontend_->edges(true);
-  details.previous_stereo = frontend_->base(last_step_ ? last_step_->base : Base::previous);
-  details.stereo = frontend_->current();
+  const auto& matched = last_step_ && last_step_->base == odometry::Base::key ? key_handle_ : previous_handle_;
+  if (matched) details.previous_stereo = matched->edges;
+  details.stereo = current_handle_->edges;
   if (!last_step_) return details;
   const odometry::MotionStep& step = *last_step_;
   details.quads = step.matches;
