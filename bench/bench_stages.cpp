@@ -76,7 +76,7 @@ void register_stages() {
     const std::string stage = variant.stage, name = variant.name;
     std::vector<std::string> booked_as = {stage};
     if (stage == "candidate_filters") booked_as = {"stereo_filters", "temporal_filters"};
-    if (stage == "scan") booked_as = {"edges", "stereo_candidates", "temporal_candidates"};
+    if (stage == "scan") booked_as = {"edge_detection", "stereo_candidates", "temporal_candidates"};
     benchmark::RegisterBenchmark((stage + "/" + name).c_str(),
                                  [=](benchmark::State& state) { run_stage(state, stage, name, booked_as); })
         ->UseManualTime()
