@@ -10,7 +10,7 @@ TARGET/slam/training/NAME, TARGET/two_view_training/NAME and TARGET/two_view_tra
 is not loaded again. A transfer that breaks off goes on where it stopped, at once or when the script is started again. Every archive is
 checked: its size, the checksums inside it, and its SHA-256 where one is known, from --checksums or from an earlier download
 (TARGET/SHA256SUMS). `quadedge check TARGET` says what is there and what is missing, by the list in TARGET/eth3d_published.txt.
-Needs Python alone, and for the pairs the program 7z (Debian: p7zip-full).
+Needs the program curl, and for the pairs 7z (Debian: p7zip-full).
 Exit code: 0 all is there, 1 something could not be loaded, 2 wrong usage.
 """
 
@@ -21,29 +21,74 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
+import urllib.parse
 import zipfile
+import zlib
 from pathlib import Path
-
-from transfer import BLOCK, Problem, fetch
 
 ADDRESS = "https://www.eth3d.net/data"
 SLAM_LIST = "slam/dataset_list_training.txt"
 SLAM_PARTS = ("mono", "stereo")  # rgb/ with its calibration and ground truth, then what the second camera adds
 TWO_VIEW = ("two_view_training", "two_view_training_gt")
 
+# Ends with the script, also a killed one, so that two never write the same file. --no-buffer: a kill loses nothing that has arrived.
+CURL = ["setpriv", "--pdeathsig", "KILL", "curl", "--disable", "--fail", "--location", "--no-buffer", "--continue-at", "-"]
+CURL += ["--connect-timeout", "60", "--speed-limit", "1", "--speed-time", "60", "--write-out", "%{http_code}"]  # s without a byte
+
+
+class Problem(Exception):
+    """Something that a user should read."""
+
+
+def transfer(url, part):
+    """One attempt of curl to complete `part`. Returns what went wrong, or nothing; what will not change with another attempt is raised."""
+    progress = ["--progress-bar"] if sys.stderr.isatty() else ["--silent", "--show-error"]
+    result = subprocess.run([*CURL, *progress, "--output", part, "--", url], stdout=subprocess.PIPE, stderr=None, text=True)
+    status = int(result.stdout or 0)
+    if result.returncode == 0 or status == 416:  # 416: the server has nothing behind what is there; the archive's check will tell
+        return None
+    if 400 <= status < 500:
+        raise Problem(f"{url}: HTTP status {status}")
+    if result.returncode == 33:  # a server that sends no parts
+        part.unlink(missing_ok=True)
+    return f"HTTP status {status}" if status >= 500 else f"the transfer broke off (curl's exit code {result.returncode})"
+
+
+def fetch(url, archive, attempts, wait):
+    """Loads a file completely, in as many attempts as it takes; those that bring something do not count."""
+    part = archive.with_name(archive.name + ".part")
+    size = lambda: part.stat().st_size if part.exists() else 0
+    failures, before = 0, size()
+    while problem := transfer(url, part):
+        failures = 0 if size() > before else failures + 1
+        before = size()
+        if failures >= attempts:
+            raise Problem(f"{url}: {problem}")
+        print(f"{archive.name}: {problem}; trying again", file=sys.stderr)
+        time.sleep(wait)
+    part.rename(archive)
+
 
 def sha256(path):
-    digest = hashlib.sha256()
     with open(path, "rb") as file:
-        while block := file.read(BLOCK):
+        digest = hashlib.sha256()
+        while block := file.read(1 << 18):
             digest.update(block)
     return digest.hexdigest()
+
+
+def read_lines(path, name=None):
+    try:
+        return path.read_text(encoding="utf-8").splitlines()
+    except UnicodeDecodeError as error:
+        raise Problem(f"{name or path}: not a text file ({error})") from error
 
 
 def read_checksums(path):
     """NAME -> SHA-256 from a file as sha256sum writes it."""
     known = {}
-    for number, line in enumerate(path.read_text().splitlines(), 1):
+    for number, line in enumerate(read_lines(path), 1):
         words = line.split()
         if not words:
             continue
@@ -51,6 +96,10 @@ def read_checksums(path):
             raise Problem(f"{path}:{number}: expected a SHA-256 and a file name")
         known[Path(words[1].lstrip("*")).name] = words[0].lower()
     return known
+
+
+# What zipfile raises for archives that are cut, wrong, encrypted, or packed in a way that it does not know.
+UNREADABLE = (zipfile.BadZipFile, zlib.error, OSError, ValueError, EOFError, RuntimeError)
 
 
 def damage(archive, known):
@@ -62,9 +111,9 @@ def damage(archive, known):
             with zipfile.ZipFile(archive) as file:
                 bad = file.testzip()
                 return f"wrong checksum of {bad} inside it" if bad else None
-        except (zipfile.BadZipFile, OSError, ValueError, EOFError, NotImplementedError) as error:
+        except UNREADABLE as error:
             return f"damaged archive: {error}"
-    test = subprocess.run(["7z", "t", "-bso0", "-bsp0", archive], capture_output=True, text=True)
+    test = subprocess.run(["7z", "t", "-p", "-bso0", "-bsp0", archive], capture_output=True, text=True, errors="replace")
     return None if test.returncode == 0 else f"damaged archive: {' '.join(test.stderr.split())}"
 
 
@@ -81,10 +130,11 @@ class Downloader:
     def published_sequences(self):
         with tempfile.TemporaryDirectory() as folder:
             list_file = Path(folder) / Path(SLAM_LIST).name
-            fetch(f"{self.address}/{SLAM_LIST}", list_file, self.attempts, self.wait)
-            names = [line.strip() for line in list_file.read_text().splitlines() if line.strip()]
+            url = f"{self.address}/{SLAM_LIST}"
+            fetch(url, list_file, self.attempts, self.wait)
+            names = [line.strip() for line in read_lines(list_file, url) if line.strip()]
         if not names or any("/" in name or name.startswith(".") for name in names):
-            raise Problem(f"{self.address}/{SLAM_LIST}: not a list of sequences")
+            raise Problem(f"{url}: not a list of sequences")
         return names
 
     def archive(self, place):
@@ -111,8 +161,9 @@ class Downloader:
         spare.write_text("".join(f"{value}  {name}\n" for name, value in sorted(recorded.items())))
         spare.rename(self.sums)
 
-    def unpack(self, archives, name, place):
-        """Puts the archives together in a folder that appears when it is complete. A folder `name` inside them is left out of the path."""
+    def unpack(self, archives, place, top=None):
+        """Puts the archives together in a folder that appears when it is complete. `top`: what they hold lies in a folder of this name,
+        which is left out of the path, or directly in them."""
         spare = place.with_name("." + place.name + ".part")
         shutil.rmtree(spare, ignore_errors=True)
         spare.mkdir(parents=True)
@@ -121,9 +172,13 @@ class Downloader:
                 with zipfile.ZipFile(archive) as file:
                     file.extractall(spare)
             else:
-                subprocess.run(["7z", "x", "-y", "-bso0", "-bsp0", f"-o{spare}", archive], check=True)
-        inner = spare / name
-        (inner if [entry.name for entry in spare.iterdir()] == [name] else spare).rename(place)
+                subprocess.run(["7z", "x", "-y", "-p", "-bso0", "-bsp0", f"-o{spare}", archive], check=True)
+        found = sorted(entry.name for entry in spare.iterdir())
+        if top and found != [top] and (top in found or "rgb" not in found):
+            shutil.rmtree(spare)
+            names = " and ".join(archive.name for archive in archives)
+            raise Problem(f"{names}: found {', '.join(found) or 'nothing'}, expected a folder {top}")
+        (spare / top if found == [top] else spare).rename(place)
         shutil.rmtree(spare, ignore_errors=True)
         if not self.keep:
             for archive in archives:
@@ -134,19 +189,19 @@ class Downloader:
         if place.is_dir():
             return
         archives = [self.archive(f"slam/datasets/{name}_{part}.zip") for part in SLAM_PARTS]
-        self.unpack(archives, name, place)
+        self.unpack(archives, place, top=name)
 
     def pairs(self, name):
         place = self.target / name
         if not place.is_dir():
-            self.unpack([self.archive(f"{name}.7z")], name, place)
+            self.unpack([self.archive(f"{name}.7z")], place)
         return sorted(f"{name}/{entry.name}" for entry in place.iterdir() if entry.is_dir())
 
 
 def write_published(target, sequences, pairs):
     """What `quadedge check` looks for. Pairs are known once their archive is unpacked, and stay known."""
     path = target / "eth3d_published.txt"
-    before = path.read_text().splitlines() if path.exists() else []
+    before = read_lines(path) if path.exists() else []
     pairs = set(pairs) | {line for line in before if line.startswith(TWO_VIEW)}
     lines = ["# Folders that ETH3D publishes; `quadedge check` compares them with what is here."]
     lines += [f"slam/training/{name}" for name in sequences] + sorted(pairs)
@@ -172,6 +227,10 @@ def main():
         parser.error("--two-view loads no sequence")
     with_slam = not arguments.two_view
     with_pairs = not arguments.slam and not arguments.sequences
+    if urllib.parse.urlsplit(arguments.address).scheme not in ("http", "https"):
+        parser.error(f"--address {arguments.address}: expected http://... or https://...")
+    if shutil.which("curl") is None:
+        parser.error("the program curl is missing (Debian: curl)")
     if with_pairs and not arguments.list and shutil.which("7z") is None:
         parser.error("the two-view pairs need the program 7z (Debian: p7zip-full); --slam loads the sequences without it")
     problems = []
@@ -184,12 +243,8 @@ def main():
             problems.append(problem)
             return []
 
-    try:
-        downloader = Downloader(arguments)
-        published = downloader.published_sequences() if with_slam or arguments.list else []
-    except (Problem, OSError) as problem:
-        print(f"error: {problem}", file=sys.stderr)
-        return 1
+    downloader = Downloader(arguments)
+    published = downloader.published_sequences() if with_slam or arguments.list else []
     if arguments.list:
         for place in [f"slam/training/{name}" for name in published] + list(TWO_VIEW):
             print(f"{'there  ' if (arguments.target / place).is_dir() else 'missing'}  {place}")
@@ -197,11 +252,7 @@ def main():
     unknown = [name for name in arguments.sequences if name not in published]
     if unknown:
         parser.error(f"no such sequence: {', '.join(unknown)}; --list shows all")
-    try:
-        os.makedirs(arguments.target, exist_ok=True)
-    except OSError as problem:
-        print(f"error: {problem}", file=sys.stderr)
-        return 1
+    os.makedirs(arguments.target, exist_ok=True)
     if with_slam:
         write_published(arguments.target, published, [])
     for name in (arguments.sequences or published) if with_slam else []:
@@ -210,7 +261,7 @@ def main():
     if not with_slam:
         path = arguments.target / "eth3d_published.txt"
         prefix = "slam/training/"
-        published = [line[len(prefix) :] for line in path.read_text().splitlines() if line.startswith(prefix)] if path.exists() else []
+        published = [line[len(prefix) :] for line in read_lines(path) if line.startswith(prefix)] if path.exists() else []
     write_published(arguments.target, published, pairs)
     if not any(downloader.archives.iterdir() if downloader.archives.is_dir() else []):
         shutil.rmtree(downloader.archives, ignore_errors=True)
@@ -221,6 +272,9 @@ def main():
 if __name__ == "__main__":
     try:
         sys.exit(main())
+    except (Problem, OSError) as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        sys.exit(1)
     except KeyboardInterrupt:
         print("interrupted; the same command goes on where this one stopped", file=sys.stderr)
         sys.exit(130)

@@ -70,19 +70,20 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if content is None or fault == "unavailable":
             self.send_error(404 if content is None else 503)
             return
-        tag = f'"{hashlib.sha256(content).hexdigest()}"'
         begin = 0
-        if asked and server.ranges and self.headers.get("If-Range") in (None, tag):
+        if asked and server.ranges:
             begin = int(re.fullmatch(r"bytes=(\d+)-", asked)[1])
             if begin >= len(content):
-                self.send_error(416)
+                self.send_response(416)
+                self.send_header("Content-Range", f"bytes */{len(content)}")
+                self.send_header("Content-Length", "0")
+                self.end_headers()
                 return
         body = content[begin:]
         self.send_response(206 if begin else 200)
         if begin:
             self.send_header("Content-Range", f"bytes {begin}-{len(content) - 1}/{len(content)}")
         self.send_header("Content-Length", str(len(body)))
-        self.send_header("ETag", tag)
         self.end_headers()
         if fault == "corrupt":
             middle = len(body) // 2
@@ -215,10 +216,29 @@ class Download(unittest.TestCase):
         path = "slam/datasets/room_2_mono.zip"
         self.server.faults[path] = ["break", "unavailable", "unavailable", "unavailable"]
         self.assertEqual(self.load("room_2").returncode, 1)
-        self.server.files[path] = zipped(self.source / "room_2", ["rgb/*", "rgb.txt", "calibration.txt"], "room_2")
+        self.server.files[path] = zipped(self.source / "room_2", ["rgb.txt", "calibration.txt", "rgb/*"], "room_2")
         result = self.load("room_2")
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, "room_2_mono.zip: (wrong checksum|damaged)")
         self.assertNotIn("groundtruth.txt", self.loaded("room_2"))
+
+    def test_a_part_that_is_longer_than_the_file_is_thrown_away(self):
+        part = self.target / "archives" / "room_2_mono.zip.part"
+        part.parent.mkdir(parents=True)
+        part.write_bytes(b"x" * (len(self.files["slam/datasets/room_2_mono.zip"]) + 1))
+        result = self.load("room_2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.loaded("room_2"), self.published("room_2"))
+
+    def test_a_part_that_is_whole_is_not_loaded_again(self):
+        path = "slam/datasets/room_2_mono.zip"
+        part = self.target / "archives" / "room_2_mono.zip.part"
+        part.parent.mkdir(parents=True)
+        part.write_bytes(self.files[path])
+        result = self.load("room_2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.server.sent.get(path, 0), 0)
+        self.assertEqual(self.loaded("room_2"), self.published("room_2"))
 
     def test_a_server_without_ranges_sends_all_again(self):
         path = "slam/datasets/cables_1_mono.zip"
@@ -260,9 +280,56 @@ class Download(unittest.TestCase):
         del self.server.files["slam/datasets/cables_1_stereo.zip"]
         result = self.load("--slam")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("cables_1_stereo.zip: 404", result.stderr)
+        self.assertIn("cables_1_stereo.zip: HTTP status 404", result.stderr)
+        self.assertEqual(len(self.requests("slam/datasets/cables_1_stereo.zip")), 1)
         self.assertFalse((self.target / "slam/training/cables_1").exists())
         self.assertEqual(self.loaded("room_2"), self.published("room_2"))
+
+    def assert_refused(self, result, message, code=1):
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertRegex(result.stderr, message)
+        self.assertNotIn("Traceback", result.stderr)
+
+    def test_an_encrypted_archive_is_refused(self):
+        folder = self.target.parent / "secret"
+        shutil.copytree(self.source / "room_2", folder / "room_2")
+        for archive in ("room_2_mono.zip", "two_view_training.7z"):
+            subprocess.run(["7z", "a", "-bso0", "-bsp0", "-psecret", folder / archive, folder / "room_2"], check=True)
+        self.server.files["slam/datasets/room_2_mono.zip"] = (folder / "room_2_mono.zip").read_bytes()
+        self.server.files["two_view_training.7z"] = (folder / "two_view_training.7z").read_bytes()
+        self.assert_refused(self.load("room_2"), "room_2_mono.zip: damaged archive: .*encrypted")
+        self.assertFalse((self.target / "slam/training/room_2").exists())
+        self.assert_refused(self.load("--two-view"), "two_view_training.7z: damaged archive")
+        self.assertFalse((self.target / "two_view_training").exists())
+
+    def test_an_archive_with_another_folder_is_refused(self):
+        self.server.files["slam/datasets/room_2_mono.zip"] = self.files["slam/datasets/cables_1_mono.zip"]
+        self.assert_refused(self.load("room_2"), "room_2_mono.zip and room_2_stereo.zip: found cables_1, room_2, expected a folder room_2")
+        self.assertFalse((self.target / "slam/training/room_2").exists())
+        self.assertFalse((self.target / "slam/training/.room_2.part").exists())
+
+    def test_archives_without_a_folder_of_their_own_are_unpacked_as_well(self):
+        for part, names in (("mono", ["rgb/*", "rgb.txt"]), ("stereo", ["rgb2/*"])):
+            self.server.files[f"slam/datasets/room_2_{part}.zip"] = zipped(self.source / "room_2", names, ".")
+        result = self.load("room_2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("rgb.txt", self.loaded("room_2"))
+
+    def test_lists_that_are_no_text_are_refused(self):
+        self.server.files["slam/dataset_list_training.txt"] = b"room_2\n\xff\xfe\n"
+        self.assert_refused(self.load("room_2"), "dataset_list_training.txt: not a text file")
+        self.server.files["slam/dataset_list_training.txt"] = b"<html><a href='/login'></html>"
+        self.assert_refused(self.load("room_2"), "dataset_list_training.txt: not a list of sequences")
+        sums = self.target.parent / "sums"
+        for content, message in ((b"\xff\n", "sums: not a text file"), (b"abc room_2_mono.zip\n", "sums:1: expected a SHA-256")):
+            sums.write_bytes(content)
+            self.assert_refused(self.load("room_2", "--checksums", str(sums)), message)
+        self.assert_refused(self.load("room_2", "--checksums", str(self.target)), "No such file")
+
+    def test_a_place_that_is_no_address_is_refused(self):
+        for address in ("hello", "file:///etc", ""):
+            self.assert_refused(self.load("--address", address), "expected http://", 2)
+        self.assert_refused(self.load("--address", "http://127.0.0.1:1/data"), "127.0.0.1:1/data.*curl's exit code 7")
 
     def test_wrong_names_and_places_are_refused(self):
         self.assertEqual(self.load("no_such_sequence").returncode, 2)
