@@ -160,13 +160,13 @@ inline void window_derivatives(global const float* plane, const int stride, cons
       }
     }
   }
-#define DOT(place, order_x, order_y)                                                                       \
+#define DOT(position, order_x, order_y)                                                                    \
   {                                                                                                        \
     float8 sum_ = wx[order_x][0] * sums[order_y][0];                                                       \
     _Pragma("unroll") for (int b = 1; b < BLOCKS; ++b) sum_ = fma(wx[order_x][b], sums[order_y][b], sum_); \
     const float4 four_ = sum_.lo + sum_.hi;                                                                \
     const float2 two_ = four_.lo + four_.hi;                                                               \
-    d[8 * (place)] = two_.x + two_.y;                                                                      \
+    d[8 * (position)] = two_.x + two_.y;                                                                   \
   }
   DOT(0, 1, 0)
   DOT(1, 0, 1)
@@ -179,7 +179,7 @@ inline void window_derivatives(global const float* plane, const int stride, cons
   DOT(8, 0, 3)
 }
 
-// Third-order direction and Newton step of the winners, written in their place in scan order.
+// Third-order direction and Newton step of the winners, written in their position in scan order.
 // One work-item = one row of the doubled grid, 8 edges at a time.
 kernel void edges_strip_directions(global const float* plane, const int stride, const int width, const int rows,
                                    global const float* winners, global const int* counts, global const int* row_first,

@@ -12,7 +12,7 @@
 
 // Gradient and maximum test of TILE_X x TILE_Y pixels per work-group of LOCAL.
 //
-// Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's place (4 * (r * 2 * width + X)) where it did.
+// Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's position (4 * (r * 2 * width + X)) where it did.
 kernel void edges_tile_maxima(global const float* plane, const int stride, const int width, const int height,
                               global const float* taps, const float threshold, const int margin, const int tiles_x,
                               global float* winners, global uchar* flags) {
@@ -84,7 +84,7 @@ kernel void edges_tile_count(global const uchar* flags, const int cells, global 
   if (item == 0) counts[row] = sums[0];
 }
 
-// Moves the winners of a row to their place in scan order, as far as the capacity reaches; rows[place] = row of the doubled
+// Moves the winners of a row to their position in scan order, as far as the capacity reaches; rows[position] = row of the doubled
 // grid. One work-group per row.
 kernel void edges_tile_compact(global const uchar* flags, const int cells, global const float* winners,
                                global const int* row_first, const int max_edges, global float* compact,
@@ -103,10 +103,10 @@ kernel void edges_tile_compact(global const uchar* flags, const int cells, globa
       sums[item] += other;
       barrier(CLK_LOCAL_MEM_FENCE);
     }
-    const int place = base + sums[item] - won;
-    if (won && place < max_edges) {
-      vstore4(vload4((size_t)row * cells + i, winners), place, compact);
-      rows[place] = row;
+    const int position = base + sums[item] - won;
+    if (won && position < max_edges) {
+      vstore4(vload4((size_t)row * cells + i, winners), position, compact);
+      rows[position] = row;
     }
     base += sums[LOCAL - 1];
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -1,6 +1,6 @@
 // edge_thinning.cl: one edge per pixel along a curve; an optional pass over detected edges.
 //
-// An edge is kept unless the same pixel (nearest to its place) holds a stronger one whose direction is within 45 degrees; of
+// An edge is kept unless the same pixel (nearest to its position) holds a stronger one whose direction is within 45 degrees; of
 // equals the first one is the stronger. Reference: host/reference/edge_thinning.cpp.
 
 // flags[i] = edge i is kept; counts[row] = kept edges of the row. One work-item per row of the doubled grid.
@@ -38,20 +38,20 @@ kernel void edges_thinning_flags(global const float* x, global const float* y, g
   counts[row] = kept;
 }
 
-// Moves the kept edges of a row to their place. One work-item per row.
+// Moves the kept edges of a row to their position. One work-item per row.
 kernel void edges_thinning_move(global const float* x, global const float* y, global const float* direction,
                                 global const float* strength, global const int* row_first, const int rows,
                                 global const uchar* flags, global const int* new_row_first, global float* new_x,
                                 global float* new_y, global float* new_direction, global float* new_strength) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
-  int place = new_row_first[row];
+  int position = new_row_first[row];
   for (int i = row_first[row]; i < row_first[row + 1]; ++i) {
     if (!flags[i]) continue;
-    new_x[place] = x[i];
-    new_y[place] = y[i];
-    new_direction[place] = direction[i];
-    new_strength[place] = strength[i];
-    ++place;
+    new_x[position] = x[i];
+    new_y[position] = y[i];
+    new_direction[position] = direction[i];
+    new_strength[position] = strength[i];
+    ++position;
   }
 }

@@ -10,9 +10,6 @@
 #ifndef ITEMS_PER_EDGE
 #define ITEMS_PER_EDGE 1
 #endif
-#define PATCH_BYTES 128
-#define INVERSE_NORMS 112  // where they begin
-#define FLAT_CONTRAST 1e-5f
 // Added and taken away again it leaves the nearest integer, halves to the even one: 1.5 * 2^23 has no room for a fraction.
 #define NO_FRACTION 12582912.0f
 
@@ -22,9 +19,11 @@
 #define SIDES float  // of the work-item's side
 #endif
 
-// A patch becomes integers, at most 127 of magnitude; a flat one becomes zeros. Their squares add up to less than 2^24: floats hold
+// A patch becomes integers, at most kPatchLargest of magnitude; a flat one becomes zeros. Their squares add up to less than 2^24: floats hold
 // these sums exactly.
-inline SIDES scale_of(const SIDES largest) { return largest < FLAT_CONTRAST ? (SIDES)(0.0f) : 127.0f / largest; }
+inline SIDES scale_of(const SIDES largest) {
+  return largest < kFlatPatchContrast ? (SIDES)(0.0f) : (float)kPatchLargest / largest;
+}
 inline SIDES inverse_norm(const SIDES squares) { return squares == 0.0f ? (SIDES)(0.0f) : 1.0f / sqrt(squares); }
 
 #if ITEMS_PER_EDGE == 1
@@ -52,21 +51,21 @@ kernel void side_patches(global const uint* corners, const int width, const int 
   if (edge >= count) return;
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
-  global char* patch = patches + (size_t)edge * PATCH_BYTES;
+  global char* patch = patches + (size_t)edge * kEdgePatchBytes;
   const float x = xs[edge], y = ys[edge];
-  float16 rows[PATCH_SIDE];
+  float16 rows[kPatchSide];
   cut_two_patches(corners, width, height, patch_frame(x, y, cosine, sine, 1.0f, offset),
                   patch_frame(x, y, cosine, sine, -1.0f, offset), rows);
   float16 largest = 0.0f, squares = 0.0f;
-  for (int i = 0; i < PATCH_SIDE; ++i) largest = max(largest, fabs(rows[i]));
+  for (int i = 0; i < kPatchSide; ++i) largest = max(largest, fabs(rows[i]));
   const float2 scales = scale_of(largest_lanes(both_used(largest)));
   const float16 scale = (float16)((float8)(scales.x), (float8)(scales.y));
-  for (int i = 0; i < PATCH_SIDE; ++i) {
+  for (int i = 0; i < kPatchSide; ++i) {
     const float16 row = both_used((rows[i] * scale + NO_FRACTION) - NO_FRACTION);
     squares += row * row;
     ((global char16*)patch)[i] = convert_char16(row);
   }
-  vstore4((float4)(inverse_norm(sums_of_lanes(squares)), 0.0f, 0.0f), 0, (global float*)(patch + INVERSE_NORMS));
+  vstore4((float4)(inverse_norm(sums_of_lanes(squares)), 0.0f, 0.0f), 0, (global float*)(patch + kInverseNorms));
 }
 
 #else
@@ -89,21 +88,21 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(
   const int edge = min(wanted, count - 1);  // surplus work-items work along with the last edge for the barriers
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
-  float rows[PATCH_SIDE];
+  float rows[kPatchSide];
   cut_column(corners, width, height, patch_frame(xs[edge], ys[edge], cosine, sine, side == 0 ? 1.0f : -1.0f, offset), 1,
              &exchange, rows);
   float largest = 0.0f, squares = 0.0f;
-  for (int i = 0; i < PATCH_SIDE; ++i) largest = max(largest, fabs(rows[i]));
+  for (int i = 0; i < kPatchSide; ++i) largest = max(largest, fabs(rows[i]));
   const float scale = scale_of(largest_used(patch_lanes(&exchange, largest)));
-  for (int i = 0; i < PATCH_SIDE; ++i) {
+  for (int i = 0; i < kPatchSide; ++i) {
     rows[i] = (rows[i] * scale + NO_FRACTION) - NO_FRACTION;
     squares += rows[i] * rows[i];
   }
   const float inverse = inverse_norm(sum_lanes(&exchange, squares));
   if (wanted >= count) return;
-  global char* patch = patches + (size_t)edge * PATCH_BYTES;
-  for (int i = 0; i < PATCH_SIDE; ++i) patch[16 * i + 8 * side + lane] = lane < PATCH_SIDE ? (char)rows[i] : (char)0;
-  if (lane < 2) ((global float*)(patch + INVERSE_NORMS))[2 * lane + side] = lane == 0 ? inverse : 0.0f;
+  global char* patch = patches + (size_t)edge * kEdgePatchBytes;
+  for (int i = 0; i < kPatchSide; ++i) patch[16 * i + 8 * side + lane] = lane < kPatchSide ? (char)rows[i] : (char)0;
+  if (lane < 2) ((global float*)(patch + kInverseNorms))[2 * lane + side] = lane == 0 ? inverse : 0.0f;
 }
 
 #endif

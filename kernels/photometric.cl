@@ -5,8 +5,6 @@
 // eighth lane is a sample again, finite and without meaning; sums leave it out.
 // Reference: host/reference/photometric.cpp.
 
-#define PATCH_SIDE 7
-#define PATCH_SAMPLES 49
 #define PATCH_REACH 8  // px, more than half the diagonal of a patch
 
 inline float8 used_lanes(const float8 v) { return as_float8(as_int8(v) & (int8)(-1, -1, -1, -1, -1, -1, -1, 0)); }
@@ -63,8 +61,8 @@ inline void cut_patch(global const uint* corners, const int width, const int hei
   const int inside = lies_inside(base_x, base_y, width, height);
   float8 sum = 0.0f;
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) {
-    const float along = (float)(i - PATCH_SIDE / 2);
+  for (int i = 0; i < kPatchSide; ++i) {
+    const float along = (float)(i - kPatchSide / 2);
     float8 u = middle_x + along * frame.cosine, v = middle_y + along * frame.sine;
     if (!inside) {
       u = clamp(u, low_x, high_x);
@@ -81,15 +79,15 @@ inline void cut_patch(global const uint* corners, const int width, const int hei
     rows[i] = top + fy * (bottom - top);
   }
   // Taking the middle sample away first makes a constant patch exactly zero.
-  const float middle = rows[PATCH_SIDE / 2].s3;
+  const float middle = rows[kPatchSide / 2].s3;
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) {
+  for (int i = 0; i < kPatchSide; ++i) {
     rows[i] -= middle;
     sum += rows[i];
   }
-  const float mean = sum_used(sum) * (1.0f / PATCH_SAMPLES);
+  const float mean = sum_used(sum) * (1.0f / kPatchSamples);
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] -= mean;
+  for (int i = 0; i < kPatchSide; ++i) rows[i] -= mean;
 }
 
 // Two patches of one direction at once, as the halves of float16 rows; each the same bits as from cut_patch().
@@ -108,8 +106,8 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
   const int inside = lies_inside(low_x, low_y, width, height) && lies_inside(high_x, high_y, width, height);
   const int16 stride = width, origin = (int16)((int8)(low_y * width + low_x), (int8)(high_y * width + high_x));
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) {
-    const float along = (float)(i - PATCH_SIDE / 2);
+  for (int i = 0; i < kPatchSide; ++i) {
+    const float along = (float)(i - kPatchSide / 2);
     float16 u = middle_x + along * low.cosine, v = middle_y + along * low.sine;
     if (!inside) {
       u = clamp(u, first_x, last_x);
@@ -127,17 +125,17 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
     const float16 top = a + fx * (b - a), bottom = c + fx * (d - c);
     rows[i] = top + fy * (bottom - top);
   }
-  const float16 middle = (float16)((float8)(rows[PATCH_SIDE / 2].s3), (float8)(rows[PATCH_SIDE / 2].sb));
+  const float16 middle = (float16)((float8)(rows[kPatchSide / 2].s3), (float8)(rows[kPatchSide / 2].sb));
   float16 sum = 0.0f;
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) {
+  for (int i = 0; i < kPatchSide; ++i) {
     rows[i] -= middle;
     sum += rows[i];
   }
-  const float16 mean = (float16)((float8)(sum_used(sum.lo) * (1.0f / PATCH_SAMPLES)),
-                                 (float8)(sum_used(sum.hi) * (1.0f / PATCH_SAMPLES)));
+  const float16 mean = (float16)((float8)(sum_used(sum.lo) * (1.0f / kPatchSamples)),
+                                 (float8)(sum_used(sum.hi) * (1.0f / kPatchSamples)));
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] -= mean;
+  for (int i = 0; i < kPatchSide; ++i) rows[i] -= mean;
 }
 
 // Mean-free derivative of a patch along the unit vector (ex, ey), grey levels per px: central difference over 1 px.
@@ -148,14 +146,11 @@ inline void patch_derivative(global const uint* corners, const int width, const 
   ahead.y += 0.5f * ey;
   behind.x -= 0.5f * ex;
   behind.y -= 0.5f * ey;
-  float16 both[PATCH_SIDE];
+  float16 both[kPatchSide];
   cut_two_patches(corners, width, height, ahead, behind, both);
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) rows[i] = both[i].lo - both[i].hi;
+  for (int i = 0; i < kPatchSide; ++i) rows[i] = both[i].lo - both[i].hi;
 }
-
-// Largest difference of contrast that the alignment evens out. Twin: kGainMax in host/reference/photometric.cpp.
-#define GAIN_MAX 2.0f
 
 // Settings of the Gauss-Newton loop.
 typedef struct {
@@ -171,7 +166,7 @@ inline float8 huber_weight(const float8 residual, const float limit) { return li
 inline float patch_norm(const float8* rows) {
   float8 squares = 0.0f;
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) squares += rows[i] * rows[i];
+  for (int i = 0; i < kPatchSide; ++i) squares += rows[i] * rows[i];
   return sqrt(sum_used(squares));
 }
 
@@ -179,7 +174,7 @@ inline float patch_norm(const float8* rows) {
 inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
   float8 product = 0.0f;
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) product += a[i] * b[i];
+  for (int i = 0; i < kPatchSide; ++i) product += a[i] * b[i];
   const float norms = norm_a * patch_norm(b);
   return norms < 1e-10f ? 0.0f : sum_used(product) / norms;
 }
@@ -199,10 +194,10 @@ inline int align_edge(global const uint* corners, const int width, const int hei
   int status = ALIGN_MOVED;
   for (int step = 0; step < settings.steps; ++step) {
     cut_patch(corners, width, height, moving, alpha * ex, alpha * ey, values);
-    const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
+    const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / kGainMax, kGainMax);
     float8 curvatures = 0.0f, slopes = 0.0f;
 #pragma unroll
-    for (int i = 0; i < PATCH_SIDE; ++i) {
+    for (int i = 0; i < kPatchSide; ++i) {
       const float8 residual = fixed[i] - gain * values[i];
       const float8 weighted = huber_weight(residual, settings.huber) * derivative[i];
       curvatures += weighted * derivative[i];

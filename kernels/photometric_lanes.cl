@@ -58,7 +58,7 @@ inline void cut_column(global const uint* corners, const int width, const int he
                        const int wanted, Exchange* exchange, float* column) {
   const int lane = lane_of_item();
   if (wanted) {
-    const float across = lane < PATCH_SIDE ? (float)(lane - PATCH_SIDE / 2) : 0.0f;
+    const float across = lane < kPatchSide ? (float)(lane - kPatchSide / 2) : 0.0f;
     const int base_x = (int)frame.x - PATCH_REACH, base_y = (int)frame.y - PATCH_REACH;
     const float middle_x = (frame.x - (float)base_x) - across * frame.sine,
                 middle_y = (frame.y - (float)base_y) + across * frame.cosine;
@@ -66,8 +66,8 @@ inline void cut_column(global const uint* corners, const int width, const int he
     const float low_y = (float)-base_y, high_y = (float)(height - 1 - base_y);
     const int origin = base_y * width + base_x;
 #pragma unroll
-    for (int i = 0; i < PATCH_SIDE; ++i) {
-      const float along = (float)(i - PATCH_SIDE / 2);
+    for (int i = 0; i < kPatchSide; ++i) {
+      const float along = (float)(i - kPatchSide / 2);
       const float u = clamp(middle_x + along * frame.cosine, low_x, high_x);
       const float v = clamp(middle_y + along * frame.sine, low_y, high_y);
       const int u0 = (int)u, v0 = (int)v;
@@ -80,19 +80,19 @@ inline void cut_column(global const uint* corners, const int width, const int he
     }
   }
   const float middle =
-      tell(exchange, wanted ? column[PATCH_SIDE / 2] : 0.0f, 0.0f)[LANES * patch_in_group() + PATCH_SIDE / 2];
+      tell(exchange, wanted ? column[kPatchSide / 2] : 0.0f, 0.0f)[LANES * patch_in_group() + kPatchSide / 2];
   float sum = 0.0f;
   if (wanted) {
 #pragma unroll
-    for (int i = 0; i < PATCH_SIDE; ++i) {
+    for (int i = 0; i < kPatchSide; ++i) {
       column[i] -= middle;
       sum += column[i];
     }
   }
-  const float mean = sum_lanes(exchange, sum) * (1.0f / PATCH_SAMPLES);
+  const float mean = sum_lanes(exchange, sum) * (1.0f / kPatchSamples);
   if (wanted) {
 #pragma unroll
-    for (int i = 0; i < PATCH_SIDE; ++i) column[i] -= mean;
+    for (int i = 0; i < kPatchSide; ++i) column[i] -= mean;
   }
 }
 
@@ -104,18 +104,18 @@ inline void derivative_column(global const uint* corners, const int width, const
   ahead.y += 0.5f * ey;
   behind.x -= 0.5f * ex;
   behind.y -= 0.5f * ey;
-  float subtracted[PATCH_SIDE] = {0.0f};
+  float subtracted[kPatchSide] = {0.0f};
   cut_column(corners, width, height, ahead, wanted, exchange, column);
   cut_column(corners, width, height, behind, wanted, exchange, subtracted);
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) column[i] -= subtracted[i];
+  for (int i = 0; i < kPatchSide; ++i) column[i] -= subtracted[i];
 }
 
 // Sum of products of two columns.
 inline float column_product(const float* a, const float* b) {
   float sum = 0.0f;
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) sum += a[i] * b[i];
+  for (int i = 0; i < kPatchSide; ++i) sum += a[i] * b[i];
   return sum;
 }
 
@@ -133,10 +133,10 @@ inline int align_columns(global const uint* corners, const int width, const int 
     moved.y += alpha * ey;
     cut_column(corners, width, height, moved, going, exchange, values);
     const float norm = sqrt(sum_lanes(exchange, column_product(values, values)));
-    const float gain = clamp(fixed_norm / fmax(norm, 1e-3f), 1.0f / GAIN_MAX, GAIN_MAX);
+    const float gain = clamp(fixed_norm / fmax(norm, 1e-3f), 1.0f / kGainMax, kGainMax);
     float curvatures = 0.0f, slopes = 0.0f;
 #pragma unroll
-    for (int i = 0; i < PATCH_SIDE; ++i) {
+    for (int i = 0; i < kPatchSide; ++i) {
       const float residual = fixed[i] - gain * values[i];
       const float weighted = settings.huber / max(fabs(residual), settings.huber) * derivative[i];
       curvatures += weighted * derivative[i];

@@ -24,9 +24,6 @@
 #define PAD 16
 #define RADIUS 5
 #define WINDOW (2 * RADIUS + 1)
-#define CELLS 4
-#define ANGLES 8
-#define BYTES (CELLS * CELLS * ANGLES)
 #define CELL_WIDTH 1.5f
 #define CLIP 0.2f
 #define NORM 512.0f
@@ -85,7 +82,7 @@ kernel void sift_gradient(global const float* blurred, const int width, const in
     const int8 columns = x + (int8)(0, 1, 2, 3, 4, 5, 6, 7);
     const int8 inside = (columns >= 1) & (columns < width - 1);
     length = as_float8(as_int8(sqrt(dx * dx + dy * dy)) & inside);
-    bins = as_float8(as_int8(atan2(dy, dx) * (ANGLES / (2.0f * PI_F))) & inside);
+    bins = as_float8(as_int8(atan2(dy, dx) * (kSiftAngles / (2.0f * PI_F))) & inside);
   }
   vstore8(length, 0, magnitude + (size_t)row * stride + column);
   vstore8(bins, 0, angle + (size_t)row * stride + column);
@@ -104,30 +101,30 @@ inline float sum_lanes(const float8 v) {
 
 #if ITEMS_PER_EDGE == 1
 
-#define ROW (CELLS + 2)  // cells with a ring around them that takes what falls outside
+#define ROW (kSiftCells + 2)  // cells with a ring around them that takes what falls outside
 
-constant int8 kAngleMask[ANGLES] = {(int8)(-1, 0, 0, 0, 0, 0, 0, 0), (int8)(0, -1, 0, 0, 0, 0, 0, 0),
-                                    (int8)(0, 0, -1, 0, 0, 0, 0, 0), (int8)(0, 0, 0, -1, 0, 0, 0, 0),
-                                    (int8)(0, 0, 0, 0, -1, 0, 0, 0), (int8)(0, 0, 0, 0, 0, -1, 0, 0),
-                                    (int8)(0, 0, 0, 0, 0, 0, -1, 0), (int8)(0, 0, 0, 0, 0, 0, 0, -1)};
+constant int8 kAngleMask[kSiftAngles] = {(int8)(-1, 0, 0, 0, 0, 0, 0, 0), (int8)(0, -1, 0, 0, 0, 0, 0, 0),
+                                         (int8)(0, 0, -1, 0, 0, 0, 0, 0), (int8)(0, 0, 0, -1, 0, 0, 0, 0),
+                                         (int8)(0, 0, 0, 0, -1, 0, 0, 0), (int8)(0, 0, 0, 0, 0, -1, 0, 0),
+                                         (int8)(0, 0, 0, 0, 0, 0, -1, 0), (int8)(0, 0, 0, 0, 0, 0, 0, -1)};
 
 // Clip, normalise and round the histogram of one side.
 inline void store_descriptor(const float8* histogram, global uchar* descriptor) {
   float8 squares = 0.0f;
-  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
-    const float8 bins = histogram[(cell / CELLS + 1) * ROW + cell % CELLS + 1];
+  for (int cell = 0; cell < kSiftCells * kSiftCells; ++cell) {
+    const float8 bins = histogram[(cell / kSiftCells + 1) * ROW + cell % kSiftCells + 1];
     squares += bins * bins;
   }
   const float clip = CLIP * sqrt(sum_lanes(squares));
   squares = 0.0f;
-  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
-    const float8 bins = min(histogram[(cell / CELLS + 1) * ROW + cell % CELLS + 1], clip);
+  for (int cell = 0; cell < kSiftCells * kSiftCells; ++cell) {
+    const float8 bins = min(histogram[(cell / kSiftCells + 1) * ROW + cell % kSiftCells + 1], clip);
     squares += bins * bins;
   }
   const float norm = sqrt(sum_lanes(squares));
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
-  for (int cell = 0; cell < CELLS * CELLS; cell += 2) {
-    const float8* bins = histogram + (cell / CELLS + 1) * ROW + cell % CELLS + 1;
+  for (int cell = 0; cell < kSiftCells * kSiftCells; cell += 2) {
+    const float8* bins = histogram + (cell / kSiftCells + 1) * ROW + cell % kSiftCells + 1;
     const uchar8 even = convert_uchar8(convert_int8(min(min(bins[0], clip) * scale, 255.0f) + 0.5f));
     const uchar8 odd = convert_uchar8(convert_int8(min(min(bins[1], clip) * scale, 255.0f) + 0.5f));
     // As four words: PoCL's vstore16 would store the bytes one by one.
@@ -146,13 +143,13 @@ inline void sample_row(global const float* magnitude, global const float* angle,
     const float8 part = bins - convert_float8(whole);
     low[block] = length * (1.0f - part);
     high[block] = length * part;
-    bin[block] = whole & (ANGLES - 1);
+    bin[block] = whole & (kSiftAngles - 1);
   }
 }
 
 // The two shares in their angle bins, zeros elsewhere.
 inline float8 two_bins(const float low, const float high, const int bin) {
-  const int8 lower = kAngleMask[bin], upper = kAngleMask[(bin + 1) & (ANGLES - 1)];
+  const int8 lower = kAngleMask[bin], upper = kAngleMask[(bin + 1) & (kSiftAngles - 1)];
   return as_float8((as_int8((float8)(low)) & lower) | (as_int8((float8)(high)) & upper));
 }
 
@@ -170,7 +167,7 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
   const float sine = sine_cosine(direction, &cosine);
   const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
   const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
-  const float turn = direction * (ANGLES / (2.0f * PI_F));
+  const float turn = direction * (kSiftAngles / (2.0f * PI_F));
   const size_t dark_first =
       (size_t)(nearest(y + to_dark_y, height) + PAD - RADIUS) * stride + nearest(x + to_dark_x, width) + PAD - RADIUS;
   const size_t bright_first =
@@ -230,9 +227,9 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
       bright_cell[ROW + 1] += in_bright * LANE(float, w11, k);
     }
   }
-  global uchar* descriptor = descriptors + (size_t)edge * (2 * BYTES);
+  global uchar* descriptor = descriptors + (size_t)edge * (kEdgeSiftBytes);
   store_descriptor(dark, descriptor);
-  store_descriptor(bright, descriptor + BYTES);
+  store_descriptor(bright, descriptor + kSiftBytes);
 }
 
 #else
@@ -250,7 +247,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
   local float4 shares[EDGES_PER_GROUP][WINDOW * WINDOW];
   local float2 gradient[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];  // shares of the two angle bins
   local int lower_bin[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];
-  local float histogram[EDGES_PER_GROUP][SIDES][BYTES];
+  local float histogram[EDGES_PER_GROUP][SIDES][kSiftBytes];
 
   const int local_edge = (int)get_local_id(0) / ITEMS_PER_EDGE, item = (int)get_local_id(0) % ITEMS_PER_EDGE;
   const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
@@ -260,7 +257,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
   const float sine = sine_cosine(direction, &cosine);
   const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
   const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
-  const float turn = direction * (ANGLES / (2.0f * PI_F));
+  const float turn = direction * (kSiftAngles / (2.0f * PI_F));
   const int first[SIDES] = {
       (nearest(y + to_dark_y, height) + PAD - RADIUS) * stride + nearest(x + to_dark_x, width) + PAD - RADIUS,
       (nearest(y - to_dark_y, height) + PAD - RADIUS) * stride + nearest(x - to_dark_x, width) + PAD - RADIUS};
@@ -279,18 +276,18 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
     shares[local_edge][k] =
         (float4)(before * (1.0f - part_along), before * part_along, beyond * (1.0f - part_along), beyond * part_along);
     for (int side = 0; side < SIDES; ++side) {
-      const int place = first[side] + row * stride + column;
-      const float length = magnitude[place], bins = turn - angle[place];
+      const int position = first[side] + row * stride + column;
+      const float length = magnitude[position], bins = turn - angle[position];
       const int whole = whole_below(bins);
       const float part = bins - (float)whole;
       gradient[local_edge][side][k] = (float2)(length * (1.0f - part), length * part);
-      lower_bin[local_edge][side][k] = whole & (ANGLES - 1);
+      lower_bin[local_edge][side][k] = whole & (kSiftAngles - 1);
     }
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  const int side = item / (CELLS * CELLS), cell = item % (CELLS * CELLS);
-  const int cell_across = cell / CELLS, cell_along = cell % CELLS;
+  const int side = item / (kSiftCells * kSiftCells), cell = item % (kSiftCells * kSiftCells);
+  const int cell_across = cell / kSiftCells, cell_along = cell % kSiftCells;
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   float8 bins = 0.0f;
   for (int k = 0; k < WINDOW * WINDOW; ++k) {
@@ -301,20 +298,20 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
     const float2 low_high = gradient[local_edge][side][k];
     const int lower = lower_bin[local_edge][side][k];
     bins += select(select((float8)(0.0f), (float8)(low_high.x), lanes == lower), (float8)(low_high.y),
-                   lanes == ((lower + 1) & (ANGLES - 1))) *
+                   lanes == ((lower + 1) & (kSiftAngles - 1))) *
             weight;
   }
   local float* all = histogram[local_edge][side];
   vstore8(bins, cell, all);
   barrier(CLK_LOCAL_MEM_FENCE);
   float8 squares = 0.0f;
-  for (int k = 0; k < CELLS * CELLS; ++k) {
+  for (int k = 0; k < kSiftCells * kSiftCells; ++k) {
     const float8 other = vload8(k, all);
     squares += other * other;
   }
   const float clip = CLIP * sqrt(sum_lanes(squares));
   squares = 0.0f;
-  for (int k = 0; k < CELLS * CELLS; ++k) {
+  for (int k = 0; k < kSiftCells * kSiftCells; ++k) {
     const float8 other = min(vload8(k, all), clip);
     squares += other * other;
   }
@@ -322,7 +319,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
   if (wanted >= count) return;
   vstore8(convert_uchar8(convert_int8(min(min(bins, clip) * scale, 255.0f) + 0.5f)), cell,
-          descriptors + (size_t)edge * (2 * BYTES) + side * BYTES);
+          descriptors + (size_t)edge * (kEdgeSiftBytes) + side * kSiftBytes);
 }
 
 #endif

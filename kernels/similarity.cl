@@ -3,10 +3,6 @@
 // The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
 // Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
 
-#define PATCH_BYTES 128
-#define INVERSE_NORMS 112  // where they begin
-#define EDGE_BYTES 256
-
 // The four products of side patches: dark-dark, bright-bright, dark-bright, bright-dark.
 inline float4 patch_scores(global const char* a, global const char* b) {
   // A product of two samples fits 16 bits, and so does the sum of two, at most 2 * 127^2.
@@ -25,8 +21,8 @@ inline float4 patch_scores(global const char* a, global const char* b) {
   const int8 same_sides = (int8)(alike.s0123 + alike.s4567, alike.s89ab + alike.scdef);
   const int8 other_sides = (int8)(crossed.s0123 + crossed.s4567, crossed.s89ab + crossed.scdef);
   const int8 twos = (int8)(same_sides.even + same_sides.odd, other_sides.even + other_sides.odd);
-  const float2 inverse_a = vload2(0, (global const float*)(a + INVERSE_NORMS));
-  const float2 inverse_b = vload2(0, (global const float*)(b + INVERSE_NORMS));
+  const float2 inverse_a = vload2(0, (global const float*)(a + kInverseNorms));
+  const float2 inverse_b = vload2(0, (global const float*)(b + kInverseNorms));
   return convert_float4(twos.even + twos.odd) * inverse_a.xyxy * inverse_b.xyyx;
 }
 

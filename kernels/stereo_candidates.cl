@@ -29,7 +29,7 @@ typedef struct {
   EpipolarLine line;
   float direction;         // of the left edge
   float tau, orientation;  // largest distance from the line, largest turn
-  float s_low, s_high;     // places on the line
+  float s_low, s_high;     // positions on the line
   float nx, ny;            // the line's normal
 } Wanted;
 

@@ -1,55 +1,57 @@
-// stereo_clusters.cl: filters 8c to 10 of the stereo cascade: clustering along the epipolar line, likeness of the representatives,
+// stereo_clusters.cl: filters 8c to 10 of the stereo cascade: clustering along the epipolar line, similarity of the representatives,
 // best and mutual.
 //
 // Needs direction.cl and epipolar.cl. Cluster k of left edge i is element first[i] + k of the cluster arrays.
 // Reference: host/reference/stereo_clusters.cpp.
 
-// Members whose likeness differs by less are equally alike: the first right edge in scan order stands for the cluster. Members that
-// the refinement led to the same place always are; rounding must not choose between them.
-// Twin: kLikenessTie in host/reference/stereo_clusters.cpp.
-#define LIKENESS_TIE 1e-4f
+// By what the representative of a cluster is chosen: a represented candidate comes behind every alive one.
+inline float rank_in_cluster(global const uchar* state, global const float* similarity, const int c) {
+  return state[c] == kCandidateRepresented ? similarity[c] - kBehindAll : similarity[c];
+}
 
-// One work-item = one left edge. Sorts its living candidates by place, cuts the row where the gap reaches cluster_gap, the direction
-// differs by more than cluster_orientation, or cluster_size_max is reached. The most alike member stands for a cluster; best_cluster
-// is the most alike of those that reach likeness_min (-1: none). `order` is scratch.
+// One work-item = one left edge. Sorts its alive and represented candidates by position, cuts the row where the gap reaches cluster_gap,
+// the direction differs by more than cluster_orientation, or cluster_size_max is reached. The most similar member represents a cluster;
+// best_cluster is the most similar of those that reach similarity_min (-1: none). `order` is scratch.
 kernel void stereo_clusters(global const int* first, global const int* target, const int capacity, const int left_count,
-                            global const float* right_direction, global const uchar* rejected_by,
-                            global const float* place, global const float* likeness, const float cluster_gap,
+                            global const float* right_direction, global const uchar* state,
+                            global const float* position, global const float* similarity, const float cluster_gap,
                             const float cluster_orientation, const int cluster_size_max, const float cluster_sigma,
-                            const float likeness_min, global int* order, global int* cluster_count,
-                            global float* cluster_place, global float* cluster_direction, global int* cluster_anchor,
-                            global float* cluster_likeness, global int* best_cluster) {
+                            const float similarity_min, global int* order, global int* cluster_count,
+                            global float* cluster_position, global float* cluster_direction, global int* cluster_anchor,
+                            global float* cluster_similarity, global int* best_cluster) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   const int begin = first[i], end = min(first[i + 1], capacity);
-  int alive = 0;
+  int members = 0;
   for (int c = begin; c < end; ++c) {
-    if (rejected_by[c] != 0) continue;
-    int k = begin + alive;
-    for (; k > begin && place[order[k - 1]] > place[c]; --k) order[k] = order[k - 1];
+    if (state[c] != kCandidateAlive && state[c] != kCandidateRepresented) continue;
+    int k = begin + members;
+    for (; k > begin && position[order[k - 1]] > position[c]; --k) order[k] = order[k - 1];
     order[k] = c;
-    ++alive;
+    ++members;
   }
   int clusters = 0, best = -1;
   int from = begin;
-  while (from < begin + alive) {
+  while (from < begin + members) {
     int to = from + 1;
-    while (to < begin + alive && to - from < cluster_size_max &&
-           place[order[to]] - place[order[to - 1]] < cluster_gap &&
+    while (to < begin + members && to - from < cluster_size_max &&
+           position[order[to]] - position[order[to - 1]] < cluster_gap &&
            angle_between(right_direction[target[order[to]]], right_direction[target[order[to - 1]]]) <=
                cluster_orientation) {
       ++to;
     }
-    float highest = likeness[order[from]];
-    for (int k = from + 1; k < to; ++k) highest = fmax(highest, likeness[order[k]]);
+    float highest = rank_in_cluster(state, similarity, order[from]);
+    for (int k = from + 1; k < to; ++k) highest = fmax(highest, rank_in_cluster(state, similarity, order[k]));
     int chosen = -1;
     for (int k = from; k < to; ++k) {
-      if (likeness[order[k]] >= highest - LIKENESS_TIE && (chosen < 0 || target[order[k]] < target[chosen]))
+      if (rank_in_cluster(state, similarity, order[k]) >= highest - kSimilarityTie &&
+          (chosen < 0 || target[order[k]] < target[chosen]))
         chosen = order[k];
     }
+    const float chosen_rank = rank_in_cluster(state, similarity, chosen);
     float cosine = 0.0f, sine = 0.0f;
     for (int k = from; k < to; ++k) {
-      const float distance = place[order[k]] - place[chosen];
+      const float distance = position[order[k]] - position[chosen];
       const float weight = exp(-0.5f * (distance / cluster_sigma) * (distance / cluster_sigma));
       float member_cosine;
       const float member_sine = sine_cosine(right_direction[target[order[k]]], &member_cosine);
@@ -57,11 +59,11 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
       sine += weight * member_sine;
     }
     const int k = begin + clusters;
-    cluster_place[k] = place[chosen];
+    cluster_position[k] = position[chosen];
     cluster_direction[k] = atan2(sine, cosine);
     cluster_anchor[k] = target[chosen];
-    cluster_likeness[k] = likeness[chosen];
-    if (likeness[chosen] >= likeness_min && (best < 0 || likeness[chosen] > cluster_likeness[best])) best = k;
+    cluster_similarity[k] = chosen_rank;
+    if (chosen_rank >= similarity_min && (best < 0 || chosen_rank > cluster_similarity[best])) best = k;
     ++clusters;
     from = to;
   }
@@ -70,21 +72,21 @@ kernel void stereo_clusters(global const int* first, global const int* target, c
 }
 
 // Mutual best in three launches over the left edges. Maxima and minima of integers do not depend on the order of the work-items.
-// 1: the highest likeness that any left edge offers to a right edge (positive floats order like their bits).
+// 1: the highest similarity that any left edge offers to a right edge (positive floats order like their bits).
 kernel void stereo_claim(global const int* best_cluster, global const int* cluster_anchor,
-                         global const float* cluster_likeness, const int left_count, global int* claimed) {
+                         global const float* cluster_similarity, const int left_count, global int* claimed) {
   const int i = (int)get_global_id(0);
   if (i >= left_count || best_cluster[i] < 0) return;
-  atomic_max(claimed + cluster_anchor[best_cluster[i]], as_int(cluster_likeness[best_cluster[i]]));
+  atomic_max(claimed + cluster_anchor[best_cluster[i]], as_int(cluster_similarity[best_cluster[i]]));
 }
 // 2: the first left edge that offers it.
 kernel void stereo_owner(global const int* best_cluster, global const int* cluster_anchor,
-                         global const float* cluster_likeness, const int left_count, global const int* claimed,
+                         global const float* cluster_similarity, const int left_count, global const int* claimed,
                          global int* owner) {
   const int i = (int)get_global_id(0);
   if (i >= left_count || best_cluster[i] < 0) return;
   const int anchor = cluster_anchor[best_cluster[i]];
-  if (as_int(cluster_likeness[best_cluster[i]]) == claimed[anchor]) atomic_min(owner + anchor, i);
+  if (as_int(cluster_similarity[best_cluster[i]]) == claimed[anchor]) atomic_min(owner + anchor, i);
 }
 // 3: a left edge stays if the right edge's best is this left edge or its neighbour on the same curve.
 kernel void stereo_mutual(global const int* best_cluster, global const int* cluster_anchor, const int left_count,
@@ -103,9 +105,9 @@ kernel void stereo_mutual(global const int* best_cluster, global const int* clus
 // `packed`: blocks of `stride` floats: left x, y, direction, right x, y, direction; the right ones also stand alone.
 kernel void stereo_collect(global const int* keep_first, const int left_count, global const int* best_cluster,
                            global const float* left_x, global const float* left_y, global const float* left_direction,
-                           global const float* geometry, global const float* cluster_place,
+                           global const float* geometry, global const float* cluster_position,
                            global const float* cluster_direction, global const int* cluster_anchor,
-                           global const float* cluster_likeness, const int stride, global int* left_index,
+                           global const float* cluster_similarity, const int stride, global int* left_index,
                            global int* right_index, global float* packed, global float* right_x, global float* right_y,
                            global float* right_direction, global float* ncc) {
   const int i = (int)get_global_id(0);
@@ -117,8 +119,8 @@ kernel void stereo_collect(global const int* keep_first, const int left_count, g
   packed[row] = left_x[i];
   packed[stride + row] = left_y[i];
   packed[2 * stride + row] = left_direction[i];
-  packed[3 * stride + row] = right_x[row] = line.x + cluster_place[k] * line.ex;
-  packed[4 * stride + row] = right_y[row] = line.y + cluster_place[k] * line.ey;
+  packed[3 * stride + row] = right_x[row] = line.x + cluster_position[k] * line.ex;
+  packed[4 * stride + row] = right_y[row] = line.y + cluster_position[k] * line.ey;
   packed[5 * stride + row] = right_direction[row] = cluster_direction[k];
-  ncc[row] = cluster_likeness[k];
+  ncc[row] = cluster_similarity[k];
 }

@@ -1,27 +1,23 @@
 // stereo_refinement.cl: filter 8a and 8b of the stereo cascade: epipolar shift, then photometric refinement along the line.
 //
-// Needs direction.cl, epipolar.cl, photometric.cl and candidate_places.cl. In: both images as corners, edges, the left edges' side
+// Needs direction.cl, epipolar.cl, photometric.cl and candidate_positions.cl. In: both images as corners, edges, the left edges' side
 // patches (patches.cl), candidate lists.
-// Out per candidate: its place `s` on the left edge's epipolar line (px from the point at infinity), how alike both places look,
-// and rejected_by = rejected_order where the refinement diverged. One work-item = one left edge; stereo_refinement_lanes.cl has
+// Out per candidate: its position `s` on the left edge's epipolar line (px from the point at infinity), how alike both positions look,
+// and state = rejected_order where the refinement diverged. One work-item = one left edge; stereo_refinement_lanes.cl has
 // eight per edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
-// Layout of patches.cl.
-#define PATCH_BYTES 128
-#define INVERSE_NORMS 112
-
-// The higher NCC of the two side patches of a left edge and those cut at two places of the right image.
+// The higher NCC of the two side patches of a left edge and those cut at two positions of the right image.
 inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,
                          const PatchFrame bright, global const char* side_patches) {
-  float16 rows[PATCH_SIDE], squares = 0.0f, products = 0.0f;
+  float16 rows[kPatchSide], squares = 0.0f, products = 0.0f;
   cut_two_patches(corners, width, height, dark, bright, rows);
-  for (int k = 0; k < PATCH_SIDE; ++k) {
+  for (int k = 0; k < kPatchSide; ++k) {
     squares += rows[k] * rows[k];
     products += rows[k] * convert_float16(((global const char16*)side_patches)[k]);
   }
   const float dark_norm = sqrt(sum_used(squares.lo)), bright_norm = sqrt(sum_used(squares.hi));
-  const float2 inverse_norms = vload2(0, (global const float*)(side_patches + INVERSE_NORMS));
+  const float2 inverse_norms = vload2(0, (global const float*)(side_patches + kInverseNorms));
   return fmax(dark_norm < 1e-10f ? 0.0f : sum_used(products.lo) * inverse_norms.x / dark_norm,
               bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) * inverse_norms.y / bright_norm);
 }
@@ -35,9 +31,9 @@ kernel void stereo_refinement(global const int* first, global const int* target,
                               global const float* right_y, global const float* right_direction,
                               global const float* geometry, const float patch_offset, const float shift_min_sine,
                               const float shift_max, const float stiffness, const int steps, const float tolerance,
-                              const float huber, const float clamp_px, const float likeness_min,
-                              const int rejected_order, global uchar* rejected_by, global float* place,
-                              global float* likeness) {
+                              const float huber, const float clamp_px, const float similarity_min,
+                              const int rejected_order, global uchar* state, global float* position,
+                              global float* similarity) {
   const int i = (int)get_global_id(0);
   if (i >= left_count) return;
   const int begin = first[i], end = min(first[i + 1], capacity);
@@ -45,23 +41,23 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   const RefinementSettings settings = {steps, tolerance, huber, clamp_px};
   const float x = left_x[i], y = left_y[i];
   const EpipolarLine line = epipolar_line(geometry, x, y);
-  // A place known across the edge is known the worse along the line the flatter the edge lies to it.
+  // A position known across the edge is known the worse along the line the flatter the edge lies to it.
   const float line_sine = left_epipolar_sine(geometry, x, y, left_direction[i]);
   const float edge_stiffness = stiffness * line_sine * line_sine;
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
-  global const char* side_patches = left_patches + (size_t)i * PATCH_BYTES;
-  float8 fixed[PATCH_SIDE], derivative[PATCH_SIDE], values[PATCH_SIDE];
+  global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
+  float8 fixed[kPatchSide], derivative[kPatchSide], values[kPatchSide];
   float fixed_norm = 0.0f;
   int ready = 0;
   for (int c = begin; c < end; ++c) {
-    if (rejected_by[c] != 0) continue;
+    if (state[c] != kCandidateAlive) continue;
     const int j = target[c];
-    place[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
-    settle_place(begin, c, ncc, place, rejected_by);
+    position[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+    choose_representative(begin, c, ncc, position, state);
   }
   for (int c = begin; c < end; ++c) {
-    if (rejected_by[c] != 0) continue;
+    if (state[c] != kCandidateAlive) continue;
     if (!ready) {
       cut_patch(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, fixed);
       fixed_norm = patch_norm(fixed);
@@ -69,18 +65,18 @@ kernel void stereo_refinement(global const int* first, global const int* target,
                        line.ey, derivative);
       ready = 1;
     }
-    float s = place[c];
+    float s = position[c];
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
     const int aligned = align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed,
                                    fixed_norm, derivative, edge_stiffness, settings, values, &move);
     if (aligned == ALIGN_LEFT) {
-      rejected_by[c] = (uchar)rejected_order;
+      state[c] = (uchar)rejected_order;
       continue;
     }
     s += move;
-    place[c] = s;
+    position[c] = s;
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
     if (aligned == ALIGN_MOVED) {
       cut_patch(right_corners, right_width, right_height,
@@ -89,12 +85,12 @@ kernel void stereo_refinement(global const int* first, global const int* target,
     const float on_edge = rows_ncc(fixed, fixed_norm, values);
     // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
     float beside = -1.0f;
-    if (0.5f * (on_edge + 1.0f) >= likeness_min) {
+    if (0.5f * (on_edge + 1.0f) >= similarity_min) {
       beside = better_side(right_corners, right_width, right_height,
                            patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset),
                            patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, patch_offset), side_patches);
     }
-    likeness[c] = 0.5f * (on_edge + beside);
+    similarity[c] = 0.5f * (on_edge + beside);
   }
-  join_neighbours(begin, end, rejected_order, place, rejected_by, likeness);
+  follow_representatives(begin, end, rejected_order, position, state, similarity);
 }

@@ -1,22 +1,18 @@
 // stereo_refinement_lanes.cl: stereo_refinement.cl with eight work-items per left edge, for GPUs.
 //
-// Needs direction.cl, epipolar.cl, photometric.cl, photometric_lanes.cl and candidate_places.cl. In and out as there, and the same
+// Needs direction.cl, epipolar.cl, photometric.cl, photometric_lanes.cl and candidate_positions.cl. In and out as there, and the same
 // bits: a work-item is one lane across the edge, its patches are columns in private memory, sums over lanes go through local memory.
 // Groups of GROUP work-items refine one candidate of each of their edges at a time; the first lane of an edge keeps its row of
 // candidates. Local memory: EXCHANGE_FLOATS floats.
 // Reference: host/reference/stereo_refinement.cpp.
 
-// Layout of patches.cl.
-#define PATCH_BYTES 128
-#define INVERSE_NORMS 112
-
 // NCC of a side patch of the left edge, columns of 16 bytes apart, and the patch at `frame` of the right image.
 inline float side_ncc(global const uint* corners, const int width, const int height, const PatchFrame frame,
                       global const char* side_patch, const float inverse_norm, const int wanted, Exchange* exchange) {
-  float column[PATCH_SIDE] = {0.0f}, own[PATCH_SIDE];
+  float column[kPatchSide] = {0.0f}, own[kPatchSide];
   cut_column(corners, width, height, frame, wanted, exchange, column);
 #pragma unroll
-  for (int i = 0; i < PATCH_SIDE; ++i) own[i] = (float)side_patch[16 * i + lane_of_item()];
+  for (int i = 0; i < kPatchSide; ++i) own[i] = (float)side_patch[16 * i + lane_of_item()];
   const float2 sums = sum_two_lanes(exchange, column_product(column, column), column_product(column, own));
   const float norm = sqrt(sums.x);
   return norm < 1e-10f ? 0.0f : sums.y * inverse_norm / norm;
@@ -30,8 +26,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     global const float* right_x, global const float* right_y, global const float* right_direction,
     global const float* geometry, const float patch_offset, const float shift_min_sine, const float shift_max,
     const float stiffness, const int steps, const float tolerance, const float huber, const float clamp_px,
-    const float likeness_min, const int rejected_order, global uchar* rejected_by, global float* place,
-    global float* likeness) {
+    const float similarity_min, const int rejected_order, global uchar* state, global float* position,
+    global float* similarity) {
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), first_item = LANES * patch_in_group();
@@ -42,37 +38,37 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   const RefinementSettings settings = {steps, tolerance, huber, clamp_px};
   const float x = left_x[i], y = left_y[i];
   const EpipolarLine line = epipolar_line(geometry, x, y);
-  // A place known across the edge is known the worse along the line the flatter the edge lies to it.
+  // A position known across the edge is known the worse along the line the flatter the edge lies to it.
   const float line_sine = left_epipolar_sine(geometry, x, y, left_direction[i]);
   const float edge_stiffness = stiffness * line_sine * line_sine;
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
-  global const char* side_patches = left_patches + (size_t)i * PATCH_BYTES;
-  const float2 inverse_norms = vload2(0, (global const float*)(side_patches + INVERSE_NORMS));
+  global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
+  const float2 inverse_norms = vload2(0, (global const float*)(side_patches + kInverseNorms));
 
   for (int c = begin + lane; c < end; c += LANES) {
     const int j = target[c];
-    if (rejected_by[c] == 0)
-      place[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+    if (state[c] == kCandidateAlive)
+      position[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
   }
   barrier(CLK_GLOBAL_MEM_FENCE);
   // From here on only the first lane reads and writes the row.
   const int keeper = lane == 0;
   if (keeper) {
     for (int c = begin; c < end; ++c) {
-      if (rejected_by[c] == 0) settle_place(begin, c, ncc, place, rejected_by);
+      if (state[c] == kCandidateAlive) choose_representative(begin, c, ncc, position, state);
     }
   }
 
-  float fixed[PATCH_SIDE] = {0.0f}, derivative[PATCH_SIDE] = {0.0f}, values[PATCH_SIDE] = {0.0f};
+  float fixed[kPatchSide] = {0.0f}, derivative[kPatchSide] = {0.0f}, values[kPatchSide] = {0.0f};
   float fixed_norm = 0.0f;
   int ready = 0;
   for (int c = begin;; ++c) {
     if (keeper) {
-      while (c < end && rejected_by[c] != 0) ++c;
+      while (c < end && state[c] != kCandidateAlive) ++c;
     }
     const int found = keeper && c < end;
-    local const float* told = tell(&exchange, found ? 1.0f : 0.0f, found ? place[c] : 0.0f);
+    local const float* told = tell(&exchange, found ? 1.0f : 0.0f, found ? position[c] : 0.0f);
     const int living = told[first_item] != 0.0f;
     float s = told[GROUP + first_item];
     if (!any_patch(told)) break;
@@ -98,7 +94,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     const float norms = fixed_norm * sqrt(sums.x);
     const float on_edge = norms < 1e-10f ? 0.0f : sums.y / norms;
     // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
-    const int alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= likeness_min;
+    const int alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= similarity_min;
     const float dark = side_ncc(right_corners, right_width, right_height,
                                 patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset), side_patches,
                                 inverse_norms.x, alike, &exchange);
@@ -107,11 +103,11 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
                                   side_patches + LANES, inverse_norms.y, alike, &exchange);
     if (!found) continue;
     if (aligned == ALIGN_LEFT) {
-      rejected_by[c] = (uchar)rejected_order;
+      state[c] = (uchar)rejected_order;
     } else {
-      place[c] = s;
-      likeness[c] = 0.5f * (on_edge + (alike ? fmax(dark, bright) : -1.0f));
+      position[c] = s;
+      similarity[c] = 0.5f * (on_edge + (alike ? fmax(dark, bright) : -1.0f));
     }
   }
-  if (keeper) join_neighbours(begin, end, rejected_order, place, rejected_by, likeness);
+  if (keeper) follow_representatives(begin, end, rejected_order, position, state, similarity);
 }

@@ -1,6 +1,6 @@
 // temporal_candidates.cl: filters 1 and 2 of the temporal cascade: displacement and orientation, for the left or the right images.
 //
-// Needs point_index.cl. In: predicted places and directions of the base's stereo edges in the current image (NaN: none), the
+// Needs point_index.cl. In: predicted positions and directions of the base's stereo edges in the current image (NaN: none), the
 // current stereo edges of that side in the order of their point index, with the index. Row r belongs to base edge r * row_step.
 // Out: candidate lists in compressed rows, targets are current stereo edges in the order of the point index.
 // One work-item = one row. Two launches: count, then (after an exclusive scan) fill.
@@ -11,11 +11,11 @@ inline int visit_near(const float x, const float y, const float direction, globa
                       global const int* cell_first, const int columns, const int rows, const float radius,
                       const float orientation, global int* target, const int room) {
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
-  const int first_column = cell_of(x - radius, CELL_WIDTH, columns),
-            last_column = cell_of(x + radius, CELL_WIDTH, columns);
-  const int last_row = cell_of(y + radius, CELL_HEIGHT, rows);
+  const int first_column = cell_of(x - radius, kCellWidth, columns),
+            last_column = cell_of(x + radius, kCellWidth, columns);
+  const int last_row = cell_of(y + radius, kCellHeight, rows);
   int count = 0;
-  for (int row = cell_of(y - radius, CELL_HEIGHT, rows); row <= last_row; ++row) {
+  for (int row = cell_of(y - radius, kCellHeight, rows); row <= last_row; ++row) {
     const int end = cell_first[row * columns + last_column + 1];
     for (int k = cell_first[row * columns + first_column]; k < end; ++k) {
       const float dx = xs[k] - x, dy = ys[k] - y;

@@ -32,14 +32,14 @@ inline int alike_near(const float x, const float y, const float direction, globa
                       global const int* patch_numbers, const float ncc_min, const float ncc_nearly_best, int* target,
                       float* ncc) {
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
-  const int first_column = cell_of(x - radius, CELL_WIDTH, columns),
-            last_column = cell_of(x + radius, CELL_WIDTH, columns);
-  const int last_row = cell_of(y + radius, CELL_HEIGHT, rows);
+  const int first_column = cell_of(x - radius, kCellWidth, columns),
+            last_column = cell_of(x + radius, kCellWidth, columns);
+  const int last_row = cell_of(y + radius, kCellHeight, rows);
 #ifdef LANES
   const int total = cell_first[columns * rows];
 #endif
   int near = 0;
-  for (int row = cell_of(y - radius, CELL_HEIGHT, rows); row <= last_row; ++row) {
+  for (int row = cell_of(y - radius, kCellHeight, rows); row <= last_row; ++row) {
     const int end = cell_first[row * columns + last_column + 1];
     int k = cell_first[row * columns + first_column];
 #ifdef LANES
@@ -68,12 +68,12 @@ inline int alike_near(const float x, const float y, const float direction, globa
   }
 #ifdef LANES
   // The patches stand all over the memory: all are asked for before the first is needed.
-  for (int c = 0; c < near; ++c) ask_for_patch(patches + PATCH_BYTES * (size_t)patch_numbers[target[c]]);
+  for (int c = 0; c < near; ++c) ask_for_patch(patches + kEdgePatchBytes * (size_t)patch_numbers[target[c]]);
 #endif
   int alike = 0;
   float best = 0.0f;
   for (int c = 0; c < near; ++c) {
-    const float similarity = patch_ncc(patch, patches + PATCH_BYTES * (size_t)patch_numbers[target[c]]);
+    const float similarity = patch_ncc(patch, patches + kEdgePatchBytes * (size_t)patch_numbers[target[c]]);
     if (similarity < ncc_min) continue;
     target[alike] = target[c];
     ncc[alike++] = similarity;
@@ -134,11 +134,11 @@ kernel void temporal_match(const int rows, const int row_step, global const floa
   const float x = left_predicted_x[i], y = left_predicted_y[i];
   const int left = alike_near(x, y, left_predicted_direction[i], left_xs, left_ys, left_directions, left_numbers,
                               left_cell_first, left_columns, left_cell_rows, radius, orientation,
-                              base_left_patches + PATCH_BYTES * (size_t)base_left_index[i], left_patches, left_index,
-                              ncc_min, ncc_nearly_best, left_target, left_ncc);
+                              base_left_patches + kEdgePatchBytes * (size_t)base_left_index[i], left_patches,
+                              left_index, ncc_min, ncc_nearly_best, left_target, left_ncc);
   const int right = alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs,
                                right_ys, right_directions, right_numbers, right_cell_first, right_columns,
-                               right_cell_rows, radius, orientation, base_right_patches + PATCH_BYTES * (size_t)i,
+                               right_cell_rows, radius, orientation, base_right_patches + kEdgePatchBytes * (size_t)i,
                                right_patches, itself, ncc_min, ncc_nearly_best, right_target, right_ncc);
   const int flags =
       (left > 0 ? LEFT_ALIVE : 0) | (right > 0 ? RIGHT_ALIVE : 0) | (left < 0 || right < 0 ? OVERFLOW : 0);

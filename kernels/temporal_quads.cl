@@ -6,21 +6,21 @@
 // One work-item = one row. A living left candidate stays if the right list holds the same current edge alive; `score` becomes the mean
 // of both NCC.
 kernel void temporal_agreement(global const int* left_first, global const int* left_target, const int left_capacity,
-                               global const float* left_ncc, global uchar* left_rejected_by,
-                               global const int* right_first, global const int* right_target, const int right_capacity,
-                               global const float* right_ncc, global const uchar* right_rejected_by, const int rows,
-                               const int rejected_order, global float* score) {
+                               global const float* left_ncc, global uchar* left_state, global const int* right_first,
+                               global const int* right_target, const int right_capacity, global const float* right_ncc,
+                               global const uchar* right_state, const int rows, const int rejected_order,
+                               global float* score) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int left_end = min(left_first[row + 1], left_capacity), right_end = min(right_first[row + 1], right_capacity);
   for (int c = left_first[row]; c < left_end; ++c) {
-    if (left_rejected_by[c] != 0) continue;
+    if (left_state[c] != kCandidateAlive) continue;
     int found = -1;
     for (int d = right_first[row]; d < right_end && found < 0; ++d) {
-      if (right_rejected_by[d] == 0 && right_target[d] == left_target[c]) found = d;
+      if (right_state[d] == kCandidateAlive && right_target[d] == left_target[c]) found = d;
     }
     if (found < 0) {
-      left_rejected_by[c] = (uchar)rejected_order;
+      left_state[c] = (uchar)rejected_order;
     } else {
       score[c] = 0.5f * (left_ncc[c] + right_ncc[found]);
     }
@@ -38,7 +38,7 @@ kernel void temporal_agreement(global const int* left_first, global const int* l
 // Out per row: best (current edge, -1: none), rivals (other clusters) and score. `label` is scratch.
 kernel void temporal_best(global const int* first, global const int* target, const int capacity, const int rows,
                           const int row_step, global const float* current, const int current_count,
-                          global const uchar* rejected_by, global const float* score, global const float* predicted_x,
+                          global const uchar* state, global const float* score, global const float* predicted_x,
                           global const float* predicted_y, const float distance_weight, const float cluster_gap,
                           const float cluster_orientation, global int* label, global int* best, global int* rivals,
                           global float* best_score) {
@@ -48,7 +48,7 @@ kernel void temporal_best(global const int* first, global const int* target, con
   int winner = -1;
   float highest = 0.0f;
   for (int c = begin; c < end; ++c) {
-    label[c] = rejected_by[c] == 0 ? c : -1;
+    label[c] = state[c] == kCandidateAlive ? c : -1;
     if (label[c] < 0) continue;
     const float dx = LEFT_X(current, current_count, target[c]) - predicted_x[row * row_step];
     const float dy = LEFT_Y(current, current_count, target[c]) - predicted_y[row * row_step];

@@ -1,6 +1,6 @@
 // undistortion.cl: the pinhole image of a recorded image with lens distortion.
 //
-// In: recorded image (source_width x source_height, packed), a table with the place in it of every pinhole pixel.
+// In: recorded image (source_width x source_height, packed), a table with the position in it of every pinhole pixel.
 // Out: pinhole image (count pixels, packed). One work-item = one pixel. Bilinear, border replicated, rounded half up.
 // Reference: host/reference/undistortion.cpp.
 kernel void undistort(global const uchar* source, const int source_width, const int source_height,

@@ -1,14 +1,11 @@
 // wide_description.cl: what surrounds an edge, as one descriptor of 36 x 36 px turned with the edge, for finding it anywhere.
 //
-// wide_shrink    In: image (width x height, packed). Out: means of blocks of SHRINK x SHRINK pixels, small_width x small_height.
+// wide_shrink    In: image (width x height, packed). Out: means of blocks of kWideShrink x kWideShrink pixels, small_width x small_height.
 //                One work-item = one block.
 // wide_describe  In: that image, stereo edges packed as stereo_collect writes them (the left blocks are used). Row r belongs to
 //                edge r * step. Out: 128 bytes per row, laid out as in host/reference/wide_description.hpp. One work-item = one row.
 // Needs direction.cl before it. Reference: host/reference/wide_description.cpp.
 
-#define SHRINK 3
-#define CELLS 4
-#define ANGLES 8
 #define HALF 7  // samples on either side of the middle one
 #define SIDE (2 * HALF + 1)
 #define CELL_WIDTH 3.0f  // small pixels
@@ -27,9 +24,10 @@ kernel void wide_shrink(global const uchar* image, const int width, const int sm
   const int x = (int)get_global_id(0), y = (int)get_global_id(1);
   if (x >= small_width || y >= small_height) return;
   int sum = 0;
-  for (int row = 0; row < SHRINK; ++row)
-    for (int column = 0; column < SHRINK; ++column) sum += image[(SHRINK * y + row) * width + SHRINK * x + column];
-  small[y * small_width + x] = (float)sum / (float)(SHRINK * SHRINK);
+  for (int row = 0; row < kWideShrink; ++row)
+    for (int column = 0; column < kWideShrink; ++column)
+      sum += image[(kWideShrink * y + row) * width + kWideShrink * x + column];
+  small[y * small_width + x] = (float)sum / (float)(kWideShrink * kWideShrink);
 }
 
 inline float wide_sample(global const float* small, const int width, const int height, const float x, const float y) {
@@ -44,7 +42,7 @@ inline float wide_sample(global const float* small, const int width, const int h
 
 // Share that a sample `offset` small pixels from the middle has in a cell, along one axis.
 inline float wide_share(const int offset, const int cell) {
-  const float distance = fabs((float)offset * (1.0f / CELL_WIDTH) - ((float)cell - 0.5f * (CELLS - 1)));
+  const float distance = fabs((float)offset * (1.0f / CELL_WIDTH) - ((float)cell - 0.5f * (kWideCells - 1)));
   return max(0.0f, 1.0f - distance) * kWindow[abs(offset)];
 }
 
@@ -62,8 +60,8 @@ kernel void wide_describe(global const float* small, const int small_width, cons
   const int edge = row * step;
   float cosine;
   const float sine = sine_cosine(edges[2 * stride + edge], &cosine);
-  const float x = (edges[edge] - 0.5f * (SHRINK - 1)) / SHRINK,
-              y = (edges[stride + edge] - 0.5f * (SHRINK - 1)) / SHRINK;
+  const float x = (edges[edge] - 0.5f * (kWideShrink - 1)) / kWideShrink,
+              y = (edges[stride + edge] - 0.5f * (kWideShrink - 1)) / kWideShrink;
 
   float samples[(SIDE + 2) * (SIDE + 2)];
   for (int v = 0; v < SIDE + 2; ++v) {
@@ -73,33 +71,33 @@ kernel void wide_describe(global const float* small, const int small_width, cons
                                                 y + along * sine + across * cosine);
     }
   }
-  float8 histogram[CELLS * CELLS];
-  for (int cell = 0; cell < CELLS * CELLS; ++cell) histogram[cell] = 0.0f;
+  float8 histogram[kWideCells * kWideCells];
+  for (int cell = 0; cell < kWideCells * kWideCells; ++cell) histogram[cell] = 0.0f;
   for (int v = 0; v < SIDE; ++v) {
-    float8 line[CELLS];
-    for (int cell = 0; cell < CELLS; ++cell) line[cell] = 0.0f;
+    float8 line[kWideCells];
+    for (int cell = 0; cell < kWideCells; ++cell) line[cell] = 0.0f;
     for (int u = 0; u < SIDE; ++u) {
       const float* p = samples + (v + 1) * (SIDE + 2) + u + 1;
       const float gradient_along = p[1] - p[-1], gradient_across = p[SIDE + 2] - p[-(SIDE + 2)];
       const float square = gradient_along * gradient_along + gradient_across * gradient_across;
       const float8 part = max(gradient_along * kCosine + gradient_across * kSine, 0.0f);
       const float8 bins = square > 0.0f ? part * part * part / square : 0.0f;
-      for (int cell = 0; cell < CELLS; ++cell) line[cell] += wide_share(u - HALF, cell) * bins;
+      for (int cell = 0; cell < kWideCells; ++cell) line[cell] += wide_share(u - HALF, cell) * bins;
     }
-    for (int cell = 0; cell < CELLS * CELLS; ++cell)
-      histogram[cell] += wide_share(v - HALF, cell / CELLS) * line[cell % CELLS];
+    for (int cell = 0; cell < kWideCells * kWideCells; ++cell)
+      histogram[cell] += wide_share(v - HALF, cell / kWideCells) * line[cell % kWideCells];
   }
   float squares = 0.0f;
-  for (int cell = 0; cell < CELLS * CELLS; ++cell) squares += wide_sum(histogram[cell] * histogram[cell]);
+  for (int cell = 0; cell < kWideCells * kWideCells; ++cell) squares += wide_sum(histogram[cell] * histogram[cell]);
   const float clip = CLIP * sqrt(squares);
   squares = 0.0f;
-  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
+  for (int cell = 0; cell < kWideCells * kWideCells; ++cell) {
     histogram[cell] = min(histogram[cell], clip);
     squares += wide_sum(histogram[cell] * histogram[cell]);
   }
   const float norm = sqrt(squares), scale = norm > 0.0f ? NORM / norm : 0.0f;
-  global uchar* descriptor = descriptors + (size_t)row * (CELLS * CELLS * ANGLES);
-  for (int cell = 0; cell < CELLS * CELLS; ++cell) {
+  global uchar* descriptor = descriptors + (size_t)row * kWideBytes;
+  for (int cell = 0; cell < kWideCells * kWideCells; ++cell) {
     vstore8(convert_uchar8(convert_int8(min(histogram[cell] * scale, 255.0f) + 0.5f)), cell, descriptor);
   }
 }

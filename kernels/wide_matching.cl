@@ -1,14 +1,14 @@
 // wide_matching.cl: finds every row's edge among all columns, anywhere in the image, by its wide descriptor.
 //
 // Rows are every row_step-th stereo edge of the earlier rig, columns every column_step-th one of the current rig; edges packed as
-// stereo_collect writes them (left x, y). The likeness of two descriptors of norm 512 is their product, their squared distance
+// stereo_collect writes them (left x, y). The similarity of two descriptors of norm 512 is their product, their squared distance
 // 2 (512^2 - product): whole numbers below 2^24, exact in single precision in any order.
-// Out per row: the column with the highest likeness, the first on a tie, or -1 where
+// Out per row: the column with the highest similarity, the first on a tie, or -1 where
 //   - another row farther than `neighbourhood` px from this one is at least as alike to that column, or
 //   - a column farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test against a rival elsewhere).
 // One work-item = one row. Reference: host/reference/wide_matching.cpp.
 
-#define BLOCKS 8          // of 16 bytes
+#define BLOCKS (kWideBytes / 16)
 #define SQUARE 262144.0f  // 512^2
 
 typedef struct {
@@ -39,32 +39,32 @@ kernel void wide_match(global const uchar* row_descriptors, global const float* 
                        const int rows, const int row_step, global const uchar* column_descriptors,
                        global const float* column_edges, const int column_stride, const int columns,
                        const int column_step, const float neighbourhood, const float ratio, global int* best,
-                       global float* likeness) {
+                       global float* similarity) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   best[row] = -1;
-  likeness[row] = 0.0f;
-  const Descriptor mine = wide_load(row_descriptors + (size_t)row * (16 * BLOCKS));
+  similarity[row] = 0.0f;
+  const Descriptor mine = wide_load(row_descriptors + (size_t)row * kWideBytes);
   int winner = -1;
   float highest = 0.0f;
   for (int column = 0; column < columns; ++column) {
-    const float product = wide_product(&mine, column_descriptors + (size_t)column * (16 * BLOCKS));
+    const float product = wide_product(&mine, column_descriptors + (size_t)column * kWideBytes);
     winner = product > highest ? column : winner;
     highest = max(product, highest);
   }
   if (winner < 0) return;
-  const Descriptor found = wide_load(column_descriptors + (size_t)winner * (16 * BLOCKS));
+  const Descriptor found = wide_load(column_descriptors + (size_t)winner * kWideBytes);
   for (int other = 0; other < rows; ++other) {
     if (!wide_apart(row_edges, row_edges + row_stride, other * row_step, row * row_step, neighbourhood)) continue;
-    if (wide_product(&found, row_descriptors + (size_t)other * (16 * BLOCKS)) >= highest) return;
+    if (wide_product(&found, row_descriptors + (size_t)other * kWideBytes) >= highest) return;
   }
-  const float limit = SQUARE - (SQUARE - highest) / (ratio * ratio);  // likeness of a rival that is too near
+  const float limit = SQUARE - (SQUARE - highest) / (ratio * ratio);  // similarity of a rival that is too near
   for (int column = 0; column < columns; ++column) {
     if (!wide_apart(column_edges, column_edges + column_stride, column * column_step, winner * column_step,
                     neighbourhood))
       continue;
-    if (wide_product(&mine, column_descriptors + (size_t)column * (16 * BLOCKS)) > limit) return;
+    if (wide_product(&mine, column_descriptors + (size_t)column * kWideBytes) > limit) return;
   }
   best[row] = winner;
-  likeness[row] = highest / SQUARE;
+  similarity[row] = highest / SQUARE;
 }

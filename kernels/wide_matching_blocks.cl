@@ -2,13 +2,12 @@
 // ROWS others, so that no product is summed across lanes. All products are whole numbers below 2^24: the same bits as there.
 //
 // wide_transpose  In: descriptors. Out: blocks of sixteen, byte by byte: byte k of descriptor 16 b + lane is element
-//                 (BYTES b + k) * 16 + lane; zeros after the last one. One work-item = one block.
+//                 (kWideBytes b + k) * 16 + lane; zeros after the last one. One work-item = one block.
 // wide_match      Out per row as in wide_matching.cl. One work-item = ROWS rows.
 
 #ifndef ROWS
 #define ROWS 8
 #endif
-#define BYTES 128
 #define LANES 16
 #define LISTED 64         // blocks of columns that may hold a rival, per row
 #define SQUARE 262144.0f  // 512^2
@@ -18,31 +17,32 @@ kernel void wide_transpose(global const uchar* descriptors, const int count, glo
   if (block * LANES >= count) return;
   for (int lane = 0; lane < LANES; ++lane) {
     const int descriptor = block * LANES + lane;
-    for (int k = 0; k < BYTES; ++k) {
-      blocks[(size_t)(block * BYTES + k) * LANES + lane] =
-          descriptor < count ? descriptors[(size_t)descriptor * BYTES + k] : 0;
+    for (int k = 0; k < kWideBytes; ++k) {
+      blocks[(size_t)(block * kWideBytes + k) * LANES + lane] =
+          descriptor < count ? descriptors[(size_t)descriptor * kWideBytes + k] : 0;
     }
   }
 }
 
 inline void wide_load(global const uchar* descriptor, float* values) {
-  for (int k = 0; k < BYTES; ++k) values[k] = (float)descriptor[k];
+  for (int k = 0; k < kWideBytes; ++k) values[k] = (float)descriptor[k];
 }
 
 // Products of ROWS descriptors with the sixteen of a block.
 inline void wide_products(const float* mine, global const uchar* block, float16* products) {
 #pragma unroll
   for (int row = 0; row < ROWS; ++row) products[row] = 0.0f;
-  for (int k = 0; k < BYTES; ++k) {
+  for (int k = 0; k < kWideBytes; ++k) {
     const float16 other = convert_float16(vload16(k, block));
 #pragma unroll
-    for (int row = 0; row < ROWS; ++row) products[row] = fma((float16)(mine[row * BYTES + k]), other, products[row]);
+    for (int row = 0; row < ROWS; ++row)
+      products[row] = fma((float16)(mine[row * kWideBytes + k]), other, products[row]);
   }
 }
 
 inline float16 wide_product(const float* mine, global const uchar* block) {
   float16 product = 0.0f;
-  for (int k = 0; k < BYTES; ++k) product = fma((float16)(mine[k]), convert_float16(vload16(k, block)), product);
+  for (int k = 0; k < kWideBytes; ++k) product = fma((float16)(mine[k]), convert_float16(vload16(k, block)), product);
   return product;
 }
 
@@ -53,7 +53,7 @@ inline float wide_highest(const float16 v) {
   return fmax(two.x, two.y);
 }
 
-// The likeness above which a rival elsewhere is too near to one of `highest`.
+// The similarity above which a rival elsewhere is too near to one of `highest`.
 inline float wide_limit(const float highest, const float ratio) {
   return SQUARE - (SQUARE - highest) / (ratio * ratio);
 }
@@ -78,23 +78,23 @@ kernel void wide_match(global const uchar* row_descriptors, global const uchar* 
                        global const uchar* column_descriptors, global const uchar* column_blocks,
                        global const float* column_edges, const int column_stride, const int columns,
                        const int column_step, const float neighbourhood, const float ratio, global int* best,
-                       global float* likeness) {
+                       global float* similarity) {
   const int first = (int)get_global_id(0) * ROWS;
   if (first >= rows) return;
-  float mine[ROWS * BYTES], found[ROWS * BYTES];
+  float mine[ROWS * kWideBytes], found[ROWS * kWideBytes];
   float16 products[ROWS];
   float highest[ROWS];
   int winner[ROWS], listed[ROWS], list[ROWS][LISTED];
   float listed_highest[ROWS][LISTED];
   bool alone[ROWS];
   for (int r = 0; r < ROWS; ++r) {
-    wide_load(row_descriptors + (size_t)min(first + r, rows - 1) * BYTES, mine + r * BYTES);
+    wide_load(row_descriptors + (size_t)min(first + r, rows - 1) * kWideBytes, mine + r * kWideBytes);
     highest[r] = 0.0f;
     winner[r] = -1;
     listed[r] = 0;
   }
   for (int block = 0; block * LANES < columns; ++block) {
-    wide_products(mine, column_blocks + (size_t)block * (BYTES * LANES), products);
+    wide_products(mine, column_blocks + (size_t)block * (kWideBytes * LANES), products);
     for (int r = 0; r < ROWS; ++r) {
       const float here = wide_highest(products[r]);
       if (here > highest[r]) {
@@ -127,10 +127,10 @@ kernel void wide_match(global const uchar* row_descriptors, global const uchar* 
   for (int r = 0; r < ROWS; ++r) {
     alone[r] = winner[r] >= 0;
     // Without a winner anything may stand in `found`; it has to be something that exists.
-    wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * BYTES : row_descriptors, found + r * BYTES);
+    wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * kWideBytes : row_descriptors, found + r * kWideBytes);
   }
   for (int block = 0; block * LANES < rows; ++block) {
-    wide_products(found, row_blocks + (size_t)block * (BYTES * LANES), products);
+    wide_products(found, row_blocks + (size_t)block * (kWideBytes * LANES), products);
     for (int r = 0; r < ROWS; ++r) {
       const int row = min(first + r, rows - 1);
       if (alone[r] && wide_highest(products[r]) >= highest[r]) {
@@ -146,11 +146,11 @@ kernel void wide_match(global const uchar* row_descriptors, global const uchar* 
     for (int k = 0; alone[r] && k < blocks; ++k) {
       const int block = all ? k : list[r][k];
       if (!all && listed_highest[r][k] <= limit) continue;
-      alone[r] = !wide_elsewhere(wide_product(mine + r * BYTES, column_blocks + (size_t)block * (BYTES * LANES)), limit,
-                                 true, block, columns, column_edges, column_edges + column_stride, column_step,
-                                 winner[r] * column_step, neighbourhood);
+      alone[r] = !wide_elsewhere(
+          wide_product(mine + r * kWideBytes, column_blocks + (size_t)block * (kWideBytes * LANES)), limit, true, block,
+          columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step, neighbourhood);
     }
     best[first + r] = alone[r] ? winner[r] : -1;
-    likeness[first + r] = alone[r] ? highest[r] / SQUARE : 0.0f;
+    similarity[first + r] = alone[r] ? highest[r] / SQUARE : 0.0f;
   }
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "devices.hpp"
-#include "opencl/kernel_sources.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/image.hpp"
 #include "reference/patches.hpp"
@@ -95,12 +94,4 @@ inline RoundedApart rounded_apart(const std::vector<std::int8_t>& a, const std::
     }
   }
   return result;
-}
-
-/// Builds `source` behind common.cl and similarity.cl.
-inline cl::Program build_with_similarity(quadedge::opencl::Context& context, const std::string& source) {
-  const auto& kernels = quadedge::opencl::embedded_kernels();
-  cl::Program program(context.context(), kernels.at("common.cl") + "\n" + kernels.at("similarity.cl") + "\n" + source);
-  program.build({context.device()}, "-cl-std=CL1.2 -cl-kernel-arg-info");
-  return program;
 }

@@ -93,7 +93,7 @@ inline stages::DeviceCandidates upload(opencl::Context& context, const reference
   device.reserve(context, device.host_total);
   device.first.write(context, lists.first);
   device.target.write(context, lists.target);
-  device.rejected_by.fill(0, lists.target.size());
+  device.state.fill(0, lists.target.size());
   device.ncc.fill(0, lists.target.size());
   device.sift.fill(0, lists.target.size());
   return device;
@@ -104,7 +104,7 @@ inline void upload(opencl::Context& context, const reference::CandidateScores& s
                    stages::DeviceCandidates& device) {
   device.ncc.write(context, scores.ncc);
   device.sift.write(context, scores.sift);
-  device.rejected_by.write(context, scores.rejected_by);
+  device.state.write(context, scores.state);
 }
 
 /// Scores of candidates that no filter has touched yet.

@@ -47,56 +47,53 @@ FilterLimits limits_of(float ncc_min, float sift_max, float ncc_share, float sif
 void on_devices(const reference::Candidates& lists, const reference::EdgeDescriptions& a,
                 const reference::EdgeDescriptions& b, const FilterLimits& limits, int row_step, bool all_scores,
                 const std::function<void(const reference::CandidateScores&, const std::vector<cl_int>& alive)>& check) {
-  for_each_variant("candidate_filters",
-                   [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-                     INFO(name << (all_scores ? ", all scores" : ""));
-                     stages::CandidateFilters stage(context, variants);
-                     auto device = upload(context, lists);
-                     opencl::Buffer<cl_char> patches_a, patches_b;
-                     opencl::Buffer<cl_uchar> sift_a, sift_b;
-                     patches_a.write(context, a.patches);
-                     patches_b.write(context, b.patches);
-                     sift_a.write(context, a.sift);
-                     opencl::Buffer<cl_int> itself, turned;
-                     std::vector<cl_int> numbers(a.sift.size() + b.sift.size());
-                     std::iota(numbers.begin(), numbers.end(), 0);
-                     itself.write(context, numbers);
-                     // The second set's SIFT stands in the opposite order.
-                     const auto last = static_cast<cl_int>(b.sift.size() / 256) - 1;
-                     std::vector<std::uint8_t> sift_turned;
-                     std::vector<cl_int> from_the_end;
-                     for (cl_int k = last; k >= 0; --k) {
-                       from_the_end.push_back(k);
-                       sift_turned.insert(sift_turned.end(), b.sift.begin() + 256 * k, b.sift.begin() + 256 * (k + 1));
-                     }
-                     turned.write(context, from_the_end);
-                     sift_b.write(context, sift_turned);
-                     stage.run({patches_a, itself, sift_a, itself}, {patches_b, itself, sift_b, turned},
-                               {limits.ncc_min, limits.sift_max, limits.ncc_nearly_best, limits.sift_nearly_best,
-                                limits.ncc_order, limits.sift_order},
-                               row_step, all_scores, device);
-                     const auto size = lists.target.size();
-                     check({device.ncc.read(size), device.sift.read(size), device.rejected_by.read(size)},
-                           device.alive.read(static_cast<std::size_t>(device.rows)));
-                   });
+  for_each_variant(
+      "candidate_filters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+        INFO(name << (all_scores ? ", all scores" : ""));
+        stages::CandidateFilters stage(context, variants);
+        auto device = upload(context, lists);
+        opencl::Buffer<cl_char> patches_a, patches_b;
+        opencl::Buffer<cl_uchar> sift_a, sift_b;
+        patches_a.write(context, a.patches);
+        sift_a.write(context, a.sift);
+        sift_b.write(context, b.sift);
+        opencl::Buffer<cl_int> itself, turned;
+        std::vector<cl_int> numbers(a.sift.size() / kEdgeSiftBytes);
+        std::iota(numbers.begin(), numbers.end(), 0);
+        itself.write(context, numbers);
+        // The second set's patches stand in the opposite order.
+        std::vector<std::int8_t> patches_turned;
+        std::vector<cl_int> from_the_end;
+        for (auto k = static_cast<cl_int>(b.sift.size() / kEdgeSiftBytes) - 1; k >= 0; --k) {
+          from_the_end.push_back(k);
+          patches_turned.insert(patches_turned.end(), b.patches.begin() + kEdgePatchBytes * k,
+                                b.patches.begin() + kEdgePatchBytes * (k + 1));
+        }
+        turned.write(context, from_the_end);
+        patches_b.write(context, patches_turned);
+        stage.run({patches_a, itself, sift_a}, {patches_b, turned, sift_b}, limits, row_step, all_scores, device);
+        const auto size = lists.target.size();
+        check({device.ncc.read(size), device.sift.read(size), device.state.read(size)},
+              device.alive.read(static_cast<std::size_t>(device.rows)));
+      });
 }
 
 /// Reference and devices must reject exactly as `expected` says.
 void check_states(const reference::Candidates& lists, const Measured& edges, const FilterLimits& limits,
                   const std::vector<std::uint8_t>& expected, int row_step = 1) {
-  CHECK(reference::candidate_filters(lists, edges.a, edges.b, limits, row_step).rejected_by == expected);
+  CHECK(reference::candidate_filters(lists, edges.a, edges.b, limits, row_step).state == expected);
   std::vector<cl_int> living;
   for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
     living.push_back(static_cast<cl_int>(
         std::count(expected.begin() + lists.first[row], expected.begin() + lists.first[row + 1], 0)));
   }
   on_devices(lists, edges.a, edges.b, limits, row_step, true, [&](const auto& scores, const auto& alive) {
-    CHECK(scores.rejected_by == expected);
+    CHECK(scores.state == expected);
     CHECK(alive == living);
   });
   // Without all scores only the order of the first failed filter may differ, never who survives.
   on_devices(lists, edges.a, edges.b, limits, row_step, false, [&](const auto& scores, const auto& alive) {
-    for (std::size_t c = 0; c < expected.size(); ++c) CHECK((scores.rejected_by[c] == 0) == (expected[c] == 0));
+    for (std::size_t c = 0; c < expected.size(); ++c) CHECK((scores.state[c] == kCandidateAlive) == (expected[c] == 0));
     CHECK(alive == living);
   });
 }
@@ -171,7 +168,7 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
   const auto limits = limits_of(0.3f, 265, 0.85f, 0.97f);
   const auto truth = reference::candidate_filters(lists, a, b, limits);
   int seen[8] = {};
-  for (const auto state : truth.rejected_by) ++seen[state];
+  for (const auto state : truth.state) ++seen[state];
   for (const int state : {0, kSift, kNcc, 6, 7}) {
     INFO(state);
     CHECK(seen[state] > 10);
@@ -179,7 +176,7 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
   // Exact integers, multiplied in the same order and precision: the same bits, so no band is needed.
   on_devices(lists, a, b, limits, 1, true, [&](const auto& scores, const auto&) {
     CHECK(scores.ncc == truth.ncc);
-    CHECK(scores.rejected_by == truth.rejected_by);
+    CHECK(scores.state == truth.state);
     float largest = 0;
     for (std::size_t c = 0; c < truth.sift.size(); ++c)
       largest = std::max(largest, std::abs(scores.sift[c] - truth.sift[c]));

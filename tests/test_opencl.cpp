@@ -47,7 +47,7 @@ TEST_CASE("kernels: a wrong host signature is refused with the argument's name",
 
 TEST_CASE("kernels: a build error names file, line, device and options", "[device]") {
   const TemporaryFolder folder;
-  std::ofstream(folder / "common.cl") << "// nothing\n";
+  for (const char* first : {"common.cl", "layouts.cl"}) std::ofstream(folder / first) << "// nothing\n";
   std::ofstream(folder / "broken.cl")
       << "// first line\nkernel void f(global int* a) {\n  a[0] = undeclared_name;\n}\n";
   Device device(all_devices().front(), folder.path());

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "describing.hpp"
+#include "kernel_programs.hpp"
 #include "reference/patches.hpp"
 
 using namespace quadedge;
@@ -281,8 +282,8 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
   for (const auto& index : all_devices()) {
     Device device(index);
     auto& context = *device.context();
-    const auto program = build_with_similarity(
-        context,
+    const auto program = build_program(
+        context, {"similarity.cl"},
         "kernel void score(global const char* patches, global float* scores) {\n"
         "  const int a = (int)get_global_id(0), b = (int)get_global_id(1), k = b * (int)get_global_size(0) + a;\n"
         "  scores[k] = patch_ncc(patches + a * 128, patches + b * 128);\n"

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include "kernel_programs.hpp"
 #include "matching.hpp"
 #include "opencl/kernel.hpp"
-#include "opencl/kernel_sources.hpp"
 #include "reference/photometric.hpp"
 
 using namespace quadedge;
@@ -115,14 +115,13 @@ TEST_CASE("photometric: devices cut the same patches, also across the border",
       "                  global float* grey) {\n"
       "  const int i = (int)get_global_id(0);\n"
       "  if (i >= count) return;\n"
-      "  float8 rows[PATCH_SIDE];\n"
+      "  float8 rows[kPatchSide];\n"
       "  float cosine;\n"
       "  const float sine = sine_cosine(at[4 * i + 2], &cosine);\n"
       "  cut_patch(corners, width, height, patch_frame(at[4 * i], at[4 * i + 1], cosine, sine, at[4 * i + 3], 5.0f), "
       "0.25f, -0.5f, rows);\n"
-      "  for (int k = 0; k < PATCH_SIDE; ++k) vstore8(rows[k], k, grey + 56 * i);\n"
+      "  for (int k = 0; k < kPatchSide; ++k) vstore8(rows[k], k, grey + 56 * i);\n"
       "}\n";
-  const auto& kernels = opencl::embedded_kernels();
   for (const auto& [width, height] : {std::pair(27, 21), std::pair(2, 2), std::pair(3, 31)}) {
     const Image image = image_of(width, height, [](double x, double y) { return 128 + 100 * std::sin(3 * x + 5 * y); });
     Random random(11);
@@ -136,9 +135,7 @@ TEST_CASE("photometric: devices cut the same patches, also across the border",
     for (const auto& index : all_devices()) {
       Device device(index);
       auto& context = *device.context();
-      cl::Program program(context.context(), kernels.at("common.cl") + "\n" + kernels.at("direction.cl") + "\n" +
-                                                 kernels.at("photometric.cl") + "\n" + source);
-      program.build({context.device()}, "-cl-std=CL1.2 -cl-kernel-arg-info");
+      const auto program = build_program(context, {"direction.cl", "photometric.cl"}, source);
       opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, cl_int, opencl::Out<cl_float>> kernel(
           context, program, "probe");
       stages::PixelCorners corners(context);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "describing.hpp"
+#include "kernel_programs.hpp"
 #include "reference/sift.hpp"
 
 using namespace quadedge;
@@ -179,12 +180,12 @@ TEST_CASE("sift: the kernels' distance equals the reference's", "[sift][device][
   for (const auto& index : all_devices()) {
     Device device(index);
     auto& context = *device.context();
-    const auto program = build_with_similarity(
-        context,
-        "kernel void distance2(global const uchar* sift, global int* distances) {\n"
-        "  const int a = (int)get_global_id(0), b = (int)get_global_id(1);\n"
-        "  distances[b * (int)get_global_size(0) + a] = sift_distance2(sift + a * 256, sift + b * 256);\n"
-        "}\n");
+    const auto program =
+        build_program(context, {"similarity.cl"},
+                      "kernel void distance2(global const uchar* sift, global int* distances) {\n"
+                      "  const int a = (int)get_global_id(0), b = (int)get_global_id(1);\n"
+                      "  distances[b * (int)get_global_size(0) + a] = sift_distance2(sift + a * 256, sift + b * 256);\n"
+                      "}\n");
     const opencl::Kernel<opencl::In<cl_uchar>, opencl::Out<cl_int>> distance2(context, program, "distance2");
     opencl::Buffer<cl_uchar> input;
     opencl::Buffer<cl_int> distances(context, 1600);

@@ -9,7 +9,7 @@ using namespace matching;
 
 namespace {
 
-/// Candidates of left edges on a rectified rig: place on the line [px], direction [degrees] and likeness of each.
+/// Candidates of left edges on a rectified rig: position on the line [px], direction [degrees] and similarity of each.
 struct Lists {
   reference::Candidates candidates;
   reference::CandidateScores scores;
@@ -17,27 +17,27 @@ struct Lists {
   EdgeSet right;
 
   struct Member {
-    double place, degrees, likeness;
+    double position, degrees, similarity;
   };
   explicit Lists(const std::vector<std::vector<Member>>& rows) {
     candidates.first = {0};
     for (const auto& row : rows) {
       for (const Member& member : row) {
         candidates.target.push_back(static_cast<std::int32_t>(right.direction.size()));
-        refined.place.push_back(member.place);
-        refined.likeness.push_back(member.likeness);
+        refined.position.push_back(member.position);
+        refined.similarity.push_back(member.similarity);
         right.direction.push_back(static_cast<float>(member.degrees * kDegree));
       }
       candidates.first.push_back(static_cast<std::int32_t>(candidates.target.size()));
     }
-    scores = fresh_scores(refined.place.size());
+    scores = fresh_scores(refined.position.size());
   }
   reference::StereoClusters clusters(const StereoConfig& config = {}) const {
     return reference::stereo_clusters(candidates, scores, refined, right, config);
   }
 };
 
-/// Two images of the smooth texture 6.3 px apart, with left edges at chosen places.
+/// Two images of the smooth texture 6.3 px apart, with left edges at chosen positions.
 struct Scene {
   StereoRig rig = flat_rig(97, 71);
   StereoConfig config;
@@ -57,17 +57,17 @@ struct Scene {
   }
   struct Member {
     int target;
-    double place, likeness;
+    double position, similarity;
   };
-  /// Candidates of the next left edge: right edge, place on the line and likeness.
+  /// Candidates of the next left edge: right edge, position on the line and similarity.
   void add(const std::vector<Member>& row) {
-    for (const auto& [target, place, likeness] : row) {
+    for (const auto& [target, position, similarity] : row) {
       candidates.target.push_back(target);
-      refined.place.push_back(place);
-      refined.likeness.push_back(likeness);
+      refined.position.push_back(position);
+      refined.similarity.push_back(similarity);
     }
     candidates.first.push_back(static_cast<std::int32_t>(candidates.target.size()));
-    scores = fresh_scores(refined.place.size());
+    scores = fresh_scores(refined.position.size());
   }
   StereoEdges match() const {
     const auto clusters = reference::stereo_clusters(candidates, scores, refined, right, config);
@@ -90,8 +90,8 @@ struct Scene {
           opencl::Buffer<cl_float> packed;
           packed.write(context, geometry.packed());
           stages::DeviceRefined device_refined;
-          device_refined.place.write(context, {refined.place.begin(), refined.place.end()});
-          device_refined.likeness.write(context, {refined.likeness.begin(), refined.likeness.end()});
+          device_refined.position.write(context, {refined.position.begin(), refined.position.end()});
+          device_refined.similarity.write(context, {refined.similarity.begin(), refined.similarity.end()});
           stages::DeviceClusters clusters;
           stages::DeviceStereoEdges result;
           stage.run(device_left, device_right, describe_right, packed, lists, device_refined, clusters, result);
@@ -116,7 +116,7 @@ struct Scene {
           }
           CHECK(same + band >= truth.size());
           CHECK(same + band >= found.size());
-          // The right patches are cut at the refined places.
+          // The right patches are cut at the refined positions.
           const auto recut = reference::side_patches(right_image.view(), found.right_x, found.right_y,
                                                      found.right_direction, all.patches);
           const auto kept = result.right_patches.read(recut.size());
@@ -127,7 +127,7 @@ struct Scene {
   }
 };
 
-/// Three left edges with candidates at the true place, beside it, and at a wrong one.
+/// Three left edges with candidates at the true position, beside it, and at a wrong one.
 Scene small_scene() {
   Scene scene;
   scene.left = make_edges({{40, 30, 1.2}, {60, 30, -1.0}, {50, 40, 1.6}}, 71);
@@ -145,9 +145,9 @@ TEST_CASE("stereo clusters: cut at gaps, represented by the most alike member", 
   const auto clusters = lists.clusters();
   // 3, 3.9, 4.5 chain up (gaps 0.9, 0.6), 5.5 is a gap of exactly 1 away; 7 and 8 as well.
   CHECK(clusters.first == std::vector<std::int32_t>{0, 2, 2, 4});
-  CHECK(clusters.place == std::vector<double>{3.9, 5.5, 7, 8});
+  CHECK(clusters.position == std::vector<double>{3.9, 5.5, 7, 8});
   CHECK(clusters.anchor == std::vector<std::int32_t>{2, 0, 4, 5});
-  CHECK(clusters.likeness == std::vector<double>{0.9, 0.8, 0.9, 0.95});
+  CHECK(clusters.similarity == std::vector<double>{0.9, 0.8, 0.9, 0.95});
   // Weights exp(-d^2 / 8) of 10, 12, 8 degrees at distances 0.9, 0, 0.6.
   const double a = std::exp(-0.81 / 8), c = std::exp(-0.36 / 8);
   CHECK(clusters.direction[0] / kDegree == Approx((10 * a + 12 + 8 * c) / (a + 1 + c)).margin(1e-3));
@@ -186,11 +186,11 @@ TEST_CASE("stereo clusters: no more members than allowed, and none that a filter
   for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20, 0.8 + 0.01 * k});
   Lists lists({row});
   CHECK(lists.clusters().first == std::vector<std::int32_t>{0, 2});  // 10 and 2
-  CHECK(lists.clusters().place == std::vector<double>{4.5, 5.5});
-  for (const std::size_t dead : {5, 6, 7}) lists.scores.rejected_by[dead] = 7;  // a gap of 2 px in the middle
+  CHECK(lists.clusters().position == std::vector<double>{4.5, 5.5});
+  for (const std::size_t dead : {5, 6, 7}) lists.scores.state[dead] = 7;  // a gap of 2 px in the middle
   const auto clusters = lists.clusters();
   CHECK(clusters.first == std::vector<std::int32_t>{0, 2});
-  CHECK(clusters.place == std::vector<double>{2, 5.5});
+  CHECK(clusters.position == std::vector<double>{2, 5.5});
 }
 
 TEST_CASE("stereo best: the cluster that looks alike wins and is placed on the line", "[stereo][matching]") {
@@ -216,11 +216,11 @@ TEST_CASE("stereo best: one right edge serves only neighbours of its best left e
   scene.config.mutual_radius = 0.5;
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0});
   scene.compare_devices(0);
-  // A tie: the same left edge twice. The first one owns the right edge; both are at its place.
+  // A tie: the same left edge twice. The first one owns the right edge; both are at its position.
   scene.config.mutual_radius = 0;
   scene.left.x = {40, 40, 40};
-  scene.refined.place = {6.3, 6.3, 6.3};
-  scene.refined.likeness = {0.9, 0.9, 0.9};
+  scene.refined.position = {6.3, 6.3, 6.3};
+  scene.refined.similarity = {0.9, 0.9, 0.9};
   scene.left.y = {30, 30, 30};
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1, 2});
   scene.compare_devices(0);
@@ -239,7 +239,7 @@ TEST_CASE("stereo clusters: devices agree with the reference on random lists", "
     for (int k = 0; k < i % 14; ++k) row.push_back({static_cast<int>(random(0, 300)), random(4, 9), random(0.5, 1)});
     scene.add(row);
   }
-  for (std::size_t c = 0; c < scene.refined.place.size(); c += 7) scene.scores.rejected_by[c] = 8;
+  for (std::size_t c = 0; c < scene.refined.position.size(); c += 7) scene.scores.state[c] = 8;
   CHECK(scene.match().size() > 30);
   scene.compare_devices(3);
 }

@@ -54,7 +54,8 @@ struct Scene {
   }
   static constexpr double kDisparity = 6.3;
 
-  /// Rows of none to six candidates instead: the edge's own and copies of it along the line, some of them at one place.
+  /// Rows of none to six candidates instead: the edge's own and copies of it along the line, some of them at one
+  /// position.
   void crowd() {
     const float offsets[] = {0.0f, 0.2f, 3.0f, 3.3f, -2.0f, 6.0f};
     const EdgeSet own = right;
@@ -81,41 +82,42 @@ struct Scene {
     return reference::stereo_refinement(left_image.view(), right_image.view(), left_patches(), left, right, geometry,
                                         lists, config, kOffset, result);
   }
-  /// Every variant and device: living candidates within 1e-2 px and 5e-3 of likeness of the reference. The same may be
-  /// rejected on one side only where a move lies within rounding of its limit: at most 1 % of them.
+  /// Every variant and device: living candidates within 1e-2 px and 5e-3 of similarity of the reference. The same may
+  /// be rejected on one side only where a move lies within rounding of its limit: at most 1 % of them.
   void compare_devices() const {
     auto truth = scores;
-    const auto [places, likeness] = refine(truth);
-    for_each_variant("stereo_refinement", [&](opencl::Context& context, const Variants& variants,
-                                              const std::string& name) {
-      INFO(name);
-      stages::StereoRefinement stage(context, config, kOffset, variants);
-      auto device = upload(context, lists);
-      upload(context, scores, device);
-      opencl::Buffer<cl_float> packed;
-      opencl::Buffer<cl_char> device_patches;
-      stages::DeviceRefined found;
-      packed.write(context, geometry.packed());
-      device_patches.write(context, left_patches());
-      stages::PixelCorners left_corners(context), right_corners(context);
-      left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
-      right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
-      stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches, packed,
-                device, found);
-      const auto states = device.rejected_by.read(places.size());
-      const auto device_places = found.place.read(places.size()), device_likeness = found.likeness.read(places.size());
-      std::size_t other_state = 0;
-      double largest = 0, unlike = 0;
-      for (std::size_t c = 0; c < places.size(); ++c) {
-        other_state += states[c] != truth.rejected_by[c] ? 1 : 0;
-        if (states[c] != 0 || truth.rejected_by[c] != 0) continue;
-        largest = std::max(largest, std::abs(places[c] - static_cast<double>(device_places[c])));
-        unlike = std::max(unlike, std::abs(likeness[c] - static_cast<double>(device_likeness[c])));
-      }
-      CHECK(other_state <= places.size() / 100);
-      CHECK(largest < 1e-2);
-      CHECK(unlike < 5e-3);
-    });
+    const auto [positions, similarity] = refine(truth);
+    for_each_variant(
+        "stereo_refinement", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+          INFO(name);
+          stages::StereoRefinement stage(context, config, kOffset, variants);
+          auto device = upload(context, lists);
+          upload(context, scores, device);
+          opencl::Buffer<cl_float> packed;
+          opencl::Buffer<cl_char> device_patches;
+          stages::DeviceRefined found;
+          packed.write(context, geometry.packed());
+          device_patches.write(context, left_patches());
+          stages::PixelCorners left_corners(context), right_corners(context);
+          left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
+          right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
+          stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches, packed,
+                    device, found);
+          const auto states = device.state.read(positions.size());
+          const auto device_positions = found.position.read(positions.size()),
+                     device_similarity = found.similarity.read(positions.size());
+          std::size_t other_state = 0;
+          double largest = 0, unlike = 0;
+          for (std::size_t c = 0; c < positions.size(); ++c) {
+            other_state += states[c] != truth.state[c] ? 1 : 0;
+            if (states[c] != 0 || truth.state[c] != kCandidateAlive) continue;
+            largest = std::max(largest, std::abs(positions[c] - static_cast<double>(device_positions[c])));
+            unlike = std::max(unlike, std::abs(similarity[c] - static_cast<double>(device_similarity[c])));
+          }
+          CHECK(other_state <= positions.size() / 100);
+          CHECK(largest < 1e-2);
+          CHECK(unlike < 5e-3);
+        });
   }
 };
 
@@ -123,17 +125,17 @@ struct Scene {
 /// out: less than 4 grey levels per px along the line.
 void check_disparity(const Scene& scene) {
   auto result = scene.scores;
-  const auto [places, likeness] = scene.refine(result);
+  const auto [positions, similarity] = scene.refine(result);
   std::vector<double> errors;
-  for (std::size_t c = 0; c < places.size(); ++c) {
+  for (std::size_t c = 0; c < positions.size(); ++c) {
     const double direction = scene.left.direction[c];
     const auto frame =
         reference::patch_frame(scene.left.x[c], scene.left.y[c], std::cos(direction), std::sin(direction), 0, 0);
     const auto slopes = reference::patch_derivative(scene.left_image.view(), frame, 1, 0);
     if (std::sqrt(std::inner_product(slopes.begin(), slopes.end(), slopes.begin(), 0.0) / 49) < 4) continue;
-    CHECK(result.rejected_by[c] == 0);
-    CHECK(likeness[c] > 0.99);
-    errors.push_back(places[c] - Scene::kDisparity);
+    CHECK(result.state[c] == kCandidateAlive);
+    CHECK(similarity[c] > 0.99);
+    errors.push_back(positions[c] - Scene::kDisparity);
   }
   CHECK(errors.size() > 90);
   check_subpixel(errors);
@@ -172,17 +174,17 @@ TEST_CASE("stereo refinement: another exposure of the right camera does no harm"
   scene.compare_devices();
 }
 
-TEST_CASE("stereo refinement: a strong prior holds the shifted place, the default one weighs it against the images",
+TEST_CASE("stereo refinement: a strong prior holds the shifted position, the default one weighs it against the images",
           "[stereo][matching][device]") {
   Scene scene(60);
   auto result = scene.scores;
-  const auto free = scene.refine(result).place;
+  const auto free = scene.refine(result).position;
   scene.config.refine_prior_sigma = 0.002;
   result = scene.scores;
-  const auto held = scene.refine(result).place;
+  const auto held = scene.refine(result).position;
   scene.config.refine_prior_sigma = StereoConfig{}.refine_prior_sigma;
   result = scene.scores;
-  const auto weighed = scene.refine(result).place;
+  const auto weighed = scene.refine(result).position;
   int moved = 0;
   for (std::size_t c = 0; c < free.size(); ++c) {
     const double y = scene.right.y[c];
@@ -203,18 +205,18 @@ TEST_CASE("stereo refinement: rejects what leaves the clamp, finds unlike what i
           "[stereo][matching]") {
   Scene scene(60);
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] -= i % 3 == 0 ? 4.5f : 0.0f;
-  scene.scores.rejected_by[1] = 5;
+  scene.scores.state[1] = 5;
   auto result = scene.scores;
   scene.refine(result);
-  CHECK(result.rejected_by[1] == 5);
-  for (std::size_t i = 0; i < scene.right.size(); i += 3) CHECK(result.rejected_by[i] == kStereoRefinementOrder);
+  CHECK(result.state[1] == 5);
+  for (std::size_t i = 0; i < scene.right.size(); i += 3) CHECK(result.state[i] == kStereoRefinementOrder);
   scene.right_image =
       image_of(97, 71, [](double x, double y) { return 128 + 70 * std::sin(1.3 * x) * std::cos(1.1 * y); });
   result = scene.scores;
-  const auto likeness = scene.refine(result).likeness;
+  const auto similarity = scene.refine(result).similarity;
   int alike = 0;
-  for (std::size_t c = 0; c < likeness.size(); ++c)
-    alike += result.rejected_by[c] == 0 && likeness[c] >= StereoConfig{}.refined_ncc_min ? 1 : 0;
+  for (std::size_t c = 0; c < similarity.size(); ++c)
+    alike += result.state[c] == kCandidateAlive && similarity[c] >= StereoConfig{}.refined_ncc_min ? 1 : 0;
   CHECK(alike <= 5);
 }
 
@@ -222,16 +224,16 @@ TEST_CASE("stereo refinement: devices agree with the reference", "[stereo][match
   Scene scene(400, 8);
   scene.compare_devices();
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] += static_cast<float>(i % 5) - 2.0f;
-  scene.scores.rejected_by[3] = 4;
+  scene.scores.state[3] = 4;
   scene.compare_devices();
 }
 
-TEST_CASE("stereo refinement: rows of several candidates, some at one place", "[stereo][matching][device]") {
+TEST_CASE("stereo refinement: rows of several candidates, some at one position", "[stereo][matching][device]") {
   Scene scene(300, 5);
   scene.crowd();
   auto result = scene.scores;
-  const auto likeness = scene.refine(result).likeness;
-  CHECK(std::count_if(likeness.begin(), likeness.end(), [](double value) { return value < -1; }) > 100);
+  scene.refine(result);
+  CHECK(std::count(result.state.begin(), result.state.end(), kCandidateRepresented) > 100);
   scene.compare_devices();
 }
 

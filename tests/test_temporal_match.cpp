@@ -88,7 +88,7 @@ struct Scene {
     for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
       bool alive = false;
       for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]); ++c)
-        alive |= scores.rejected_by[c] == 0;
+        alive |= scores.state[c] == kCandidateAlive;
       rows += alive ? 1 : 0;
     }
     return rows;

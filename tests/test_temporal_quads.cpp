@@ -53,7 +53,7 @@ struct Scene {
     auto result = fresh_scores(lists.target.size());
     for (std::size_t c = 0; c < lists.target.size(); ++c) {
       result.ncc[c] = static_cast<float>(random(0.6, 1));
-      result.rejected_by[c] = random(0, 1) < 0.2 ? 3 : 0;
+      result.state[c] = random(0, 1) < 0.2 ? 3 : 0;
     }
     return result;
   }
@@ -103,11 +103,11 @@ TEST_CASE("temporal agreement: a candidate needs its counterpart alive in the ot
   // right.
   const reference::Candidates left{{0, 3, 4}, {4, 7, 9, 4}}, right{{0, 3, 4}, {9, 4, 7, 5}};
   auto scores = fresh_scores(4), other = fresh_scores(4);
-  scores.rejected_by[2] = 5;
-  other.rejected_by[2] = 3;
+  scores.state[2] = 5;
+  other.state[2] = 3;
   other.ncc = {0.5f, 0.7f, 0.6f, 0.8f};
   const auto agreement = reference::temporal_agreement(left, scores, right, other);
-  CHECK(scores.rejected_by == std::vector<std::uint8_t>{0, kAgreementOrder, 5, kAgreementOrder});
+  CHECK(scores.state == std::vector<std::uint8_t>{0, kAgreementOrder, 5, kAgreementOrder});
   CHECK(agreement[0] == Approx(0.8));
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("temporal best: chained places are one group, others are rivals, ties 
   CHECK(matches.left_x[0] == 5.0f);
   CHECK(matches.right_x[0] == 1.0f);
   CHECK(matches.ncc[0] == 0.9f);
-  scores.rejected_by[2] = 7;  // the link is gone: four groups
+  scores.state[2] = 7;  // the link is gone: four groups
   CHECK(reference::temporal_best(lists, scores, agreement, current, config, search).rivals[0] == 3);
 }
 

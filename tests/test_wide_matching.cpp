@@ -9,9 +9,9 @@ using reference::WideEdges;
 
 namespace {
 
-StereoEdges edges_at(const std::vector<std::pair<float, float>>& places) {
+StereoEdges edges_at(const std::vector<std::pair<float, float>>& positions) {
   StereoEdges edges;
-  for (const auto& [x, y] : places) {
+  for (const auto& [x, y] : positions) {
     edges.left_x.push_back(x);
     edges.left_y.push_back(y);
     edges.right_x.push_back(x - 5);
@@ -122,13 +122,13 @@ TEST_CASE("wide matching: an edge that another one elsewhere fits as well is nob
 TEST_CASE("wide matching: random descriptors, odd counts and steps, on every device as in the reference",
           "[wide][device][oclgrind]") {
   Random random(5);
-  const auto places = [&](int count) {
+  const auto positions = [&](int count) {
     std::vector<std::pair<float, float>> result;
     for (int k = 0; k < count; ++k)
       result.emplace_back(static_cast<float>(random(0, 100)), static_cast<float>(random(0, 80)));
     return edges_at(result);
   };
-  const StereoEdges earlier = places(61), current = places(100);
+  const StereoEdges earlier = positions(61), current = positions(100);
   auto rows = random_descriptors(21, 6), columns = random_descriptors(50, 7);
   // A third of the rows come again among the columns.
   for (std::size_t k = 0; k < 21; k += 3)
@@ -142,6 +142,6 @@ TEST_CASE("wide matching: random descriptors, odd counts and steps, on every dev
     CHECK(matches.previous[m] % 3 == 0);
     CHECK(matches.current[m] % 2 == 0);
   }
-  CHECK(match_everywhere({places(0), 1, {}}, {current, 2, columns}, config).size() == 0);
-  CHECK(match_everywhere({earlier, 3, rows}, {places(0), 1, {}}, config).size() == 0);
+  CHECK(match_everywhere({positions(0), 1, {}}, {current, 2, columns}, config).size() == 0);
+  CHECK(match_everywhere({earlier, 3, rows}, {positions(0), 1, {}}, config).size() == 0);
 }

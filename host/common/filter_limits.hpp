@@ -2,18 +2,11 @@
 /// \file filter_limits.hpp  Thresholds of the similarity filters, for stereo and for each kind of search in time.
 
 #include "common/filter_names.hpp"
+#include "common/layouts.hpp"
 #include "common/temporal_search.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge {
-
-/// Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 6. The orders are the filters'
-/// places in their cascade; the nearly-best filters follow at the larger one + 1 and + 2. sift_max = 0: SIFT takes no
-/// part.
-struct FilterLimits {
-  float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
-  int ncc_order, sift_order;
-};
 
 inline FilterLimits stereo_limits(const StereoConfig& config) {
   return {static_cast<float>(config.ncc_min),

@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace quadedge {
+#include "common/layouts.hpp"
 
-inline constexpr float kCellWidth = 8,
-                       kCellHeight = 4;  ///< px; twins: CELL_WIDTH and CELL_HEIGHT in kernels/point_index.cl
+namespace quadedge {
 
 /// Points sorted by cell, cells in rows, and within a cell by number.
 struct PointIndex {

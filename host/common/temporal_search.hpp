@@ -1,6 +1,7 @@
 #pragma once
 /// \file temporal_search.hpp  Where the matching in time looks.
 
+#include <cstddef>
 #include <vector>
 
 namespace quadedge {
@@ -17,5 +18,11 @@ struct TemporalSearch {
   int step = 1;        ///< only every step-th previous edge is looked for
   bool scout = false;  ///< the limits of TemporalConfig::scout_* hold
 };
+
+/// Every wide_step()-th edge takes part in a search anywhere in the image: about `wanted` of `count`.
+inline int wide_step(std::size_t count, int wanted) {
+  const int step = static_cast<int>(count) / wanted;
+  return step > 1 ? step : 1;
+}
 
 }  // namespace quadedge

@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "common/byte_layouts.hpp"
 #include "common/filter_names.hpp"
+#include "common/layouts.hpp"
 #include "common/point_index.hpp"
 
 namespace quadedge::frontend {
@@ -77,7 +77,7 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   if (tap_ != nullptr) tap_candidates_without_limits();
   stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry_, candidates_);
   context_.begin_stage("stereo_filters");
-  filters_.run({rig.left_patches, itself_, left_sift_, itself_}, {right_patches_, itself_, right_sift_, itself_},
+  filters_.run({rig.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
   refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges,
                   rig.left_patches, geometry_, candidates_, refined_);
@@ -100,8 +100,8 @@ void DeviceFrontend::index_current() {
 }
 
 stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges& rig, bool right) const {
-  if (right) return {rig.right_patches, itself_, rig.right_sift, itself_};
-  return {rig.left_patches, rig.left_index, rig.left_sift, itself_};
+  if (right) return {rig.right_patches, itself_, rig.right_sift};
+  return {rig.left_patches, rig.left_index, rig.left_sift};
 }
 
 void DeviceFrontend::describe_by_sift(DeviceRig& rig) {

@@ -30,7 +30,7 @@ void DeviceFrontend::tap_candidates_without_limits() {
   for (int order = 1; order < kStereoSiftOrder - 1; ++order) {
     geometry.write(context_, without_limits(epipolar_, order < 2, order < 3).packed());
     stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, lists);
-    lists.rejected_by.fill(0, static_cast<std::size_t>(lists.host_total));
+    lists.state.fill(0, static_cast<std::size_t>(lists.host_total));
     tap_->stereo_filter(order, stereo_name(order), lists.alive_after(order, nullptr));
   }
 }
@@ -43,7 +43,7 @@ void DeviceFrontend::tap_stereo() {
   const auto rows = static_cast<std::size_t>(candidates_.rows), size = static_cast<std::size_t>(candidates_.capacity);
   const auto first = candidates_.first.read(rows + 1);
   const auto count = clusters_.count.read(rows);
-  const auto place = clusters_.place.read(size), likeness = clusters_.likeness.read(size);
+  const auto place = clusters_.position.read(size), likeness = clusters_.similarity.read(size);
   const auto anchor = clusters_.anchor.read(size);
   const auto x = left_.edges.x.read(rows), y = left_.edges.y.read(rows);
   for (const bool only_similar : {false, true}) {
@@ -70,7 +70,7 @@ void DeviceFrontend::tap_temporal(int side, const TemporalSearch& search) {
   stages::DeviceCandidates near;
   temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius,
                            kAllDirections, near);
-  near.rejected_by.fill(0, static_cast<std::size_t>(near.host_total));
+  near.state.fill(0, static_cast<std::size_t>(near.host_total));
   tap_->temporal_filter(1, temporal_name(1), side, near.alive_after(1, nullptr));
   const stages::DeviceCandidates& lists = side == 0 ? temporal_left_ : temporal_right_;
   for (int order = 2; order < kAgreementOrder; ++order) {

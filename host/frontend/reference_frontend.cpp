@@ -55,9 +55,9 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
 int living_rows(const reference::Candidates& candidates, const reference::CandidateScores& scores) {
   int rows = 0;
   for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
-    const auto begin = scores.rejected_by.begin() + candidates.first[row],
-               end = scores.rejected_by.begin() + candidates.first[row + 1];
-    if (std::find(begin, end, 0) != end) ++rows;
+    const auto begin = scores.state.begin() + candidates.first[row],
+               end = scores.state.begin() + candidates.first[row + 1];
+    if (std::find(begin, end, kCandidateAlive) != end) ++rows;
   }
   return rows;
 }

@@ -47,7 +47,7 @@ cl::Program Context::program(const std::vector<std::string>& files, const Define
   const auto known = programs_.find(key);
   if (known != programs_.end()) return known->second;
 
-  std::string source = kernel_text("common.cl");
+  std::string source = kernel_text("common.cl") + "\n" + kernel_text("layouts.cl");
   for (const auto& file : files) source += "\n" + kernel_text(file);
   const auto start = std::chrono::steady_clock::now();
   cl::Program program(context_, source);

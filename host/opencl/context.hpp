@@ -27,7 +27,8 @@ class Context {
   bool is_cpu() const { return is_cpu_; }
   bool profiling() const { return profiling_; }
 
-  /// Builds (once per process and set of parameters) the program made of common.cl and `files`, in that order.
+  /// Builds (once per process and set of parameters) the program made of common.cl, layouts.cl and `files`, in that
+  /// order.
   /// \throws DeviceError with device, options and compiler log; the log names kernel file and line.
   cl::Program program(const std::vector<std::string>& files, const Defines& defines);
 

@@ -14,7 +14,7 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
   const std::size_t total = candidates.target.size();
   scores.ncc.resize(total);
   scores.sift.resize(total);
-  scores.rejected_by.assign(total, 0);
+  scores.state.assign(total, kCandidateAlive);
   const auto patch = [](const EdgeDescriptions& set, std::size_t i) {
     return set.patches.data() + i * kEdgePatchBytes;
   };
@@ -34,21 +34,22 @@ CandidateScores candidate_filters(const Candidates& candidates, const EdgeDescri
       if (scores.ncc[c] < limits.ncc_min) rejected = limits.ncc_order;
       if (limits.sift_max > 0 && scores.sift[c] > limits.sift_max)
         rejected = rejected == 0 ? limits.sift_order : std::min(rejected, limits.sift_order);
-      scores.rejected_by[c] = static_cast<std::uint8_t>(rejected);
+      scores.state[c] = static_cast<std::uint8_t>(rejected);
       if (rejected == 0) best_ncc = std::max(best_ncc, scores.ncc[c]);
     }
     float best_sift = INFINITY;
     for (std::size_t c = begin; c < end; ++c) {
-      if (scores.rejected_by[c] != 0) continue;
+      if (scores.state[c] != kCandidateAlive) continue;
       if (scores.ncc[c] < limits.ncc_nearly_best * best_ncc) {
-        scores.rejected_by[c] = static_cast<std::uint8_t>(nearly_best_order);
+        scores.state[c] = static_cast<std::uint8_t>(nearly_best_order);
       } else {
         best_sift = std::min(best_sift, scores.sift[c]);
       }
     }
     for (std::size_t c = begin; c < end; ++c) {
-      if (scores.rejected_by[c] == 0 && limits.sift_max > 0 && limits.sift_nearly_best * scores.sift[c] > best_sift) {
-        scores.rejected_by[c] = static_cast<std::uint8_t>(nearly_best_order + 1);
+      if (scores.state[c] == kCandidateAlive && limits.sift_max > 0 &&
+          limits.sift_nearly_best * scores.sift[c] > best_sift) {
+        scores.state[c] = static_cast<std::uint8_t>(nearly_best_order + 1);
       }
     }
   }

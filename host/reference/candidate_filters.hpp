@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/filter_limits.hpp"
+#include "common/layouts.hpp"
 #include "reference/stereo_candidates.hpp"
 
 namespace quadedge::reference {
@@ -17,9 +18,9 @@ struct EdgeDescriptions {
 
 /// One entry per candidate.
 struct CandidateScores {
-  std::vector<float> ncc;                 ///< highest of the four side pairings
-  std::vector<float> sift;                ///< smallest of the four L2 distances
-  std::vector<std::uint8_t> rejected_by;  ///< order of the filter that rejected the candidate, 0: alive
+  std::vector<float> ncc;           ///< highest of the four side pairings
+  std::vector<float> sift;          ///< smallest of the four L2 distances
+  std::vector<std::uint8_t> state;  ///< alive, rejected by or represented: kernels/layouts.cl
 };
 
 /// Row r of `candidates` belongs to edge r * row_step of `a`; targets are edges of `b`.

@@ -19,8 +19,6 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (bottom - top);
 }
 
-constexpr int kInverseNorms = 2 * kPatchLanes * kPatchSide;  // where they begin
-
 /// Place of sample k = 7 i + j.
 int place(int side, int k) { return kPatchLanes * (2 * (k / kPatchSide) + side) + k % kPatchSide; }
 

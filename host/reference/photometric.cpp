@@ -4,13 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/layouts.hpp"
+
 namespace quadedge::reference {
-namespace {
-
-constexpr double kGainMax = 2;  ///< largest difference of contrast that the alignment evens out
-
-}  // namespace
-
 PatchFrame patch_frame(double x, double y, double cosine, double sine, double side, double offset) {
   return {x + side * offset * sine - 3 * cosine + 3 * sine, y - side * offset * cosine - 3 * sine - 3 * cosine, cosine,
           sine};
@@ -69,7 +65,8 @@ std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& mo
   double move = 0;
   for (int step = 0; step < settings.steps; ++step) {
     const PatchValues values = cut_patch(image, moving, move * ex, move * ey);
-    const double gain = std::clamp(patch_norm(fixed) / std::max(patch_norm(values), 1e-3), 1 / kGainMax, kGainMax);
+    const double gain = std::clamp(patch_norm(fixed) / std::max(patch_norm(values), 1e-3),
+                                   1 / static_cast<double>(kGainMax), static_cast<double>(kGainMax));
     double curvature = stiffness, slope = -stiffness * move;
     for (std::size_t k = 0; k < values.size(); ++k) {
       const double residual = fixed[k] - gain * values[k];

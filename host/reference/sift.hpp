@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/byte_layouts.hpp"
+#include "common/layouts.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/image.hpp"
 

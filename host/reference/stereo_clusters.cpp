@@ -11,53 +11,58 @@ namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Members whose likeness differs by less are equally alike: the first right edge in scan order stands for the cluster.
-/// Members that the refinement led to the same place always are; rounding must not choose between them.
-constexpr double kLikenessTie = 1e-4;
 
 }  // namespace
 
 StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
                                const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config) {
-  const auto& places = refined.place;
+  const auto& positions = refined.position;
   StereoClusters clusters;
   clusters.first.assign(1, 0);
   for (std::size_t i = 0; i + 1 < candidates.first.size(); ++i) {
-    std::vector<std::size_t> alive;
+    std::vector<std::size_t> members;
     for (auto c = static_cast<std::size_t>(candidates.first[i]); c < static_cast<std::size_t>(candidates.first[i + 1]);
          ++c) {
-      if (scores.rejected_by[c] == 0) alive.push_back(c);
+      if (scores.state[c] == kCandidateAlive || scores.state[c] == kCandidateRepresented) members.push_back(c);
     }
-    std::stable_sort(alive.begin(), alive.end(), [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+    std::stable_sort(members.begin(), members.end(),
+                     [&](std::size_t a, std::size_t b) { return positions[a] < positions[b]; });
+    // A represented candidate comes behind every alive one.
+    const auto rank = [&](std::size_t c) {
+      const bool represented = scores.state[c] == kCandidateRepresented;
+      return represented ? refined.similarity[c] - kBehindAll : refined.similarity[c];
+    };
     const auto direction = [&](std::size_t c) {
       return right.direction[static_cast<std::size_t>(candidates.target[c])];
     };
-    for (std::size_t from = 0, to = 0; from < alive.size(); from = to) {
+    for (std::size_t from = 0, to = 0; from < members.size(); from = to) {
       to = from + 1;
-      while (to < alive.size() && static_cast<int>(to - from) < config.cluster_size_max &&
-             places[alive[to]] - places[alive[to - 1]] < config.cluster_gap &&
-             angle_between(direction(alive[to]), direction(alive[to - 1])) <= config.cluster_orientation * kPi / 180) {
+      while (to < members.size() && static_cast<int>(to - from) < config.cluster_size_max &&
+             positions[members[to]] - positions[members[to - 1]] < config.cluster_gap &&
+             angle_between(direction(members[to]), direction(members[to - 1])) <=
+                 config.cluster_orientation * kPi / 180) {
         ++to;
       }
-      double highest = refined.likeness[alive[from]];
-      for (std::size_t k = from; k < to; ++k) highest = std::max(highest, refined.likeness[alive[k]]);
+      double highest = rank(members[from]);
+      for (std::size_t k = from; k < to; ++k) highest = std::max(highest, rank(members[k]));
       std::optional<std::size_t> chosen;
       for (std::size_t k = from; k < to; ++k) {
-        const bool equal = refined.likeness[alive[k]] >= highest - kLikenessTie;
-        if (equal && (!chosen || candidates.target[alive[k]] < candidates.target[*chosen])) chosen = alive[k];
+        const bool equal = rank(members[k]) >= highest - kSimilarityTie;
+        if (equal && (!chosen || candidates.target[members[k]] < candidates.target[*chosen])) chosen = members[k];
       }
       double cosine = 0, sine = 0;
       for (std::size_t k = from; k < to; ++k) {
-        const double weight = std::exp(-0.5 * std::pow((places[alive[k]] - places[*chosen]) / config.cluster_sigma, 2));
-        cosine += weight * std::cos(static_cast<double>(direction(alive[k])));
-        sine += weight * std::sin(static_cast<double>(direction(alive[k])));
+        const double weight =
+            std::exp(-0.5 * std::pow((positions[members[k]] - positions[*chosen]) / config.cluster_sigma, 2));
+        cosine += weight * std::cos(static_cast<double>(direction(members[k])));
+        sine += weight * std::sin(static_cast<double>(direction(members[k])));
       }
-      clusters.place.push_back(places[*chosen]);
+      clusters.position.push_back(positions[*chosen]);
       clusters.direction.push_back(std::atan2(sine, cosine));
       clusters.anchor.push_back(candidates.target[*chosen]);
-      clusters.likeness.push_back(refined.likeness[*chosen]);
+      clusters.similarity.push_back(rank(*chosen));
     }
-    clusters.first.push_back(static_cast<std::int32_t>(clusters.place.size()));
+    clusters.first.push_back(static_cast<std::int32_t>(clusters.position.size()));
   }
   return clusters;
 }
@@ -66,9 +71,9 @@ std::vector<std::int32_t> stereo_best(const StereoClusters& clusters, const Ster
   std::vector<std::int32_t> best(clusters.first.size() - 1, -1);
   for (std::size_t i = 0; i < best.size(); ++i) {
     for (std::int32_t k = clusters.first[i]; k < clusters.first[i + 1]; ++k) {
-      const double likeness = clusters.likeness[static_cast<std::size_t>(k)];
-      if (likeness < config.refined_ncc_min) continue;
-      if (best[i] < 0 || likeness > clusters.likeness[static_cast<std::size_t>(best[i])]) best[i] = k;
+      const double similarity = clusters.similarity[static_cast<std::size_t>(k)];
+      if (similarity < config.refined_ncc_min) continue;
+      if (best[i] < 0 || similarity > clusters.similarity[static_cast<std::size_t>(best[i])]) best[i] = k;
     }
   }
   return best;
@@ -81,7 +86,7 @@ StereoEdges stereo_mutual(const StereoClusters& clusters, const std::vector<std:
     if (best[i] < 0) continue;
     const auto c = static_cast<std::size_t>(best[i]);
     const auto [entry, is_new] = owner.emplace(clusters.anchor[c], i);
-    if (!is_new && clusters.likeness[c] > clusters.likeness[static_cast<std::size_t>(best[entry->second])])
+    if (!is_new && clusters.similarity[c] > clusters.similarity[static_cast<std::size_t>(best[entry->second])])
       entry->second = i;
   }
   StereoEdges edges;
@@ -96,10 +101,10 @@ StereoEdges stereo_mutual(const StereoClusters& clusters, const std::vector<std:
     edges.left_x.push_back(left.x[i]);
     edges.left_y.push_back(left.y[i]);
     edges.left_direction.push_back(left.direction[i]);
-    edges.right_x.push_back(static_cast<float>(line.x + clusters.place[c] * line.ex));
-    edges.right_y.push_back(static_cast<float>(line.y + clusters.place[c] * line.ey));
+    edges.right_x.push_back(static_cast<float>(line.x + clusters.position[c] * line.ex));
+    edges.right_y.push_back(static_cast<float>(line.y + clusters.position[c] * line.ey));
     edges.right_direction.push_back(static_cast<float>(clusters.direction[c]));
-    edges.ncc.push_back(static_cast<float>(clusters.likeness[c]));
+    edges.ncc.push_back(static_cast<float>(clusters.similarity[c]));
   }
   return edges;
 }

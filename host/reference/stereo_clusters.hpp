@@ -9,11 +9,11 @@ namespace quadedge::reference {
 /// Representatives of clusters of candidates. Row i (left edge) owns first[i] .. first[i + 1].
 struct StereoClusters {
   std::vector<std::int32_t> first;
-  std::vector<double> place;      ///< on the left edge's epipolar line [px from the point at infinity]
+  std::vector<double> position;   ///< on the left edge's epipolar line [px from the point at infinity]
   std::vector<double> direction;  ///< [rad], weighted mean of the members
   std::vector<std::int32_t>
-      anchor;                    ///< right edge of the most alike member, of equally alike ones the first in scan order
-  std::vector<double> likeness;  ///< of that member
+      anchor;  ///< right edge of the most alike member, of equally alike ones the first in scan order
+  std::vector<double> similarity;  ///< of that member
 };
 
 /// Clusters the living candidates along their epipolar line (doc/method.md section 3, 8c).

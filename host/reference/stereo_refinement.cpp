@@ -9,8 +9,6 @@ namespace quadedge::reference {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::uint8_t kStoodFor = 255;  // in rejected_by, for a while: another candidate is refined for this one
-constexpr double kSamePlace = 0.5;       // px; twin: SAME_PLACE in kernels/stereo_refinement.cl
 
 double distance_from(const EpipolarLine& line, double x, double y) {
   return -(x - line.x) * line.ey + (y - line.y) * line.ex;
@@ -48,54 +46,55 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
     const auto begin = static_cast<std::size_t>(candidates.first[i]),
                end = static_cast<std::size_t>(candidates.first[i + 1]);
     for (std::size_t c = begin; c < end; ++c) {
-      if (scores.rejected_by[c] != 0) continue;
+      if (scores.state[c] != kCandidateAlive) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
-      refined.place[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j],
-                                        config.shift_min_angle * kPi / 180, config.shift_max);
+      refined.position[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j],
+                                           config.shift_min_angle * kPi / 180, config.shift_max);
       for (std::size_t k = begin; k < c; ++k) {
-        if (scores.rejected_by[k] != 0 || std::abs(refined.place[k] - refined.place[c]) >= kSamePlace) continue;
+        if (scores.state[k] != kCandidateAlive || std::abs(refined.position[k] - refined.position[c]) >= kSamePosition)
+          continue;
         const bool better = scores.ncc[c] > scores.ncc[k];
-        scores.rejected_by[better ? k : c] = kStoodFor;
+        scores.state[better ? k : c] = kCandidateRepresented;
         if (!better) break;
       }
     }
     for (std::size_t c = begin; c < end; ++c) {
-      if (scores.rejected_by[c] != 0) continue;
-      const double s = refined.place[c];
-      const auto right_frame = [&](double place, double side) {
-        return patch_frame(line.x + place * line.ex, line.y + place * line.ey, cosine, sine, side, patch_offset);
+      if (scores.state[c] != kCandidateAlive) continue;
+      const double s = refined.position[c];
+      const auto right_frame = [&](double position, double side) {
+        return patch_frame(line.x + position * line.ex, line.y + position * line.ey, cosine, sine, side, patch_offset);
       };
       const PatchValues on_edge = cut_patch(left_image, left_frame, 0, 0);
       const auto found = align_edge(right_image, right_frame(s, 0), line.ex, line.ey, on_edge,
                                     patch_derivative(left_image, left_frame, line.ex, line.ey), stiffness, settings);
       if (!found) {
-        scores.rejected_by[c] = kStereoRefinementOrder;
+        scores.state[c] = kStereoRefinementOrder;
         continue;
       }
-      refined.place[c] = s + found->move;
-      const auto similarity = [&](int side) {
+      refined.position[c] = s + found->move;
+      const auto side_ncc = [&](int side) {
         return patch_ncc(stored_side(left_patches.data() + i * kEdgePatchBytes, side),
-                         cut_patch(right_image, right_frame(refined.place[c], side == 0 ? 1 : -1), 0, 0));
+                         cut_patch(right_image, right_frame(refined.position[c], side == 0 ? 1 : -1), 0, 0));
       };
       // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
       const double centre = patch_ncc(on_edge, found->values);
-      const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(similarity(0), similarity(1)) : -1;
-      refined.likeness[c] = 0.5 * (centre + beside);
+      const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(side_ncc(0), side_ncc(1)) : -1;
+      refined.similarity[c] = 0.5 * (centre + beside);
     }
-    // The others stay where they are and join their neighbour's cluster, where they count for its direction and cannot
-    // represent it.
+    // Represented candidates stay where they are and take the similarity of the nearest alive one.
     for (std::size_t c = begin; c < end; ++c) {
-      if (scores.rejected_by[c] != kStoodFor) continue;
+      if (scores.state[c] != kCandidateRepresented) continue;
       std::size_t nearest = end;
       for (std::size_t k = begin; k < end; ++k) {
-        if (scores.rejected_by[k] != 0 || refined.likeness[k] < -1) continue;
-        if (nearest == end ||
-            std::abs(refined.place[k] - refined.place[c]) < std::abs(refined.place[nearest] - refined.place[c]))
+        if (scores.state[k] != kCandidateAlive) continue;
+        if (nearest == end || std::abs(refined.position[k] - refined.position[c]) <
+                                  std::abs(refined.position[nearest] - refined.position[c]))
           nearest = k;
       }
-      scores.rejected_by[c] = nearest == end ? kStereoRefinementOrder : std::uint8_t{0};
-      if (nearest == end) continue;
-      refined.likeness[c] = refined.likeness[nearest] - 3;
+      if (nearest == end)
+        scores.state[c] = kStereoRefinementOrder;
+      else
+        refined.similarity[c] = refined.similarity[nearest];
     }
   }
   return refined;

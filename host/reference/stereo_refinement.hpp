@@ -8,7 +8,7 @@
 
 namespace quadedge::reference {
 
-/// Place of a point moved onto the epipolar line: along its tangent if the tangent is at least `min_angle` [rad] off
+/// Position of a point moved onto the epipolar line: along its tangent if the tangent is at least `min_angle` [rad] off
 /// the line and the move is shorter than `max_shift` [px], else orthogonally. Returns px from the point at infinity
 /// (doc/method.md section 3, 8a).
 double epipolar_shift(const EpipolarLine& line, double x, double y, double direction, double min_angle,
@@ -16,21 +16,21 @@ double epipolar_shift(const EpipolarLine& line, double x, double y, double direc
 
 /// Refined candidates, one entry each; of no meaning for rejected ones.
 struct RefinedCandidates {
-  std::vector<double> place;  ///< on the left edge's epipolar line [px from the point at infinity]
+  std::vector<double> position;  ///< on the left edge's epipolar line [px from the point at infinity]
   std::vector<double>
-      likeness;  ///< of both places: mean of the NCC of the patches on the edges and of the better equal side
+      similarity;  ///< of both positions: mean of the NCC of the patches on the edges and of the better equal side
 };
 
 /// Shifts and refines every candidate that is alive (doc/method.md section 3, 8a and 8b), and marks diverged ones in
-/// `scores.rejected_by`.
+/// `scores.state`.
 ///
 /// Where the paper aligns a side patch, the patch on the edge itself is aligned here, at equal contrast: it holds the
 /// edge's own profile, and the flank that another surface owns weighs little. A prior holds it around the detected
-/// place, as tightly as an edge is known along this line: refine_prior_sigma / sin(angle between edge and line).
+/// position, as tightly as an edge is known along this line: refine_prior_sigma / sin(angle between edge and line).
 /// `left_patches`: the side patches of the left edges, see reference/patches.hpp.
 ///
-/// Neighbours on one curve shift to the same place: of candidates within 0.5 px the one whose sides are most alike is
-/// refined; the others stay where they are and get a likeness below -1.
+/// Neighbours on one curve shift to the same position: of candidates within 0.5 px the one whose sides are most alike
+/// is refined and represents the others, which stay where they are.
 RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image,
                                     const std::vector<std::int8_t>& left_patches, const EdgeSet& left,
                                     const EdgeSet& right, const EpipolarGeometry& geometry,

@@ -7,9 +7,9 @@
 
 namespace quadedge::reference {
 
-/// Filters 1 and 2 of doc/method.md section 4 in one image: current edges within `radius` [px] of the predicted place
-/// and within `orientation` [rad, modulo a full turn] of the predicted direction. Row r belongs to predicted edge r *
-/// row_step; targets stand in the order of the point index.
+/// Filters 1 and 2 of doc/method.md section 4 in one image: current edges within `radius` [px] of the predicted
+/// position and within `orientation` [rad, modulo a full turn] of the predicted direction. Row r belongs to predicted
+/// edge r * row_step; targets stand in the order of the point index.
 Candidates temporal_candidates(const PlacedEdges& predicted, const PlacedEdges& current, const PointIndex& index,
                                float radius, float orientation, int row_step = 1);
 

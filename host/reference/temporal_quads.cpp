@@ -45,15 +45,15 @@ std::vector<float> temporal_agreement(const Candidates& left_candidates, Candida
   for (std::size_t row = 0; row + 1 < left_candidates.first.size(); ++row) {
     for (auto c = static_cast<std::size_t>(left_candidates.first[row]);
          c < static_cast<std::size_t>(left_candidates.first[row + 1]); ++c) {
-      if (left.rejected_by[c] != 0) continue;
+      if (left.state[c] != kCandidateAlive) continue;
       bool found = false;
       for (auto d = static_cast<std::size_t>(right_candidates.first[row]);
            d < static_cast<std::size_t>(right_candidates.first[row + 1]) && !found; ++d) {
-        if (right.rejected_by[d] != 0 || right_candidates.target[d] != left_candidates.target[c]) continue;
+        if (right.state[d] != kCandidateAlive || right_candidates.target[d] != left_candidates.target[c]) continue;
         found = true;
         agreement[c] = 0.5f * (left.ncc[c] + right.ncc[d]);
       }
-      if (!found) left.rejected_by[c] = kAgreementOrder;
+      if (!found) left.state[c] = kAgreementOrder;
     }
   }
   return agreement;
@@ -71,7 +71,7 @@ TemporalMatches temporal_best(const Candidates& candidates, const CandidateScore
     float highest = 0;
     for (auto c = static_cast<std::size_t>(candidates.first[row]);
          c < static_cast<std::size_t>(candidates.first[row + 1]); ++c) {
-      if (scores.rejected_by[c] != 0) continue;
+      if (scores.state[c] != kCandidateAlive) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
       const float dx = current.left_x[j] - search.left.x[i], dy = current.left_y[j] - search.left.y[i];
       const float weighed = agreement[c] - distance_weight * (dx * dx + dy * dy);

@@ -10,16 +10,16 @@
 namespace quadedge::reference {
 
 /// Closes the circle: a living left candidate stays if the right list of its row holds the same current edge alive.
-/// Marks the others in `left.rejected_by`; returns per left candidate the mean of both NCC (valid where alive).
+/// Marks the others in `left.state`; returns per left candidate the mean of both NCC (valid where alive).
 std::vector<float> temporal_agreement(const Candidates& left_candidates, CandidateScores& left,
                                       const Candidates& right_candidates, const CandidateScores& right);
 
 /// The quad of every row: its most alike candidate, after distance_weight (d / radius)^2 is taken away, d the distance
-/// from the predicted left place. Along a curve that looks the same everywhere the prediction decides. `rivals` counts
-/// further groups of candidates that do not chain up with the winner's (doc/method.md section 4, filter 8).
+/// from the predicted left position. Along a curve that looks the same everywhere the prediction decides. `rivals`
+/// counts further groups of candidates that do not chain up with the winner's (doc/method.md section 4, filter 8).
 ///
-/// The paper's photometric refinement in time is left out: places detected in both rigs are better than refined ones,
-/// and in a search that a scouted motion guides it rejected nothing but true quads (rendered room: 70.7 % recall
+/// The paper's photometric refinement in time is left out: positions detected in both rigs are better than refined
+/// ones, and in a search that a scouted motion guides it rejected nothing but true quads (rendered room: 70.7 % recall
 /// at 98.2 % precision without it, 67.9 % at 98.2 % with it).
 TemporalMatches temporal_best(const Candidates& candidates, const CandidateScores& scores,
                               const std::vector<float>& agreement, const StereoEdges& current,

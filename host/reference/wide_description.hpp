@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/byte_layouts.hpp"
+#include "common/layouts.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr float kSquare = static_cast<float>(kWideNorm * kWideNorm);
 
-float likeness(const WideEdges& a, std::size_t i, const WideEdges& b, std::size_t j) {
+float similarity(const WideEdges& a, std::size_t i, const WideEdges& b, std::size_t j) {
   int sum = 0;
   for (std::size_t k = 0; k < kWideBytes; ++k)
     sum += a.descriptors[i * kWideBytes + k] * b.descriptors[j * kWideBytes + k];
@@ -32,7 +32,7 @@ TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current,
     std::size_t winner = columns;
     float highest = 0;
     for (std::size_t column = 0; column < columns; ++column) {
-      const float value = likeness(earlier, row, current, column);
+      const float value = similarity(earlier, row, current, column);
       if (value > highest) {
         winner = column;
         highest = value;
@@ -42,10 +42,10 @@ TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current,
     const float limit = kSquare - (kSquare - highest) / (ratio * ratio);
     bool unique = true;
     for (std::size_t other = 0; other < rows && unique; ++other) {
-      unique = !(apart(earlier, other, row, neighbourhood) && likeness(earlier, other, current, winner) >= highest);
+      unique = !(apart(earlier, other, row, neighbourhood) && similarity(earlier, other, current, winner) >= highest);
     }
     for (std::size_t column = 0; column < columns && unique; ++column) {
-      unique = !(apart(current, column, winner, neighbourhood) && likeness(earlier, row, current, column) > limit);
+      unique = !(apart(current, column, winner, neighbourhood) && similarity(earlier, row, current, column) > limit);
     }
     if (!unique) continue;
     matches.append(static_cast<std::int32_t>(row) * earlier.step, static_cast<std::int32_t>(winner) * current.step,

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/byte_layouts.hpp"
+#include "common/layouts.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 

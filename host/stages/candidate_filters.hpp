@@ -6,17 +6,16 @@
 #include <string>
 
 #include "common/filter_limits.hpp"
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "stages/device_candidates.hpp"
 
 namespace quadedge::stages {
 
-/// Descriptions of a set of edges, with the numbers under which an edge's own stand there.
+/// Descriptions of a set of edges.
 struct DescribedEdges {
   const opencl::Buffer<cl_char>& patches;  ///< see host/reference/patches.hpp
-  const opencl::Buffer<cl_int>& patch_of;
-  const opencl::Buffer<cl_uchar>& sift;  ///< see host/reference/sift.hpp
-  const opencl::Buffer<cl_int>& sift_of;
+  const opencl::Buffer<cl_int>& patch_of;  ///< number of the patches of each edge
+  const opencl::Buffer<cl_uchar>& sift;    ///< in the order of the edges, see host/reference/sift.hpp
 };
 
 /// Variants of the stage "candidate_filters".
@@ -24,7 +23,7 @@ class CandidateFilters {
  public:
   CandidateFilters(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
-  /// Fills ncc, sift and rejected_by of every candidate. Row r belongs to edge r * row_step of the first set.
+  /// Fills ncc, sift and state of every candidate. Row r belongs to edge r * row_step of the first set.
   /// `all_scores`: also computes what is not needed to decide (for a tap).
   void run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step, bool all_scores,
            DeviceCandidates& candidates);
@@ -37,9 +36,8 @@ class CandidateFilters {
 
   opencl::Context& context_;
   std::size_t local_size_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_int>,
-                 In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_int>, cl_float, cl_float, cl_float, cl_float, cl_int,
-                 cl_int, cl_int, Out<cl_float>, Out<cl_float>, Out<cl_uchar>, Out<cl_int>>
+  opencl::Kernel<FilterArguments, In<cl_int>, In<cl_int>, In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_char>,
+                 In<cl_int>, In<cl_uchar>, Out<cl_float>, Out<cl_float>, Out<cl_uchar>, Out<cl_int>>
       kernel_;
 };
 

@@ -12,13 +12,13 @@ namespace quadedge::stages {
 /// Candidate lists in compressed rows with one set of scores per candidate. The capacity is explicit: a sweep that
 /// finds more makes room and runs again, so nothing is lost.
 struct DeviceCandidates {
-  opencl::Buffer<cl_int> counts;         ///< scratch of the first sweep
-  opencl::Buffer<cl_int> first;          ///< rows + 1
-  opencl::Buffer<cl_int> total;          ///< {candidates that fit, candidates cut off}
-  opencl::Buffer<cl_int> target;         ///< index of the other edge
-  opencl::Buffer<cl_float> ncc, sift;    ///< similarity and distance
-  opencl::Buffer<cl_uchar> rejected_by;  ///< order of the filter that rejected the candidate, 0: alive
-  opencl::Buffer<cl_int> alive;          ///< survivors of the filters per row
+  opencl::Buffer<cl_int> counts;       ///< scratch of the first sweep
+  opencl::Buffer<cl_int> first;        ///< rows + 1
+  opencl::Buffer<cl_int> total;        ///< {candidates that fit, candidates cut off}
+  opencl::Buffer<cl_int> target;       ///< index of the other edge
+  opencl::Buffer<cl_float> ncc, sift;  ///< similarity and distance
+  opencl::Buffer<cl_uchar> state;      ///< alive, rejected by or represented: kernels/layouts.cl
+  opencl::Buffer<cl_int> alive;        ///< survivors of the filters per row
   int rows = 0;
   int capacity = 0;
   int host_total = 0;
@@ -30,7 +30,7 @@ struct DeviceCandidates {
     target.ensure(context, size);
     ncc.ensure(context, size);
     sift.ensure(context, size);
-    rejected_by.ensure(context, size);
+    state.ensure(context, size);
   }
 
   /// Turns counts into lists: `fill` enqueues the second sweep. Runs it again with more room when the lists do not fit.

@@ -19,7 +19,7 @@ struct DeviceStereoEdges {
   opencl::Buffer<cl_float> right_x, right_y, right_direction;  ///< the right blocks again, for cutting patches
   opencl::Buffer<cl_float> ncc;
   opencl::Buffer<cl_char> left_patches;   ///< of every edge of the left image, see host/reference/patches.hpp
-  opencl::Buffer<cl_char> right_patches;  ///< of every stereo edge, cut at its refined place
+  opencl::Buffer<cl_char> right_patches;  ///< of every stereo edge, cut at its refined position
   DeviceImage left_image, right_image;    ///< undistorted, for SIFT descriptors when a search asks for them
   opencl::Buffer<cl_uchar> left_sift,
       right_sift;  ///< of every stereo edge, where has_sift; see host/reference/sift.hpp

@@ -1,6 +1,6 @@
 #include "stages/edge_description.hpp"
 
-#include "common/byte_layouts.hpp"
+#include "common/layouts.hpp"
 #include "opencl/variants.hpp"
 
 namespace quadedge::stages {

@@ -12,7 +12,7 @@
 namespace quadedge::stages {
 
 /// Describes edges on the device. One object per camera: it keeps the prepared image until the next one, so that
-/// patches can be cut anew at refined places.
+/// patches can be cut anew at refined positions.
 class EdgeDescription {
  public:
   /// For images of width x height pixels. Variants of the stages "patches" and "sift".
@@ -24,7 +24,7 @@ class EdgeDescription {
   /// Takes the next image for describe_sift(): prepares the gradient of the blurred image.
   void prepare_sift(const opencl::Buffer<cl_uchar>& image);
 
-  /// Side patches at any `count` places and directions in the prepared image.
+  /// Side patches at any `count` positions and directions in the prepared image.
   void cut_patches(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
                    const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_char>& patches);
 
@@ -33,7 +33,7 @@ class EdgeDescription {
     cut_patches(edges.x, edges.y, edges.direction, edges.host_count, patches);
   }
 
-  /// SIFT descriptors of `count` edges of the prepared image: places in pixels, directions in radians.
+  /// SIFT descriptors of `count` edges of the prepared image: positions in pixels, directions in radians.
   void describe_sift(const opencl::Buffer<cl_float>& x, const opencl::Buffer<cl_float>& y,
                      const opencl::Buffer<cl_float>& direction, int count, opencl::Buffer<cl_uchar>& sift);
 

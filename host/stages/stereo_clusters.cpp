@@ -32,10 +32,10 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, Edge
   const auto edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
   const auto capacity = static_cast<std::size_t>(candidates.capacity);
   clusters.order.ensure(context_, capacity);
-  clusters.place.ensure(context_, capacity);
+  clusters.position.ensure(context_, capacity);
   clusters.direction.ensure(context_, capacity);
   clusters.anchor.ensure(context_, capacity);
-  clusters.likeness.ensure(context_, capacity);
+  clusters.similarity.ensure(context_, capacity);
   clusters.count.ensure(context_, edges);
   clusters.best.ensure(context_, edges);
   clusters.keep.ensure(context_, edges);
@@ -45,13 +45,13 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, Edge
   clusters.owner.fill(std::numeric_limits<cl_int>::max(), right_edges);
 
   const opencl::Range range(edges, local_size_);
-  cluster_(range, candidates.first, candidates.target, candidates.capacity, n, right.direction, candidates.rejected_by,
-           refined.place, refined.likeness, static_cast<float>(config_.cluster_gap),
+  cluster_(range, candidates.first, candidates.target, candidates.capacity, n, right.direction, candidates.state,
+           refined.position, refined.similarity, static_cast<float>(config_.cluster_gap),
            static_cast<float>(config_.cluster_orientation * kDegree), config_.cluster_size_max,
            static_cast<float>(config_.cluster_sigma), static_cast<float>(config_.refined_ncc_min), clusters.order,
-           clusters.count, clusters.place, clusters.direction, clusters.anchor, clusters.likeness, clusters.best);
-  claim_(range, clusters.best, clusters.anchor, clusters.likeness, n, clusters.claimed);
-  owner_(range, clusters.best, clusters.anchor, clusters.likeness, n, clusters.claimed, clusters.owner);
+           clusters.count, clusters.position, clusters.direction, clusters.anchor, clusters.similarity, clusters.best);
+  claim_(range, clusters.best, clusters.anchor, clusters.similarity, n, clusters.claimed);
+  owner_(range, clusters.best, clusters.anchor, clusters.similarity, n, clusters.claimed, clusters.owner);
   mutual_(range, clusters.best, clusters.anchor, n, left.x, left.y, static_cast<float>(config_.mutual_radius),
           clusters.owner, clusters.keep);
   scan_.run(clusters.keep, n, n, clusters.keep_first, clusters.total);
@@ -64,9 +64,9 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, Edge
   result.right_y.ensure(context_, edges);
   result.right_direction.ensure(context_, edges);
   result.ncc.ensure(context_, edges);
-  collect_(range, clusters.keep_first, n, clusters.best, left.x, left.y, left.direction, geometry, clusters.place,
-           clusters.direction, clusters.anchor, clusters.likeness, result.stride, result.left_index, result.right_index,
-           result.packed, result.right_x, result.right_y, result.right_direction, result.ncc);
+  collect_(range, clusters.keep_first, n, clusters.best, left.x, left.y, left.direction, geometry, clusters.position,
+           clusters.direction, clusters.anchor, clusters.similarity, result.stride, result.left_index,
+           result.right_index, result.packed, result.right_x, result.right_y, result.right_direction, result.ncc);
   cl_int total[2];
   clusters.total.read(total, 2);
   result.count = total[0];

@@ -16,12 +16,12 @@ namespace quadedge::stages {
 
 /// Clusters of one frame's candidates, in the rows of the candidates.
 struct DeviceClusters {
-  opencl::Buffer<cl_int> order;    ///< scratch
-  opencl::Buffer<cl_int> count;    ///< clusters per left edge
-  opencl::Buffer<cl_float> place;  ///< on the epipolar line [px from the point at infinity]
+  opencl::Buffer<cl_int> order;       ///< scratch
+  opencl::Buffer<cl_int> count;       ///< clusters per left edge
+  opencl::Buffer<cl_float> position;  ///< on the epipolar line [px from the point at infinity]
   opencl::Buffer<cl_float> direction;
   opencl::Buffer<cl_int> anchor;  ///< right edge of the representative
-  opencl::Buffer<cl_float> likeness;
+  opencl::Buffer<cl_float> similarity;
   opencl::Buffer<cl_int> best;            ///< best cluster per left edge, -1: none
   opencl::Buffer<cl_int> claimed, owner;  ///< per right edge
   opencl::Buffer<cl_int> keep, keep_first, total;

@@ -21,10 +21,10 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
   const bool lanes = variant.defines.count("GROUP") != 0;
   items_per_edge_ = lanes ? kLanes : 1;
   const auto program = lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl",
-                                                "candidate_places.cl", "stereo_refinement_lanes.cl"},
+                                                "candidate_positions.cl", "stereo_refinement_lanes.cl"},
                                                variant.defines)
-                             : context.program({"direction.cl", "epipolar.cl", "photometric.cl", "candidate_places.cl",
-                                                "stereo_refinement.cl"},
+                             : context.program({"direction.cl", "epipolar.cl", "photometric.cl",
+                                                "candidate_positions.cl", "stereo_refinement.cl"},
                                                variant.defines);
   kernel_ = {context, program, "stereo_refinement"};
 }
@@ -34,8 +34,8 @@ void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& r
                            const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates,
                            DeviceRefined& refined) {
   context_.begin_stage("stereo_refinement");
-  refined.place.ensure(context_, static_cast<std::size_t>(candidates.capacity));
-  refined.likeness.ensure(context_, static_cast<std::size_t>(candidates.capacity));
+  refined.position.ensure(context_, static_cast<std::size_t>(candidates.capacity));
+  refined.similarity.ensure(context_, static_cast<std::size_t>(candidates.capacity));
   kernel_({static_cast<std::size_t>(candidates.rows) * items_per_edge_, local_size_}, candidates.first,
           candidates.target, candidates.ncc, candidates.capacity, candidates.rows, left_image.values(),
           left_image.width(), left_image.height(), right_image.values(), right_image.width(), right_image.height(),
@@ -44,7 +44,7 @@ void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& r
           static_cast<float>(std::pow(config_.refine_noise_sigma / config_.refine_prior_sigma, 2)),
           config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
           static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min), kStereoRefinementOrder,
-          candidates.rejected_by, refined.place, refined.likeness);
+          candidates.state, refined.position, refined.similarity);
 }
 
 }  // namespace quadedge::stages

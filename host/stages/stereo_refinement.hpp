@@ -14,9 +14,9 @@ namespace quadedge::stages {
 
 /// What the refinement finds for every candidate.
 struct DeviceRefined {
-  opencl::Buffer<cl_float> place;  ///< on the left edge's epipolar line [px from the point at infinity]
+  opencl::Buffer<cl_float> position;  ///< on the left edge's epipolar line [px from the point at infinity]
   opencl::Buffer<cl_float>
-      likeness;  ///< of the refined places: mean of the NCC of the edges' own patches and of the better side
+      similarity;  ///< of the refined positions: mean of the NCC of the edges' own patches and of the better side
 };
 
 /// doc/method.md section 3, 8a and 8b. Variants of the stage "stereo_refinement".
@@ -25,8 +25,8 @@ class StereoRefinement {
   StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
                    const std::map<std::string, std::string>& variants);
 
-  /// Living candidates get a place and a likeness; those that diverge are rejected. Both images prepared for sampling;
-  /// `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.
+  /// Living candidates get a position and a similarity; those that diverge are rejected. Both images prepared for
+  /// sampling; `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.
   void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
            const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches,
            const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file temporal_candidates.hpp  Stage 6a: current stereo edges near the predicted places, in the left or the right
+/// \file temporal_candidates.hpp  Stage 6a: current stereo edges near the predicted positions, in the left or the right
 /// images.
 
 #include <map>
@@ -12,16 +12,16 @@
 
 namespace quadedge::stages {
 
-/// Predicted places of one side on the device.
+/// Predicted positions of one side on the device.
 struct DevicePlaces {
   opencl::Buffer<cl_float> x, y, direction;
   int count = 0;
 
-  void write(opencl::Context& context, const PlacedEdges& places) {
-    x.write(context, places.x);
-    y.write(context, places.y);
-    direction.write(context, places.direction);
-    count = static_cast<int>(places.x.size());
+  void write(opencl::Context& context, const PlacedEdges& positions) {
+    x.write(context, positions.x);
+    y.write(context, positions.y);
+    direction.write(context, positions.direction);
+    count = static_cast<int>(positions.x.size());
   }
 };
 
@@ -30,7 +30,7 @@ class TemporalCandidates {
  public:
   TemporalCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
-  /// `radius` [px], `orientation` [rad]. Every row_step-th predicted place has a row. `current`: the stereo edges of
+  /// `radius` [px], `orientation` [rad]. Every row_step-th predicted position has a row. `current`: the stereo edges of
   /// one side.
   void run(const DevicePlaces& predicted, int row_step, const DevicePointIndex& current, float radius,
            float orientation, DeviceCandidates& candidates);

@@ -24,8 +24,8 @@ void TemporalQuads::agree(DeviceCandidates& left, const DeviceCandidates& right)
   context_.begin_stage("temporal_quads");
   score_.ensure(context_, static_cast<std::size_t>(left.capacity));
   agree_({static_cast<std::size_t>(left.rows), local_size_}, left.first, left.target, left.capacity, left.ncc,
-         left.rejected_by, right.first, right.target, right.capacity, right.ncc, right.rejected_by, left.rows,
-         kAgreementOrder, score_);
+         left.state, right.first, right.target, right.capacity, right.ncc, right.state, left.rows, kAgreementOrder,
+         score_);
 }
 
 TemporalMatches TemporalQuads::collect(const DeviceStereoEdges& current, const StereoEdges& edges,
@@ -37,7 +37,7 @@ TemporalMatches TemporalQuads::collect(const DeviceStereoEdges& current, const S
   rivals_.ensure(context_, rows);
   best_score_.ensure(context_, rows);
   best_kernel_({rows, local_size_}, left.first, left.target, left.capacity, left.rows, search.step, current.packed,
-               current.stride, left.rejected_by, score_, predicted.x, predicted.y,
+               current.stride, left.state, score_, predicted.x, predicted.y,
                static_cast<float>(config_.distance_weight) / (search.radius * search.radius),
                static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree),
                label_, best_, rivals_, best_score_);

@@ -1,6 +1,6 @@
 #include "stages/wide_matching.hpp"
 
-#include "common/byte_layouts.hpp"
+#include "common/layouts.hpp"
 #include "opencl/variants.hpp"
 
 namespace quadedge::stages {
@@ -41,27 +41,27 @@ TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWi
   context_.begin_stage("wide_matching");
   const auto rows = static_cast<std::size_t>(earlier.rows);
   best_.ensure(context_, rows);
-  likeness_.ensure(context_, rows);
+  similarity_.ensure(context_, rows);
   if (rows_per_item_ == 0) {
     kernel_({rows, local_size_}, earlier.descriptors, earlier.edges.packed, earlier.edges.stride, earlier.rows,
             earlier.step, current.descriptors, current.edges.packed, current.edges.stride, current.rows, current.step,
-            neighbourhood_, ratio_, best_, likeness_);
+            neighbourhood_, ratio_, best_, similarity_);
   } else {
     transpose(earlier, earlier_blocks_);
     transpose(current, current_blocks_);
     blocks_kernel_({(rows + rows_per_item_ - 1) / rows_per_item_, local_size_}, earlier.descriptors, earlier_blocks_,
                    earlier.edges.packed, earlier.edges.stride, earlier.rows, earlier.step, current.descriptors,
                    current_blocks_, current.edges.packed, current.edges.stride, current.rows, current.step,
-                   neighbourhood_, ratio_, best_, likeness_);
+                   neighbourhood_, ratio_, best_, similarity_);
   }
   std::vector<cl_int> best(rows);
   best_.read_later(best.data(), rows);
-  const auto likeness = likeness_.read(rows);
+  const auto similarity = similarity_.read(rows);
   TemporalMatches matches;
   for (std::size_t row = 0; row < rows; ++row) {
     if (best[row] < 0) continue;
     matches.append(static_cast<std::int32_t>(row) * earlier.step, best[row] * current.step, current_edges,
-                   likeness[row], 0);
+                   similarity[row], 0);
   }
   return matches;
 }

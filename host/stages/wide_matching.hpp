@@ -43,7 +43,7 @@ class WideMatching {
   std::size_t rows_per_item_;  ///< of the variant with blocks, else 0
   opencl::Buffer<cl_uchar> earlier_blocks_, current_blocks_;
   opencl::Buffer<cl_int> best_;
-  opencl::Buffer<cl_float> likeness_;
+  opencl::Buffer<cl_float> similarity_;
   opencl::Kernel<In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int,
                  cl_float, cl_float, Out<cl_int>, Out<cl_float>>
       kernel_;

@@ -1,0 +1,49 @@
+// candidate_positions.cl: positions of a left edge's candidates on its epipolar line, and which candidate is refined for all at one position.
+// Functions only. Needs direction.cl and epipolar.cl.
+// Reference: host/reference/stereo_refinement.cpp.
+
+// Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its position s.
+inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
+                            const float min_sine, const float max_shift) {
+  const float dx = x - line.x, dy = y - line.y;
+  const float s = dx * line.ex + dy * line.ey;
+  const float distance = -dx * line.ey + dy * line.ex;
+  float cosine;
+  const float sine = sine_cosine(direction, &cosine);
+  const float across = -cosine * line.ey + sine * line.ex;  // sine of the angle between line and tangent
+  const float along = cosine * line.ex + sine * line.ey;
+  if (fabs(across) <= min_sine) return s;
+  const float shift = -distance / across;
+  return fabs(shift) < max_shift ? s + shift * along : s;
+}
+
+// Candidate c against the earlier ones of its row, which begins at `begin`: of candidates at one position the one whose sides are most
+// similar stays alive and represents the others. To be called in the order of the row.
+inline void choose_representative(const int begin, const int c, global const float* ncc, global const float* position,
+                                  global uchar* state) {
+  for (int k = begin; k < c; ++k) {
+    if (state[k] != kCandidateAlive || fabs(position[k] - position[c]) >= kSamePosition) continue;
+    const int better = ncc[c] > ncc[k];
+    state[better ? k : c] = kCandidateRepresented;
+    if (!better) break;
+  }
+}
+
+// After the refinement of a row: represented candidates stay where they are and take the similarity of the nearest alive one; where
+// none is left they are rejected like it.
+inline void follow_representatives(const int begin, const int end, const int rejected_order,
+                                   global const float* position, global uchar* state, global float* similarity) {
+  for (int c = begin; c < end; ++c) {
+    if (state[c] != kCandidateRepresented) continue;
+    int nearest = -1;
+    for (int k = begin; k < end; ++k) {
+      if (state[k] == kCandidateAlive &&
+          (nearest < 0 || fabs(position[k] - position[c]) < fabs(position[nearest] - position[c])))
+        nearest = k;
+    }
+    if (nearest < 0)
+      state[c] = (uchar)rejected_order;
+    else
+      similarity[c] = similarity[nearest];
+  }
+}

@@ -1,0 +1,20 @@
+#pragma once
+/// \file kernel_programs.hpp  Programs that tests write around the kernels' own functions.
+
+#include <CL/opencl.hpp>
+#include <string>
+#include <vector>
+
+#include "opencl/context.hpp"
+#include "opencl/kernel_sources.hpp"
+
+/// Builds `source` behind common.cl, layouts.cl and `files`.
+inline cl::Program build_program(quadedge::opencl::Context& context, const std::vector<std::string>& files,
+                                 const std::string& source) {
+  const auto& kernels = quadedge::opencl::embedded_kernels();
+  std::string text = kernels.at("common.cl") + "\n" + kernels.at("layouts.cl") + "\n";
+  for (const auto& file : files) text += kernels.at(file) + "\n";
+  cl::Program program(context.context(), text + source);
+  program.build({context.device()}, "-cl-std=CL1.2 -cl-kernel-arg-info");
+  return program;
+}
