@@ -129,7 +129,7 @@ TEST_CASE("Without local optimisation the motion is the one of two quads as they
   const Consensus found = search(problem, exact, config);
   REQUIRE(found.found);
   CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1e-6);
-  // Of noisy quads it is one of the pairs' own motions, and so farther off than the polished one.
+  // Of noisy quads it is one of the pairs' own motions, and so farther off than the locally optimised one.
   problem.noise = generated::Noise{0.12, 0.4, 0.02};
   const auto noisy = generated::generate(problem, 44);
   const Consensus plain = search(problem, noisy, config);

@@ -29,7 +29,7 @@ struct ConstraintCheck {
   /// [5] the sign of det(D / |D|, T1, T2) is the same, where both magnitudes make it informative.
   /// The determinant is only a sign: where [0] to [3] hold its magnitude follows from them.
   std::array<bool, 6> passed{};
-  bool swapped = false;  ///< [4] holds only with the second quad in the first one's place
+  bool swapped = false;  ///< [4] holds only with the second quad in the first one's role
   bool all() const { return passed[0] && passed[1] && passed[2] && passed[3] && passed[4] && passed[5]; }
 };
 

@@ -14,10 +14,10 @@ namespace quadedge::pose {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kPlaceSize = 3, kDirectionSize = 2;  ///< residuals per block
+constexpr double kReprojectionSize = 3, kDirectionSize = 2;  ///< residuals per block
 /// Medians of the chi-squared distribution with 3 and 2 degrees of freedom.
-constexpr double kPlaceMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
-/// Variances are not believed to be smaller than this share of the assumed ones (noise-free data).
+constexpr double kReprojectionMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
+/// Variances are not believed to be smaller than this ratio to the assumed ones (noise-free data).
 constexpr double kSmallestScale = 1e-6;
 /// A scale is the median of about so many errors.
 constexpr std::size_t kScaleErrors = 4000;
@@ -28,7 +28,7 @@ constexpr double kSmallestPivot = 1e-12;
 Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous);
 
 /// Weight of the Student-t distribution for a block of `size` residuals with squared error `error` at variance `scale`.
-inline double student_weight(double error, double scale, double size, double dof) {
+[[gnu::always_inline]] inline double student_weight(double error, double scale, double size, double dof) {
   return (dof + size) / (dof + error / scale);
 }
 

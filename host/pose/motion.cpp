@@ -10,16 +10,16 @@ namespace quadedge::pose {
 
 namespace {
 
-/// Standard deviation of the inliers' current left places, over both axes together, as a share of the image diagonal.
+/// Standard deviation of the inliers' current left positions, over both axes together, over the image diagonal.
 double spread(const QuadObservations& quads, const std::vector<std::uint8_t>& inlier, const PinholeCamera& camera) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < inlier.size(); ++i) {
     if (!inlier[i]) continue;
-    const Eigen::Vector2d place(static_cast<double>(quads.scoring.left_x[i]),
-                                static_cast<double>(quads.scoring.left_y[i]));
-    sum += place;
-    squares += place.squaredNorm();
+    const Eigen::Vector2d position(static_cast<double>(quads.scoring.left_x[i]),
+                                   static_cast<double>(quads.scoring.left_y[i]));
+    sum += position;
+    squares += position.squaredNorm();
     count += 1;
   }
   if (!(count > 0)) return 0;

@@ -19,7 +19,7 @@ namespace quadedge::pose {
 enum class MotionStatus {
   ok,
   too_few_quads,  ///< fewer quads than config.min_inliers
-  no_consensus,   ///< no motion that config.min_inliers and config.min_inlier_ratio of the quads share
+  no_consensus,   ///< no motion that config.min_inliers and config.min_inlier_ratio of the quads agree with
   badly_spread,   ///< the inliers cover too small a part of the image to say more than where that part went
 };
 const char* to_string(MotionStatus status);
@@ -41,7 +41,7 @@ struct MotionEstimate {
 
 /// Finds the motion: consensus of two-quad samples, then least squares over all its inliers.
 /// With config.refine off the pose is the best of the paper's two-quad samples and their local optimisations over at
-/// most config.preview_quads, whichever explains more of all quads; there is no fit over all inliers and no covariance.
+/// most config.preview_quads, whichever costs less over all quads; there is no fit over all inliers and no covariance.
 /// \param offset_variance of the disparities' offset [px^2], 0: taken as exact
 /// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to
 /// frame.

@@ -39,8 +39,8 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   const double line_norm = line.norm();
   if (!(line_norm > 0)) return std::nullopt;
   line /= line_norm;
-  const double place = line.x() * (observation.right.x() - right.cx) + line.y() * (observation.right.y() - right.cy);
-  const Eigen::Vector3d weights(line.x() * right.fx, line.y() * right.fy, -place);
+  const double position = line.x() * (observation.right.x() - right.cx) + line.y() * (observation.right.y() - right.cy);
+  const Eigen::Vector3d weights(line.x() * right.fx, line.y() * right.fy, -position);
   result.inverse_depth = -weights.dot(at_infinity) / weights.dot(translation);
   if (!(result.inverse_depth > 0) || !std::isfinite(result.inverse_depth)) return std::nullopt;
   const Eigen::Vector3d in_right = at_infinity + result.inverse_depth * translation;

@@ -42,7 +42,7 @@ struct StereoMeasurement {
 
 /// Measures a stereo edge. The point lies exactly on the left ray; its depth is the one whose projection into the right
 /// image is nearest to the right pixel along the epipolar line. This beats the midpoint of the two rays for edges: the
-/// right pixel was placed on that line, so only its place along the line carries information, and any rig works,
+/// right pixel was placed on that line, so only its position along the line carries information, and any rig works,
 /// vertical baselines and converging cameras included. The tangent is the intersection of the two planes that the image
 /// tangents span with their camera centres (n1 x n2 of doc/method.md section 5, written so that its sign agrees with
 /// the left direction, which carries contrast). \param min_epipolar_angle radians; an edge nearer than this to its

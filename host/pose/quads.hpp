@@ -67,8 +67,8 @@ using MeasuredEdges = std::vector<std::optional<StereoMeasurement>>;
 /// \param min_epipolar_angle see measure() [rad]
 void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle, MeasuredEdges& measured);
 
-/// All quads of two rigs: the stereo edges that `matches` pairs, each at its detected place. Across the edge, where a
-/// quad is measured, detection is more exact than the photometric refinement of the match (KITTI 06, frame to
+/// All quads of two rigs: the stereo edges that `matches` pairs, each at its detected position. Across the edge, where
+/// a quad is measured, detection is more exact than the photometric refinement of the match (KITTI 06, frame to
 /// frame: 1.6 cm per frame against 2.3 cm), whose patches lie beside the edge; the refinement tells right matches from
 /// wrong ones. Matches without depth are left out, QuadObservations::match says which row a quad came from.
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,

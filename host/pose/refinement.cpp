@@ -1,17 +1,17 @@
 #include "pose/refinement.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <utility>
 
 #include "common/angles.hpp"
+#include "pose/offset_fit.hpp"
 
 namespace quadedge::pose {
 
 namespace {
 
 /// About so many quads settle which ones are inliers.
-constexpr std::size_t kScoutingQuads = 4000;
+constexpr std::size_t kSelectionQuads = 4000;
 /// A selection that differs from the last one in less than one row of so many calls for no further fit.
 constexpr std::size_t kSameSelection = 500;
 
@@ -35,15 +35,16 @@ std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<s
 }
 
 void measure_scale(RefinementWorkspace& workspace) {
-  workspace.place_scale = measured_scale(workspace.terms.error, workspace.terms.size(), kPlaceMedian, workspace.sorted);
+  workspace.reprojection_scale =
+      measured_scale(workspace.terms.error, workspace.terms.size(), kReprojectionMedian, workspace.sorted);
 }
 
 /// Gauss-Newton from `current_from_previous`, which it replaces. \returns false when the normal equations have no
-/// solution. \param knows_scale place_scale comes from a fit over a part of the same quads and need not be measured
-/// before the first step
+/// solution. \param knows_scale reprojection_scale comes from a fit over a part of the same quads and need not be
+/// measured before the first step
 bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& workspace,
               Eigen::Isometry3d& current_from_previous) {
-  PlaceTerms& terms = workspace.terms;
+  ReprojectionTerms& terms = workspace.terms;
   if (terms.size() == 0) return false;
   if (!knows_scale) {
     normal_by_pose(terms, current_from_previous, 0, {1, config.student_dof});
@@ -51,7 +52,7 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
   }
   for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
     const Normal<6> normal =
-        normal_by_pose(terms, current_from_previous, 0, {workspace.place_scale, config.student_dof});
+        normal_by_pose(terms, current_from_previous, 0, {workspace.reprojection_scale, config.student_dof});
     Vector6d step;
     if (!solve(normal, step)) return false;
     current_from_previous = perturb(step, current_from_previous);
@@ -61,100 +62,105 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
   return true;
 }
 
-}  // namespace
+/// The course of refine().
+class Refinement {
+ public:
+  Refinement(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, RefinementWorkspace& work,
+             std::vector<std::uint8_t>& inlier, Refined& result)
+      : quads_(quads), rig_(rig), config_(config), noise_(config), work_(work), inlier_(inlier), result_(result) {}
 
-bool fit_offset(const PoseConfig& config, const Scatter& scatter, double variance, RefinementWorkspace& workspace,
-                OffsetFit& result) {
-  using Matrix7d = Eigen::Matrix<double, 7, 7>;
-  using Vector7d = Eigen::Matrix<double, 7, 1>;
-  Eigen::Isometry3d pose = result.current_from_previous;
-  double offset = result.offset;
-  for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
-    Normal<7> normal =
-        normal_by_pose_and_offset(workspace.terms, pose, offset, {workspace.place_scale, config.student_dof});
-    const double weight = std::max(scatter.weight_factor, 1.0);
-    normal.matrix /= weight;
-    normal.gradient /= weight;
-    Matrix7d spread = normal.matrix * (std::max(scatter.factor, 1.0) / weight);  // of the gradient
-    normal.matrix(6, 6) += 1.0 / variance;
-    spread(6, 6) += 1.0 / variance;
-    normal.gradient(6) += offset / variance;
-    Vector7d step;
-    if (!solve(normal, step)) return false;
-    pose = perturb(step.head<6>(), pose);
-    offset += step(6);
-    const Matrix7d inverse = normal.matrix.ldlt().solve(Matrix7d::Identity());
-    result.covariance = inverse * spread * inverse;
-    result.offset_variance = inverse(6, 6);
-    if (-normal.gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
+  void run(double offset_variance) {
+    // Every n-th quad finds the pose, all of them make it exact.
+    const std::size_t every = std::max<std::size_t>(1, quads_.size() / kSelectionQuads);
+    alternate(every);
+    if (result_.solved && every > 1) {
+      select(1);
+      take_selected();
+      if (!(offset_variance > 0)) fit(true);  // with the offset the last fit comes at once
+    }
+    if (result_.solved && !(offset_variance > 0 && find_offset(offset_variance))) {
+      if (offset_variance > 0 && every > 1) fit(true);
+      if (result_.solved) result_.covariance = covariance_at(0).inflated();
+    }
+    result_.inliers = find_inliers();
   }
-  result.covariance = (0.5 * (result.covariance + result.covariance.transpose())).eval();
-  result.current_from_previous = pose;
-  result.offset = offset;
-  return true;
-}
+
+ private:
+  /// Selections from every `every`-th quad and fits in turn.
+  void alternate(std::size_t every) {
+    for (int round = 0; round < config_.refine_rounds; ++round) {
+      select(every);
+      if (round > 0 && changed_rows(work_.rows, work_.last_rows) <= work_.rows.size() / kSameSelection) break;
+      take_selected();
+      if (!fit(round > 0)) break;
+    }
+  }
+
+  int find_inliers() {
+    return select_inliers(quads_.scoring, LaterCameras(rig_, result_.current_from_previous), config_.inlier_distance,
+                          radians(config_.inlier_orientation), inlier_);
+  }
+
+  void select(std::size_t every) {
+    find_inliers();
+    work_.rows.clear();
+    for (std::size_t i = 0; i < inlier_.size(); i += every)
+      if (inlier_[i] != 0) work_.rows.push_back(static_cast<std::int32_t>(i));
+  }
+
+  void take_selected() {
+    std::swap(work_.rows, work_.last_rows);
+    work_.terms.assign(quads_, work_.last_rows, rig_.left, noise_);
+  }
+
+  bool fit(bool knows_scale) {
+    Eigen::Isometry3d candidate = result_.current_from_previous;
+    result_.solved = fit_pose(config_, knows_scale, work_, candidate);
+    if (result_.solved) result_.current_from_previous = candidate;
+    return result_.solved;
+  }
+
+  /// \returns false where the fit with the offset has no solution, with the pose as it was.
+  bool find_offset(double variance) {
+    OffsetFit both;
+    both.current_from_previous = result_.current_from_previous;
+    const auto fit_both = [&](const MeasuredCovariance& covariance) {
+      return fit_offset(config_, covariance, variance, work_.reprojection_scale, work_.terms, both);
+    };
+    // An offset that is not yet in the disparities would pass for correlated errors: it is found first, weighed
+    // afterwards.
+    if (!fit_both(MeasuredCovariance())) return false;
+    result_.current_from_previous = both.current_from_previous;
+    fit_both(covariance_at(both.offset));
+    result_.current_from_previous = both.current_from_previous;
+    result_.covariance = both.covariance.topLeftCorner<6, 6>();
+    result_.offset = both.offset;
+    result_.offset_variance = both.offset_variance;
+    return true;
+  }
+
+  MeasuredCovariance covariance_at(double offset) {
+    return measure_covariance(work_.terms, work_.last_rows, quads_, rig_, config_, result_.current_from_previous,
+                              offset, work_.reprojection_scale, work_.covariance);
+  }
+
+  const QuadObservations& quads_;
+  const StereoRig& rig_;
+  const PoseConfig& config_;
+  const NoiseModel noise_;
+  RefinementWorkspace& work_;
+  std::vector<std::uint8_t>& inlier_;
+  Refined& result_;
+};
+
+}  // namespace
 
 Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial, double offset_variance, RefinementWorkspace& workspace,
                std::vector<std::uint8_t>& inlier) {
   Refined result;
   result.current_from_previous = initial;
-  auto &rows = workspace.rows, &last_rows = workspace.last_rows;
-  const NoiseModel noise(config);
-  const double angle = radians(config.inlier_orientation);
-  // Every n-th quad finds the pose, all of them make it exact.
-  const std::size_t every = std::max<std::size_t>(1, quads.size() / kScoutingQuads);
-  const auto select = [&](std::size_t step) {
-    select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous), config.inlier_distance, angle,
-                   inlier);
-    rows.clear();
-    for (std::size_t i = 0; i < inlier.size(); i += step)
-      if (inlier[i] != 0) rows.push_back(static_cast<std::int32_t>(i));
-  };
-  const auto take_selected = [&] {
-    std::swap(rows, last_rows);
-    workspace.terms.assign(quads, last_rows, rig.left, noise);
-  };
-  const auto fit_taken = [&](bool knows_scale) {
-    Eigen::Isometry3d candidate = result.current_from_previous;
-    result.solved = fit_pose(config, knows_scale, workspace, candidate);
-    if (result.solved) result.current_from_previous = candidate;
-    return result.solved;
-  };
-  for (int round = 0; round < config.refine_rounds; ++round) {
-    select(every);
-    if (round > 0 && changed_rows(rows, last_rows) <= rows.size() / kSameSelection) break;
-    take_selected();
-    if (!fit_taken(round > 0)) break;
-  }
-  if (result.solved && every > 1) {
-    select(1);
-    take_selected();
-    if (!(offset_variance > 0)) fit_taken(true);  // with the offset the last fit comes at once
-  }
-  if (result.solved) {
-    const auto measure = [&](double offset) {
-      return measure_scatter(workspace.terms, last_rows, quads, rig, config, result.current_from_previous, offset,
-                             workspace.place_scale, workspace.scatter);
-    };
-    OffsetFit both;
-    both.current_from_previous = result.current_from_previous;
-    // An offset that is not yet in the disparities would pass for errors that are alike: it is found first, weighed
-    // afterwards.
-    if (offset_variance > 0 && fit_offset(config, Scatter(), offset_variance, workspace, both)) {
-      result.current_from_previous = both.current_from_previous;
-      fit_offset(config, measure(both.offset), offset_variance, workspace, both);
-      result.current_from_previous = both.current_from_previous;
-      result.covariance = both.covariance.topLeftCorner<6, 6>();
-      result.offset = both.offset;
-      result.offset_variance = both.offset_variance;
-    } else {
-      if (offset_variance > 0 && every > 1) fit_taken(true);
-      if (result.solved) result.covariance = measure(0).covariance();
-    }
-  }
-  result.inliers = select_inliers(quads.scoring, LaterCameras(rig, result.current_from_previous),
-                                  config.inlier_distance, angle, inlier);
+  Refinement(quads, rig, config, workspace, inlier, result).run(offset_variance);
   return result;
 }
 

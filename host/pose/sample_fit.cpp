@@ -31,17 +31,20 @@ void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matr
   result.by_pose = by_pose - by_unknown * projected;
 }
 
-struct QuadTerms {
-  Eliminated<3, 6> place;
+struct EliminatedQuad {
+  Eliminated<3, 6> reprojection;
   Eliminated<2, 3> direction;
 };
 
-bool evaluate(const FitTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth,
-              QuadTerms& result) {
-  Linearisation linear;
-  if (!linearise(term, left, pose, depth, linear)) return false;
-  eliminate<3, 6>(linear.place, linear.place_by_pose, linear.place_by_depth, depth, result.place);
-  eliminate<2, 3>(linear.direction, linear.direction_by_rotation, linear.direction_by_slope, 0.0, result.direction);
+/// \param depth the quad's own unknown \returns false for a point that is not in front of the current left camera.
+bool evaluate(const SampleTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth,
+              EliminatedQuad& result) {
+  ReprojectionJacobian position;
+  if (!reprojection_jacobian(term.reprojection, left, pose, depth, position)) return false;
+  eliminate<3, 6>(position.value, position.by_pose, position.by_depth, depth, result.reprojection);
+  DirectionResidual direction;
+  direction_residual(term.direction, pose.linear(), direction);
+  eliminate<2, 3>(direction.value, direction.by_rotation, direction.by_slope, 0.0, result.direction);
   return true;
 }
 
@@ -61,24 +64,29 @@ void add_rows(const Eliminated<Rows, Columns>& block, double weight, Normal<6>& 
 
 }  // namespace
 
-bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig,
+SampleTerm make_sample_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise) {
+  return {make_reprojection_term(quads, quad, noise), make_direction_term(quads, quad, noise)};
+}
+
+bool fit_sample(const std::vector<SampleTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig,
                 const PoseConfig& config, Eigen::Isometry3d& current_from_previous, SampleWorkspace& workspace) {
   if (rows.empty()) return false;
   workspace.depth.assign(rows.size(), 0.0);
-  workspace.place_error.assign(rows.size(), 0.0);
+  workspace.reprojection_error.assign(rows.size(), 0.0);
   workspace.direction_error.assign(rows.size(), 0.0);
-  double place_scale = 1, direction_scale = 1;
-  QuadTerms quad;
+  double reprojection_scale = 1, direction_scale = 1;
+  EliminatedQuad quad;
   const auto evaluate_row = [&](std::size_t k) {
     if (!evaluate(terms[static_cast<std::size_t>(rows[k])], rig.left, current_from_previous, workspace.depth[k], quad))
       return false;
-    workspace.place_error[k] = quad.place.error.squaredNorm();
+    workspace.reprojection_error[k] = quad.reprojection.error.squaredNorm();
     workspace.direction_error[k] = quad.direction.error.squaredNorm();
-    workspace.depth[k] = quad.place.unknown;
+    workspace.depth[k] = quad.reprojection.unknown;
     return true;
   };
   const auto measure_scales = [&] {
-    place_scale = measured_scale(workspace.place_error, rows.size(), kPlaceMedian, workspace.sorted);
+    reprojection_scale =
+        measured_scale(workspace.reprojection_error, rows.size(), kReprojectionMedian, workspace.sorted);
     direction_scale = measured_scale(workspace.direction_error, rows.size(), kDirectionMedian, workspace.sorted);
   };
   for (std::size_t k = 0; k < rows.size(); ++k) evaluate_row(k);
@@ -88,7 +96,9 @@ bool fit_sample(const std::vector<FitTerm>& terms, const std::vector<std::int32_
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (!evaluate_row(k)) continue;
       const double dof = config.student_dof;
-      add_rows(quad.place, student_weight(workspace.place_error[k], place_scale, kPlaceSize, dof) / place_scale,
+      add_rows(quad.reprojection,
+               student_weight(workspace.reprojection_error[k], reprojection_scale, kReprojectionSize, dof) /
+                   reprojection_scale,
                normal);
       add_rows(quad.direction,
                student_weight(workspace.direction_error[k], direction_scale, kDirectionSize, dof) / direction_scale,

@@ -11,8 +11,8 @@ namespace quadedge::pose {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;  ///< rows whose costs are computed before they are added up; a multiple of kLanes
-constexpr std::size_t kLanes = 8;   ///< independent sums, so that a vector unit may add without reordering anything
+constexpr std::size_t kBlock = 64;  ///< rows whose costs are computed before they are added up; a multiple of kSums
+constexpr std::size_t kSums = 8;    ///< independent sums, so that a vector unit may add without reordering anything
 
 void write_projection(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_previous, float* rows) {
   Eigen::Matrix<double, 3, 4> matrix;
@@ -40,7 +40,7 @@ double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, flo
               *gy = quads.right_y.data();
   const LaterCameras c = cameras;  // a local copy stays in registers
   const float *l = c.left, *g = c.right;
-  float sums[kLanes] = {};
+  float sums[kSums] = {};
   float costs[kBlock];
   for (std::size_t begin = first; begin < last; begin += kBlock) {
     const std::size_t rows = std::min(kBlock, last - begin);
@@ -61,8 +61,8 @@ double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, flo
       costs[k] = near > 0.0f ? cost : limit;
     }
     for (std::size_t k = rows; k < kBlock; ++k) costs[k] = 0.0f;
-    for (std::size_t k = 0; k < kBlock; k += kLanes)
-      for (std::size_t lane = 0; lane < kLanes; ++lane) sums[lane] += costs[k + lane];
+    for (std::size_t k = 0; k < kBlock; k += kSums)
+      for (std::size_t lane = 0; lane < kSums; ++lane) sums[lane] += costs[k + lane];
   }
   double sum = 0;
   for (float lane : sums) sum += static_cast<double>(lane);
@@ -115,7 +115,9 @@ int select_inliers(const ScoringArrays& quads, const LaterCameras& cameras, doub
 
 int count_cells(const ScoringArrays& quads, const std::vector<std::uint8_t>& mask, double cell) {
   std::set<std::pair<int, int>> cells;
-  const auto number = [&](float place) { return static_cast<int>(std::floor(static_cast<double>(place) / cell)); };
+  const auto number = [&](float position) {
+    return static_cast<int>(std::floor(static_cast<double>(position) / cell));
+  };
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (mask[i]) cells.emplace(number(quads.left_x[i]), number(quads.left_y[i]));
   }

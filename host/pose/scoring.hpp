@@ -1,6 +1,6 @@
 #pragma once
-/// \file scoring.hpp  How well a motion explains quads: truncated quadratic reprojection error in both images of the
-/// later rig.
+/// \file scoring.hpp  How well quads agree with a motion: truncated quadratic reprojection error in both images of the
+/// current rig.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct LaterCameras {
 };
 
 /// Mean over the rows of min(d^2, threshold^2) / threshold^2, where d is the larger of the distances (px) in the two
-/// images between the projected previous point and the current place; 1 for a point that is not in front of both
+/// images between the projected previous point and the current position; 1 for a point that is not in front of both
 /// cameras. 0 is perfect, 1 worthless. An empty set costs 1. Rows are summed in a fixed order.
 double truncated_cost(const ScoringArrays& quads, const LaterCameras& cameras, double threshold);
 

@@ -1,4 +1,4 @@
-#include "pose/scatter.hpp"
+#include "pose/covariance.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -10,11 +10,11 @@ namespace quadedge::pose {
 
 namespace {
 
-/// Cells whose errors may be alike: from one vote cell, doubled so often. From `kLeftOut` on, what the fit has taken
-/// from a cell counts.
+/// Cells whose errors may be correlated: from one of config.inflation_cell, doubled so often. From `kLeftOut` on, what
+/// the fit has taken from a cell counts.
 constexpr int kCellSizes = 5, kLeftOut = 2;
-/// A cell that holds more than this share of the information cannot be left out.
-constexpr double kLargestShare = 0.5;
+/// A cell that holds more than this ratio of the information cannot be left out.
+constexpr double kLargestRatio = 0.5;
 
 /// Square cells of an image.
 struct CellGrid {
@@ -23,10 +23,10 @@ struct CellGrid {
 
   int cells(double length) const { return static_cast<int>(std::ceil(length / side)) + 1; }
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines); }
-  /// Of a place in the image [px]; places outside belong to the nearest cell.
+  /// Of a position in the image [px]; positions outside belong to the nearest cell.
   std::size_t at(float x, float y) const {
-    const auto clamped = [&](float place, int count) {
-      return std::clamp(static_cast<int>(static_cast<double>(place) / side), 0, count - 1);
+    const auto clamped = [&](float position, int count) {
+      return std::clamp(static_cast<int>(static_cast<double>(position) / side), 0, count - 1);
     };
     return static_cast<std::size_t>(clamped(y, lines) * columns + clamped(x, columns));
   }
@@ -36,7 +36,7 @@ struct CellGrid {
 };
 
 /// Sum over the cells of the squares of gradient contributions, over what the normal equations expect of it.
-double scatter_factor(const std::vector<Vector6d>& cells, const Matrix6d& inverse) {
+double squares_factor(const std::vector<Vector6d>& cells, const Matrix6d& inverse) {
   double sum = 0;
   for (const Vector6d& cell : cells) sum += cell.dot(inverse * cell);
   return sum / 6.0;
@@ -49,7 +49,7 @@ double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vecto
   double sum = 0;
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     if (gradients[i].isZero(0)) continue;
-    if (inverse.cwiseProduct(normals[i]).sum() > 6.0 * kLargestShare) return 0;
+    if (inverse.cwiseProduct(normals[i]).sum() > 6.0 * kLargestRatio) return 0;
     const Vector6d change = (normal - normals[i]).ldlt().solve(gradients[i]);
     sum += change.dot(normal * change);
   }
@@ -72,9 +72,10 @@ struct Factors {
 };
 
 /// Factor with the smallest cells, or with none where that is larger; and the largest one of all sizes, at which the
-/// errors' likeness has been seen whole.
+/// errors' correlation has been seen whole.
 Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservations& quads, const PinholeCamera& camera,
-                     double cell_side, const ScatterSums& sums, const Matrix6d& inverse, ScatterWorkspace& workspace) {
+                     double cell_side, const CovarianceSums& sums, const Matrix6d& inverse,
+                     CovarianceWorkspace& workspace) {
   const double freedom = sums.used / std::max(sums.used - 2.0, 1.0);  // six parameters take the residuals of two quads
   CellGrid grid(camera, cell_side);
   auto& cells = workspace.cells;
@@ -86,7 +87,7 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
     cells[grid.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += workspace.gradients[k];
   }
   Factors result{};
-  result.largest = freedom * inverse.cwiseProduct(sums.scatter).sum() / 6.0;
+  result.largest = freedom * inverse.cwiseProduct(sums.gradient_squares).sum() / 6.0;
   for (int size = 0; size < kCellSizes; ++size) {
     if (size > 0) {
       const CellGrid next(camera, 2 * grid.side);
@@ -94,7 +95,7 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
       if (size > kLeftOut) merge(grid, next, normals, workspace.larger_normals);
       grid = next;
     }
-    const double factor = size < kLeftOut ? freedom * scatter_factor(cells, inverse)
+    const double factor = size < kLeftOut ? freedom * squares_factor(cells, inverse)
                                           : jackknife_factor(cells, normals, sums.normal, inverse);
     result.largest = std::max(result.largest, factor);
     if (size == 0) result.smallest_cells = result.largest;
@@ -102,40 +103,49 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
   return result;
 }
 
-}  // namespace
-
-Scatter measure_scatter(const PlaceTerms& terms, const std::vector<std::int32_t>& rows, const QuadObservations& quads,
-                        const StereoRig& rig, const PoseConfig& config, const Eigen::Isometry3d& current_from_previous,
-                        double offset, double place_scale, ScatterWorkspace& workspace) {
-  const CellGrid left_out(rig.left, config.inflation_cell * (1 << kLeftOut));
+/// Sums over all quads; their gradients are left in the workspace.
+void add_up(const ReprojectionTerms& terms, const std::vector<std::int32_t>& rows, const ScoringArrays& quads,
+            const CellGrid& left_out, const Evaluation& at, CovarianceWorkspace& workspace) {
   workspace.zero.cell_normal.assign(left_out.size(), Matrix6d::Zero());
   workspace.gradients.resize(rows.size());
-  const StudentWeights weights{place_scale, config.student_dof};
-  ScatterSums& sums = workspace.total;
-  sum_row_blocks(
-      rows.size(), workspace.zero, workspace.blocks, sums, [&](std::size_t begin, std::size_t end, ScatterSums& sum) {
-        PlaceContributions lanes;
-        for (std::size_t k = begin; k < end; ++k) {
-          const std::size_t lane = k % kPlaceLanes;
-          if (lane == 0) contributions_by_pose(terms, current_from_previous, offset, weights, k, lanes);
-          const Vector6d gradient = lanes.gradient(lane);
-          workspace.gradients[k] = gradient;
-          const std::size_t i = static_cast<std::size_t>(rows[k]);
-          sum.cell_normal[left_out.at(quads.scoring.left_x[i], quads.scoring.left_y[i])] += lanes.matrix(lane);
-          sum.scatter += gradient * gradient.transpose();
-          const double weight = student_weight(terms.error[k], place_scale, kPlaceSize, config.student_dof);
-          sum.weights += weight;
-          sum.curvature += weight * (1.0 - 2.0 * weight * terms.error[k] /
-                                               (place_scale * kPlaceSize * (config.student_dof + kPlaceSize)));
-          sum.used += 1;
-        }
-      });
+  const double scale = at.weights.scale, dof = at.weights.dof;
+  CovarianceSums& sums = workspace.total;
+  sum_row_blocks(rows.size(), workspace.zero, workspace.blocks, sums,
+                 [&](std::size_t begin, std::size_t end, CovarianceSums& sum) {
+                   LaneContributions lanes;
+                   for (std::size_t k = begin; k < end; ++k) {
+                     const std::size_t lane = k % kLanes;
+                     if (lane == 0) contributions_by_pose(terms, at, k, lanes);
+                     const Vector6d gradient = lanes.gradient(lane);
+                     workspace.gradients[k] = gradient;
+                     const std::size_t i = static_cast<std::size_t>(rows[k]);
+                     sum.cell_normal[left_out.at(quads.left_x[i], quads.left_y[i])] += lanes.matrix(lane);
+                     sum.gradient_squares += gradient * gradient.transpose();
+                     const double weight = student_weight(terms.error[k], scale, kReprojectionSize, dof);
+                     sum.weights += weight;
+                     sum.curvature += weight * (1.0 - 2.0 * weight * terms.error[k] /
+                                                          (scale * kReprojectionSize * (dof + kReprojectionSize)));
+                     sum.used += 1;
+                   }
+                 });
   for (const Matrix6d& cell : sums.cell_normal) sums.normal += cell;
+}
 
-  // The normal equations hold the weights; the curvature of the Student-t cost is smaller by the mean of d(w e)/de over
-  // w.
+}  // namespace
+
+MeasuredCovariance measure_covariance(const ReprojectionTerms& terms, const std::vector<std::int32_t>& rows,
+                                      const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
+                                      const Eigen::Isometry3d& current_from_previous, double offset,
+                                      double reprojection_scale, CovarianceWorkspace& workspace) {
+  const CellGrid left_out(rig.left, config.inflation_cell * (1 << kLeftOut));
+  const StudentWeights weights{reprojection_scale, config.student_dof};
+  add_up(terms, rows, quads.scoring, left_out, Evaluation(current_from_previous, offset, weights), workspace);
+  const CovarianceSums& sums = workspace.total;
+
+  // The normal equations hold the weights w; the curvature of the Student-t cost is smaller by the mean of d(w e)/de
+  // over w.
   const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
-  const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kPlaceSize);
+  const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kReprojectionSize);
   const Factors factors = cell_factors(rows, quads, rig.left, config.inflation_cell, sums, inverse, workspace);
   return {inverse, factors.largest / (flattening * flattening), factors.smallest_cells / (flattening * flattening)};
 }

@@ -1,0 +1,35 @@
+#pragma once
+/// \file plain_vector.hpp  Three numbers without packets of their own: a loop over quads that computes with them is
+/// vectorised over the quads, which Eigen's fixed-size vectors prevent. All sums run from the first to the last term.
+
+namespace quadedge::pose {
+
+struct Vector3 {
+  double x, y, z;
+};
+
+[[gnu::always_inline]] inline double dot(const Vector3& a, const Vector3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+[[gnu::always_inline]] inline Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+[[gnu::always_inline]] inline Vector3 operator*(double factor, const Vector3& a) {
+  return {factor * a.x, factor * a.y, factor * a.z};
+}
+
+/// A symmetric 3 x 3 matrix by its upper triangle.
+struct Symmetric3 {
+  double xx, xy, xz, yy, yz, zz;
+  [[gnu::always_inline]] Vector3 column_x() const { return {xx, xy, xz}; }
+  [[gnu::always_inline]] Vector3 column_y() const { return {xy, yy, yz}; }
+  [[gnu::always_inline]] Vector3 column_z() const { return {xz, yz, zz}; }
+};
+
+[[gnu::always_inline]] inline Symmetric3 operator*(double factor, const Symmetric3& a) {
+  return {factor * a.xx, factor * a.xy, factor * a.xz, factor * a.yy, factor * a.yz, factor * a.zz};
+}
+
+}  // namespace quadedge::pose

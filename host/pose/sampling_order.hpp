@@ -1,0 +1,59 @@
+#pragma once
+/// \file sampling_order.hpp  The order in which quads enter the samples of a consensus search (PROSAC).
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "pose/quads.hpp"
+
+namespace quadedge::pose {
+
+/// A number's bits as an integer that compares like the number.
+inline std::uint32_t ordered_bits(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
+}
+
+/// Quads by their matching quality: fewest rivals, then highest NCC, then lowest index. Sorted as far as asked for.
+class SamplingOrder {
+ public:
+  /// A quad and how far behind others it stands.
+  struct Entry {
+    std::uint64_t key;
+    std::int32_t row;
+  };
+
+  /// \param order a buffer that is kept between calls
+  SamplingOrder(const QuadObservations& quads, std::vector<Entry>& order) : order_(order) {
+    order_.resize(quads.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      const auto rivals = static_cast<std::uint64_t>(static_cast<std::uint32_t>(quads.rivals[i]));
+      order_[i] = {rivals << 32 | ~ordered_bits(quads.ncc[i]), static_cast<std::int32_t>(i)};
+    }
+  }
+
+  /// Sorts the first `count`.
+  void sort_first(std::size_t count) {
+    if (count <= sorted_) return;
+    const auto before = [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; };
+    const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
+    sorted_ = std::min(order_.size(), std::max(count, kGrowth * sorted_));
+    const auto end = order_.begin() + static_cast<std::ptrdiff_t>(sorted_);
+    std::nth_element(begin, end, order_.end(), before);
+    std::sort(begin, end, before);
+  }
+  std::size_t size() const { return order_.size(); }
+  std::size_t operator[](std::size_t rank) const { return static_cast<std::size_t>(order_[rank].row); }
+
+ private:
+  static constexpr std::size_t kGrowth = 4;  ///< every time that more is asked for, all that is left is gone through
+
+  std::vector<Entry>& order_;
+  std::size_t sorted_ = 0;
+};
+
+}  // namespace quadedge::pose

@@ -1,0 +1,67 @@
+#pragma once
+/// \file refinement_trials.hpp  Refined poses of generated drives and their errors.
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "generated_quads.hpp"
+#include "pose/refinement.hpp"
+
+namespace generated {
+
+using quadedge::pose::QuadObservations;
+using quadedge::pose::Refined;
+using quadedge::pose::RefinementWorkspace;
+using quadedge::pose::Vector6d;
+
+inline Refined refined_by(const QuadObservations& quads, const quadedge::StereoRig& rig,
+                          const quadedge::PoseConfig& config, const Eigen::Isometry3d& initial,
+                          double offset_variance = 0) {
+  RefinementWorkspace workspace;
+  std::vector<std::uint8_t> inlier;
+  return refine(quads, rig, config, initial, offset_variance, workspace, inlier);
+}
+
+inline Problem drive() {
+  Problem problem;
+  problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
+  problem.motion.translation() << 0.05, 0.02, -1.2;
+  problem.noise = {0.15, 0.5, 0.035};
+  return problem;
+}
+
+/// Left perturbation that takes the truth to the estimate.
+inline Vector6d error_of(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
+  const Eigen::AngleAxisd turn(estimate.linear() * truth.linear().transpose());
+  Vector6d error;
+  error << turn.angle() * turn.axis(), estimate.translation() - turn * truth.translation();
+  return error;
+}
+
+/// Errors of many refined poses.
+struct Trials {
+  Vector6d mean = Vector6d::Zero(), standard_error = Vector6d::Zero();
+  double nees = 0;  ///< normalised estimation error squared, mean per degree of freedom
+};
+
+inline Trials run_trials(const Problem& problem, int trials) {
+  quadedge::PoseConfig config;
+  Trials result;
+  Vector6d squares = Vector6d::Zero();
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto g = generate(problem, 1000 + static_cast<std::uint64_t>(trial));
+    const Refined refined = refined_by(g.quads, problem.rig, config, problem.motion);
+    REQUIRE(refined.solved);
+    const Vector6d error = error_of(refined.current_from_previous, problem.motion);
+    result.mean += error / trials;
+    squares += error.cwiseAbs2() / trials;
+    result.nees += error.dot(refined.covariance.ldlt().solve(error)) / (6.0 * trials);
+  }
+  result.standard_error = ((squares - result.mean.cwiseAbs2()) / trials).cwiseSqrt();
+  return result;
+}
+
+}  // namespace generated

@@ -1,0 +1,64 @@
+#include <catch2/catch.hpp>
+
+#include "refinement_trials.hpp"
+
+using namespace quadedge::pose;
+
+namespace {
+
+/// Quads of a drive as a rig sees them whose right principal point lies `offset` px beside what the calibration says.
+QuadObservations quads_with_offset(const generated::Problem& problem, double offset, std::uint64_t seed) {
+  quadedge::StereoRig seeing = problem.rig;
+  seeing.right.cx += offset;
+  generated::Random random(seed);
+  QuadObservations quads;
+  while (static_cast<int>(quads.size()) < problem.quads) {
+    const auto p = generated::random_point(problem.rig, problem.near, problem.far, random);
+    const OrientedPoint moved{problem.motion * p.point, problem.motion.linear() * p.tangent};
+    if (moved.point.z() < 0.5 * problem.near) continue;
+    const auto before = generated::disturb(seeing, p, problem.noise, true, random);
+    const auto after = generated::disturb(seeing, moved, problem.noise, false, random);
+    quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(quads.size()), generated::limits());
+  }
+  return quads;
+}
+
+}  // namespace
+
+TEST_CASE("An offset of all disparities makes the motion too long until it is fitted", "[pose][offset_fit]") {
+  generated::Problem problem = generated::drive();
+  problem.quads = 3000;
+  quadedge::PoseConfig config;
+  const double length = problem.motion.translation().norm();
+  for (const double offset : {0.3, -0.2}) {
+    const auto quads = quads_with_offset(problem, offset, 41);
+    const Refined plain = generated::refined_by(quads, problem.rig, config, problem.motion);
+    const Refined fitted = generated::refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
+    REQUIRE(plain.solved);
+    CHECK(plain.offset == 0);
+    // Disparities that are too small by the offset make everything, and the way, look longer.
+    CHECK((plain.current_from_previous.translation().norm() - length) * offset > 0);
+    // By more than what it adds to the nearest points.
+    const double largest_disparity = problem.rig.left.fx * problem.rig.baseline() / problem.near;
+    CHECK(std::abs(plain.current_from_previous.translation().norm() / length - 1) >
+          std::abs(offset) / largest_disparity);
+    CHECK(fitted.offset == Approx(offset).margin(4 * std::sqrt(fitted.offset_variance)));
+    CHECK(fitted.offset_variance < 0.05 * 0.05);
+    CHECK(std::abs(fitted.current_from_previous.translation().norm() / length - 1) < 0.002);
+    const Vector6d error = generated::error_of(fitted.current_from_previous, problem.motion);
+    CHECK(error.dot(fitted.covariance.ldlt().solve(error)) <
+          22.5);  // 99.9 % of a chi-squared distribution with 6 degrees
+  }
+}
+
+TEST_CASE("A standing camera says nothing about the disparities' offset", "[pose][offset_fit]") {
+  generated::Problem problem = generated::drive();
+  problem.motion = Eigen::Isometry3d::Identity();
+  quadedge::PoseConfig config;
+  const auto quads = quads_with_offset(problem, 0.3, 43);
+  const Refined fitted = generated::refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
+  REQUIRE(fitted.solved);
+  CHECK(fitted.offset_variance > 0.9 * 0.3 * 0.3);
+  CHECK(std::abs(fitted.offset) < 0.1);
+  CHECK(fitted.current_from_previous.translation().norm() < 0.01);
+}
