@@ -1,5 +1,5 @@
-# Writes one C++ source that holds the text of every kernel file, so that the program carries its kernels with it.
-# In: FILES (list of .cl paths), OUTPUT. A #line marker in front of each text makes compiler messages name file and line.
+# Writes one C++ source that holds the text of every kernel file, so that the program carries its kernels with it. In:
+# FILES (list of .cl paths), OUTPUT. A #line marker in front of each text makes compiler messages name file and line.
 set(body "")
 foreach(file IN LISTS FILES)
   get_filename_component(name ${file} NAME)
@@ -16,4 +16,11 @@ foreach(file IN LISTS FILES)
   string(APPEND body "    {\"${name}\", \"#line 1 \\\"${name}\\\"\\n\"\n${pieces}},\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Generated from kernels/*.cl; do not edit.\n#include \"opencl/kernel_sources.hpp\"\n
-namespace quadedge::opencl {\nconst std::map<std::string, std::string>& embedded_kernels() {\n  static const std::map<std::string, std::string> sources = {\n${body}  };\n  return sources;\n}\n}  // namespace quadedge::opencl\n")
+namespace quadedge::opencl {
+const std::map<std::string, std::string>& embedded_kernels() {
+  static const std::map<std::string, std::string> sources = {
+${body}  };
+  return sources;
+}
+}  // namespace quadedge::opencl
+")

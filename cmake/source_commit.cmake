@@ -1,5 +1,5 @@
-# Writes one C++ source that holds the commit the program is built from, with a "+" where the tree has changes beyond it; empty
-# outside a checkout. In: FOLDER (of the sources), OUTPUT. The file keeps its time stamp when nothing changed.
+# Writes one C++ source that holds the commit the program is built from, with a "+" where the tree has changes beyond
+# it; empty outside a checkout. In: FOLDER (of the sources), OUTPUT. The file keeps its time stamp when nothing changed.
 set(commit "")
 find_program(git_program git)
 if(git_program AND EXISTS ${FOLDER}/.git)

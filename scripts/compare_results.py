@@ -3,9 +3,10 @@
 
   scripts/compare_results.py OLD NEW [--data DIR] [--quick] [--work DIR]
 
-OLD and NEW are `quadedge` programs. DIR holds recorded data (default: QUADEDGE_DATA); without it only the built-in scenes run.
-Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv every column but the times.
-Results of OLD stay in the work folder and serve again. Exit code 0: all the same, 1: some differ, 2: a run failed.
+OLD and NEW are `quadedge` programs. DIR holds recorded data (default: QUADEDGE_DATA); without it only the built-in
+scenes run. Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv every column
+but the times. Results of OLD stay in the work folder and serve again.
+Exit code 0: all the same, 1: some differ, 2: a run failed.
 """
 import argparse
 import csv
@@ -38,7 +39,8 @@ def jobs(data, quick):
 
 def run(program, name, arguments, folder):
     """0 and 5 (tracked few frames) are results; anything else stops."""
-    done = subprocess.run([program, *arguments, str(folder / name)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    done = subprocess.run([program, *arguments, str(folder / name)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                          text=True)
     if done.returncode not in (0, 5):
         print(f"{name}: {program} ended with code {done.returncode}: {done.stderr.strip()}", file=sys.stderr)
         sys.exit(2)
@@ -55,7 +57,8 @@ def untimed_rows(path):
 def differences(old, new):
     if old.suffix == ".csv":
         return [] if filecmp.cmp(old, new, shallow=False) else [old.name]
-    found = [name for name in ("trajectory.txt", "trajectory_kitti.txt") if not filecmp.cmp(old / name, new / name, shallow=False)]
+    found = [name for name in ("trajectory.txt", "trajectory_kitti.txt")
+             if not filecmp.cmp(old / name, new / name, shallow=False)]
     if untimed_rows(old / "frames.csv") != untimed_rows(new / "frames.csv"):
         found.append("frames.csv")
     return found

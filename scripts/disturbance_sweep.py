@@ -4,10 +4,11 @@
     disturbance_sweep.py OUT                                 both scenes, everything
     disturbance_sweep.py OUT --scenes room --kinds blur noise --frames 10 --size 640x332
 
-Swept are the light of every second frame (half to twice), the right camera's exposure (half to twice), motion blur (to 5 px), camera noise
-(to 8 grey levels) and the share of the image that a board moving on its own covers (to 40 %). OUT/disturbances.csv and .json hold one row
-per run, OUT/disturbances.svg the plots. A step is wrong where it is reported as tracked and is off by more than 5 mm + 10 % of the motion
-or by 0.25 degrees (`quadedge evaluate trajectory --steps`). Needs matplotlib and the program `quadedge`.
+Swept are the light of every second frame (half to twice), the right camera's exposure (half to twice), motion blur (to
+5 px), camera noise (to 8 grey levels) and the share of the image that a board moving on its own covers (to 40 %).
+OUT/disturbances.csv and .json hold one row per run, OUT/disturbances.svg the plots. A step is wrong where it is
+reported as tracked and is off by more than 5 mm + 10 % of the motion or by 0.25 degrees (`quadedge evaluate trajectory
+--steps`). Needs matplotlib and the program `quadedge`.
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 
@@ -27,7 +28,8 @@ KINDS = {
     "noise": ("camera noise [grey levels]", (0, 1.5, 3, 5, 8)),
     "mover": ("share covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4)),
 }
-COLUMNS = ("scene", "kind", "value", "frames", "tracked", "right", "wrong", "lost", "rpe_translation_m", "rpe_rotation_deg", "end_drift_percent")
+COLUMNS = ("scene", "kind", "value", "frames", "tracked", "right", "wrong", "lost", "rpe_translation_m",
+           "rpe_rotation_deg", "end_drift_percent")
 
 
 class Problem(Exception):
@@ -35,9 +37,11 @@ class Problem(Exception):
 
 
 def call(command, allowed=(0,)):
-    result = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    result = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                            check=False)
     if result.returncode not in allowed:
-        raise Problem(f"{' '.join(str(part) for part in command)}\nended with code {result.returncode}: {result.stderr.strip()}")
+        line = " ".join(str(part) for part in command)
+        raise Problem(f"{line}\nended with code {result.returncode}: {result.stderr.strip()}")
 
 
 def measure(scene, kind, value, options):
@@ -46,27 +50,31 @@ def measure(scene, kind, value, options):
     size = ["--size", options.size] if options.size else []
     device = ["--device", options.device] if options.device else []
     # Code 5, many frames lost, is a result too.
-    call([options.quadedge, "demo", "--scene", scene, "--frames", options.frames, f"--{kind}", value, "-o", output, "--force", "--quiet",
+    call([options.quadedge, "demo", "--scene", scene, "--frames", options.frames, f"--{kind}", value, "-o", output,
+          "--force", "--quiet",
           *size, *device], allowed=(0, 5))
     tracked = sum(1 for line in open(output / "trajectory.txt", encoding="utf-8") if not line.startswith("#"))
     row = dict.fromkeys(COLUMNS)
-    row.update(scene=scene, kind=kind, value=value, frames=options.frames, tracked=tracked, right=0, wrong=0, lost=options.frames - 1)
+    row.update(scene=scene, kind=kind, value=value, frames=options.frames, tracked=tracked, right=0, wrong=0,
+               lost=options.frames - 1)
     if tracked < 2:
         return row
     judged = output / "evaluation.json"
-    call([options.quadedge, "evaluate", "trajectory", output / "trajectory.txt", output / "groundtruth.txt", "--steps", "--step-metres", 0.005,
+    call([options.quadedge, "evaluate", "trajectory", output / "trajectory.txt", output / "groundtruth.txt", "--steps",
+          "--step-metres", 0.005,
           "--step-degrees", 0.25, "--json", judged, "--force"])
     with open(judged, encoding="utf-8") as file:
         evaluation = json.load(file)
     row.update({name: evaluation["steps"][name] for name in ("right", "wrong", "lost")})
     errors = evaluation["accuracy"]["origin_aligned"]
-    row.update(rpe_translation_m=errors["rpe_translation_m"]["mean"], rpe_rotation_deg=errors["rpe_rotation_deg"]["mean"],
+    row.update(rpe_translation_m=errors["rpe_translation_m"]["mean"],
+               rpe_rotation_deg=errors["rpe_rotation_deg"]["mean"],
                end_drift_percent=evaluation["accuracy"]["end_drift_percent"])
     return row
 
 
 def plot(rows, options):
-    """One picture per disturbance: the mean error of a step, with the number of lost and wrong steps written at the points."""
+    """One picture per disturbance: the mean error of a step, and at the points how many steps are lost and wrong."""
     import matplotlib
 
     matplotlib.use("Agg")  # no window
@@ -74,16 +82,19 @@ def plot(rows, options):
     from matplotlib import pyplot
 
     kinds = [kind for kind in KINDS if any(row["kind"] == kind for row in rows)]
-    figure, axes = pyplot.subplots(2, len(kinds), figsize=(3.6 * len(kinds), 6), layout="constrained", squeeze=False, sharey="row")
+    figure, axes = pyplot.subplots(2, len(kinds), figsize=(3.6 * len(kinds), 6), layout="constrained", squeeze=False,
+                                   sharey="row")
     for column, kind in enumerate(kinds):
         for upper, (name, scale) in enumerate((("rpe_translation_m", 1e3), ("rpe_rotation_deg", 1))):
             axis = axes[upper][column]
             for index, scene in enumerate(options.scenes):
                 found = [row for row in rows if row["kind"] == kind and row["scene"] == scene and row[name] is not None]
-                axis.plot([row["value"] for row in found], [scale * row[name] for row in found], "o-", color=f"C{index}", label=scene, markersize=4)
+                axis.plot([row["value"] for row in found], [scale * row[name] for row in found], "o-",
+                          color=f"C{index}", label=scene, markersize=4)
                 for row in found:
                     note = ", ".join(f"{row[what]} {what}" for what in ("wrong", "lost") if row[what])
-                    axis.annotate(note, (row["value"], scale * row[name]), color="red" if row["wrong"] else "black", fontsize=7,
+                    axis.annotate(note, (row["value"], scale * row[name]), color="red" if row["wrong"] else "black",
+                                  fontsize=7,
                                   xytext=(0, 5), textcoords="offset points", ha="center")
             axis.set_yscale("log")
             axis.grid(alpha=0.3)
@@ -116,7 +127,8 @@ def main():
                 for value in KINDS[kind][1]:
                     rows.append(measure(scene, kind, value, options))
                     row = rows[-1]
-                    print(f"{scene} {kind} {value}: {row['right']} right, {row['wrong']} wrong, {row['lost']} lost", flush=True)
+                    print(f"{scene} {kind} {value}: {row['right']} right, {row['wrong']} wrong, {row['lost']} lost",
+                          flush=True)
     except Problem as problem:
         print(f"disturbance_sweep: {problem}", file=sys.stderr)
         return 1

@@ -60,7 +60,8 @@ def plot(output, file):
         groups = table.dropna(subset=column).groupby("sequence")[column]
         axis.boxplot([values for _, values in groups], tick_labels=[name for name, _ in groups])
         axis.set_ylabel(label)
-        axis.set_yscale("log" if (groups.max() > 0).all() and groups.max().max() > 20 * groups.max().min() else "linear")
+        axis.set_yscale("log" if (groups.max() > 0).all() and groups.max().max() > 20 * groups.max().min()
+                        else "linear")
         axis.tick_params(axis="x", rotation=40)
         for tick in axis.get_xticklabels():
             tick.set_horizontalalignment("right")
@@ -73,7 +74,8 @@ def main():
         return 2
     output, file = sys.argv[1:]
     summary = load_summary(output)
-    print(summary[["status", "frames", "tracked", "origin_aligned_ape_rotation_deg_mean", "origin_aligned_ape_translation_m_mean",
+    print(summary[["status", "frames", "tracked", "origin_aligned_ape_rotation_deg_mean",
+                   "origin_aligned_ape_translation_m_mean",
                    "latency_ms_median"]].to_string())
     plot(output, file)
     return 0

@@ -3,7 +3,7 @@
 build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers
   libeigen3-dev libtbb-dev libopencv-dev
   libcli11-dev catch2 nlohmann-json3-dev libxxhash-dev"
-test_packages="curl oclgrind clang python3-venv p7zip-full munge slurmctld slurmd slurm-client"
+test_packages="curl oclgrind clang clang-format clang-tidy python3-venv p7zip-full munge slurmctld slurmd slurm-client"
 
 # install_missing PACKAGE...: asks dpkg first, so that a machine that has everything needs neither network nor root.
 install_missing() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs all tests. Recorded data is found through QUADEDGE_DATA; tests that need it say so
-# and pass where it is not set.
+# Installs what is missing, builds, and runs all tests. Recorded data is found through QUADEDGE_DATA; tests that need it
+# say so and pass where it is not set.
 #   scripts/test.sh [CTEST OPTION...]      for example: scripts/test.sh -R edges
 set -euo pipefail
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -10,7 +10,8 @@ install_missing $build_packages $test_packages
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON
 cmake --build "$repository/build"
 
-# One virtual environment with evo, the reference for trajectory errors, Snakemake and pandas; made anew when the list changes.
+# One virtual environment with evo, the reference for trajectory errors, Snakemake and pandas; made anew when the list
+# changes.
 venv="$repository/build/venv" requirements="$repository/tests/requirements.txt"
 if ! cmp -s "$requirements" "$venv/requirements.txt"; then
   echo "Installing the Python packages of $requirements into $venv"

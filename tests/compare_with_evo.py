@@ -4,8 +4,8 @@
     compare_with_evo.py ESTIMATE TRUTH ERRORS.json [--from-frame N] [--sequence NAME] [--tolerance 1e-6]
 
 ESTIMATE and TRUTH are TUM files, or both KITTI files with one pose per frame. ERRORS.json is what
-`quadedge evaluate trajectory ... --json` wrote, a report.json with the same figures under "accuracy", or with --sequence the
-summary.json of a batch.
+`quadedge evaluate trajectory ... --json` wrote, a report.json with the same figures under "accuracy", or with
+--sequence the summary.json of a batch.
 All four errors are compared in mean, std, rmse and max, origin-aligned and SE(3)-aligned.
 Exit code: 0 they agree, 1 a difference above the tolerance, 2 the input cannot be compared.
 """
@@ -52,7 +52,8 @@ def read_pair(estimate_path, truth_path, from_frame):
         estimate.reduce_to_ids(kept)
         truth.reduce_to_ids(kept)
         return truth, estimate
-    raise ValueError(f"{estimate_path} and {truth_path} must both be TUM (8 columns) or both KITTI (12 columns), found {kinds}")
+    raise ValueError(f"{estimate_path} and {truth_path} must both be TUM (8 columns) or both KITTI (12 columns), "
+                     f"found {kinds}")
 
 
 def evo_statistics(compute, relation, truth, estimate, alignment):
@@ -81,7 +82,8 @@ def main():
             ours = next(entry for entry in ours["sequences"] if entry["name"] == arguments.sequence)
         ours = ours.get("accuracy", ours)
         ours = {(a, e): ours[a][e] for a in ALIGNMENTS for e in ERRORS}
-    except (OSError, KeyError, ValueError, StopIteration, file_interface.FileInterfaceException, sync.SyncException) as problem:
+    except (OSError, KeyError, ValueError, StopIteration, file_interface.FileInterfaceException,
+            sync.SyncException) as problem:
         print(f"cannot compare: {type(problem).__name__}: {problem}", file=sys.stderr)
         return 2
     worst = 0.0

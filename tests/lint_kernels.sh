@@ -1,27 +1,42 @@
 #!/usr/bin/env bash
-# clang checks every program that the stages build: common.cl, layouts.cl and the files of one program({...}) call, with the defaults of
-# their compile-time parameters. A kernel file that no stage builds is an error too.
-#   lint_kernels.sh REPOSITORY
+# clang checks every program that the stages build, with the options of every variant: the files that stand in front of
+# every program, and its own.
+# A kernel file that no program holds is an error too.
+#   lint_kernels.sh REPOSITORY LIST_PROGRAMS
 set -euo pipefail
+list_programs="$(realpath "$2")"
 cd "$1"
-status=0
-used="common.cl layouts.cl"
-while read -r files; do
-  arguments=(-include kernels/common.cl -include kernels/layouts.cl)
-  last=""
-  for file in $files; do
-    [ -n "$last" ] && arguments+=(-include "kernels/$last")
-    last="$file"
+programs="$("$list_programs" kernels)"
+check() {  # OPTION... FILE...: what follows the last option are the files, of which the last one is compiled
+  local arguments=() last="" word
+  for word in $front; do arguments+=(-include "kernels/$word"); done
+  for word in "$@"; do
+    case "$word" in
+      -D*) arguments+=("$word") ;;
+      -*) ;;
+      *)
+        [ -n "$last" ] && arguments+=(-include "kernels/$last")
+        last="$word"
+        ;;
+    esac
   done
-  used+=" $files"
-  echo "common.cl layouts.cl $files"
-  clang -x cl -cl-std=CL1.2 -target spir64 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Wno-unused-function -Werror \
-    "${arguments[@]}" "kernels/$last" || status=1
-done < <(grep -rhoE 'program\(\{[^}]*\}' host | grep -oE '"[^{}]*"' | tr -d '",' | sort -u)
+  clang -x cl -cl-std=CL1.2 -target spir64 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra \
+    -Wno-unused-function -Werror -D__OPENCL_VERSION__=120 "${arguments[@]}" "kernels/$last" ||
+    { echo "failed: $*"; return 1; }
+}
+export -f check
+front="common.cl"
+[ -f kernels/layouts.cl ] && front+=" layouts.cl"
+export front
+
+status=0
+echo "$programs"
+# The words of a line are arguments: options and files have no spaces.
+xargs -P "$(nproc)" -d '\n' -n 1 bash -c 'set -f; check $1' _ <<<"$programs" || status=1
 for file in kernels/*.cl; do
-  case " $used " in
+  case " $front " in
     *" $(basename "$file") "*) ;;
-    *) echo "$file: no stage builds it"; status=1 ;;
+    *) grep -qE " $(basename "$file")( |$)" <<<"$programs" || { echo "$file: no stage builds it"; status=1; } ;;
   esac
 done
 exit $status

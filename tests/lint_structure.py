@@ -160,7 +160,7 @@ def check_references(tree: Tree) -> list[str]:
             for page, section in re.findall(r"(method|design)\.md,? section (\d+)", line):
                 if section not in sections[page]:
                     findings.append(f"{name}:{number}: doc/{page}.md has no section {section}")
-            comment = re.search(r"//.*", line) if Path(name).suffix in (".cpp", ".hpp", ".cl") else re.search(".*", line)
+            comment = re.search("//.*" if Path(name).suffix in (".cpp", ".hpp", ".cl") else ".*", line)
             if not comment or line.startswith("#include"):
                 continue
             for found in path.findall(comment[0]):

@@ -16,7 +16,8 @@ compare() { echo "evo against $3"; "$python" "$compare" "$@"; }
 # What `run` reports, and what `evaluate trajectory` finds in the files, also from a later frame on.
 compare "$folder/run/trajectory.txt" "$truth" "$folder/run/report.json"
 for from in 0 3; do
-  "$quadedge" evaluate trajectory "$folder/run/trajectory.txt" "$truth" --from-frame $from --json "$folder/from$from.json" >/dev/null
+  "$quadedge" evaluate trajectory "$folder/run/trajectory.txt" "$truth" --from-frame $from \
+    --json "$folder/from$from.json" >/dev/null
   compare "$folder/run/trajectory.txt" "$truth" "$folder/from$from.json" --from-frame $from
 done
 # What the summary of a batch says of each of its sequences; the ground truth is the one that the run left behind.
@@ -24,5 +25,6 @@ done
 mv "$folder/room" "$folder/batch/room"
 "$quadedge" batch "$folder/batch" -o "$folder/out" --quiet >/dev/null
 for name in room cables; do
-  compare "$folder/out/sequences/$name/trajectory.txt" "$folder/out/sequences/$name/groundtruth.txt" "$folder/out/summary.json" --sequence $name
+  compare "$folder/out/sequences/$name/trajectory.txt" "$folder/out/sequences/$name/groundtruth.txt" \
+    "$folder/out/summary.json" --sequence $name
 done

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the kernel tests of small size on oclgrind's simulator, which sees every memory access. Fails when a test fails, when
-# oclgrind reports anything (a wrong address, a data race, a wrong call), or when a kernel was never run.
+# Runs the kernel tests of small size on oclgrind's simulator, which sees every memory access. Fails when a test fails,
+# when oclgrind reports anything (a wrong address, a data race, a wrong call), or when a kernel was never run.
 #   run_oclgrind.sh QUADEDGE_TESTS KERNEL_FOLDER
 set -euo pipefail
 tests="$1" kernels="$2"
@@ -14,7 +14,8 @@ if [ -s "$folder/log" ]; then
   head -100 "$folder/log"
   exit 1
 fi
-cat "$kernels"/*.cl | tr '\n' ' ' | grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +)?void +[a-z_0-9]+' | sed 's/.* //' | sort -u >"$folder/all"
+cat "$kernels"/*.cl | tr '\n' ' ' |
+  grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +)?void +[a-z_0-9]+' | sed 's/.* //' | sort -u >"$folder/all"
 grep -oE "^Instructions executed for kernel '[a-z_0-9]+'" "$folder/out" | cut -d"'" -f2 | sort -u >"$folder/run"
 never="$(comm -23 "$folder/all" "$folder/run")"
 if [ -n "$never" ]; then

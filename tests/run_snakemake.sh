@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Runs scripts/Snakefile on two sequences, one of them broken: on this machine, then on a Slurm cluster of one node that is started
-# here, and compares the results.
+# Runs scripts/Snakefile on two sequences, one of them broken: on this machine, then on a Slurm cluster of one node that
+# is started here, and compares the results.
 #   run_snakemake.sh QUADEDGE PYTHON SNAKEFILE
 set -euo pipefail
 quadedge="$1" python="$2" snakefile="$3"
 for tool in munged slurmctld slurmd sbatch srun squeue sinfo; do
-  PATH="$PATH:/usr/sbin" command -v "$tool" >/dev/null || { echo "$tool is not there; scripts/test.sh installs Slurm"; exit 1; }
+  PATH="$PATH:/usr/sbin" command -v "$tool" >/dev/null ||
+    { echo "$tool is not there; scripts/test.sh installs Slurm"; exit 1; }
 done
 folder="$(mktemp -d)"
 chmod 711 "$folder"  # munge wants everybody to reach its socket
@@ -27,13 +28,16 @@ rm "$folder/data/broken/calibration2.txt"
 snakemake() {  # OUT OPTION...: the workflow must end with an error that names the broken sequence
   local out="$1"
   shift
-  if "$python" -m snakemake --snakefile "$snakefile" --directory "$folder" "$@" --config root=data "out=$out" "quadedge=$quadedge" \
+  if "$python" -m snakemake --snakefile "$snakefile" --directory "$folder" "$@" \
+    --config root=data "out=$out" "quadedge=$quadedge" \
     >"$folder/$out.log" 2>&1; then
     cat "$folder/$out.log"
     fail "Snakemake did not report the broken sequence"
   fi
-  grep -q "broken (failed): .*calibration2.txt" "$folder/$out.log" || { cat "$folder/$out.log"; fail "the broken sequence is not named"; }
-  for file in summary.csv summary.json summary.md report.html sequences/good/trajectory.txt sequences/broken/member.json; do
+  grep -q "broken (failed): .*calibration2.txt" "$folder/$out.log" ||
+    { cat "$folder/$out.log"; fail "the broken sequence is not named"; }
+  for file in summary.csv summary.json summary.md report.html \
+    sequences/good/trajectory.txt sequences/broken/member.json; do
     [ -s "$folder/$out/$file" ] || { cat "$folder/$out.log"; fail "$out/$file is missing"; }
   done
 }
@@ -75,7 +79,8 @@ NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) RealMemory=2000 State=UNKNOWN
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 CONFIGURATION
 # Snakemake's jobs drop SLURM_CONF before they call srun, which then looks into /etc; that is not ours to write to.
-printf '#!/bin/sh\nSLURM_CONF=%s exec %s "$@"\n' "$folder/slurm/slurm.conf" "$(command -v srun)" >"$folder/slurm/bin/srun"
+printf '#!/bin/sh\nSLURM_CONF=%s exec %s "$@"\n' "$folder/slurm/slurm.conf" "$(command -v srun)" \
+  >"$folder/slurm/bin/srun"
 chmod +x "$folder/slurm/bin/srun"
 export SLURM_CONF="$folder/slurm/slurm.conf" PATH="$folder/slurm/bin:$PATH:/usr/sbin"
 munged --key-file="$folder/slurm/key" --socket="$folder/slurm/munge.socket" --pid-file="$folder/slurm/munged.pid" \
@@ -88,7 +93,8 @@ for _ in $(seq 100); do
 done
 sinfo --noheader --format=%T | grep -q idle || fail "the node does not come up: $(sinfo 2>&1)"
 snakemake cluster --executor slurm --jobs 2 --default-resources slurm_partition=main runtime=5 mem_mb=900 --keep-going \
-  --slurm-no-account --slurm-status-command squeue --slurm-init-seconds-before-status-checks 1 --seconds-between-status-checks 1
+  --slurm-no-account --slurm-status-command squeue --slurm-init-seconds-before-status-checks 1 \
+  --seconds-between-status-checks 1
 jobs="$(squeue --states=all --noheader --format=%T | sort | uniq -c | tr -s ' ')"
 [ "$jobs" = " 2 COMPLETED" ] || fail "expected two completed Slurm jobs, found: $jobs"
 for file in trajectory.txt trajectory_kitti.txt errors.csv config.toml member.json; do

@@ -14,7 +14,8 @@ script, quadedge = sys.argv[1:]
 
 
 def make(out, *options):
-    return subprocess.run([sys.executable, script, out, "--quadedge", quadedge, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    return subprocess.run([sys.executable, script, out, "--quadedge", quadedge, *options], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE,
                           text=True, check=False)
 
 
@@ -31,10 +32,12 @@ with tempfile.TemporaryDirectory() as folder:
         assert abs(value - report["accuracy"]["origin_aligned"][name]["mean"]) < 1e-6, (name, entry, report["accuracy"])
     assert entry["steps"] == {"right": 2, "wrong": 0, "lost": 0}, entry
     row = table.splitlines()[2]
-    assert row.startswith("| rendered cables | QuadEdge | 3 / 3 |") and f"{entry['errors']['rpe_translation_m']:.3g}" in row, row
+    assert row.startswith("| rendered cables | QuadEdge | 3 / 3 |"), row
+    assert f"{entry['errors']['rpe_translation_m']:.3g}" in row, row
     assert "<svg" in (out / "cables.svg").read_text()
 
     # A program that fails is said, with its complaint.
-    failed = make(Path(folder) / "none", "--sequences", "rest", "--systems", "default", "--data", Path(folder) / "absent")
+    failed = make(Path(folder) / "none", "--sequences", "rest", "--systems", "default", "--data",
+                  Path(folder) / "absent")
     assert failed.returncode == 1 and "absent" in failed.stderr, failed
     assert make(Path(folder) / "none", "--sequences", "mars").returncode == 2

@@ -14,7 +14,8 @@ from pathlib import Path
 script, quadedge = sys.argv[1:]
 with tempfile.TemporaryDirectory() as folder:
     out = Path(folder) / "sweep"
-    subprocess.run([sys.executable, script, out, "--quadedge", quadedge, "--scenes", "room", "--kinds", "noise", "--frames", "3", "--size", "320x200"],
+    subprocess.run([sys.executable, script, out, "--quadedge", quadedge, "--scenes", "room", "--kinds", "noise",
+                    "--frames", "3", "--size", "320x200"],
                    check=True, stdout=subprocess.DEVNULL)
     rows = json.loads((out / "disturbances.json").read_text())
     assert [row["value"] for row in rows] == [0, 1.5, 3, 5, 8], rows

@@ -9,6 +9,7 @@ using namespace quadedge;
 using namespace quadedge::evaluation;
 using namespace paper_scene;
 
+// LONG: one scene, judged from all sides.
 TEST_CASE("A scene on paper has the recall, precision and ambiguity that were worked out on paper", "[matching]") {
   EdgeSet left, right;
   add_edge(left, 30, 10);     // 0: counterpart 0 (and the near duplicate 1)
@@ -132,6 +133,7 @@ FrameTruth plane_from(double x) {
 
 }  // namespace
 
+// LONG: one pair of frames, judged from all sides.
 TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time that were worked out on paper",
           "[matching]") {
   // The rig moves by 0.05 m: everything shifts 5 px to the left in both images.

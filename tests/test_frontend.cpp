@@ -230,6 +230,7 @@ TEST_CASE("frontend: every variant of every stage gives the default's bytes, and
   }
 }
 
+// LONG: the tap that the test puts in counts every list.
 TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[frontend][matching][device]") {
   RenderedScene scene("room", 161, 97, 2);
   scene.config.temporal.sift_max = 300;

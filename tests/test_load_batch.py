@@ -28,12 +28,14 @@ with tempfile.TemporaryDirectory() as folder:
         subprocess.run([quadedge, "synth", data / name, "--frames", frames, "--size", "240x150", "--quiet"], check=True)
     shutil.copytree(data / "short", data / "broken")
     (data / "broken" / "rgb.txt").write_text("no time stamps\n")
-    code = subprocess.run([quadedge, "batch", data, "-o", out, "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+    code = subprocess.run([quadedge, "batch", data, "-o", out, "--quiet"], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL).returncode
     assert code == 3, code
 
     summary = load_batch.load_summary(out)
     assert list(summary.index) == ["broken", "long", "short"], summary
-    assert summary.loc["broken", "status"] == "failed" and "rgb.txt" in summary.loc["broken", "message"], summary.loc["broken"]
+    broken = summary.loc["broken"]
+    assert broken["status"] == "failed" and "rgb.txt" in broken["message"], broken
     frames = load_batch.load_frames(out)
     assert frames.groupby("sequence").size().to_dict() == {"long": 5, "short": 3}, frames
     errors = load_batch.load_errors(out)

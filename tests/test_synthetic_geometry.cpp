@@ -67,6 +67,7 @@ double shaded(double grey, const Vector3d& normal) {
 
 }  // namespace
 
+// LONG: four kinds of silhouette in one scene, one after the other.
 TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
   const PinholeCamera camera{400.0, 400.0, 101.3, 58.7, 200, 120};
   const Isometry3d camera_from_world = at({0.02, -0.03, 0.05}, 0.02, -0.03, 0.015);

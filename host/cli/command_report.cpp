@@ -50,7 +50,7 @@ class ReportCommand : public Command {
   static report::Peer peer(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) throw UsageError("--peer " + text + ": expected NAME=FOLDER");
-    const report::Peer peer{text.substr(0, equals), text.substr(equals + 1)};
+    report::Peer peer{text.substr(0, equals), text.substr(equals + 1)};
     std::error_code ignored;
     if (!std::filesystem::is_directory(peer.folder, ignored))
       throw DataError("--peer " + text + ": " + peer.folder + " is no folder");

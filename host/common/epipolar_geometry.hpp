@@ -13,8 +13,8 @@ namespace quadedge {
 /// The rig and the limits of the search in single precision, as kernels and reference use them.
 ///
 /// A left pixel p seen at depth Z projects to h + t / Z (homogeneous), h = K_R R0 K_L^-1 (p, 1), t = K_R T0: its
-/// epipolar line starts at the point of infinite depth and runs towards nearer points. Positions on the line are measured
-/// by `s`, pixels from the point at infinity; on a rectified rig s is the disparity.
+/// epipolar line starts at the point of infinite depth and runs towards nearer points. Positions on the line are
+/// measured by `s`, pixels from the point at infinity; on a rectified rig s is the disparity.
 struct EpipolarGeometry {
   std::array<float, 9> h;  ///< K_R R0 K_L^-1, row-major
   std::array<float, 3> t;  ///< K_R T0

@@ -68,6 +68,12 @@ cl::Program Context::program(const std::vector<std::string>& files, const Define
   return program;
 }
 
+std::vector<std::string> Context::programs() const {
+  std::vector<std::string> built;
+  for (const auto& [key, program] : programs_) built.push_back(key);
+  return built;
+}
+
 void Context::finish() {
   try {
     queue_.finish();

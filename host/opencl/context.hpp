@@ -32,6 +32,9 @@ class Context {
   /// \throws DeviceError with device, options and compiler log; the log names kernel file and line.
   cl::Program program(const std::vector<std::string>& files, const Defines& defines);
 
+  /// Every program built so far: its options, then its kernel files without common.cl, separated by spaces.
+  std::vector<std::string> programs() const;
+
   /// Time spent in program builds so far [ms].
   double build_ms() const { return build_ms_; }
 

@@ -95,7 +95,7 @@ void sift_descriptor(const GradientMap& map, float x, float y, float direction, 
   const double centre_x = std::nearbyint(x), centre_y = std::nearbyint(y);
   const double c = std::cos(static_cast<double>(direction)) / kSiftCellWidth;
   const double s = std::sin(static_cast<double>(direction)) / kSiftCellWidth;
-  constexpr double kMiddle = kSiftCells / 2 - 0.5;                    // the window's centre, counted in cells
+  constexpr double kMiddle = 0.5 * (kSiftCells - 1);                  // the window's centre, counted in cells
   constexpr double kWindow = -1.0 / (0.5 * kSiftCells * kSiftCells);  // Gaussian of half the window's width
   Histogram histogram{};
   for (int i = -kSiftRadius; i <= kSiftRadius; ++i) {

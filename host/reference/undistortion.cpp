@@ -14,7 +14,8 @@ Image undistort(const ImageView& recorded, const UndistortionTable& table) {
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
     const float top = (1.0f - fx) * recorded.at(x0, y0) + fx * recorded.at(x1, y0);
     const float bottom = (1.0f - fx) * recorded.at(x0, y1) + fx * recorded.at(x1, y1);
-    image.pixels[i] = static_cast<std::uint8_t>((1.0f - fy) * top + fy * bottom + 0.5f);
+    // Never negative, and rounded as the kernel rounds.
+    image.pixels[i] = static_cast<std::uint8_t>((1.0f - fy) * top + fy * bottom + 0.5f);  // NOLINT(bugprone-*)
   }
   return image;
 }

@@ -104,8 +104,8 @@ std::vector<PairLayout::Region> PairLayout::choose_regions(const evaluation::Dra
     }
   }
   const auto rectangle = [&](std::size_t k) {
-    const int cell = static_cast<int>(k);
-    return cv::Rect2d(cell % columns * step_x, cell / columns * step_y, kRegionWidth, kRegionHeight);
+    const int column = static_cast<int>(k) % columns, line = static_cast<int>(k) / columns;
+    return cv::Rect2d(column * step_x, line * step_y, kRegionWidth, kRegionHeight);
   };
   while (regions.size() < kRegions) {
     std::size_t best = 0, most = 0;

@@ -8,6 +8,26 @@
 #include "report/svg.hpp"
 
 namespace quadedge::report {
+
+/// From values to places within the rectangle of the data [px]. What lies far outside is held back, so that numbers
+/// stay short.
+struct PlotScale {
+  const PlotAxis &x, &y;
+  double width, height;
+  double place_x(double value) const { return std::clamp(x.share(value), -10.0, 11.0) * width; }
+  double place_y(double value) const { return (1 - std::clamp(y.share(value), -10.0, 11.0)) * height; }
+  bool can_show(double x_value, double y_value) const {
+    return std::isfinite(x.share(x_value)) && std::isfinite(y.share(y_value));
+  }
+};
+
+/// What the series look like.
+struct Plot::DrawnSeries {
+  bool anything = false;  ///< at least one value can be shown
+  std::string curves;
+  std::string dots;  ///< drawn whole also at the border
+};
+
 namespace {
 
 constexpr double kTickEvery = 56, kVerticalTickEvery = 34;  // px
@@ -16,7 +36,7 @@ constexpr double kMarkerFont = 10.5, kMarkerLine = 13;      // px
 /// Ticks of a horizontal axis whose labels do not touch.
 std::vector<Tick> horizontal_ticks(const PlotAxis& axis, double width) {
   for (int wanted = std::max(2, static_cast<int>(width / kTickEvery));; --wanted) {
-    const auto ticks = axis.ticks(wanted);
+    auto ticks = axis.ticks(wanted);
     double needed = 0;
     for (const auto& tick : ticks) needed += svg::text_width(tick.label, 11) + 10;
     if (needed <= width || wanted <= 1) return ticks;
@@ -37,20 +57,8 @@ void equalise(PlotAxis& x, PlotAxis& y, const PlotArea& area) {
   }
 }
 
-/// From values to places within the rectangle of the data [px]. What lies far outside is held back, so that numbers
-/// stay short.
-struct Scale {
-  const PlotAxis &x, &y;
-  double width, height;
-  double place_x(double value) const { return std::clamp(x.share(value), -10.0, 11.0) * width; }
-  double place_y(double value) const { return (1 - std::clamp(y.share(value), -10.0, 11.0)) * height; }
-  bool can_show(double x_value, double y_value) const {
-    return std::isfinite(x.share(x_value)) && std::isfinite(y.share(y_value));
-  }
-};
-
 /// Circles for the values within the plot.
-std::string dots(const Scale& scale, const std::vector<double>& xs, const std::vector<double>& ys) {
+std::string dots(const PlotScale& scale, const std::vector<double>& xs, const std::vector<double>& ys) {
   std::string result;
   for (std::size_t k = 0; k < xs.size(); ++k) {
     if (!scale.can_show(xs[k], ys[k])) continue;
@@ -65,7 +73,7 @@ std::string dots(const Scale& scale, const std::vector<double>& xs, const std::v
 struct Curve {
   std::string path, filled;
 };
-Curve curve(const Scale& scale, const std::vector<double>& xs, const std::vector<double>& ys) {
+Curve curve(const PlotScale& scale, const std::vector<double>& xs, const std::vector<double>& ys) {
   const std::string floor =
       svg::number(scale.place_y(scale.y.logarithmic() ? scale.y.low() : std::max(0.0, scale.y.low())));
   Curve result;
@@ -89,7 +97,7 @@ Curve curve(const Scale& scale, const std::vector<double>& xs, const std::vector
 }
 
 /// The outline of the space between two curves.
-std::string band(const Scale& scale, const std::vector<double>& xs, const std::vector<double>& lows,
+std::string band(const PlotScale& scale, const std::vector<double>& xs, const std::vector<double>& lows,
                  const std::vector<double>& highs) {
   std::string there, back;
   for (std::size_t k = 0; k < xs.size(); ++k) {
@@ -136,6 +144,52 @@ void Plot::add_marker_line(double x, const std::string& label, bool label_at_bot
   markers_.push_back({x, label, label_at_bottom});
 }
 
+Plot::DrawnSeries Plot::draw_series(const PlotScale& scale) const {
+  DrawnSeries result;
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const Series& series = series_[i];
+    const std::string& colour = svg::series_colour(i);
+    if (series.style == Style::points) {
+      const std::string found = dots(scale, series.xs, series.ys);
+      result.anything = result.anything || !found.empty();
+      result.dots += "<g fill=\"" + colour + "\" fill-opacity=\"0.75\">" + found + "</g>";
+      continue;
+    }
+    if (series.style == Style::band) {
+      const std::string outline = band(scale, series.xs, series.lows, series.ys);
+      result.anything = result.anything || !outline.empty();
+      result.curves += "<path d=\"" + outline + "\" fill=\"" + colour + "\" fill-opacity=\"0.8\"/>";
+      continue;
+    }
+    const Curve drawn = curve(scale, series.xs, series.ys);
+    result.anything = result.anything || !drawn.path.empty();
+    if (series.style == Style::area)
+      result.curves += "<path d=\"" + drawn.filled + "\" fill=\"" + colour + "\" fill-opacity=\"0.15\"/>";
+    result.curves += "<path d=\"" + drawn.path + "\" fill=\"none\" stroke=\"" + colour +
+                     "\" stroke-width=\"1.8\" stroke-linejoin=\"round\"" +
+                     (series.style == Style::dashed ? " stroke-dasharray=\"5 3\"" : "") + "/>";
+  }
+  return result;
+}
+
+std::string Plot::draw_markers(const PlotScale& scale) const {
+  std::string result;
+  double top_label = 12, bottom_label = scale.height - 6;
+  for (const auto& marker : markers_) {
+    if (!std::isfinite(scale.x.share(marker.x))) continue;
+    const double x = scale.place_x(marker.x);
+    result += svg::line(x, 0, x, scale.height, "stroke=\"#111\" stroke-width=\"1.3\" stroke-dasharray=\"3 3\"");
+    const bool to_the_left = x + 6 + svg::text_width(marker.label, kMarkerFont) > scale.width;
+    if (marker.label.empty()) continue;
+    const auto anchor = to_the_left ? svg::Anchor::end : svg::Anchor::start;
+    result +=
+        svg::text(x + (to_the_left ? -4 : 4), marker.label_at_bottom ? bottom_label : top_label, marker.label, anchor,
+                  "font-size=\"10.5\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"");
+    (marker.label_at_bottom ? bottom_label : top_label) += marker.label_at_bottom ? -kMarkerLine : kMarkerLine;
+  }
+  return result;
+}
+
 std::string Plot::svg() const {
   std::vector<double> all_x, all_y;
   std::vector<LegendEntry> legend;
@@ -170,49 +224,13 @@ std::string Plot::svg() const {
   // Everything in the inner picture is cut off at its borders.
   result += "<svg x=\"" + svg::number(area.left) + "\" y=\"" + svg::number(area.top) + "\" width=\"" +
             svg::number(area.width()) + "\" height=\"" + svg::number(area.height()) + "\">";
-  const Scale scale{x_axis, y_axis, area.width(), area.height()};
-  bool anything = false;
-  std::string all_dots;  // drawn whole also at the border
-  for (std::size_t i = 0; i < series_.size(); ++i) {
-    const Series& series = series_[i];
-    const std::string& colour = svg::series_colour(i);
-    if (series.style == Style::points) {
-      const std::string found = dots(scale, series.xs, series.ys);
-      anything = anything || !found.empty();
-      all_dots += "<g fill=\"" + colour + "\" fill-opacity=\"0.75\">" + found + "</g>";
-      continue;
-    }
-    if (series.style == Style::band) {
-      const std::string outline = band(scale, series.xs, series.lows, series.ys);
-      anything = anything || !outline.empty();
-      result += "<path d=\"" + outline + "\" fill=\"" + colour + "\" fill-opacity=\"0.8\"/>";
-      continue;
-    }
-    const Curve drawn = curve(scale, series.xs, series.ys);
-    anything = anything || !drawn.path.empty();
-    if (series.style == Style::area)
-      result += "<path d=\"" + drawn.filled + "\" fill=\"" + colour + "\" fill-opacity=\"0.15\"/>";
-    result += "<path d=\"" + drawn.path + "\" fill=\"none\" stroke=\"" + colour +
-              "\" stroke-width=\"1.8\" stroke-linejoin=\"round\"" +
-              (series.style == Style::dashed ? " stroke-dasharray=\"5 3\"" : "") + "/>";
-  }
-  double top_label = 12, bottom_label = area.height() - 6;
-  for (const auto& marker : markers_) {
-    if (!std::isfinite(x_axis.share(marker.x))) continue;
-    const double x = scale.place_x(marker.x);
-    result += svg::line(x, 0, x, area.height(), "stroke=\"#111\" stroke-width=\"1.3\" stroke-dasharray=\"3 3\"");
-    const bool to_the_left = x + 6 + svg::text_width(marker.label, kMarkerFont) > area.width();
-    if (marker.label.empty()) continue;
-    const auto anchor = to_the_left ? svg::Anchor::end : svg::Anchor::start;
-    result +=
-        svg::text(x + (to_the_left ? -4 : 4), marker.label_at_bottom ? bottom_label : top_label, marker.label, anchor,
-                  "font-size=\"10.5\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"");
-    (marker.label_at_bottom ? bottom_label : top_label) += marker.label_at_bottom ? -kMarkerLine : kMarkerLine;
-  }
-  if (!anything)
+  const PlotScale scale{x_axis, y_axis, area.width(), area.height()};
+  const DrawnSeries drawn = draw_series(scale);
+  result += drawn.curves + draw_markers(scale);
+  if (!drawn.anything)
     result += svg::text(area.width() / 2, area.height() / 2, "no data", svg::Anchor::middle, "fill=\"#888\"");
   return result + "</svg>" + frame.border() + "<g transform=\"translate(" + svg::number(area.left) + " " +
-         svg::number(area.top) + ")\">" + all_dots + "</g></svg>\n";
+         svg::number(area.top) + ")\">" + drawn.dots + "</g></svg>\n";
 }
 
 }  // namespace quadedge::report

@@ -7,6 +7,8 @@
 
 namespace quadedge::report {
 
+struct PlotScale;
+
 /// A plot. Set the public fields, add series, ask for svg(). Labels hold the unit ("distance [px]").
 class Plot {
  public:
@@ -46,6 +48,10 @@ class Plot {
     bool label_at_bottom;
   };
   void add(const std::string& name, const std::vector<double>& xs, const std::vector<double>& ys, Style style);
+
+  struct DrawnSeries;
+  DrawnSeries draw_series(const PlotScale& scale) const;
+  std::string draw_markers(const PlotScale& scale) const;
 
   std::vector<Series> series_;
   std::vector<Marker> markers_;

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Format, structure, kernels and clang-tidy of all code, as the tests hold them.
+#   scripts/lint.sh           format and structure: seconds
+#   scripts/lint.sh --all     clang-tidy and the kernels too: minutes; needs a configured build/
+#   scripts/lint.sh --fix     formats all code; with --all, clang-tidy mends what it can
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+fix="" all=""
+for option in "$@"; do
+  case "$option" in
+    --fix) fix=yes ;;
+    --all) all=yes ;;
+    *) sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}"; exit 2 ;;
+  esac
+done
+
+status=0
+if [ -n "$all" ] && [ -n "$fix" ]; then
+  python3 tests/lint_tidy.py . build --fix || status=1
+fi
+if [ -n "$fix" ]; then
+  git ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' '*.cl' | xargs -0 clang-format -i
+else
+  tests/lint_format.sh . || status=1
+fi
+
+python=build/venv/bin/python  # scripts/test.sh makes it
+if [ ! -x "$python" ]; then
+  python=python3
+  python3 -c 'import lizard' 2>/dev/null || checks="includes lines twins references"
+fi
+# shellcheck disable=SC2086  # a list of words
+"$python" tests/lint_structure.py . ${checks:-} || status=1
+
+if [ -n "$all" ]; then
+  tests/lint_kernels.sh . build/tests/list_programs || status=1
+  [ -n "$fix" ] || python3 tests/lint_tidy.py . build || status=1
+fi
+exit $status

@@ -1,0 +1,58 @@
+/// \file list_programs.cpp  Prints every program that the stages build, for lint_kernels.sh: options and kernel files,
+/// one program per line. The stages are asked themselves, with every variant, so nothing can be forgotten.
+///   list_programs KERNEL_FOLDER
+
+#include <cstdio>
+#include <map>
+#include <set>
+#include <string>
+
+#include "benchmark/ceilings.hpp"
+#include "frontend/frontend.hpp"
+#include "opencl/context.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/device.hpp"
+#include "quadedge/synthetic.hpp"
+
+namespace {
+
+using namespace quadedge;
+
+/// A configuration that leaves no kernel out, with variant number `wanted` of every stage that has so many.
+Config config_with(std::size_t wanted) {
+  Config config;
+  config.edges.thinning = true;
+  config.stereo.max_disparity = 64;
+  config.stereo.sift_max = 500;
+  std::map<std::string, std::size_t> seen;
+  for (const auto& variant : opencl::all_variants())
+    if (seen[variant.stage]++ == wanted) config.variants[variant.stage] = variant.name;
+  return config;
+}
+
+std::size_t most_variants() {
+  std::map<std::string, std::size_t> counts;
+  std::size_t most = 0;
+  for (const auto& variant : opencl::all_variants()) most = std::max(most, ++counts[variant.stage]);
+  return most;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::string kernels = count > 1 ? arguments[1] : "";
+  StereoRig rig = SyntheticSequence(SyntheticOptions()).rig();
+  const auto pixels = static_cast<std::size_t>(rig.left.width) * static_cast<std::size_t>(rig.left.height);
+  // Kernels that undo distortion are only built for cameras that have some.
+  rig.left_undistortion = {rig.left.width, rig.left.height, std::vector<float>(pixels), std::vector<float>(pixels)};
+  rig.right_undistortion = rig.left_undistortion;
+
+  std::set<std::string> programs;
+  for (std::size_t number = 0; number < most_variants(); ++number) {
+    Device device("auto", kernels, true);
+    const auto frontend = frontend::make_frontend(rig, device, config_with(number));
+    bench::measure_ceilings(*device.context(), 1, 0);
+    for (const auto& program : device.context()->programs()) programs.insert(program);
+  }
+  for (const auto& program : programs) std::puts(program.c_str());
+}
