@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""Downloads the published training data of ETH3D (https://www.eth3d.net): the SLAM sequences in stereo, and the two-view pairs.
+"""Downloads the published training data of ETH3D (https://www.eth3d.net): the SLAM sequences in stereo, and the
+two-view pairs.
 
     download_eth3d.py TARGET                         everything; the sequences take tens of gigabytes
     download_eth3d.py TARGET cables_1 cables_2       these sequences
     download_eth3d.py TARGET --two-view              the pairs alone
     download_eth3d.py TARGET --list                  what there is, and what TARGET has of it
 
-TARGET/slam/training/NAME, TARGET/two_view_training/NAME and TARGET/two_view_training_gt/NAME appear when they are complete; what is there
-is not loaded again. A transfer that breaks off goes on where it stopped, at once or when the script is started again. Every archive is
-checked: its size, the checksums inside it, and its SHA-256 where one is known, from --checksums or from an earlier download
-(TARGET/SHA256SUMS). `quadedge check TARGET` says what is there and what is missing, by the list in TARGET/eth3d_published.txt.
+TARGET/slam/training/NAME, TARGET/two_view_training/NAME and TARGET/two_view_training_gt/NAME appear when they are
+complete; what is there is not loaded again. A transfer that breaks off goes on where it stopped, at once or when the
+script is started again. Every archive is checked: its size, the checksums inside it, and its SHA-256 where one is
+known, from --checksums or from an earlier download (TARGET/SHA256SUMS). `quadedge check TARGET` says what is there and
+what is missing, by the list in TARGET/eth3d_published.txt.
 Needs the program curl, and for the pairs 7z (Debian: p7zip-full).
 Exit code: 0 all is there, 1 something could not be loaded, 2 wrong usage.
 """
@@ -32,9 +34,10 @@ SLAM_LIST = "slam/dataset_list_training.txt"
 SLAM_PARTS = ("mono", "stereo")  # rgb/ with its calibration and ground truth, then what the second camera adds
 TWO_VIEW = ("two_view_training", "two_view_training_gt")
 
-# Ends with the script, also a killed one, so that two never write the same file. --no-buffer: a kill loses nothing that has arrived.
-CURL = ["setpriv", "--pdeathsig", "KILL", "curl", "--disable", "--fail", "--location", "--no-buffer", "--continue-at", "-"]
-CURL += ["--connect-timeout", "60", "--speed-limit", "1", "--speed-time", "60", "--write-out", "%{http_code}"]  # s without a byte
+# curl ends with the script, also with a killed one, so that two never write the same file. Without a buffer a kill
+# loses nothing that has arrived. A minute without a byte ends the attempt.
+CURL = "setpriv --pdeathsig KILL curl --disable --fail --location --no-buffer --continue-at - --connect-timeout 60"
+CURL = (CURL + " --speed-limit 1 --speed-time 60 --write-out %{http_code}").split()
 
 
 class Problem(Exception):
@@ -42,17 +45,21 @@ class Problem(Exception):
 
 
 def transfer(url, part):
-    """One attempt of curl to complete `part`. Returns what went wrong, or nothing; what will not change with another attempt is raised."""
+    """One attempt of curl to complete `part`. Returns what went wrong, or nothing; what will not change with another
+    attempt is raised."""
     progress = ["--progress-bar"] if sys.stderr.isatty() else ["--silent", "--show-error"]
-    result = subprocess.run([*CURL, *progress, "--output", part, "--", url], stdout=subprocess.PIPE, stderr=None, text=True)
+    result = subprocess.run([*CURL, *progress, "--output", part, "--", url], stdout=subprocess.PIPE, text=True)
     status = int(result.stdout or 0)
-    if result.returncode == 0 or status == 416:  # 416: the server has nothing behind what is there; the archive's check will tell
+    # 416: the server has nothing behind what is there. Whether that is the whole file the archive's check will tell.
+    if result.returncode == 0 or status == 416:
         return None
     if 400 <= status < 500:
         raise Problem(f"{url}: HTTP status {status}")
+    if status >= 500:
+        return f"HTTP status {status}"
     if result.returncode == 33:  # a server that sends no parts
         part.unlink(missing_ok=True)
-    return f"HTTP status {status}" if status >= 500 else f"the transfer broke off (curl's exit code {result.returncode})"
+    return f"the transfer broke off (curl's exit code {result.returncode})"
 
 
 def fetch(url, archive, attempts, wait):
@@ -113,7 +120,9 @@ def damage(archive, known):
                 return f"wrong checksum of {bad} inside it" if bad else None
         except UNREADABLE as error:
             return f"damaged archive: {error}"
-    test = subprocess.run(["7z", "t", "-p", "-bso0", "-bsp0", archive], capture_output=True, text=True, errors="replace")
+    test = subprocess.run(
+        ["7z", "t", "-p", "-bso0", "-bsp0", archive], capture_output=True, text=True, errors="replace"
+    )
     return None if test.returncode == 0 else f"damaged archive: {' '.join(test.stderr.split())}"
 
 
@@ -162,8 +171,8 @@ class Downloader:
         spare.rename(self.sums)
 
     def unpack(self, archives, place, top=None):
-        """Puts the archives together in a folder that appears when it is complete. `top`: what they hold lies in a folder of this name,
-        which is left out of the path, or directly in them."""
+        """Puts the archives together in a folder that appears when it is complete. `top`: what they hold lies in a
+        folder of this name, which is left out of the path, or directly in them."""
         spare = place.with_name("." + place.name + ".part")
         shutil.rmtree(spare, ignore_errors=True)
         spare.mkdir(parents=True)
@@ -213,13 +222,17 @@ def write_published(target, sequences, pairs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("target", type=Path, metavar="TARGET")
-    parser.add_argument("sequences", nargs="*", metavar="SEQUENCE", help="names of SLAM sequences; default: all of them")
+    parser.add_argument(
+        "sequences", nargs="*", metavar="SEQUENCE", help="names of SLAM sequences; default: all of them"
+    )
     parser.add_argument("--slam", action="store_true", help="the SLAM sequences alone")
     parser.add_argument("--two-view", action="store_true", help="the two-view pairs alone")
     parser.add_argument("--list", action="store_true", help="print what there is, and load nothing")
     parser.add_argument("--checksums", type=Path, metavar="FILE", help="SHA-256 of archives, as sha256sum writes them")
     parser.add_argument("--keep-archives", action="store_true", help="keep TARGET/archives after unpacking")
-    parser.add_argument("--attempts", type=int, default=5, help="in a row without a byte before giving up (%(default)s)")
+    parser.add_argument(
+        "--attempts", type=int, default=5, help="in a row without a byte before giving up (%(default)s)"
+    )
     parser.add_argument("--wait", type=float, default=5, help="seconds between attempts (%(default)s)")
     parser.add_argument("--address", default=ADDRESS, help="of the data (%(default)s)")
     arguments = parser.parse_intermixed_args()  # options may stand between names
@@ -232,7 +245,9 @@ def main():
     if shutil.which("curl") is None:
         parser.error("the program curl is missing (Debian: curl)")
     if with_pairs and not arguments.list and shutil.which("7z") is None:
-        parser.error("the two-view pairs need the program 7z (Debian: p7zip-full); --slam loads the sequences without it")
+        parser.error(
+            "the two-view pairs need the program 7z (Debian: p7zip-full); --slam loads the sequences without it"
+        )
     problems = []
 
     def attempt(work, *values):
@@ -261,7 +276,9 @@ def main():
     if not with_slam:
         path = arguments.target / "eth3d_published.txt"
         prefix = "slam/training/"
-        published = [line[len(prefix) :] for line in read_lines(path) if line.startswith(prefix)] if path.exists() else []
+        published = (
+            [line[len(prefix) :] for line in read_lines(path) if line.startswith(prefix)] if path.exists() else []
+        )
     write_published(arguments.target, published, pairs)
     if not any(downloader.archives.iterdir() if downloader.archives.is_dir() else []):
         shutil.rmtree(downloader.archives, ignore_errors=True)

@@ -1,15 +1,17 @@
-# Installs Debian packages that are missing. Sourced by run.sh and test.sh.
+# Installs Debian packages that are missing. Sourced by run.sh, test.sh and the Dockerfile.
 
 build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers
-  libeigen3-dev libtbb-dev libopencv-dev
-  libcli11-dev catch2 nlohmann-json3-dev libxxhash-dev"
-test_packages="curl oclgrind clang clang-format clang-tidy python3-venv p7zip-full munge slurmctld slurmd slurm-client"
+  libeigen3-dev libtbb-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libcli11-dev catch2
+  nlohmann-json3-dev libyaml-cpp-dev libxxhash-dev"
+test_packages="curl file oclgrind clang clang-format clang-tidy python3-venv p7zip-full munge slurmctld slurmd
+  slurm-client"
 
 # install_missing PACKAGE...: asks dpkg first, so that a machine that has everything needs neither network nor root.
 install_missing() {
   local missing=() package root=()
   for package in "$@"; do
-    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+      missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return 0
   if [ "$(id -u)" -ne 0 ]; then

@@ -92,6 +92,37 @@ TEST_CASE("dataset: unreadable calibrations name file and value", "[dataset]") {
   check_fault(folder / "m", "calib.txt", "no entry cam1");
 }
 
+TEST_CASE("dataset: a damaged sensor.yaml is refused with the key or the line", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string euroc = write_euroc(folder.path()), yaml = euroc + "/mav0/cam0/sensor.yaml", good = read_text(yaml);
+  const auto damaged = [&](const std::string& from, const std::string& to, const std::string& place,
+                           const std::string& found) {
+    INFO(found);
+    REQUIRE(good.find(from) != std::string::npos);
+    write_text(yaml, std::string(good).replace(good.find(from), from.size(), to));
+    check_fault(euroc, "cam0/sensor.yaml" + place, found);
+  };
+  damaged("[32, 24]", "[32, 24", ":", "no YAML");
+  damaged("cols: 4", "cols: 4\n   rows: 4", ":", "no YAML");
+  damaged("T_BS:", "T_SB:", "", "no entry T_BS");
+  damaged("data:", "date:", "", "no entry data");
+  damaged("resolution:", "#resolution:", "", "no entry resolution");
+  damaged("intrinsics: [30.0,", "intrinsics: [", ":13", "3 numbers for intrinsics");
+  damaged("[32, 24]", "[32, 24, 1]", ":11", "3 numbers for resolution");
+  damaged("[32, 24]", "32", ":11", "no list for resolution");
+  damaged("[32, 24]", "[32, [24]]", ":11", "\"\"");
+  damaged("[32, 24]", "[32, .nan]", ":11", "\".nan\"");
+  damaged("31.0", "31,0", ":13", "5 numbers for intrinsics");
+  damaged("camera_model: pinhole", "camera_model: [pinhole]", "", "the camera model \"\"");
+  damaged("0.0, -1.0, 0.0, 0.0,", "0.0, -1.0, 0.0,", ":6", "15 numbers for data");
+  write_text(yaml, "");
+  check_fault(euroc, "cam0/sensor.yaml", "no entry camera_model");
+  write_text(yaml, "- camera_model: pinhole\n");
+  check_fault(euroc, "cam0/sensor.yaml", "no entry camera_model");
+  write_text(yaml, std::string("\x89PNG\0\xff: [", 9));
+  check_fault(euroc, "cam0/sensor.yaml", "expected the sensor.yaml of a EuRoC camera");
+}
+
 TEST_CASE("dataset: a baseline that is zero or NaN is an error", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k");

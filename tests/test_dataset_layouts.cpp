@@ -91,6 +91,20 @@ TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camer
   CHECK(open_dataset(folder / "mav0").frames.size() == 4);
 }
 
+TEST_CASE("dataset: a sensor.yaml may carry OpenCV's first line, tags and lists of dashes", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string root = write_euroc(folder.path()), yaml = root + "/mav0/cam0/sensor.yaml";
+  const Dataset plain = open_dataset(root);
+  std::string text = read_text(yaml);
+  text.replace(text.find("T_BS:"), 5, "T_BS: !!opencv-matrix");
+  text.replace(text.find("[32, 24]"), 8, "\n  - 32\n  - 24");
+  write_text(yaml, "%YAML:1.0\n---\n" + text);
+  const Dataset set = open_dataset(root);
+  CHECK(set.rig.left.matrix() == plain.rig.left.matrix());
+  CHECK(set.rig.left.height == 24);
+  CHECK(set.rig.right_from_left.matrix() == plain.rig.right_from_left.matrix());
+}
+
 TEST_CASE("dataset: EuRoC images are paired by stamp and dropped ones are reported", "[dataset]") {
   const TemporaryFolder folder;
   write_euroc(folder.path());

@@ -3,7 +3,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "data/pfm.hpp"
+#include "data/float_map.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
@@ -28,14 +28,14 @@ cv::Mat grey(const std::string& file, const UndistortionTable& table) {
 }
 
 /// Corners searched in a band of rows of the right image by plain correlation, then triangulated with the rig: the
-/// share of the found ones that lie before both cameras and within 1.5 px of where the rig projects them, and how many
-/// there are.
+/// ratio of the found ones that lie before both cameras and within 1.5 px of where the rig projects them, and how
+/// many there are.
 struct RigTest {
-  double share = 0;
+  double ratio = 0;
   int tracked = 0;
 };
 /// Repeated texture misleads the plain search now and then; a rig with a wrong direction leaves next to nothing.
-constexpr double kShare = 0.7;
+constexpr double kInlierRatio = 0.7;
 RigTest test_rig(const Dataset& set, std::size_t frame) {
   const cv::Mat left = grey(set.frames[frame].left, set.rig.left_undistortion);
   const cv::Mat right = grey(set.frames[frame].right, set.rig.right_undistortion);
@@ -69,7 +69,7 @@ RigTest test_rig(const Dataset& set, std::size_t frame) {
     const Eigen::Vector2d found(band.x + place.x + kHalf, band.y + place.y + kHalf);
     if ((seen - found).norm() < 1.5) ++good;
   }
-  result.share = result.tracked ? static_cast<double>(good) / result.tracked : 0;
+  result.ratio = result.tracked ? static_cast<double>(good) / result.tracked : 0;
   return result;
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("real data: KITTI has the published frames, rig and step lengths", "[d
   CHECK_THROWS_AS(open_dataset(root), UsageError);
   const RigTest rig = test_rig(set, 12);
   CHECK(rig.tracked > 100);
-  CHECK(rig.share > kShare);
+  CHECK(rig.ratio > kInlierRatio);
 }
 
 TEST_CASE("real data: EuRoC stands still and its undistorted images fit the rig", "[dataset][real]") {
@@ -122,7 +122,7 @@ TEST_CASE("real data: EuRoC stands still and its undistorted images fit the rig"
     }
     const RigTest rig = test_rig(set, 5);
     CHECK(rig.tracked > 50);
-    CHECK(rig.share > kShare);
+    CHECK(rig.ratio > kInlierRatio);
   }
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("real data: every still pair opens, and its rig puts matches before th
     CHECK(check_dataset(root).errors.empty());
     const RigTest rig = test_rig(set, 0);
     CHECK(rig.tracked > 50);
-    CHECK(rig.share > kShare);
+    CHECK(rig.ratio > kInlierRatio);
   }
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("real data: disparity truth is positive and within the reader's range"
     REQUIRE_FALSE(set.disparity_truth.empty());
     std::vector<double> disparities;
     if (set.disparity_truth.find(".pfm") != std::string::npos) {
-      for (const float value : data::read_pfm(set.disparity_truth).values) {
+      for (const float value : data::read_float_map(set.disparity_truth).values) {
         if (std::isfinite(value)) disparities.push_back(value * set.disparity_truth_scale);
       }
     } else {

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "data/eth3d_slam_writer.hpp"
-#include "data/pfm.hpp"
+#include "data/float_map.hpp"
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
@@ -44,7 +44,7 @@ TEST_CASE("dataset: a rendered sequence comes back from disk as it was written",
     CHECK(read_grey_image(files.right).pixels == right.image.pixels);
     std::string depth = files.right;
     depth.replace(depth.find("/rgb2/"), 6, "/depth2/").replace(depth.size() - 3, 3, "pfm");
-    const data::FloatImage map = data::read_pfm(depth);
+    const data::FloatMap map = data::read_float_map(depth);
     CHECK(map.width == 80);
     CHECK(map.values == right.depth);
   }
@@ -53,22 +53,39 @@ TEST_CASE("dataset: a rendered sequence comes back from disk as it was written",
   CHECK_THROWS_AS(write_eth3d_slam(folder / "file/s", sequence), DataError);
 }
 
-TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, and must be whole", "[dataset]") {
+TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, with its values as they stand", "[dataset]") {
   const TemporaryFolder folder;
   const std::string file = folder / "m.pfm";
   using namespace std::string_literals;
-  dataset_files::write_text(file, "Pf\n2 2\n-1\n\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40\0\0\x80\x7f"s);
-  const data::FloatImage little = data::read_pfm(file);
-  CHECK(little.values[0] == 3);
-  CHECK(std::isinf(little.values[1]));
-  CHECK(little.values[2] == 1);
-  CHECK(little.values[3] == 2);
-  dataset_files::write_text(file, "Pf 1 1 1.0\n\x40\x40\0\0"s);
-  CHECK(data::read_pfm(file).values[0] == 3);
-  dataset_files::write_text(file, "Pf\n2 2\n-1\n\0\0\x80\x3f"s);
-  CHECK_THROWS_WITH(data::read_pfm(file), Contains("4 bytes") && Contains("16"));
-  dataset_files::write_text(file, "PF\n2 2\n-1\n");
-  CHECK_THROWS_AS(data::read_pfm(file), DataError);
-  dataset_files::write_text(file, "Pf\n2");
-  CHECK_THROWS_AS(data::read_pfm(file), DataError);
+  const std::string pixels = "\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40\0\0\x80\x7f"s;
+  for (const char* scale : {"-1", "-1.0", "-0.00390625"}) {
+    INFO(scale);
+    dataset_files::write_text(file, "Pf\n2 2\n"s + scale + "\n" + pixels);
+    CHECK(data::read_float_map(file).values == std::vector<float>{3, std::numeric_limits<float>::infinity(), 1, 2});
+  }
+  dataset_files::write_text(file, "Pf\n1 1\n1.0\n\x40\x40\0\0"s);
+  CHECK(data::read_float_map(file).values[0] == 3);
+}
+
+TEST_CASE("dataset: a PFM that is short, of three channels or none at all is refused by name", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "m.pfm";
+  using namespace std::string_literals;
+  const auto refused = [&](const std::string& bytes, const std::string& found, const std::string& expected) {
+    INFO(bytes);
+    dataset_files::write_text(file, bytes);
+    CHECK_THROWS_AS(data::read_float_map(file), DataError);
+    CHECK_THROWS_WITH(data::read_float_map(file), Contains("m.pfm") && Contains(found) && Contains(expected));
+  };
+  refused("Pf\n2 2\n-1\n\0\0\x80\x3f"s, "found 14 bytes", "2 x 2 floats");
+  refused("Pf\n2 2\n-1\n\0\0\x80\x3f\0\0\x80\x3f\0\0\x80\x3f"s, "found 22 bytes", "2 x 2 floats");
+  refused("PF\n1 1\n-1\n\0\0\x80\x3f\0\0\x80\x3f\0\0\x80\x3f"s, "\"PF?1 1?-\"", "\"Pf\"");
+  refused("Pf\n2", "\"Pf?2\"", "width, height and scale");
+  refused("", "an empty file", "\"Pf\"");
+  refused("Pf\n1 two\n-1\n\0\0\0\0"s, "\"two\"", "height");
+  refused("Pf\n1 1\nleft\n\0\0\0\0"s, "\"left\"", "scale");
+  refused("Pf\n-1 1\n-1\n\0\0\0\0"s, "cannot be decoded", "width");
+  refused("Pf\n99999 99999\n-1\n\0\0\0\0"s, "bytes", "99999 x 99999");
+  std::filesystem::remove(file);
+  CHECK_THROWS_WITH(data::read_float_map(file), Contains("m.pfm") && Contains("readable file"));
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tests scripts/download_eth3d.py against a local server with the layout of the official one.
 
-    test_download_eth3d.py DOWNLOAD_SCRIPT QUADEDGE [UNITTEST OPTION...]
+test_download_eth3d.py DOWNLOAD_SCRIPT QUADEDGE [UNITTEST OPTION...]
 """
 
 import hashlib
@@ -104,10 +104,15 @@ class Download(unittest.TestCase):
         cls.files = {"slam/dataset_list_training.txt": b"cables_1\nroom_2\n"}
         for seed, name in enumerate(("cables_1", "room_2")):
             folder = cls.source / name
-            subprocess.run([QUADEDGE, "synth", folder, "--frames", "2", "--size", "160x100", "--seed", str(seed), "--quiet"], check=True)
+            subprocess.run(
+                [QUADEDGE, "synth", folder, "--frames", "2", "--size", "160x100", "--seed", str(seed), "--quiet"],
+                check=True,
+            )
             mono = ["rgb/*", "rgb.txt", "calibration.txt", "groundtruth.txt"]
             cls.files[f"slam/datasets/{name}_mono.zip"] = zipped(folder, mono, name)
-            cls.files[f"slam/datasets/{name}_stereo.zip"] = zipped(folder, ["rgb2/*", "calibration2.txt", "extrinsics_1_2.txt"], name)
+            cls.files[f"slam/datasets/{name}_stereo.zip"] = zipped(
+                folder, ["rgb2/*", "calibration2.txt", "extrinsics_1_2.txt"], name
+            )
         images, truth = cls.source / "two_view_training", cls.source / "two_view_training_gt"
         for scene in ("forest_1s", "terrace_2s"):
             (images / scene).mkdir(parents=True)
@@ -132,7 +137,18 @@ class Download(unittest.TestCase):
         shutil.rmtree(self.target.parent)
 
     def command(self, *options):
-        return [sys.executable, SCRIPT, str(self.target), "--address", self.server.address, "--wait", "0", "--attempts", "3", *options]
+        return [
+            sys.executable,
+            SCRIPT,
+            str(self.target),
+            "--address",
+            self.server.address,
+            "--wait",
+            "0",
+            "--attempts",
+            "3",
+            *options,
+        ]
 
     def load(self, *options):
         return subprocess.run(self.command(*options), capture_output=True, text=True, timeout=60)
@@ -165,7 +181,10 @@ class Download(unittest.TestCase):
         self.assertEqual(self.server.requests[before:], [("slam/dataset_list_training.txt", None)])
         check = subprocess.run([QUADEDGE, "check", self.target], capture_output=True, text=True)
         self.assertEqual(check.returncode, 0, check.stderr)
-        self.assertIn("there    slam/training/cables_1: eth3d-slam, 2 frames, 160 x 100 px, ground truth of 2 of 2 frames", check.stdout)
+        self.assertIn(
+            "there    slam/training/cables_1: eth3d-slam, 2 frames, 160 x 100 px, ground truth of 2 of 2 frames",
+            check.stdout,
+        )
         self.assertIn("there    two_view_training/terrace_2s: eth3d-two-view, 1 frame", check.stdout)
         self.assertIn("4 there, 0 of them damaged, 0 published ones missing", check.stdout)
 
@@ -173,7 +192,9 @@ class Download(unittest.TestCase):
         self.assertEqual(self.load("cables_1").returncode, 0)
         check = subprocess.run([QUADEDGE, "check", self.target], capture_output=True, text=True)
         self.assertEqual(check.returncode, 0, check.stderr)
-        self.assertIn("missing  slam/training/room_2\n1 there, 0 of them damaged, 1 published ones missing", check.stdout)
+        self.assertIn(
+            "missing  slam/training/room_2\n1 there, 0 of them damaged, 1 published ones missing", check.stdout
+        )
         listing = self.load("--list").stdout
         self.assertIn("there    slam/training/cables_1", listing)
         self.assertIn("missing  slam/training/room_2", listing)
@@ -201,7 +222,10 @@ class Download(unittest.TestCase):
         part = self.target / "archives" / "room_2_stereo.zip.part"
         with subprocess.Popen(self.command("room_2"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
             deadline = time.monotonic() + 20
-            while not (part.exists() and part.stat().st_size == len(self.files[path]) // 2) and time.monotonic() < deadline:
+            while (
+                not (part.exists() and part.stat().st_size == len(self.files[path]) // 2)
+                and time.monotonic() < deadline
+            ):
                 time.sleep(0.02)
             process.send_signal(signal.SIGKILL)
         self.assertEqual(part.stat().st_size, len(self.files[path]) // 2)
@@ -304,7 +328,10 @@ class Download(unittest.TestCase):
 
     def test_an_archive_with_another_folder_is_refused(self):
         self.server.files["slam/datasets/room_2_mono.zip"] = self.files["slam/datasets/cables_1_mono.zip"]
-        self.assert_refused(self.load("room_2"), "room_2_mono.zip and room_2_stereo.zip: found cables_1, room_2, expected a folder room_2")
+        self.assert_refused(
+            self.load("room_2"),
+            "room_2_mono.zip and room_2_stereo.zip: found cables_1, room_2, expected a folder room_2",
+        )
         self.assertFalse((self.target / "slam/training/room_2").exists())
         self.assertFalse((self.target / "slam/training/.room_2.part").exists())
 
@@ -321,7 +348,10 @@ class Download(unittest.TestCase):
         self.server.files["slam/dataset_list_training.txt"] = b"<html><a href='/login'></html>"
         self.assert_refused(self.load("room_2"), "dataset_list_training.txt: not a list of sequences")
         sums = self.target.parent / "sums"
-        for content, message in ((b"\xff\n", "sums: not a text file"), (b"abc room_2_mono.zip\n", "sums:1: expected a SHA-256")):
+        for content, message in (
+            (b"\xff\n", "sums: not a text file"),
+            (b"abc room_2_mono.zip\n", "sums:1: expected a SHA-256"),
+        ):
             sums.write_bytes(content)
             self.assert_refused(self.load("room_2", "--checksums", str(sums)), message)
         self.assert_refused(self.load("room_2", "--checksums", str(self.target)), "No such file")

@@ -3,7 +3,7 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 
-#include "data/pfm.hpp"
+#include "data/float_map.hpp"
 #include "dataset_files.hpp"
 #include "evaluation/matching_source.hpp"
 #include "quadedge/error.hpp"
@@ -23,12 +23,12 @@ std::string write_pair(const std::string& root) {
   const std::string folder = root + "/two_view_training/scene";
   write_image(folder + "/im0.png", kWidth, kHeight);
   write_image(folder + "/im1.png", kWidth, kHeight);
-  data::FloatImage disparity{kWidth, kHeight, {}};
+  data::FloatMap disparity{kWidth, kHeight, {}};
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const int x = i % kWidth;
     disparity.values.push_back(x >= 30 && x < 40 ? 12.0F : 6.0F);
   }
-  data::write_pfm(folder + "/disp0GT.pfm", disparity);
+  data::write_float_map(folder + "/disp0GT.pfm", disparity);
   return folder;
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("Measured disparities of the right view decide where both views disagr
   const TemporaryFolder folder;
   const std::string path = write_pair(folder.path());
   // The right view sees something of 20 px everywhere: nothing of the left view's wall and board.
-  data::write_pfm(path + "/disp1GT.pfm", {kWidth, kHeight, std::vector<float>(kWidth * kHeight, 20.0F)});
+  data::write_float_map(path + "/disp1GT.pfm", {kWidth, kHeight, std::vector<float>(kWidth * kHeight, 20.0F)});
   const auto source = make_recorded_source(open_dataset(path));
   CHECK(source->load(0).truth.right_is_measured);
   const auto found = places(*source, {16, 35});

@@ -2,11 +2,11 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
-#include "cli/detect_edges.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/dataset.hpp"
+#include "quadedge/detect_edges.hpp"
 #include "report/drawing.hpp"
 #include "report/edges_csv.hpp"
 #include "report/statistics.hpp"

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "data/atomic_file.hpp"
-#include "data/pfm.hpp"
+#include "data/float_map.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -58,8 +58,8 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
     for (const bool right : {false, true}) {
       const RenderedView view = sequence.render(frame, right);
       write_png(root / (right ? "rgb2" : "rgb") / (stamp + ".png"), view.image);
-      data::write_pfm((root / (right ? "depth2" : "depth") / (stamp + ".pfm")).string(),
-                      {view.image.width, view.image.height, view.depth});
+      data::write_float_map((root / (right ? "depth2" : "depth") / (stamp + ".pfm")).string(),
+                            {view.image.width, view.image.height, view.depth});
     }
     list += stamp + " rgb/" + stamp + ".png\n";
     truth.push_back({sequence.stamp_ns(frame), sequence.world_from_left(frame)});

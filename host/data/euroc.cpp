@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <opencv2/calib3d.hpp>
+#include <yaml-cpp/yaml.h>
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -25,56 +26,62 @@ struct Sensor {
   Eigen::Isometry3d body_from_camera = Eigen::Isometry3d::Identity();
 };
 
-/// The text that follows `key:` at the start of a line, to the end of the file; `after` narrows the search to what
-/// follows it.
-std::string value_of(const std::string& text, const std::string& key, const std::string& file) {
-  for (std::size_t at = text.find(key + ":"); at != std::string::npos; at = text.find(key + ":", at + 1)) {
-    const std::size_t line_start = text.rfind('\n', at) + 1;
-    if (text.find_first_not_of(" \t", line_start) == at) return text.substr(at + key.size() + 1);
+constexpr const char* kSensorFile = "the sensor.yaml of a EuRoC camera";
+
+/// sensor.yaml, a map. A first line "%YAML:1.0", which OpenCV writes, is no directive of YAML ("%YAML 1.0" would be):
+/// it becomes a comment.
+YAML::Node read_yaml(const std::string& file) {
+  std::string text = read_bytes(file);
+  if (text.rfind("%YAML:", 0) == 0) text[0] = '#';
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& problem) {
+    fail(file, problem.mark.line + 1, "text that is no YAML (" + problem.msg + ")", kSensorFile);
   }
-  fail(file, "no entry " + key, "the sensor.yaml of a EuRoC camera");
 }
 
-/// The numbers in the brackets that follow `key:`.
-std::vector<double> list_of(const std::string& text, const std::string& key, std::size_t count,
-                            const std::string& file) {
-  const std::string value = value_of(text, key, file);
+YAML::Node entry_of(const YAML::Node& map, const std::string& key, const std::string& file) {
+  if (!map.IsMap() || !map[key]) fail(file, "no entry " + key, kSensorFile);
+  return map[key];
+}
+
+/// The numbers of a list, read without yaml-cpp's conversion, which would depend on the locale.
+std::vector<double> list_of(const YAML::Node& map, const std::string& key, std::size_t count, const std::string& file) {
+  const YAML::Node list = entry_of(map, key, file);
   const std::string expected = key + ": [" + std::to_string(count) + " numbers]";
-  const std::size_t open = value.find_first_not_of(" \t\r\n"), close = value.find(']');
-  if (open == std::string::npos || value[open] != '[' || close == std::string::npos) {
-    fail(file, "no list for " + key, expected);
-  }
-  const auto tokens = split(value.substr(open + 1, close - open - 1), ", \t\r\n");
-  if (tokens.size() != count) fail(file, std::to_string(tokens.size()) + " numbers for " + key, expected);
-  const auto line =
-      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.size() - value.size()), '\n');
+  const int line = list.Mark().line + 1;
+  if (!list.IsSequence()) fail(file, line, "no list for " + key, expected);
+  if (list.size() != count) fail(file, line, std::to_string(list.size()) + " numbers for " + key, expected);
   std::vector<double> values;
-  for (const auto& token : tokens) values.push_back(parse_number(token, file, static_cast<int>(line), expected));
+  for (const YAML::Node& item : list) {
+    const std::string token = item.IsScalar() ? item.Scalar() : std::string();
+    values.push_back(parse_number(token, file, item.Mark().line + 1, expected));
+  }
   return values;
 }
 
-std::string word_of(const std::string& text, const std::string& key, const std::string& file) {
-  const auto words = split(value_of(text, key, file), " \t\r\n#");
-  return words.empty() ? std::string() : words[0];
+std::string word_of(const YAML::Node& map, const std::string& key, const std::string& file) {
+  const YAML::Node word = entry_of(map, key, file);
+  return word.IsScalar() ? word.Scalar() : std::string();
 }
 
 Sensor read_sensor(const std::string& file) {
-  const std::string text = read_bytes(file);
+  const YAML::Node yaml = read_yaml(file);
   Sensor sensor;
-  const std::string model = word_of(text, "camera_model", file);
+  const std::string model = word_of(yaml, "camera_model", file);
   if (model != "pinhole") fail(file, "the camera model " + in_quotes(model), "pinhole");
-  const std::string lens = word_of(text, "distortion_model", file);
+  const std::string lens = word_of(yaml, "distortion_model", file);
   if (lens != "radial-tangential" && lens != "radtan")
     fail(file, "the distortion model " + in_quotes(lens), "radial-tangential");
-  const auto intrinsics = list_of(text, "intrinsics", 4, file), resolution = list_of(text, "resolution", 2, file);
+  const auto intrinsics = list_of(yaml, "intrinsics", 4, file), resolution = list_of(yaml, "resolution", 2, file);
   sensor.camera = {intrinsics[0],
                    intrinsics[1],
                    intrinsics[2],
                    intrinsics[3],
                    static_cast<int>(resolution[0]),
                    static_cast<int>(resolution[1])};
-  sensor.distortion = list_of(text, "distortion_coefficients", 4, file);
-  const auto pose = list_of(value_of(text, "T_BS", file), "data", 16, file);
+  sensor.distortion = list_of(yaml, "distortion_coefficients", 4, file);
+  const auto pose = list_of(entry_of(yaml, "T_BS", file), "data", 16, file);
   Eigen::Matrix4d matrix;
   for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = pose[static_cast<std::size_t>(i)];
   sensor.body_from_camera.linear() = nearest_rotation(matrix.topLeftCorner<3, 3>(), file + " (T_BS)");

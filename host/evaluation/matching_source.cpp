@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "data/pfm.hpp"
+#include "data/float_map.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -32,8 +32,9 @@ void check_size(const SurfaceMap& map, const PinholeCamera& camera, const std::s
 }
 
 SurfaceMap read_disparity(const std::string& file, double scale, const PinholeCamera& camera) {
-  const SurfaceMap map = fs::path(file).extension() == ".pfm" ? surface_from_disparity(data::read_pfm(file), scale)
-                                                              : surface_from_grey(read_grey_image(file), scale);
+  const SurfaceMap map = fs::path(file).extension() == ".pfm"
+                             ? surface_from_disparity(data::read_float_map(file), scale)
+                             : surface_from_grey(read_grey_image(file), scale);
   check_size(map, camera, file);
   return map;
 }
@@ -88,8 +89,8 @@ class RecordedSource : public MatchingSource {
     const double scale = dataset_.rig.left.fx * dataset_.rig.baseline();
     frame.truth.depth_scale = scale;
     frame.truth.right_is_measured = true;
-    frame.truth.left = surface_from_depth(data::read_pfm(depth_file(files.left)), scale);
-    frame.truth.right = surface_from_depth(data::read_pfm(depth_file(files.right)), scale);
+    frame.truth.left = surface_from_depth(data::read_float_map(depth_file(files.left)), scale);
+    frame.truth.right = surface_from_depth(data::read_float_map(depth_file(files.right)), scale);
     check_size(frame.truth.left, dataset_.rig.left, depth_file(files.left));
     check_size(frame.truth.right, dataset_.rig.right, depth_file(files.right));
     for (const auto& pose : dataset_.truth) {

@@ -44,7 +44,7 @@ float SurfaceMap::nearest(double x, double y) const {
   return nearness[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
 }
 
-SurfaceMap surface_from_disparity(const data::FloatImage& disparity, double scale) {
+SurfaceMap surface_from_disparity(const data::FloatMap& disparity, double scale) {
   return make_map(disparity.width, disparity.height, disparity.values, [&](double value) { return value * scale; });
 }
 
@@ -52,7 +52,7 @@ SurfaceMap surface_from_grey(const Image& disparity, double scale) {
   return make_map(disparity.width, disparity.height, disparity.pixels, [&](double value) { return value * scale; });
 }
 
-SurfaceMap surface_from_depth(const data::FloatImage& depth, double focal_times_baseline) {
+SurfaceMap surface_from_depth(const data::FloatMap& depth, double focal_times_baseline) {
   return make_map(depth.width, depth.height, depth.values, [&](double value) { return focal_times_baseline / value; });
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "data/pfm.hpp"
+#include "data/float_map.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::evaluation {
@@ -21,11 +21,11 @@ struct SurfaceMap {
 };
 
 /// Disparities in `scale` px per unit; infinite, NaN, zero and negative ones are unknown.
-SurfaceMap surface_from_disparity(const data::FloatImage& disparity, double scale);
+SurfaceMap surface_from_disparity(const data::FloatMap& disparity, double scale);
 /// Grey-coded disparities, `scale` px per grey level; 0 is unknown.
 SurfaceMap surface_from_grey(const Image& disparity, double scale);
 /// Depths z [m]; 0 is unknown.
-SurfaceMap surface_from_depth(const data::FloatImage& depth, double focal_times_baseline);
+SurfaceMap surface_from_depth(const data::FloatMap& depth, double focal_times_baseline);
 
 /// More than this between neighbouring pixels is a depth step, less is one surface [px of nearness].
 inline constexpr double kDepthStep = 1.0;

@@ -6,10 +6,10 @@
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 
-namespace quadedge::cli {
+namespace quadedge {
 
 /// Third-order edges of one pinhole image on the chosen device.
 /// \throws DeviceError when the device fails, UsageError when the image has more edges than edges.max_edges.
 EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config);
 
-}  // namespace quadedge::cli
+}  // namespace quadedge

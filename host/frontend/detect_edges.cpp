@@ -1,11 +1,11 @@
-#include "cli/detect_edges.hpp"
+#include "quadedge/detect_edges.hpp"
 
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
 #include "stages/undistortion.hpp"
 
-namespace quadedge::cli {
+namespace quadedge {
 
 EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config) {
   EdgeSet edges;
@@ -32,4 +32,4 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
   return edges;
 }
 
-}  // namespace quadedge::cli
+}  // namespace quadedge

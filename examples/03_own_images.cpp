@@ -1,0 +1,52 @@
+/// \file 03_own_images.cpp  Tracks images that are already in memory, as from a camera driver. The rendered room stands
+/// for the camera here.
+
+#include <cmath>
+#include <cstdio>
+#include <quadedge/error.hpp>
+#include <quadedge/odometry.hpp>
+#include <quadedge/synthetic.hpp>
+
+int main() try {
+  // Scene, number of frames, width, height, focal length [px].
+  const quadedge::SyntheticSequence camera({"room", 3, 320, 200, 184.0});
+
+  // The calibration of a rectified camera: the same pinhole left and right, the right one 6 cm to the right. Rigs
+  // that are not rectified have a rotation in right_from_left as well, and distorted images a table each.
+  const double baseline = camera.rig().baseline();  // m
+  quadedge::StereoRig rig;
+  rig.left.fx = rig.left.fy = 184.0;
+  rig.left.cx = camera.rig().left.cx;
+  rig.left.cy = camera.rig().left.cy;
+  rig.left.width = 320;
+  rig.left.height = 200;
+  rig.right = rig.left;
+  rig.right_from_left.translation() = Eigen::Vector3d(-baseline, 0, 0);
+
+  // Nothing stands nearer than half a metre: the disparity is at most focal length x baseline / depth.
+  quadedge::Config config;
+  config.stereo.max_disparity = rig.left.fx * baseline / 0.5;
+
+  quadedge::Device device("auto");
+  quadedge::StereoOdometry odometry(rig, device, config);
+  for (int i = 0; i < camera.frames(); ++i) {
+    const quadedge::Image left = camera.render(i, false).image, right = camera.render(i, true).image;
+    // A view of 8-bit grey pixels that someone else owns: pointer, width, height, bytes per row. It must stay valid
+    // until track() returns.
+    const quadedge::ImageView left_view{left.pixels.data(), left.width, left.height, left.width};
+    const quadedge::ImageView right_view{right.pixels.data(), right.width, right.height, right.width};
+    const quadedge::FrameResult result = odometry.track({camera.stamp_ns(i), left_view, right_view});
+
+    // Metres; x right, y down, z forward of the first left camera. The covariance is that of the motion since the
+    // reference frame: rotation first, then translation.
+    const Eigen::Vector3d position = result.world_from_left.translation();
+    const double deviation = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());  // m
+    std::printf("%s at %.4f %.4f %.4f m, +- %.5f m\n", to_string(result.status), position.x(), position.y(),
+                position.z(), deviation);
+    if (!is_tracked(result.status)) return 1;
+  }
+  return 0;
+} catch (const quadedge::Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.what());
+  return static_cast<int>(error.exit_code());
+}

@@ -1,0 +1,23 @@
+#pragma once
+/// \file float_map.hpp  Maps of depths or disparities: one 32-bit float per pixel, in PFM files, read and written by
+/// OpenCV.
+
+#include <string>
+#include <vector>
+
+namespace quadedge::data {
+
+/// height x width, row-major, top row first.
+struct FloatMap {
+  int width = 0, height = 0;
+  std::vector<float> values;
+};
+
+/// The values as they stand in the file, infinite ones too. \throws DataError when the file is no PFM of one channel or
+/// ends early.
+FloatMap read_float_map(const std::string& file);
+
+/// Little-endian, written atomically. \throws DataError.
+void write_float_map(const std::string& file, const FloatMap& map);
+
+}  // namespace quadedge::data

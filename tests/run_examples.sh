@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Installs everything, builds the examples, which know the installed copy alone, and runs them.
+#   run_examples.sh BUILD_FOLDER EXAMPLES
+set -euo pipefail
+build="$(cd "$1" && pwd)" source="$2"
+prefix="$build/prefix" work="$build/examples"
+rm -rf "$prefix" "$work"
+cmake --install "$build" --prefix "$prefix" >/dev/null
+documents=share/doc/quadedge
+for file in bin/quadedge include/quadedge/odometry.hpp share/quadedge/paper.toml "$documents"/{README,CHANGELOG}.md \
+  "$documents"/{LICENSE,examples/CMakeLists.txt} "$documents"/doc/{accuracy,design,matching,method}.md; do
+  [ -f "$prefix/$file" ] || { echo "not installed: $file" >&2; exit 1; }
+done
+cmake -S "$source" -B "$work" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
+cmake --build "$work"
+
+quadedge="$prefix/bin/quadedge"
+"$quadedge" --version
+"$quadedge" synth "$work/room" --scene room --frames 3 --size 320x200 --quiet
+
+"$work/01_track_recording" "$work/room" "$work/trajectory.txt"
+[ "$(grep -vc '^#' "$work/trajectory.txt")" -eq 3 ]
+"$quadedge" evaluate trajectory "$work/trajectory.txt" "$work/room"
+status=0
+"$work/01_track_recording" "$work/absent" "$work/trajectory.txt" 2>"$work/error" || status=$?
+[ "$status" -eq 3 ] && grep "absent" "$work/error"
+
+image="$(find "$work/room/rgb" -name '*.png' | sort | head -n 1)"
+"$work/02_detect_edges" "$image" >"$work/edges.csv"
+"$quadedge" edges "$image" --device reference --edges.threshold 4 --csv "$work/expected.csv" --quiet
+edges="$(wc -l <"$work/edges.csv")"
+echo "$edges rows of edges"
+[ "$edges" -gt 1000 ] && [ "$edges" -eq "$(wc -l <"$work/expected.csv")" ]
+
+"$work/03_own_images"
