@@ -23,12 +23,21 @@ inline std::string read_text(const std::string& path) {
   return text.str();
 }
 
+/// Settings in front of a shell command: what the user has saved (device, kernel variants, rendered frames) does not
+/// reach the program, and is not changed by it; only the kernels that the driver has compiled stay where they are.
+inline std::string environment_of_tests() {
+  static const TemporaryFolder folder;
+  return "env -u QUADEDGE_DEVICE POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/pocl/kcache}\""
+         " XDG_CONFIG_HOME='" +
+         (folder / "configuration") + "' XDG_CACHE_HOME='" + (folder / "cache") + "'";
+}
+
 /// Runs `quadedge ARGUMENTS` through the shell; `environment` is put in front, for example "QUADEDGE_DEVICE=gpu".
-/// Arguments are quoted here. The user's own QUADEDGE_DEVICE and saved kernel variants do not reach the program.
+/// Arguments are quoted here.
 inline ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
   const TemporaryFolder folder;
-  std::string command = "cd '" + folder.path() + "' && env -u QUADEDGE_DEVICE XDG_CONFIG_HOME='" +
-                        (folder / "configuration") + "' " + environment + " '" QUADEDGE_PROGRAM "'";
+  std::string command =
+      "cd '" + folder.path() + "' && " + environment_of_tests() + " " + environment + " '" QUADEDGE_PROGRAM "'";
   for (const auto& argument : arguments) command += " '" + argument + "'";
   command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
   const int status = std::system(command.c_str());

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "background_program.hpp"
 #include "batch_folders.hpp"
 
 using Catch::Matchers::Contains;
@@ -178,7 +179,7 @@ TEST_CASE("batch: asked to end it ends its children, removes what they had begun
   CHECK(WTERMSIG(status) == SIGINT);
   CHECK_FALSE(fs::exists(out + "/unfinished/second"));
   CHECK_FALSE(fs::exists(out + "/sequences/second"));
-  CHECK_THAT(read_text(folder / "log"), Contains("interrupted"));
+  CHECK_THAT(read_text(folder / "log"), Contains("interrupted") && Contains("0 of 2 sequences are finished"));
   CHECK(run_program(batch).code == 0);
 }
 

@@ -174,8 +174,8 @@ class BatchRunner {
 
 }  // namespace
 
-void run_batch(const std::vector<BatchMember>& plan, const MethodOptions& method, const BatchOptions& options,
-               const Interruption& interruption) {
+int run_batch(const std::vector<BatchMember>& plan, const MethodOptions& method, const BatchOptions& options,
+              const Interruption& interruption) {
   std::vector<const BatchMember*> waiting;
   double pixels = 0;
   for (const auto& member : plan) {
@@ -190,14 +190,17 @@ void run_batch(const std::vector<BatchMember>& plan, const MethodOptions& method
   std::size_t next = 0;
   while (next < waiting.size() || runner.running() > 0) {
     if (interruption.signal() != 0) {
+      const auto begun = static_cast<int>(runner.running());
       runner.abandon();
-      return;
+      return static_cast<int>(next) - begun;
     }
     while (next < waiting.size() && runner.running() < static_cast<std::size_t>(jobs)) runner.start(*waiting[next++]);
     std::this_thread::sleep_for(kPoll);
+    if (interruption.signal() != 0) continue;  // Ctrl-C reaches the children, too: their end is no result
     runner.reap();
     runner.show_progress();
   }
+  return to_run;
 }
 
 }  // namespace quadedge::cli

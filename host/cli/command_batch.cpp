@@ -105,10 +105,14 @@ class BatchCommand : public Command {
     const bool complete =
         std::all_of(members.begin(), members.end(), [](const auto& member) { return member.finished; });
     if (!complete) remove_summary();  // it would not belong to what is there from now on
-    run_batch(members, method_, batch_, interruption);
+    const auto before =
+        std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
+    const auto finished = before + run_batch(members, method_, batch_, interruption);
     remove_unfinished();
     if (interruption.signal() != 0) {
-      note(batch_.quiet, "interrupted; the same command goes on where this one stopped");
+      note(batch_.quiet, "interrupted; " + std::to_string(finished) + " of " + std::to_string(members.size()) +
+                             " sequences are finished and kept in " + (output() / "sequences").string() +
+                             "; the same command goes on with the others");
       interruption.end_process();
     }
     return summarise(sequences);

@@ -11,6 +11,7 @@
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/rendering_status.hpp"
 #include "cli/saved_variants.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
@@ -90,18 +91,19 @@ class BenchCommand : public Command {
     return comparison.regressed() ? bench::kRegressionExitCode : static_cast<int>(ExitCode::done);
   }
 
-  std::unique_ptr<FrameSource> open_source() const {
+  std::unique_ptr<FrameSource> open_source(RenderingStatus& rendering) const {
     if (!path_.empty()) return make_recorded_source(open_dataset(path_));
     SyntheticOptions scene;
     scene.frames = 1 + warm_up_ + frames_;
     set_size(scene, size_);
-    return make_synthetic_source(scene);
+    return make_synthetic_source(scene, [&](const data::RenderingProgress& frames) { return rendering.show(frames); });
   }
 
   bench::BenchRecord measure() {
     bench::BenchRecord record;
     auto& run = record.run;
-    const auto source = open_source();
+    RenderingStatus rendering(quiet_, nullptr);
+    const auto source = open_source(rendering);
     run.input = source->facts();
     run.config = method_.config();
     if (run.config.stereo.max_disparity == 0 && run.config.stereo.min_depth == 0)

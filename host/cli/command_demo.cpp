@@ -1,6 +1,7 @@
 /// \file command_demo.cpp  quadedge demo: the built-in sequence, run and evaluated.
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/rendering_status.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/sequence_run.hpp"
 #include "quadedge/error.hpp"
@@ -36,9 +37,12 @@ class DemoCommand : public Command {
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
     method_.config();
     set_size(scene_, size_);
-    const auto source = make_synthetic_source(scene_);
+    const Interruption interruption;
+    RenderingStatus rendering(run_.quiet, &interruption);
+    const auto source =
+        make_synthetic_source(scene_, [&](const data::RenderingProgress& frames) { return rendering.show(frames); });
     if (run_.draw_every == 0) run_.draw_frame = scene_.frames / 2;
-    const report::RunRecord record = run_sequence(*source, method_, run_);
+    const report::RunRecord record = run_sequence(*source, method_, run_, interruption);
     print_run(record, run_.output);
     return exit_code(record, min_tracked_);
   }

@@ -66,7 +66,8 @@ class RunCommand : public Command {
     Dataset dataset = open_dataset(path_, dataset_);
     if (run_.output.empty()) run_.output = default_output_folder(dataset.name);
     const auto source = make_recorded_source(std::move(dataset));
-    const report::RunRecord record = run_sequence(*source, method_, run_);
+    const Interruption interruption;
+    const report::RunRecord record = run_sequence(*source, method_, run_, interruption);
     print_run(record, run_.output);
     return exit_code(record, min_tracked_);
   }

@@ -33,8 +33,8 @@ class SynthCommand : public Command {
     set_size(scene_, size_);
     const SyntheticSequence sequence(scene_);
     clear_place();
-    Progress progress(quiet_);
-    write_eth3d_slam(output_, sequence, [&](int done, int all) { progress.update("frame", done, all); });
+    Progress progress(quiet_, "frames");
+    write_eth3d_slam(output_, sequence, [&](int done, int all) { progress.update("rendering", done, all); });
     if (!quiet_) {
       std::printf("%d frames of %d x %d px in %s; largest disparity %.1f px\n", sequence.frames(),
                   sequence.rig().left.width, sequence.rig().left.height, output_.c_str(), sequence.max_disparity());

@@ -35,6 +35,16 @@ std::string milliseconds(double value) {
   return std::isfinite(value) ? text : "-";
 }
 
+/// "1.4 frames/s, 2 min 05 s left" for `done` of `total` after a time; empty while nothing is done yet.
+std::string rate_and_rest(int done, int total, const std::string& unit, std::chrono::steady_clock::duration elapsed) {
+  const double seconds = std::chrono::duration<double>(elapsed).count();
+  if (done <= 0 || seconds <= 0) return {};
+  char text[96];
+  const double rate = done / seconds;
+  std::snprintf(text, sizeof text, "%.*f%s%s/s", rate < 10 ? 1 : 0, rate, unit.empty() ? "" : " ", unit.c_str());
+  return done < total ? std::string(text) + ", " + duration_text((total - done) / rate) + " left" : text;
+}
+
 }  // namespace
 
 StatusLine::StatusLine(bool quiet)
@@ -75,10 +85,14 @@ void StatusLine::say(const std::string& text) {
 }
 
 void Progress::update(const std::string& what, int done, int total, const std::string& note) {
+  const auto now = std::chrono::steady_clock::now();
+  if (what != what_) start_ = updated_;
+  what_ = what;
+  updated_ = now;
   const bool last = done == total;
   if (!status_.due(last)) return;
   std::string line = what + " " + std::to_string(done) + "/" + std::to_string(total);
-  for (const auto& part : {rate_and_rest(done, total, std::chrono::steady_clock::now() - start_), note}) {
+  for (const auto& part : {rate_and_rest(done, total, unit_, now - start_), note}) {
     line += part.empty() ? "" : "  " + part;
   }
   status_.show(line, last);
@@ -94,15 +108,6 @@ std::string duration_text(double seconds) {
   else
     std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
   return text;
-}
-
-std::string rate_and_rest(int done, int total, std::chrono::steady_clock::duration elapsed) {
-  const double seconds = std::chrono::duration<double>(elapsed).count();
-  if (done <= 0 || seconds <= 0) return {};
-  char text[96];
-  const double rate = done / seconds;
-  std::snprintf(text, sizeof text, "%.*f/s", rate < 10 ? 1 : 0, rate);
-  return done < total ? std::string(text) + ", " + duration_text((total - done) / rate) + " left" : text;
 }
 
 void note(bool quiet, const std::string& sentence) {
@@ -136,7 +141,7 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   }
   if (run.accuracy) print_evaluation(*run.accuracy);
   if (run.consistency.poses > 0) {
-    std::printf("\nnormalised error squared per degree of freedom (1: the covariances are honest), %d poses\n",
+    std::printf("\nnormalised error squared per degree of freedom (1: the covariances are consistent), %d poses\n",
                 run.consistency.poses);
     std::printf("pose %.3f, rotation %.3f, translation %.3f\n", run.consistency.pose, run.consistency.rotation,
                 run.consistency.translation);

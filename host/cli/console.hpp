@@ -34,18 +34,18 @@ class StatusLine {
 /// Progress of a command that counts.
 class Progress {
  public:
-  explicit Progress(bool quiet) : status_(quiet), start_(std::chrono::steady_clock::now()) {}
+  /// \param unit  of what is counted, for the rate: "frames"
+  explicit Progress(bool quiet, std::string unit = {})
+      : status_(quiet), unit_(std::move(unit)), start_(std::chrono::steady_clock::now()), updated_(start_) {}
   /// `done` of `total` are finished, which also gives rate and remaining time; `note` is a short text behind the
-  /// numbers.
+  /// numbers. Another `what` is another step, whose time begins with the end of the one before.
   void update(const std::string& what, int done, int total, const std::string& note = "");
 
  private:
   StatusLine status_;
-  std::chrono::steady_clock::time_point start_;
+  std::string unit_, what_;
+  std::chrono::steady_clock::time_point start_, updated_;
 };
-
-/// "1.4/s, 2 min 05 s left" for `done` of `total` after a time; empty while nothing is done yet.
-std::string rate_and_rest(int done, int total, std::chrono::steady_clock::duration elapsed);
 
 /// "47 s", "2 min 05 s", "1 h 03 min".
 std::string duration_text(double seconds);

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "data/user_folder.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
@@ -28,38 +29,40 @@ class RecordedSource : public FrameSource {
 
 class SyntheticSource : public FrameSource {
  public:
-  explicit SyntheticSource(const SyntheticOptions& options) : options_(options), sequence_(options) {
-    for (int i = 0; i < sequence_.frames(); ++i)
-      truth_.push_back({sequence_.stamp_ns(i), sequence_.world_from_left(i)});
+  SyntheticSource(const SyntheticOptions& options, data::RenderedFrames::Watch watch)
+      : scene_(options.scene), frames_(options, rendered_folder(), std::move(watch)) {
+    const auto& sequence = frames_.sequence();
+    for (int i = 0; i < sequence.frames(); ++i) truth_.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
   }
-  const StereoRig& rig() const override { return sequence_.rig(); }
+  const StereoRig& rig() const override { return frames_.sequence().rig(); }
   report::InputFacts facts() const override {
-    return {"built-in",
-            "synthetic",
-            options_.scene,
-            sequence_.frames(),
-            sequence_.rig().left.width,
-            sequence_.rig().left.height};
+    return {"built-in", "synthetic", scene_, frames_.sequence().frames(), rig().left.width, rig().left.height};
   }
-  double max_disparity() const override { return sequence_.max_disparity(); }
-  std::optional<FramePrefetcher::Frame> next() override {
-    if (next_ >= sequence_.frames()) return std::nullopt;
-    FramePrefetcher::Frame frame;
-    frame.number = next_++;
-    frame.stamp_ns = sequence_.stamp_ns(frame.number);
-    frame.left = sequence_.render(frame.number, false).image;
-    frame.right = sequence_.render(frame.number, true).image;
-    return frame;
+  double max_disparity() const override { return frames_.sequence().max_disparity(); }
+  std::string prepare() override {
+    frames_.prepare();
+    return frames_.why_not_kept().empty() ? "" : "rendered frames are not kept: " + frames_.why_not_kept();
   }
-  void rewind() override { next_ = 0; }
+  std::optional<FramePrefetcher::Frame> next() override { return frames_.next(); }
+  void rewind() override { frames_.rewind(); }
   const Trajectory& truth() const override { return truth_; }
   std::string truth_name() const override { return "exact poses of the renderer"; }
+  std::string kept() const override {
+    const auto& progress = frames_.progress();
+    if (frames_.folder().empty() || !frames_.why_not_kept().empty() || progress.ready == 0) return {};
+    return std::to_string(progress.ready) + " of " + std::to_string(progress.frames) + " rendered frames are kept in " +
+           frames_.folder();
+  }
 
  private:
-  SyntheticOptions options_;
-  SyntheticSequence sequence_;
+  static std::string rendered_folder() {
+    const std::string cache = data::cache_folder();
+    return cache.empty() ? cache : cache + "/rendered";
+  }
+
+  std::string scene_;
+  data::RenderedFrames frames_;
   Trajectory truth_;
-  int next_ = 0;
 };
 
 }  // namespace
@@ -68,8 +71,8 @@ std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset) {
   return std::make_unique<RecordedSource>(std::move(dataset));
 }
 
-std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options) {
-  return std::make_unique<SyntheticSource>(options);
+std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options, data::RenderedFrames::Watch watch) {
+  return std::make_unique<SyntheticSource>(options, std::move(watch));
 }
 
 void set_size(SyntheticOptions& options, const std::string& size) {

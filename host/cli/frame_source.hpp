@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "data/rendered_frames.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/synthetic.hpp"
 #include "report/run_record.hpp"
@@ -18,6 +20,8 @@ class FrameSource {
   virtual report::InputFacts facts() const = 0;
   /// Default for the largest disparity [px].
   virtual double max_disparity() const = 0;
+  /// Makes the next frames ready where that takes long. Returns what the user should know of it, or nothing.
+  virtual std::string prepare() { return {}; }
   /// The next frame, or nothing at the end. \throws DataError for a frame that cannot be read.
   virtual std::optional<FramePrefetcher::Frame> next() = 0;
   /// Starts again with the first frame.
@@ -26,13 +30,17 @@ class FrameSource {
   virtual const Trajectory& truth() const = 0;
   /// Where they come from.
   virtual std::string truth_name() const = 0;
+  /// What prepare() has kept for another run, as a sentence for the user; empty: nothing.
+  virtual std::string kept() const { return {}; }
 };
 
 /// A recorded sequence; images are read ahead on another thread.
 std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset);
 
-/// The built-in sequence, rendered while it runs. \throws UsageError for options that cannot be rendered.
-std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options);
+/// The built-in sequence, rendered ahead and kept in the user's cache (see data::RenderedFrames). `watch`: told while
+/// frames are made ready. \throws UsageError for options that cannot be rendered.
+std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options,
+                                                   data::RenderedFrames::Watch watch = {});
 
 /// Reads "WIDTHxHEIGHT" into the options. \throws UsageError.
 void set_size(SyntheticOptions& options, const std::string& size);

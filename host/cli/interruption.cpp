@@ -15,6 +15,7 @@ Interruption::Interruption() {
   received = 0;
   struct sigaction action {};
   action.sa_handler = note_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);

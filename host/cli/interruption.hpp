@@ -6,8 +6,8 @@
 
 namespace quadedge::cli {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of ending the process (those that are ignored, as under
-/// nohup, stay ignored). One at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of ending the process, each once: the second Ctrl-C
+/// ends it at once. (Those that are ignored, as under nohup, stay ignored.) One at a time.
 class Interruption {
  public:
   Interruption();

@@ -1,23 +1,13 @@
 #include "cli/saved_variants.hpp"
 
-#include <cstdlib>
-
 #include "benchmark/variants_file.hpp"
+#include "data/user_folder.hpp"
 
 namespace quadedge::cli {
 
 std::string saved_variants_path(const DeviceInfo& device) {
-  const char* configuration = std::getenv("XDG_CONFIG_HOME");
-  const char* home = std::getenv("HOME");
-  std::string folder;
-  if (configuration != nullptr && configuration[0] == '/') {  // the specification wants relative ones ignored
-    folder = configuration;
-  } else if (home != nullptr && home[0] != '\0') {
-    folder = std::string(home) + "/.config";
-  } else {
-    return {};
-  }
-  return folder + "/quadedge/" + bench::variants_file_name(device);
+  const std::string folder = data::configuration_folder();
+  return folder.empty() ? folder : folder + "/" + bench::variants_file_name(device);
 }
 
 void add_saved_variants(const Device& device, Config& config) {

@@ -11,7 +11,7 @@ void declare_scene(Options& options, SyntheticOptions& scene, std::string& size)
   options.number("--gain", scene.gain, "factor on the light of every second frame");
   options.number("--right-gain", scene.right_gain, "factor on the right camera's exposure");
   options.number("--blur", scene.blur, "length of the motion blur [px]");
-  options.number("--mover", scene.mover, "share of the image that a board moving on its own covers, 0 to 0.6");
+  options.number("--mover", scene.mover, "ratio of the image that a board moving on its own covers, 0 to 0.6");
 }
 
 }  // namespace quadedge::cli

@@ -105,20 +105,54 @@ void complete(Config& config, const FrameSource& source) {
     config.stereo.max_disparity = source.max_disparity();
 }
 
+/// Builds the pipeline and says so: where the driver keeps no kernels from an earlier run this takes a while.
+std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet,
+                                               report::RunRecord& run) {
+  StatusLine status(quiet);
+  const bool builds = !device.is_reference();
+  if (builds) status.show("building kernels for " + device.info().name);
+  auto odometry = std::make_unique<StereoOdometry>(rig, device, run.config);
+  run.kernel_build_ms = odometry->kernel_build_ms();
+  char text[64];
+  std::snprintf(text, sizeof text, "kernels ready after %.1f s", run.kernel_build_ms / 1000);
+  if (builds) status.show(text, true);
+  return odometry;
+}
+
+/// After a signal: says what stays of the run, and ends the process.
+void end_if_interrupted(const Interruption& interruption, const FrameSource& source, const SequenceRunOptions& options,
+                        const report::RunRecord& run) {
+  if (interruption.signal() == 0) return;
+  const std::string frames = std::to_string(run.frames.size()) + " of " + std::to_string(run.input.frames) + " frames";
+  const std::string kept = source.kept();
+  if (!run.frames.empty()) {
+    note(options.quiet, "interrupted; trajectory.txt, trajectory_kitti.txt and frames.csv in " + options.output +
+                            " hold what was tracked, " + frames);
+  } else {
+    note(options.quiet, "interrupted before the first frame was tracked");
+  }
+  if (!kept.empty()) note(options.quiet, kept);
+  interruption.end_process();
+}
+
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                  report::RunRecord& run) {
-  const auto start = Clock::now();
+                  const Interruption& interruption, report::RunRecord& run) {
+  const auto opening = Clock::now();
   Device device = method.open_device();
   add_saved_variants(device, run.config);
-  StereoOdometry odometry(source.rig(), device, run.config);
-  run.start_ms = milliseconds_since(start);
-  run.kernel_build_ms = odometry.kernel_build_ms();
+  const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
+  StereoOdometry& odometry = *pipeline;
+  run.start_ms = milliseconds_since(opening);
   run.device = device.info();
   run.variants = odometry.variants();
+  const std::string warning = source.prepare();
+  if (!warning.empty()) note(options.quiet, warning);
+  end_if_interrupted(interruption, source, options, run);  // OUT holds nothing yet that would refuse the next start
   data::write_atomically(options.output + "/config.toml", report::config_toml(run.config, method.device_choice()));
   GrowingFiles files(options.output);
-  Progress progress(options.quiet);
+  const auto start = Clock::now();
+  Progress progress(options.quiet, "frames");
   int lost = 0;
   while (const auto frame = source.next()) {
     report::FrameRecord record;
@@ -131,6 +165,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     char text[64];
     std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.latency_ms);
     progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+    if (interruption.signal() != 0) break;
   }
   const std::size_t device_peak = device.is_reference() ? 0 : device.context()->peak_bytes();
   run.device_peak_mb = static_cast<double>(std::max(device_peak, odometry.device_bytes())) / (1024.0 * 1024.0);
@@ -139,15 +174,17 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
 
 /// Second pass, with a profiling queue, which slows the device down: kernel times only.
 void profile_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                    report::RunRecord& run) {
-  Progress progress(options.quiet);
+                    const Interruption& interruption, report::RunRecord& run) {
   source.rewind();
   Device device = method.open_device(true);
   if (device.is_reference()) throw UsageError("--profile measures kernels, and the reference device has none");
   StereoOdometry odometry(source.rig(), device, run.config);
+  source.prepare();
+  Progress progress(options.quiet, "frames");
   while (const auto frame = source.next()) {
     run.kernel_times.push_back(kernel_stages(odometry.track(view(*frame)).stages));
     progress.update(run.input.name + " profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
+    if (interruption.signal() != 0) return;
   }
 }
 
@@ -198,20 +235,23 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
 
 }  // namespace
 
-report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options) {
+report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
+                               const Interruption& interruption) {
   report::RunRecord run;
   run.input = source.facts();
   run.config = method.config();
   complete(run.config, source);
   prepare_output_folder(options.output, options.force);
   try {
-    track_frames(source, method, options, run);
+    track_frames(source, method, options, interruption, run);
   } catch (const DataError& error) {
     if (run.frames.empty()) throw;
     throw DataError(std::string(error.what()) + "\n" + std::to_string(run.frames.size()) + " finished frames are in " +
                     options.output);
   }
-  if (options.profile) profile_frames(source, method, options, run);
+  end_if_interrupted(interruption, source, options, run);
+  if (options.profile) profile_frames(source, method, options, interruption, run);
+  end_if_interrupted(interruption, source, options, run);
   evaluate(source, options, run);
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
   report::draw_trajectory(options.output + "/pictures/trajectory.png", tracked_poses(run), source.truth(),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/frame_source.hpp"
+#include "cli/interruption.hpp"
 #include "cli/method_options.hpp"
 #include "report/run_record.hpp"
 
@@ -21,9 +22,10 @@ struct SequenceRunOptions {
   int thumbnails = 0;  ///< number of small pictures of quads, spread evenly over the frames after the first
 };
 
-/// Tracks all frames, writing every finished one at once, then the report, the configuration and the pictures.
-/// \throws Error; what was finished before stays on disk.
-report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options);
+/// Tracks all frames, writing every finished one at once, then the report, the configuration and the pictures. After a
+/// signal it says what is kept and ends the process by it. \throws Error; what was finished before stays on disk.
+report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
+                               const Interruption& interruption);
 
 /// Exit code of a finished run: too_few_tracked below `min_tracked` percent (with a message on stderr), else done.
 int exit_code(const report::RunRecord& run, double min_tracked);

@@ -1,0 +1,61 @@
+#pragma once
+/// \file background_program.hpp  The quadedge program while it runs, to send signals to.
+
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <functional>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "program.hpp"
+
+/// The program running on its own; killed with its object.
+class BackgroundProgram {
+ public:
+  BackgroundProgram(const std::vector<std::string>& arguments, const std::string& log,
+                    const std::string& environment = "") {
+    std::string command = "exec " + environment_of_tests() + " " + environment + " '" QUADEDGE_PROGRAM "'";
+    for (const auto& argument : arguments) command += " '" + argument + "'";
+    process_ = fork();
+    if (process_ != 0) return;
+    const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    dup2(file, STDOUT_FILENO);
+    dup2(file, STDERR_FILENO);
+    execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  ~BackgroundProgram() {
+    if (process_ > 0) end_by(SIGKILL);
+  }
+  BackgroundProgram(const BackgroundProgram&) = delete;
+  BackgroundProgram& operator=(const BackgroundProgram&) = delete;
+
+  pid_t process() const { return process_; }
+  bool running() const {
+    siginfo_t ended{};
+    return waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
+  }
+  /// Sends a signal and waits; what waitpid reports.
+  int end_by(int signal) {
+    kill(process_, signal);
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    return status;
+  }
+  /// Waits until something is so or the program has ended. Was it so?
+  bool wait_until(const std::function<bool()>& condition) const {
+    while (running()) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return condition();
+  }
+
+ private:
+  pid_t process_ = -1;
+};

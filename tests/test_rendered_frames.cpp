@@ -1,0 +1,165 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "data/rendered_frames.hpp"
+#include "temporary_folder.hpp"
+
+using namespace quadedge;
+using data::RenderedFrames;
+namespace fs = std::filesystem;
+
+namespace {
+
+SyntheticOptions small_scene(int frames = 3) {
+  SyntheticOptions options;
+  options.frames = frames;
+  options.width = 64;
+  options.height = 40;
+  options.focal = 36;
+  options.supersampling = 2;
+  return options;
+}
+
+/// Takes all frames and compares them with what the renderer gives. Returns how many had to be rendered.
+int rendered_frames(const SyntheticOptions& options, const std::string& folder,
+                    std::uintmax_t bound = RenderedFrames::kBound) {
+  RenderedFrames frames(options, folder, {}, bound);
+  const SyntheticSequence sequence(options);
+  for (int i = 0; i < options.frames; ++i) {
+    const auto frame = frames.next();
+    REQUIRE(frame);
+    CHECK(frame->number == i);
+    CHECK(frame->stamp_ns == sequence.stamp_ns(i));
+    CHECK(frame->left.pixels == sequence.render(i, false).image.pixels);
+    CHECK(frame->right.pixels == sequence.render(i, true).image.pixels);
+  }
+  CHECK_FALSE(frames.next());
+  return frames.progress().rendered;
+}
+
+std::vector<fs::path> files_below(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+int folders_in(const std::string& folder) {
+  return static_cast<int>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+}  // namespace
+
+TEST_CASE("rendered frames: the second start reads what the first has rendered") {
+  const TemporaryFolder folder;
+  CHECK(rendered_frames(small_scene(), folder / "cache") == 3);
+  CHECK(files_below(folder / "cache").size() == 6);
+  CHECK(rendered_frames(small_scene(), folder / "cache") == 0);
+  CHECK(rendered_frames(small_scene(2), folder / "cache") == 0);  // a shorter sequence has the same images
+  CHECK(rendered_frames(small_scene(5), folder / "cache") == 2);  // of a longer one the rest is missing
+}
+
+TEST_CASE("rendered frames: every option that decides a pixel has images of its own") {
+  const TemporaryFolder folder;
+  std::vector<SyntheticOptions> scenes(11, small_scene(1));
+  scenes[1].scene = "cables";
+  scenes[2].width = 66;
+  scenes[3].height = 42;
+  scenes[4].focal = 37;
+  scenes[5].baseline = 0.07;
+  scenes[6].noise = 3;
+  scenes[7].right_gain = 1.5;
+  scenes[8].seed = 8;
+  scenes[9].mover = 0.2;
+  scenes[10].supersampling = 3;
+  for (const auto& scene : scenes) CHECK(rendered_frames(scene, folder / "cache") == 1);
+  CHECK(folders_in(folder / "cache") == 11);
+  auto threads = small_scene(1);
+  threads.threads = 3;
+  CHECK(rendered_frames(threads, folder / "cache") == 0);
+}
+
+TEST_CASE("rendered frames: an entry that is damaged in any way is rendered anew, and sound again") {
+  const TemporaryFolder folder;
+  REQUIRE(rendered_frames(small_scene(), folder / "cache") == 3);
+  const auto file = files_below(folder / "cache")[2];  // one view of the second frame
+  const auto size = fs::file_size(file);
+  SECTION("a pixel") {
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekg(static_cast<std::streamoff>(size) - 7);
+    const auto pixel = static_cast<char>(stream.get() ^ 1);
+    stream.seekp(static_cast<std::streamoff>(size) - 7);
+    stream.put(pixel);
+  }
+  SECTION("its head") { std::fstream(file, std::ios::binary | std::ios::in | std::ios::out) << "P6"; }
+  SECTION("cut short") { fs::resize_file(file, size / 2); }
+  SECTION("longer") { fs::resize_file(file, size + 1); }
+  SECTION("empty") { fs::resize_file(file, 0); }
+  SECTION("gone") { fs::remove(file); }
+  SECTION("a folder") {
+    fs::remove(file);
+    fs::create_directory(file);
+    CHECK(rendered_frames(small_scene(), folder / "cache") == 1);
+    fs::remove(file);
+  }
+  CHECK(rendered_frames(small_scene(), folder / "cache") == 1);
+  CHECK(rendered_frames(small_scene(), folder / "cache") == 0);
+}
+
+TEST_CASE("rendered frames: a folder that cannot be made costs nothing but the time to render") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "in the way";
+  RenderedFrames frames(small_scene(), folder / "file/cache");
+  for (int i = 0; i < 3; ++i) CHECK(frames.next());
+  CHECK(frames.progress().rendered == 3);
+  CHECK_THAT(frames.why_not_kept(), Catch::Matchers::Contains(folder / "file/cache"));
+  CHECK(rendered_frames(small_scene(), "") == 3);
+}
+
+TEST_CASE("rendered frames: only so much is in memory and on disk; what was used long ago goes first") {
+  const TemporaryFolder folder;
+  const std::uintmax_t frame = 2 * 64 * 40;
+  CHECK(rendered_frames(small_scene(5), folder / "cache", 2 * frame) == 5);  // in three blocks
+  CHECK(files_below(folder / "cache").size() == 4);
+  CHECK(rendered_frames(small_scene(5), folder / "cache", 2 * frame) == 3);
+  std::vector<SyntheticOptions> scenes(3, small_scene(1));
+  for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].seed = 100 + i;
+  fs::remove_all(folder / "cache");
+  for (const auto& scene : scenes) {
+    CHECK(rendered_frames(scene, folder / "cache") == 1);
+    for (const auto& kept : fs::directory_iterator(folder / "cache"))
+      fs::last_write_time(kept, fs::last_write_time(kept) - std::chrono::hours(1));
+  }
+  CHECK(rendered_frames(scenes[0], folder / "cache") == 0);  // used again: now the second is the oldest
+  CHECK(rendered_frames(small_scene(1), folder / "cache", 3 * (frame + 200)) == 1);
+  CHECK(folders_in(folder / "cache") == 3);
+  CHECK(rendered_frames(scenes[0], folder / "cache") == 0);
+  CHECK(rendered_frames(scenes[2], folder / "cache") == 0);
+  CHECK(rendered_frames(scenes[1], folder / "cache") == 1);
+}
+
+TEST_CASE("rendered frames: a second pass is read, and the watch can end a pass") {
+  const TemporaryFolder folder;
+  RenderedFrames frames(small_scene(), folder / "cache");
+  const auto first = frames.next();
+  frames.rewind();
+  const auto again = frames.next();
+  REQUIRE((first && again));
+  CHECK(again->number == 0);
+  CHECK(again->left.pixels == first->left.pixels);
+  CHECK(frames.progress().rendered == 3);
+
+  int told = 0;
+  RenderedFrames ended(small_scene(), "", [&](const data::RenderingProgress& progress) {
+    CHECK(progress.frames == 3);
+    CHECK(progress.ready <= 3);
+    ++told;
+    return false;
+  });
+  CHECK_FALSE(ended.prepare());
+  CHECK_FALSE(ended.next());
+  CHECK(told > 0);
+}
