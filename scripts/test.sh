@@ -20,4 +20,5 @@ if ! cmp -s "$requirements" "$venv/requirements.txt"; then
   cp "$requirements" "$venv/requirements.txt"
 fi
 
-exec ctest --test-dir "$repository/build" --output-on-failure "$@"
+# Tests side by side: many of them, such as the simulator and everything on the plain C++ reference, use one processor.
+exec ctest --test-dir "$repository/build" --output-on-failure --parallel "$(nproc)" "$@"

@@ -20,7 +20,7 @@ void add_camera(ContentHash& hash, const PinholeCamera& camera) {
 }
 
 void add_pose(ContentHash& hash, const Eigen::Isometry3d& pose) {
-  const Eigen::Matrix4d matrix = pose.matrix();
+  const Eigen::Matrix4d& matrix = pose.matrix();
   hash.add(std::vector<double>(matrix.data(), matrix.data() + matrix.size()));
 }
 
