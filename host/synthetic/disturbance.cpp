@@ -17,12 +17,12 @@ constexpr double kMomentsPerPixel = 2.0;  // of blur
 
 /// How far the image's middle moves per frame period around `frame` [px].
 double image_speed(const PinholeCamera& camera, int frame) {
-  constexpr double half = 0.25;
+  constexpr double kHalf = 0.25;
   const Eigen::Vector2d middle(0.5 * (camera.width - 1), 0.5 * (camera.height - 1));
   const Eigen::Vector3d point = world_from_left(frame) * Eigen::Vector3d(kBlurDepth * camera.ray(middle));
-  const Eigen::Vector2d before = camera.project(world_from_left(frame - half).inverse() * point);
-  const Eigen::Vector2d after = camera.project(world_from_left(frame + half).inverse() * point);
-  return (after - before).norm() / (2.0 * half);
+  const Eigen::Vector2d before = camera.project(world_from_left(frame - kHalf).inverse() * point);
+  const Eigen::Vector2d after = camera.project(world_from_left(frame + kHalf).inverse() * point);
+  return (after - before).norm() / (2.0 * kHalf);
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ inline double uniform(std::uint64_t bits) { return (static_cast<double>(bits >> 
 
 /// Standard normal deviate of a key (Box-Muller).
 inline double normal(std::uint64_t key) {
-  constexpr double two_pi = 6.283185307179586;
-  return std::sqrt(-2.0 * std::log(uniform(mix(key)))) * std::cos(two_pi * uniform(mix(~key)));
+  constexpr double kTwoPi = 6.283185307179586;
+  return std::sqrt(-2.0 * std::log(uniform(mix(key)))) * std::cos(kTwoPi * uniform(mix(~key)));
 }
 
 /// A sequence of deviates for building a scene.

@@ -146,10 +146,10 @@ Scene make_cables(std::uint64_t seed, double focal) {
 
   // Every cable keeps to its own layer of depth, so that cables cross but never run through one another.
   Random random(combine(seed, 3));
-  constexpr int cables = 16, control_points = 14;
-  constexpr double front = 1.45, back = 2.65, layer = (back - front) / cables;
-  for (int cable = 0; cable < cables; ++cable) {
-    const double depth = front + (cable + 0.5) * layer;
+  constexpr int kCables = 16, kControlPoints = 14;
+  constexpr double kFront = 1.45, kBack = 2.65, kLayer = (kBack - kFront) / kCables;
+  for (int cable = 0; cable < kCables; ++cable) {
+    const double depth = kFront + (cable + 0.5) * kLayer;
     const double radius = 0.5 * random(0.008, 0.03);
     const double reflectance = cable % 2 == 0 ? random(40.0, 90.0) : random(180.0, 230.0);
     const bool across = random(0.0, 1.0) < 0.6;
@@ -157,13 +157,13 @@ Scene make_cables(std::uint64_t seed, double focal) {
     const Vector3d along(std::cos(angle), std::sin(angle), 0.0), beside(-along.y(), along.x(), 0.0);
     const double offset = across ? random(-0.4, 0.4) * depth : random(-0.85, 0.85) * depth;
     std::vector<Vector3d> control;
-    for (int i = 0; i < control_points; ++i) {
-      const double place = (i - 0.5 * (control_points - 1)) * 0.45 + random(-0.1, 0.1);
+    for (int i = 0; i < kControlPoints; ++i) {
+      const double place = (i - 0.5 * (kControlPoints - 1)) * 0.45 + random(-0.1, 0.1);
       const double sway = offset + (i % 2 == 0 ? 1.0 : -1.0) * random(0.0, 0.3) + random(-0.15, 0.15);
-      const double room = std::max(0.0, 0.5 * layer - radius);
+      const double room = std::max(0.0, 0.5 * kLayer - radius);
       control.push_back(place * along + sway * beside + Vector3d(0.0, 0.0, depth + room * random(-1.0, 1.0)));
     }
-    scene.surfaces.push_back(std::make_unique<TubeSurface>(control, radius, reflectance, 0.01 * front / focal));
+    scene.surfaces.push_back(std::make_unique<TubeSurface>(control, radius, reflectance, 0.01 * kFront / focal));
   }
   return scene;
 }

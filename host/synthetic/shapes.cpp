@@ -166,10 +166,10 @@ PixelBox box_around(const std::vector<Vector3d>& points, const PinholeCamera& ca
   const auto clip = [](double value, int size) {
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
   };
-  constexpr double first = 0.5 - 0.01,
-                   last = 1.5 + 0.01;  // a pixel's square reaches half a pixel; 0.01 px for rounding
-  return {clip(std::floor(low.x() + first), camera.width), clip(std::floor(low.y() + first), camera.height),
-          clip(std::floor(high.x() + last), camera.width), clip(std::floor(high.y() + last), camera.height)};
+  constexpr double kFirst = 0.5 - 0.01,
+                   kLast = 1.5 + 0.01;  // a pixel's square reaches half a pixel; 0.01 px for rounding
+  return {clip(std::floor(low.x() + kFirst), camera.width), clip(std::floor(low.y() + kFirst), camera.height),
+          clip(std::floor(high.x() + kLast), camera.width), clip(std::floor(high.y() + kLast), camera.height)};
 }
 
 PlaneSurface::PlaneSurface(const Isometry3d& world_from_surface, double half_width, double half_height,
