@@ -32,9 +32,8 @@ void check_size(const SurfaceMap& map, const PinholeCamera& camera, const std::s
 }
 
 SurfaceMap read_disparity(const std::string& file, double scale, const PinholeCamera& camera) {
-  const SurfaceMap map = fs::path(file).extension() == ".pfm"
-                             ? surface_from_disparity(data::read_float_map(file), scale)
-                             : surface_from_grey(read_grey_image(file), scale);
+  SurfaceMap map = fs::path(file).extension() == ".pfm" ? surface_from_disparity(data::read_float_map(file), scale)
+                                                        : surface_from_grey(read_grey_image(file), scale);
   check_size(map, camera, file);
   return map;
 }
