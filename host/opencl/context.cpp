@@ -95,7 +95,8 @@ std::vector<std::pair<std::string, double>> Context::take_profile() {
   for (const auto& [stage, event] : events_) {
     const auto nanoseconds =
         event.getProfilingInfo<CL_PROFILING_COMMAND_END>() - event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-    const auto found = std::find_if(stages.begin(), stages.end(), [&](const auto& row) { return row.first == stage; });
+    const auto found =
+        std::find_if(stages.begin(), stages.end(), [&name = stage](const auto& row) { return row.first == name; });
     if (found == stages.end()) {
       stages.emplace_back(stage, static_cast<double>(nanoseconds) * 1e-6);
     } else {

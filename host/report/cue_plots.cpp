@@ -111,7 +111,8 @@ std::string short_count(std::int64_t count) {
 }  // namespace
 
 std::vector<std::string> cue_plots(const CueDistribution& cue) {
-  const auto [low, high] = shown_range(cue);
+  const auto range = shown_range(cue);
+  const double low = range.first, high = range.second;
   const std::string axis = cue.cue + (cue.unit.empty() ? "" : " [" + cue.unit + "]");
   const std::string density_unit = cue.unit.empty() ? "" : " [1/" + cue.unit + "]";
   Plot density = small_plot(std::to_string(cue.order) + "  " + cue.cue, axis, "density" + density_unit);
