@@ -1,6 +1,6 @@
 #include <Eigen/LU>
-#include <algorithm>
 #include <catch2/catch.hpp>
+#include <utility>
 
 #include "generated_quads.hpp"
 #include "pose/reprojection_terms.hpp"
@@ -137,31 +137,41 @@ TEST_CASE("A quad behind the camera counts nothing and keeps its depth and error
 namespace {
 
 using Lanes = Contributions<kOffsetValues, kLanes>;
-using EvaluateLanes = void (*)(const ReprojectionTerm*, const double*, const Evaluation&, Lanes&);
+using EvaluateLanes = void (*)(const ReprojectionTerms&, const Evaluation&, Lanes&);
 
-/// Quad by quad, or as vectors of the width that the caller is compiled for.
-[[gnu::always_inline]] inline void evaluate_lanes(const ReprojectionTerm* terms, const double* depth,
-                                                  const Evaluation& at, Lanes& result) {
+template <std::size_t... Column>
+[[gnu::always_inline]] inline ReprojectionTerm term_at(const double* const* columns, std::size_t row,
+                                                       std::index_sequence<Column...>) {
+  return {columns[Column][row]...};
+}
+
+/// The first eight quads, as vectors of the width that the caller is compiled for.
+[[gnu::always_inline]] inline void evaluate_lanes(const ReprojectionTerms& terms, const Evaluation& at, Lanes& result) {
+  const double* columns[ReprojectionTerms::kColumns];
+  for (std::size_t k = 0; k < ReprojectionTerms::kColumns; ++k) columns[k] = terms.column(k);
+  const double* depth = terms.depth.data();
   Lanes lanes;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) contribute(terms[lane], depth[lane], at, lane, lanes);
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    contribute(term_at(columns, lane, std::make_index_sequence<ReprojectionTerms::kColumns>()), depth[lane], at, lane,
+               lanes);
   result = lanes;
 }
 
-void at_x86_64(const ReprojectionTerm* terms, const double* depth, const Evaluation& at, Lanes& result) {
-  evaluate_lanes(terms, depth, at, result);
+void at_x86_64(const ReprojectionTerms& terms, const Evaluation& at, Lanes& result) {
+  evaluate_lanes(terms, at, result);
 }
 
 /// This file is compiled with -O3, so that each of these is vectorised.
 std::vector<EvaluateLanes> widths_of_this_machine();
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
-[[gnu::target("arch=x86-64-v3")]] void at_x86_64_v3(const ReprojectionTerm* terms, const double* depth,
-                                                    const Evaluation& at, Lanes& result) {
-  evaluate_lanes(terms, depth, at, result);
+[[gnu::target("arch=x86-64-v3")]] void at_x86_64_v3(const ReprojectionTerms& terms, const Evaluation& at,
+                                                    Lanes& result) {
+  evaluate_lanes(terms, at, result);
 }
-[[gnu::target("arch=x86-64-v4")]] void at_x86_64_v4(const ReprojectionTerm* terms, const double* depth,
-                                                    const Evaluation& at, Lanes& result) {
-  evaluate_lanes(terms, depth, at, result);
+[[gnu::target("arch=x86-64-v4")]] void at_x86_64_v4(const ReprojectionTerms& terms, const Evaluation& at,
+                                                    Lanes& result) {
+  evaluate_lanes(terms, at, result);
 }
 std::vector<EvaluateLanes> widths_of_this_machine() {
   std::vector<EvaluateLanes> result = {at_x86_64};
@@ -187,22 +197,16 @@ TEST_CASE("One quad alone and eight at once, at every width of vectors, give the
   half_behind.translation().z() -= 5;
   for (const auto& pose : {scene.pose, half_behind}) {
     const Evaluation at(pose, 0.2, {1.7, 5});
-    ReprojectionTerm terms[kLanes];
-    double depth[kLanes];
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      terms[k] = per_ray_unit(scene.term(k), scene.problem.rig.left);
-      depth[k] = 0.1 * static_cast<double>(k) - 0.3;
-    }
-    std::copy_n(depth, kLanes, scene.terms.depth.begin());
+    for (std::size_t k = 0; k < kLanes; ++k) scene.terms.depth[k] = 0.1 * static_cast<double>(k) - 0.3;
     LaneContributions production;
     contributions_by_pose(scene.terms, at, 0, production);
     for (const EvaluateLanes evaluate : widths_of_this_machine()) {
       Lanes lanes;
-      evaluate(terms, depth, at, lanes);
+      evaluate(scene.terms, at, lanes);
       int behind = 0;
       for (std::size_t k = 0; k < kLanes; ++k) {
         Contributions<kOffsetValues, 1> one;
-        alone(terms[k], depth[k], at, one);
+        alone(per_ray_unit(scene.term(k), scene.problem.rig.left), scene.terms.depth[k], at, one);
         behind += one.error[0] < 0;
         for (std::size_t j = 0; j < kOffsetValues; ++j) CHECK(lanes.values[j][k] == one.values[j][0]);
         for (std::size_t j = 0; j < kPoseValues; ++j) CHECK(production.values[j][k] == one.values[j][0]);
