@@ -111,9 +111,9 @@ struct Problem {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   int quads = 500;
   double near = 5, far = 100;  ///< depths, uniform in the inverse [m]
-  double outliers = 0;         ///< share with a wrong current edge
+  double outliers = 0;         ///< ratio with a wrong current edge
   Noise noise;
-  double width_share = 1;  ///< of the image, from its left border, that is seen at first
+  double width_ratio = 1;  ///< of the image, from its left border, that is seen at first
   int copies = 1;  ///< quads come in rows of this many, half a pixel apart along the tangent, that share one error
 };
 
@@ -123,8 +123,8 @@ struct Generated {
 };
 
 inline OrientedPoint random_point(const quadedge::StereoRig& rig, double near, double far, Random& random,
-                                  double width_share = 1) {
-  const Eigen::Vector2d pixel(random.uniform(0, width_share * rig.left.width), random.uniform(0, rig.left.height));
+                                  double width_ratio = 1) {
+  const Eigen::Vector2d pixel(random.uniform(0, width_ratio * rig.left.width), random.uniform(0, rig.left.height));
   const double depth = 1.0 / random.uniform(1.0 / far, 1.0 / near);
   return {depth * rig.left.ray(pixel), random.unit()};
 }
@@ -135,7 +135,7 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
   quadedge::pose::QuadLimits quad_limits = limits();
   quad_limits.direction_sigma = problem.noise.direction;
   while (static_cast<int>(result.quads.size()) < problem.quads) {
-    const auto p = random_point(problem.rig, problem.near, problem.far, random, problem.width_share);
+    const auto p = random_point(problem.rig, problem.near, problem.far, random, problem.width_ratio);
     const Eigen::Vector3d moved = problem.motion * p.point;
     if (moved.z() < 0.5 * problem.near) continue;
     const Eigen::Vector2d seen = problem.rig.left.project(moved);

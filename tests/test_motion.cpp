@@ -32,7 +32,7 @@ TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a crooked 
       const MotionEstimate found = estimate_motion(rig, g.quads, kConfig, 42);
       REQUIRE(found.status == MotionStatus::ok);
       CHECK(found.inliers == 200);
-      CHECK(found.share == 1.0);
+      CHECK(found.inlier_ratio == 1.0);
       CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1e-9);
       CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 1e-9);
     }
@@ -67,7 +67,7 @@ TEST_CASE("70 % outliers are told from the rest", "[pose][motion]") {
   }
   CHECK(agreed > 0.8 * correct);
   CHECK(intruders < 0.02 * correct);
-  CHECK(found.share == Approx(static_cast<double>(found.inliers) / 1500));
+  CHECK(found.inlier_ratio == Approx(static_cast<double>(found.inliers) / 1500));
 }
 
 TEST_CASE("Switching the refinement off leaves the consensus pose without covariance", "[pose][motion]") {

@@ -47,7 +47,7 @@ TEST_CASE("A moving thing counts by the area that it covers, not by its edges", 
   generated::Problem scene = drive(), thing = drive();
   scene.quads = 600;
   thing.quads = 2400;
-  thing.width_share = 0.3;
+  thing.width_ratio = 0.3;
   thing.near = 4;
   thing.far = 6;
   thing.motion.translation() << 0.6, 0, 0.2;

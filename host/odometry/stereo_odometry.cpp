@@ -234,7 +234,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   }
   odometry::KeyRigState state;
   state.quads = static_cast<int>(step.matches.size());
-  state.inlier_share = step.motion.share;
+  state.inlier_share = step.motion.inlier_ratio;
   state.median_parallax =
       odometry::median_parallax((by_key ? key_handle_ : previous_handle_)->edges, step.matches, distances_);
   state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();

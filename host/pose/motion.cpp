@@ -77,8 +77,8 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
     estimate.inliers = select_inliers(quads.scoring, LaterCameras(rig, pose), config.inlier_distance,
                                       radians(config.inlier_orientation), estimate.inlier);
   }
-  estimate.share = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
-  if (estimate.inliers < config.min_inliers || estimate.share < config.min_inlier_ratio) return;
+  estimate.inlier_ratio = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
+  if (estimate.inliers < config.min_inliers || estimate.inlier_ratio < config.min_inlier_ratio) return;
   if (!solved || spread(quads, estimate.inlier, rig.left) < config.min_spread) {
     estimate.status = MotionStatus::badly_spread;
     return;

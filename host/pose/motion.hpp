@@ -34,7 +34,7 @@ struct MotionEstimate {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<std::uint8_t> inlier;  ///< one byte per quad, at the pose found (whatever the status)
   int inliers = 0;
-  double share = 0;                        ///< inliers / quads
+  double inlier_ratio = 0;                 ///< inliers / quads
   double offset = 0, offset_variance = 0;  ///< what the disparities lack, see fit_offset() [px, px^2]
   int hypotheses = 0, draws = 0;           ///< of the search (see Consensus)
 };

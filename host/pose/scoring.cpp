@@ -22,43 +22,53 @@ void write_projection(const PinholeCamera& camera, const Eigen::Isometry3d& came
     for (int c = 0; c < 4; ++c) rows[4 * r + c] = static_cast<float>(matrix(r, c));
 }
 
-/// Does the image of the tangent at homogeneous pixel (x, y, z) run along (cosine, sine)?
-bool same_direction(const float* p, float x, float y, float z, float tx, float ty, float tz, float cosine, float sine,
-                    float limit) {
-  const float qx = p[0] * tx + p[1] * ty + p[2] * tz;
-  const float qy = p[4] * tx + p[5] * ty + p[6] * tz;
-  const float qz = p[8] * tx + p[9] * ty + p[10] * tz;
-  const float dx = qx * z - x * qz, dy = qy * z - y * qz;
-  return std::abs(dx * cosine + dy * sine) >= limit * std::sqrt(dx * dx + dy * dy);
+/// A homogeneous pixel; times the inverse depth where it is a point's.
+struct Projected {
+  float x, y, z;
+};
+
+/// Into the camera with the projection matrix `p` from the previous left frame: the point on the ray (x, y, 1).
+[[gnu::always_inline]] inline Projected project_point(const float* p, float x, float y, float inverse_depth) {
+  return {p[0] * x + p[1] * y + p[2] + p[3] * inverse_depth, p[4] * x + p[5] * y + p[6] + p[7] * inverse_depth,
+          p[8] * x + p[9] * y + p[10] + p[11] * inverse_depth};
+}
+
+/// The same of a direction, a point at infinity.
+[[gnu::always_inline]] inline Projected project_direction(const float* p, float x, float y, float z) {
+  return {p[0] * x + p[1] * y + p[2] * z, p[4] * x + p[5] * y + p[6] * z, p[8] * x + p[9] * y + p[10] * z};
+}
+
+[[gnu::always_inline]] inline float squared_norm(float x, float y) { return x * x + y * y; }
+
+/// Does a tangent projected to `tangent` at `point` run along (cosine, sine) in the image?
+bool same_direction(const Projected& point, const Projected& tangent, float cosine, float sine, float min_cosine) {
+  const float dx = tangent.x * point.z - point.x * tangent.z, dy = tangent.y * point.z - point.y * tangent.z;
+  return std::abs(dx * cosine + dy * sine) >= min_cosine * std::sqrt(squared_norm(dx, dy));
 }
 
 /// Sum of the rows' truncated squared distances [px^2].
 double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, float limit, std::size_t first,
                     std::size_t last) {
-  const float *rx = quads.ray_x.data(), *ry = quads.ray_y.data(), *rho = quads.inverse_depth.data();
-  const float *lx = quads.left_x.data(), *ly = quads.left_y.data(), *gx = quads.right_x.data(),
-              *gy = quads.right_y.data();
+  const float *ray_x = quads.ray_x.data(), *ray_y = quads.ray_y.data(), *inverse_depth = quads.inverse_depth.data();
+  const float *left_x = quads.left_x.data(), *left_y = quads.left_y.data();
+  const float *right_x = quads.right_x.data(), *right_y = quads.right_y.data();
   const LaterCameras c = cameras;  // a local copy stays in registers
-  const float *l = c.left, *g = c.right;
   float sums[kSums] = {};
   float costs[kBlock];
   for (std::size_t begin = first; begin < last; begin += kBlock) {
     const std::size_t rows = std::min(kBlock, last - begin);
     for (std::size_t k = 0; k < rows; ++k) {
       const std::size_t i = begin + k;
-      const float a = rx[i], b = ry[i], d = rho[i];
-      const float lz = l[8] * a + l[9] * b + l[10] + l[11] * d;
-      const float gz = g[8] * a + g[9] * b + g[10] + g[11] * d;
-      const float li = 1.0f / lz, gi = 1.0f / gz;
-      const float ex = (l[0] * a + l[1] * b + l[2] + l[3] * d) * li - lx[i];
-      const float ey = (l[4] * a + l[5] * b + l[6] + l[7] * d) * li - ly[i];
-      const float fx = (g[0] * a + g[1] * b + g[2] + g[3] * d) * gi - gx[i];
-      const float fy = (g[4] * a + g[5] * b + g[6] + g[7] * d) * gi - gy[i];
-      const float left = ex * ex + ey * ey, right = fx * fx + fy * fy;
+      const Projected in_left = project_point(c.left, ray_x[i], ray_y[i], inverse_depth[i]);
+      const Projected in_right = project_point(c.right, ray_x[i], ray_y[i], inverse_depth[i]);
+      const float left_inverse = 1.0f / in_left.z, right_inverse = 1.0f / in_right.z;
+      const float left = squared_norm(in_left.x * left_inverse - left_x[i], in_left.y * left_inverse - left_y[i]);
+      const float right =
+          squared_norm(in_right.x * right_inverse - right_x[i], in_right.y * right_inverse - right_y[i]);
       const float worse = left > right ? left : right;
-      const float near = lz < gz ? lz : gz;
+      const float nearer = in_left.z < in_right.z ? in_left.z : in_right.z;
       const float cost = worse < limit ? worse : limit;  // NaN counts as the limit
-      costs[k] = near > 0.0f ? cost : limit;
+      costs[k] = nearer > 0.0f ? cost : limit;
     }
     for (std::size_t k = rows; k < kBlock; ++k) costs[k] = 0.0f;
     for (std::size_t k = 0; k < kBlock; k += kSums)
@@ -69,20 +79,18 @@ double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, flo
   return sum;
 }
 
+/// \param limit squared distance [px^2] \param min_cosine between projected and measured direction
 bool is_inlier(const ScoringArrays& quads, std::size_t i, const LaterCameras& cameras, float limit, float min_cosine) {
-  const float *l = cameras.left, *g = cameras.right;
-  const float a = quads.ray_x[i], b = quads.ray_y[i], d = quads.inverse_depth[i];
-  const float lz = l[8] * a + l[9] * b + l[10] + l[11] * d, gz = g[8] * a + g[9] * b + g[10] + g[11] * d;
-  if (!(lz > 0.0f && gz > 0.0f)) return false;
-  const float lx = l[0] * a + l[1] * b + l[2] + l[3] * d, ly = l[4] * a + l[5] * b + l[6] + l[7] * d;
-  const float ex = lx / lz - quads.left_x[i], ey = ly / lz - quads.left_y[i];
-  if (!(ex * ex + ey * ey < limit)) return false;
-  const float gx = g[0] * a + g[1] * b + g[2] + g[3] * d, gy = g[4] * a + g[5] * b + g[6] + g[7] * d;
-  const float fx = gx / gz - quads.right_x[i], fy = gy / gz - quads.right_y[i];
-  if (!(fx * fx + fy * fy < limit)) return false;
-  const float tx = quads.tangent_x[i], ty = quads.tangent_y[i], tz = quads.tangent_z[i];
-  return same_direction(l, lx, ly, lz, tx, ty, tz, quads.left_cos[i], quads.left_sin[i], min_cosine) &&
-         same_direction(g, gx, gy, gz, tx, ty, tz, quads.right_cos[i], quads.right_sin[i], min_cosine);
+  const Projected left = project_point(cameras.left, quads.ray_x[i], quads.ray_y[i], quads.inverse_depth[i]);
+  const Projected right = project_point(cameras.right, quads.ray_x[i], quads.ray_y[i], quads.inverse_depth[i]);
+  if (!(left.z > 0.0f && right.z > 0.0f)) return false;
+  if (!(squared_norm(left.x / left.z - quads.left_x[i], left.y / left.z - quads.left_y[i]) < limit)) return false;
+  if (!(squared_norm(right.x / right.z - quads.right_x[i], right.y / right.z - quads.right_y[i]) < limit)) return false;
+  const float x = quads.tangent_x[i], y = quads.tangent_y[i], z = quads.tangent_z[i];
+  return same_direction(left, project_direction(cameras.left, x, y, z), quads.left_cos[i], quads.left_sin[i],
+                        min_cosine) &&
+         same_direction(right, project_direction(cameras.right, x, y, z), quads.right_cos[i], quads.right_sin[i],
+                        min_cosine);
 }
 
 }  // namespace
