@@ -16,7 +16,7 @@ from pathlib import Path
 LONGEST_LINE = 120
 LONGEST_FUNCTION = 60
 CODE = {".cpp", ".hpp", ".cl", ".py", ".sh", ".cmake", ".toml", ".txt"}
-LAYERS = ("include/quadedge", "host", "bench", "tests")
+LAYERS = ("include/quadedge", "host", "bench", "tests", "examples")
 
 
 class Tree:
@@ -24,8 +24,8 @@ class Tree:
 
     def __init__(self, root: Path):
         self.root = root
-        names = subprocess.run(["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard"],
-                               check=True, capture_output=True, text=True).stdout.split("\n")
+        call = ["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard"]
+        names = subprocess.run(call, check=True, capture_output=True, text=True).stdout.split("\n")
         self.files = sorted(name for name in names if name and (root / name).is_file())
         self.base_names = {Path(name).name for name in self.files}
         self.folders = {str(parent) for name in self.files for parent in Path(name).parents}
