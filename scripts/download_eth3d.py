@@ -219,7 +219,8 @@ def write_published(target, sequences, pairs):
     spare.rename(path)
 
 
-def main():
+def parse_arguments():
+    """The options, with what follows from them, and the function that ends with a complaint about them."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("target", type=Path, metavar="TARGET")
     parser.add_argument(
@@ -238,16 +239,22 @@ def main():
     arguments = parser.parse_intermixed_args()  # options may stand between names
     if arguments.slam and arguments.two_view or arguments.sequences and arguments.two_view:
         parser.error("--two-view loads no sequence")
-    with_slam = not arguments.two_view
-    with_pairs = not arguments.slam and not arguments.sequences
+    arguments.with_slam = not arguments.two_view
+    arguments.with_pairs = not arguments.slam and not arguments.sequences
     if urllib.parse.urlsplit(arguments.address).scheme not in ("http", "https"):
         parser.error(f"--address {arguments.address}: expected http://... or https://...")
     if shutil.which("curl") is None:
         parser.error("the program curl is missing (Debian: curl)")
-    if with_pairs and not arguments.list and shutil.which("7z") is None:
+    if arguments.with_pairs and not arguments.list and shutil.which("7z") is None:
         parser.error(
             "the two-view pairs need the program 7z (Debian: p7zip-full); --slam loads the sequences without it"
         )
+    return arguments, parser.error
+
+
+def main():
+    arguments, complain = parse_arguments()
+    with_slam, with_pairs = arguments.with_slam, arguments.with_pairs
     problems = []
 
     def attempt(work, *values):
@@ -266,7 +273,7 @@ def main():
         return 0
     unknown = [name for name in arguments.sequences if name not in published]
     if unknown:
-        parser.error(f"no such sequence: {', '.join(unknown)}; --list shows all")
+        complain(f"no such sequence: {', '.join(unknown)}; --list shows all")
     os.makedirs(arguments.target, exist_ok=True)
     if with_slam:
         write_published(arguments.target, published, [])
