@@ -5,7 +5,7 @@
     disturbance_sweep.py OUT --scenes room --kinds blur noise --frames 10 --size 640x332
 
 Swept are the light of every second frame (half to twice), the right camera's exposure (half to twice), motion blur (to
-5 px), camera noise (to 8 grey levels) and the share of the image that a board moving on its own covers (to 40 %).
+5 px), camera noise (to 8 grey levels) and the ratio of the image that a board moving on its own covers (to 40 %).
 OUT/disturbances.csv and .json hold one row per run, OUT/disturbances.svg the plots. A step is wrong where it is
 reported as tracked and is off by more than 5 mm + 10 % of the motion or by 0.25 degrees (`quadedge evaluate trajectory
 --steps`). Needs matplotlib and the program `quadedge`.
@@ -26,7 +26,7 @@ KINDS = {
     "right-gain": ("exposure of the right camera, factor", (0.5, 0.7, 1, 1.4, 2)),
     "blur": ("motion blur [px]", (0, 1, 2, 3, 4, 5)),
     "noise": ("camera noise [grey levels]", (0, 1.5, 3, 5, 8)),
-    "mover": ("share covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4)),
+    "mover": ("ratio of the image covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4)),
 }
 COLUMNS = ("scene", "kind", "value", "frames", "tracked", "right", "wrong", "lost", "rpe_translation_m",
            "rpe_rotation_deg", "end_drift_percent")

@@ -1,0 +1,380 @@
+#!/usr/bin/env python3
+"""Measures everything that README and doc/ tell in figures: accuracy, matching and speed, into doc/results.
+
+    scripts/measure.py                         all parts, some minutes; --data or QUADEDGE_DATA is the recorded data
+    scripts/measure.py --only speed            one part; the others stay as they are
+    scripts/measure.py --keep                  goes on after an interruption: runs that are complete serve again
+    scripts/measure.py --frames 6 --out try    a quick look elsewhere
+
+Every part is written to OUT/PART.json with commit, date and the command behind each figure; scripts/result_tables.py
+then writes the tables and the marked blocks of the documentation. The programs are those of build/, brought up to date
+first; the OpenCV baseline needs -DQUADEDGE_BENCHMARKS=ON there. With matplotlib (build/venv) also the paths over the
+rendered scenes are drawn.
+Exit code: 0 done, 1 a program failed, 2 wrong usage.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import result_tables
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+RECORDED = {
+    "kitti06": "kitti_odometry/sequences/06",
+    "kitti01": "kitti_odometry/sequences/01",
+    "rest": "euroc_v1_01_easy_at_rest",
+    "flight": "euroc_mh_01_easy",
+    "keyframes": "euroc_v1_01_easy_keyframes",
+}
+SCENES = ("room", "cables")
+# Title, run, first frame that is judged
+JUDGED = (
+    ("KITTI 06", "kitti06", 0),
+    ("KITTI 06, from frame 10", "kitti06", 10),
+    ("KITTI 01", "kitti01", 0),
+    ("EuRoC MH_01, flight", "flight", 0),
+    ("EuRoC V1_01 at rest", "rest", 0),
+    ("EuRoC V1_01 key frames", "keyframes", 0),
+    ("rendered room", "room", 0),
+    ("rendered cables", "cables", 0),
+)
+SYSTEMS = ("default", "paper", "opencv")
+ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
+MATCHED = {
+    "ETH3D terrace_2s": ("eth3d_two_view/two_view_training/terrace_2s",),
+    "Middlebury Motorcycle": ("middlebury_2014/Motorcycle-perfect-quarter",),
+    "Middlebury teddy, Art, Dolls, Reindeer": (
+        "middlebury_2003/teddy",
+        "middlebury_2005/Art",
+        "middlebury_2005/Dolls",
+        "middlebury_2005/Reindeer",
+    ),
+    "Middlebury Laundry": ("middlebury_2005/Laundry",),
+    "rendered room": "room",
+    "rendered cables": "cables",
+}
+MATCHED_FRAMES = 3  # of a rendered scene
+TIMED = {"built-in room": None, "KITTI 06": RECORDED["kitti06"], "EuRoC MH_01, flight": RECORDED["flight"]}
+COMPLETE = "complete"  # empty file in the folder of a run that came to its end
+
+
+class Problem(Exception):
+    """Something that a user should read."""
+
+
+class Programs:
+    """Runs the programs; notes the commands as a reader would type them."""
+
+    def __init__(self, options):
+        self.options = options
+
+    def call(self, command, allowed=(0,)):
+        command = [str(part) for part in command]
+        result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        if result.returncode not in allowed:
+            raise Problem(f"{shlex.join(command)}\nended with code {result.returncode}: {result.stderr.strip()}")
+
+    def text(self, command):
+        """The command with DATA, OUT and the programs' plain names for the folders of this machine."""
+        names = {str(self.options.quadedge): "quadedge", str(self.options.baseline): "opencv_baseline"}
+        parts = [names.get(str(part), str(part)) for part in command]
+        short = {str(self.options.work): "OUT", str(self.options.data): "DATA", str(REPOSITORY): "."}
+        for index, part in enumerate(parts):
+            for folder, name in short.items():
+                if part == folder or part.startswith(folder + "/"):
+                    parts[index] = part = name + part[len(folder) :]
+        return shlex.join(part for part in parts if part not in ("--quiet", "--force"))
+
+
+def source_of(run, options):
+    """What `quadedge run` or `demo` takes."""
+    if run in RECORDED:
+        frames = ["--frames", f"0:{options.frames}"] if options.frames else []
+        return ["run", options.data / RECORDED[run], *frames]
+    return ["demo", "--scene", run, *(["--frames", options.frames] if options.frames else [])]
+
+
+def track(system, run, programs):
+    """Tracks a sequence with a system. Returns the folder of its results, the truth, and the command."""
+    options = programs.options
+    output = options.work / system / run
+    truth = options.data / RECORDED[run] if run in RECORDED and not options.frames else output / "groundtruth.txt"
+    if system == "opencv":
+        place = options.data / RECORDED[run] if run in RECORDED else run
+        command = [options.baseline, place, "-o", output, *(["--frames", options.frames] if options.frames else [])]
+    else:
+        method = ["--config", REPOSITORY / "config" / "paper.toml"] if system == "paper" else []
+        command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
+    if not (options.keep and (output / COMPLETE).exists()):
+        print(f"{system}: {run}", file=sys.stderr, flush=True)
+        shutil.rmtree(output, ignore_errors=True)
+        programs.call(command, allowed=(0, 5))  # 5: many frames lost, which is a result too
+        (output / COMPLETE).touch()
+    return output, truth, command
+
+
+def judge(system, title, run, first, programs):
+    """One row: errors and steps of a system on a sequence, origin-aligned."""
+    output, truth, command = track(system, run, programs)
+    estimate, judged = output / "trajectory.txt", output / f"evaluation_{first}.json"
+    frames = sum(1 for _ in open(output / "trajectory_kitti.txt", encoding="utf-8"))
+    tracked = sum(1 for line in open(estimate, encoding="utf-8") if not line.startswith("#"))
+    evaluate = [
+        programs.options.quadedge,
+        "evaluate",
+        "trajectory",
+        estimate,
+        truth,
+        "--steps",
+        *(["--from-frame", first] if first else []),
+    ]
+    row = {
+        "system": system,
+        "title": title,
+        "sequence": run,
+        "frames": frames,
+        "tracked": tracked,
+        "from_frame": first,
+        "commands": [programs.text(command), programs.text(evaluate)],
+    }
+    if tracked - first < 3:
+        return row  # nothing to compare
+    programs.call([*evaluate, "--force", "--json", judged])
+    evaluation = json.loads(judged.read_text(encoding="utf-8"))
+    accuracy = evaluation["accuracy"]
+    row.update({name: accuracy["origin_aligned"][name]["mean"] for name in ERRORS})
+    row["se3_ape_translation_m"] = accuracy["se3_aligned"]["ape_translation_m"]["mean"]
+    row.update(path_length_m=accuracy["path_length_m"], end_drift_percent=accuracy["end_drift_percent"])
+    row["steps"] = {name: evaluation["steps"][name] for name in ("right", "wrong", "lost")}
+    return row
+
+
+def measure_accuracy(programs):
+    options = programs.options
+    judged = [entry for entry in JUDGED if entry[1] in options.sequences]
+    return [judge(system, *entry, programs) for entry in judged for system in options.systems]
+
+
+def matching_row(title, places, programs):
+    """Both pools of the last row of Table 1, and of the quads where there are poses."""
+    options = programs.options
+    frames = ["--frames", min(MATCHED_FRAMES, options.frames or MATCHED_FRAMES)] if isinstance(places, str) else []
+    paths = [places] if isinstance(places, str) else [options.data / place for place in places]
+    command = [options.quadedge, "evaluate", "matching", *paths, *frames]
+    file = options.work / f"matching_{title.replace(' ', '_').replace(',', '')}.json"
+    if not (options.keep and file.exists()):
+        print(f"matching: {title}", file=sys.stderr, flush=True)
+        programs.call([*command, "--quiet", "--force", "--json", file])
+    pooled = json.loads(file.read_text(encoding="utf-8"))["pooled"]
+
+    def figures(table):
+        return {name: table[name] for name in ("recall", "precision")}
+
+    row = {
+        "title": title,
+        "commands": [programs.text(command)],
+        "paired": figures(pooled["stereo"][-1]),
+        "all": figures(pooled["stereo_all"][-1]),
+        "disparity_median_px": pooled["disparity_error_px"]["median"],
+        "across_median_px": pooled["across_error_px"]["median"],
+    }
+    if "quads" in pooled:
+        row["quads"] = {"paired": figures(pooled["quads"]), "all": figures(pooled["quads_all"])}
+    return row
+
+
+def measure_matching(programs):
+    wanted = {
+        title: places
+        for title, places in MATCHED.items()
+        if not isinstance(places, str) or places in programs.options.sequences
+    }
+    if not programs.options.data:
+        wanted = {title: places for title, places in wanted.items() if isinstance(places, str)}
+    return [matching_row(title, places, programs) for title, places in wanted.items()]
+
+
+def measure_speed(programs):
+    options = programs.options
+    rows = []
+    for title, place in TIMED.items():
+        if place and not options.data:
+            continue
+        print(f"speed: {title}", file=sys.stderr, flush=True)
+        file = options.work / f"speed_{title.replace(' ', '_').replace(',', '')}.json"
+        command = [
+            options.quadedge,
+            "bench",
+            *([options.data / place] if place else []),
+            "--frames",
+            options.frames or 30,
+            "--warm-up",
+            3,
+            "--baseline",
+        ]
+        programs.call([*command, "--quiet", "--force", "--json", file])
+        bench = json.loads(file.read_text(encoding="utf-8"))
+        rows.append(
+            {
+                "title": f"{title}, {bench['input']['width']}x{bench['input']['height']}",
+                "commands": [programs.text(command)],
+                "device": bench["device"]["name"],
+                "platform": bench["device"]["platform"],
+                "threads": bench["threads"],
+                "edges_per_image": bench["counts"]["edges_left"],
+                "frames": bench["frames_measured"],
+                "median_ms": bench["latency_ms"]["median"],
+                "p90_ms": bench["latency_ms"]["p90"],
+                "frame_over_sift": bench["baseline"]["frame_ratio"],
+                "edges_ms": bench["edge_detection_ms"]["median"],
+                "edges_over_filters": bench["baseline"]["edges_ratio"],
+                "host_peak_mb": bench["memory_mb"]["host_peak"],
+            }
+        )
+    return rows
+
+
+PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed}
+
+
+def plot(scene, rows, options):
+    """The paths from above, and how far each pose is from the true one."""
+    import matplotlib
+
+    matplotlib.use("Agg")  # no window
+    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # the same bytes each run
+    from matplotlib import pyplot
+
+    def positions(file):
+        poses = [line.split() for line in open(file, encoding="utf-8") if line.strip() and not line.startswith("#")]
+        return [float(pose[1]) for pose in poses], [float(pose[3]) for pose in poses]
+
+    figure, (above, away) = pyplot.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
+    above.plot(
+        *positions(options.work / rows[0]["system"] / scene / "groundtruth.txt"),
+        color="black",
+        linewidth=3,
+        alpha=0.3,
+        label="truth",
+    )
+    for row in rows:
+        folder, name, color = (
+            options.work / row["system"] / scene,
+            result_tables.SYSTEMS[row["system"]],
+            f"C{SYSTEMS.index(row['system'])}",
+        )
+        above.plot(*positions(folder / "trajectory.txt"), color=color, linewidth=1, label=name)
+        if "end_drift_percent" not in row:
+            continue
+        # The first pose, which the alignment makes equal, has no error.
+        poses = json.loads((folder / "evaluation_0.json").read_text(encoding="utf-8"))["per_pose"][1:]
+        away.plot(
+            [pose["stamp_ns"] * 1e-9 for pose in poses],
+            [1e3 * pose["ape_translation_m"] for pose in poses],
+            color=color,
+            label=name,
+        )
+    above.set(xlabel="x [m]", ylabel="z [m]", title=f"rendered {scene}, left camera from above", aspect="equal")
+    away.set(xlabel="time [s]", ylabel="distance from the true position [mm]", yscale="log", title="origin-aligned")
+    for axis in (above, away):
+        axis.grid(alpha=0.3)
+    above.legend()
+    figure.savefig(options.out / f"{scene}.svg", metadata={"Date": None})
+    pyplot.close(figure)
+
+
+def commit():
+    """Of the sources, with a "+" where they have changed since; the documentation does not count."""
+
+    def git(*arguments):
+        return subprocess.run(
+            ["git", "-C", REPOSITORY, *arguments], stdout=subprocess.PIPE, text=True, check=True
+        ).stdout.strip()
+
+    return git("rev-parse", "--short=7", "HEAD") + (
+        "+" if git("status", "--porcelain", "--", ".", ":!doc", ":!README.md") else ""
+    )
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", nargs="+", choices=PARTS, default=list(PARTS), help="parts to measure")
+    parser.add_argument(
+        "--data",
+        type=Path,
+        default=os.environ.get("QUADEDGE_DATA"),
+        help="folder with the recorded sequences; without: rendered ones alone",
+    )
+    parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *SCENES), default=None)
+    parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
+    parser.add_argument(
+        "--frames",
+        type=int,
+        default=0,
+        help="only so many frames of each sequence; such figures are for --out elsewhere",
+    )
+    parser.add_argument("--keep", action="store_true", help="use the runs that are complete in WORK")
+    parser.add_argument("--out", type=Path, default=result_tables.RESULTS)
+    parser.add_argument(
+        "--work", type=Path, default=REPOSITORY / "build" / "measure", help="where the runs are written to"
+    )
+    parser.add_argument("--quadedge", type=Path, help="another program than that of build/")
+    parser.add_argument("--baseline", type=Path, help="another OpenCV baseline than that of build/")
+    options = parser.parse_args()
+    if options.frames and options.out == result_tables.RESULTS:
+        parser.error("--frames needs --out: the documentation is about whole sequences")
+    if options.sequences is None:
+        options.sequences = [*(RECORDED if options.data else ()), *SCENES]
+    elif not options.data and any(name in RECORDED for name in options.sequences):
+        parser.error("recorded sequences need --data or QUADEDGE_DATA")
+    options.work = options.work.resolve()
+    return options
+
+
+def main():
+    options = parse()
+    options.out.mkdir(parents=True, exist_ok=True)
+    options.work.mkdir(parents=True, exist_ok=True)
+    programs = Programs(options)
+    try:
+        needed = {"quadedge_program": options.quadedge}
+        if "accuracy" in options.only and "opencv" in options.systems:
+            needed["opencv_baseline"] = options.baseline
+        missing = [target for target, given in needed.items() if not given]
+        if missing:
+            programs.call(["cmake", "--build", REPOSITORY / "build", "--target", *missing])
+        options.quadedge = options.quadedge or REPOSITORY / "build" / "quadedge"
+        options.baseline = options.baseline or REPOSITORY / "build" / "bench" / "opencv_baseline"
+        for part in options.only:
+            rows = PARTS[part](programs)
+            result = {
+                "commit": commit(),
+                "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
+                "rows": rows,
+            }
+            (options.out / f"{part}.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+            if part == "accuracy":
+                try:
+                    for scene in (scene for scene in SCENES if scene in options.sequences):
+                        plot(scene, [row for row in rows if row["sequence"] == scene], options)
+                except ImportError:
+                    print(
+                        "measure: matplotlib is missing, so the pictures of the paths stay as they were",
+                        file=sys.stderr,
+                    )
+    except Problem as problem:
+        print(f"measure: {problem}", file=sys.stderr)
+        return 1
+    result_tables.write(options.out)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,331 @@
+#!/usr/bin/env python3
+"""Writes the tables of doc/results/*.json wherever the documentation shows them, so that no figure is typed twice.
+
+    scripts/result_tables.py            writes doc/results/PART.md and the marked blocks of README.md and doc/*.md
+    scripts/result_tables.py --check    changes nothing; exit code 1 where one of them differs from the JSON
+
+A block stands between <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py makes the JSON;
+doc/results/peers.json alone is written by hand, and says where its figures are from.
+"""
+
+import argparse
+import json
+import re
+import sys
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+RESULTS = REPOSITORY / "doc" / "results"
+SYSTEMS = {"default": "QuadEdge", "paper": "QuadEdge, paper.toml", "opencv": "OpenCV SIFT + PnP"}
+STEPS = "keyframes"  # judged step by step: errors over all its frames say nothing
+BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(str(cell) for cell in line) + " |\n" for line in lines)
+
+
+def number(value, digits=3):
+    return "-" if value is None else f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"
+
+
+def length(metres):
+    """In the unit that a reader would choose."""
+    if metres is None:
+        return "-"
+    return (
+        f"{number(metres)} m"
+        if metres >= 0.1
+        else f"{number(100 * metres)} cm" if metres >= 0.01 else f"{number(1000 * metres)} mm"
+    )
+
+
+def percent(value):
+    return "-" if value is None else f"{100 * value:.1f} %"
+
+
+def drift(row):
+    """In percent of the path; nothing of a camera at rest."""
+    return f"{number(row['end_drift_percent'], 2)} %" if row.get("path_length_m", 0) > 0.5 else "-"
+
+
+def stamp(result):
+    return f"Commit {result['commit']}, {result['date']}.\n"
+
+
+def command_list(rows):
+    """The commands behind each row."""
+    lines = [f"| {row['title']} | " + "<br>".join(f"`{command}`" for command in row["commands"]) + " |" for row in rows]
+    return "\n".join(["| what | commands |", "|---|---|", *lines]) + "\n"
+
+
+def errors(results, systems):
+    """One row per sequence and system."""
+    rows, shown = [], None
+    for row in results["accuracy"]["rows"]:
+        if row["system"] not in systems or row["sequence"] == STEPS:
+            continue
+        cells = ["" if row["title"] == shown else row["title"]]
+        if len(systems) > 1:
+            cells.append(SYSTEMS[row["system"]])
+        cells += [
+            f"{row['tracked']} / {row['frames']}",
+            number(row.get("ape_rotation_deg")),
+            length(row.get("ape_translation_m")),
+            number(row.get("rpe_rotation_deg")),
+            length(row.get("rpe_translation_m")),
+            drift(row),
+        ]
+        rows.append(cells)
+        shown = row["title"]
+    return (
+        table(
+            [
+                "sequence",
+                *(["system"] if len(systems) > 1 else []),
+                "tracked",
+                "APE rotation [deg]",
+                "APE translation",
+                "RPE rotation [deg]",
+                "RPE translation",
+                "end drift",
+            ],
+            rows,
+        )
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+def accuracy(results):
+    return errors(results, ("default",))
+
+
+def systems(results):
+    return errors(results, tuple(SYSTEMS))
+
+
+def steps(results):
+    judged = [row for row in results["accuracy"]["rows"] if row["sequence"] == STEPS and "steps" in row]
+    rows = [[SYSTEMS[row["system"]], *(row["steps"][name] for name in ("right", "wrong", "lost"))] for row in judged]
+    return (
+        table(["EuRoC V1_01 key frames", "steps right", "wrong, reported as good", "said to be lost"], rows)
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+def beside(results):
+    """QuadEdge and the OpenCV baseline side by side, for the README."""
+    by_title = {}
+    for row in results["accuracy"]["rows"]:
+        if row["sequence"] != STEPS:
+            by_title.setdefault(row["title"], {})[row["system"]] = row
+    rows = []
+    for title, found in by_title.items():
+        cells = [title]
+        for system in ("default", "opencv"):
+            row = found.get(system, {})
+            cells += [
+                f"{number(row.get('rpe_rotation_deg'), 2)} deg, {length(row.get('rpe_translation_m'))}",
+                drift(row),
+            ]
+        rows.append(cells)
+    return (
+        table(["recording", "QuadEdge: error per frame", "drift", "OpenCV SIFT + PnP: error per frame", "drift"], rows)
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+def matching(results):
+    rows = [
+        [
+            row["title"],
+            *(percent(row[pool][name]) for pool in ("paired", "all") for name in ("recall", "precision")),
+            f"{row['disparity_median_px']:.3f} px",
+            f"{row['across_median_px']:.3f} px",
+        ]
+        for row in results["matching"]["rows"]
+    ]
+    return (
+        table(
+            [
+                "pair",
+                "paired: recall",
+                "precision",
+                "all: recall",
+                "precision",
+                "disparity error, median",
+                "across the edge",
+            ],
+            rows,
+        )
+        + "\n"
+        + stamp(results["matching"])
+    )
+
+
+def quads(results):
+    rows = [
+        [
+            row["title"],
+            *(percent(row["quads"][pool][name]) for pool in ("paired", "all") for name in ("recall", "precision")),
+        ]
+        for row in results["matching"]["rows"]
+        if "quads" in row
+    ]
+    return (
+        table(["quads", "paired: recall", "precision", "all: recall", "precision"], rows)
+        + "\n"
+        + stamp(results["matching"])
+    )
+
+
+def speed(results):
+    rows = [
+        [
+            row["title"],
+            f"{row['edges_per_image']:.0f}",
+            f"{row['median_ms']:.0f} ms",
+            f"{row['p90_ms']:.0f} ms",
+            f"{1000 / row['median_ms']:.1f}",
+            f"{row['frame_over_sift']:.2f}",
+            f"{row['edges_ms']:.1f} ms",
+            f"{row['edges_over_filters']:.2f}",
+            f"{row['host_peak_mb']:.0f} MB",
+        ]
+        for row in results["speed"]["rows"]
+    ]
+    first = results["speed"]["rows"][0]
+    return (
+        table(
+            [
+                "sequence",
+                "edges per image",
+                "frame, median",
+                "p90",
+                "frames/s",
+                "frame / S",
+                "edges of one image",
+                "/ N",
+                "host memory",
+            ],
+            rows,
+        )
+        + f"\n{first['platform']}, {first['device']}, {first['threads']} threads. "
+        + stamp(results["speed"])
+    )
+
+
+def peers(results):
+    """Other systems; QuadEdge's own time is the measured one."""
+    kept = results["peers"]
+    rows = [list(row) for row in kept["rows"]]
+    own = [row for row in results.get("speed", {}).get("rows", []) if row["title"].startswith("KITTI 06")]
+    for row in rows:
+        if row[1] == "measured":
+            row[1] = f"{own[0]['median_ms']:.0f} ms" if own else "-"
+    return table(kept["head"], rows)
+
+
+TABLES = {
+    "accuracy": accuracy,
+    "systems": systems,
+    "steps": steps,
+    "beside": beside,
+    "matching": matching,
+    "quads": quads,
+    "speed": speed,
+    "peers": peers,
+}
+PART_OF = {"beside": "accuracy", "systems": "accuracy", "steps": "accuracy", "quads": "matching"}
+# Part -> (title, what to know, tables)
+PAGES = {
+    "accuracy": (
+        "Accuracy",
+        "Origin-aligned means: absolute (APE) and from frame to frame (RPE)."
+        " What they mean: [accuracy.md](../accuracy.md).",
+        ("systems", "steps"),
+    ),
+    "matching": (
+        "Matching",
+        "After the last filter, of left edges whose counterpart exists (paired) and of all left edges (all);"
+        " what that means: [matching.md](../matching.md).",
+        ("matching", "quads"),
+    ),
+    "speed": (
+        "Speed",
+        "From images in host memory to the pose on the host; S and N are OpenCV's yardsticks:"
+        " [performance.md](../performance.md).",
+        ("speed",),
+    ),
+}
+NAMES = "DATA is the folder with the recorded sequences, OUT a folder for results."
+
+
+def render(name, results):
+    """A table, or a word that it is missing."""
+    part = PART_OF.get(name, name)
+    return TABLES[name](results) if part in results else f"*Not measured yet: `scripts/measure.py --only {part}`.*\n"
+
+
+def page(part, results):
+    title, about, names = PAGES[part]
+    if part not in results:
+        return f"# {title}\n\n{render(part, results)}"
+    parts = [
+        f"# {title}\n",
+        f"Made by `scripts/measure.py --only {part}`. {about}\n",
+        *(render(name, results) for name in names),
+        f"## Commands\n\n{NAMES}\n",
+        command_list(results[part]["rows"]),
+    ]
+    return "\n".join(parts)
+
+
+def wanted_texts(folder):
+    """Path -> what should stand there, of all that the JSON decides."""
+    results = {file.stem: json.loads(file.read_text(encoding="utf-8")) for file in sorted(folder.glob("*.json"))}
+    texts = {folder / f"{part}.md": page(part, results) for part in PAGES if part in results or folder == RESULTS}
+    if folder == RESULTS:
+        for file in (REPOSITORY / "README.md", *sorted((REPOSITORY / "doc").glob("*.md"))):
+            text = file.read_text(encoding="utf-8")
+            texts[file] = BLOCK.sub(lambda block: block[1] + render(block[2], results) + block[3], text)
+    return texts
+
+
+def differing(folder):
+    return [
+        (file, text)
+        for file, text in wanted_texts(folder).items()
+        if not file.exists() or file.read_text(encoding="utf-8") != text
+    ]
+
+
+def write(folder=RESULTS):
+    for file, text in differing(folder):
+        file.write_text(text, encoding="utf-8")
+        print(f"wrote {file.relative_to(REPOSITORY) if file.is_relative_to(REPOSITORY) else file}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--results", type=Path, default=RESULTS, metavar="DIR")
+    options = parser.parse_args()
+    if not options.check:
+        write(options.results)
+        return 0
+    stale = [file for file, _ in differing(options.results)]
+    for file in stale:
+        print(
+            f"result_tables: {file} differs from the JSON beside it; scripts/result_tables.py writes it anew",
+            file=sys.stderr,
+        )
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Measures a little with scripts/measure.py, and holds that the documentation shows what doc/results holds.
+
+test_measure.py SCRIPTS QUADEDGE
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+scripts, quadedge = Path(sys.argv[1]), sys.argv[2]
+sys.path.insert(0, str(scripts))
+import result_tables  # noqa: E402
+
+
+def run(script, *options):
+    return subprocess.run(
+        [sys.executable, scripts / script, *map(str, options)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+
+
+# Every block of the documentation, and the pages of doc/results, are what the JSON says.
+stale = result_tables.differing(result_tables.RESULTS)
+assert not stale, [str(file) for file, _ in stale]
+
+with tempfile.TemporaryDirectory() as folder:
+    # A measurement holds what the programs say, in full precision, with commit and command.
+    out, work = Path(folder) / "results", Path(folder) / "work"
+    small = (
+        "--quadedge",
+        quadedge,
+        "--out",
+        out,
+        "--work",
+        work,
+        "--frames",
+        "3",
+        "--sequences",
+        "cables",
+        "--systems",
+        "default",
+    )
+    done = run("measure.py", *small, "--only", "accuracy")
+    assert done.returncode == 0, done.stderr
+    result = json.loads((out / "accuracy.json").read_text())
+    (row,) = result["rows"]
+    report = json.loads((work / "default/cables/report.json").read_text())
+    assert row["tracked"] == row["frames"] == 3, row
+    for name in ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m"):
+        assert abs(row[name] - report["accuracy"]["origin_aligned"][name]["mean"]) < 1e-6, (name, row)
+    assert row["steps"] == {"right": 2, "wrong": 0, "lost": 0}, row
+    assert row["commands"][0] == "quadedge demo --scene cables --frames 3 -o OUT/default/cables", row["commands"]
+    assert result["commit"] and len(result["date"]) == 10, result
+    page = (out / "accuracy.md").read_text()
+    assert (
+        "| rendered cables | QuadEdge | 3 / 3 |" in page and row["commands"][1] in page and result["commit"] in page
+    ), page
+    assert "<svg" in (out / "cables.svg").read_text()
+
+    # What is complete serves again; a changed page is seen.
+    stamp = (work / "default/cables/report.json").stat().st_mtime_ns
+    assert run("measure.py", *small, "--only", "accuracy", "--keep").returncode == 0
+    assert (work / "default/cables/report.json").stat().st_mtime_ns == stamp
+    assert run("result_tables.py", "--check", "--results", out).returncode == 0
+    (out / "accuracy.md").write_text(page.replace("3 / 3", "2 / 3"))
+    told = run("result_tables.py", "--check", "--results", out)
+    assert told.returncode == 1 and "accuracy.md" in told.stderr, told
+    assert run("result_tables.py", "--results", out).returncode == 0
+    assert (out / "accuracy.md").read_text() == page
+
+    # Blocks of a document: filled, filled anew, and a table without a measurement says so.
+    results = {"accuracy": result}
+    end = "<!-- end of table -->\n"
+    text = f"before\n<!-- table: accuracy -->\nold\n{end}after\n<!-- table: speed -->\n{end}"
+    filled = result_tables.BLOCK.sub(lambda block: block[1] + result_tables.render(block[2], results) + block[3], text)
+    assert "old" not in filled and "| rendered cables | 3 / 3 |" in filled and "Not measured yet" in filled, filled
+    assert filled.startswith("before\n") and "<!-- end of table -->\nafter\n" in filled, filled
+
+    # A program that fails is said, with its complaint; figures of a few frames do not get into the documentation.
+    failed = run(
+        "measure.py",
+        "--quadedge",
+        quadedge,
+        "--out",
+        out,
+        "--work",
+        work,
+        "--only",
+        "accuracy",
+        "--frames",
+        "3",
+        "--sequences",
+        "rest",
+        "--systems",
+        "default",
+        "--data",
+        Path(folder) / "absent",
+    )
+    assert failed.returncode == 1 and "absent" in failed.stderr, failed
+    assert run("measure.py", "--frames", "3").returncode == 2
+    assert run("measure.py", "--sequences", "mars").returncode == 2
