@@ -74,6 +74,7 @@ class Programs:
 
     def __init__(self, options):
         self.options = options
+        self.tracked = set()  # folders of runs made now: two rows may judge one of them
 
     def call(self, command, allowed=(0,)):
         command = [str(part) for part in command]
@@ -112,11 +113,12 @@ def track(system, run, programs):
     else:
         method = ["--config", REPOSITORY / "config" / "paper.toml"] if system == "paper" else []
         command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
-    if not (options.keep and (output / COMPLETE).exists()):
+    if output not in programs.tracked and not (options.keep and (output / COMPLETE).exists()):
         print(f"{system}: {run}", file=sys.stderr, flush=True)
         shutil.rmtree(output, ignore_errors=True)
         programs.call(command, allowed=(0, 5))  # 5: many frames lost, which is a result too
         (output / COMPLETE).touch()
+        programs.tracked.add(output)
     return output, truth, command
 
 

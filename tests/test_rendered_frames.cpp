@@ -115,6 +115,7 @@ TEST_CASE("rendered frames: a folder that cannot be made costs nothing but the t
   RenderedFrames frames(small_scene(), folder / "file/cache");
   for (int i = 0; i < 3; ++i) CHECK(frames.next());
   CHECK(frames.progress().rendered == 3);
+  CHECK(frames.kept() == 0);
   CHECK_THAT(frames.why_not_kept(), Catch::Matchers::Contains(folder / "file/cache"));
   CHECK(rendered_frames(small_scene(), "") == 3);
 }
@@ -125,6 +126,10 @@ TEST_CASE("rendered frames: only so much is in memory and on disk; what was used
   CHECK(rendered_frames(small_scene(5), folder / "cache", 2 * frame) == 5);  // in three blocks
   CHECK(files_below(folder / "cache").size() == 4);
   CHECK(rendered_frames(small_scene(5), folder / "cache", 2 * frame) == 3);
+  RenderedFrames frames(small_scene(5), folder / "cache", {}, 2 * frame);
+  while (frames.next()) {
+  }
+  CHECK(frames.kept() == 2);
   std::vector<SyntheticOptions> scenes(3, small_scene(1));
   for (std::size_t i = 0; i < scenes.size(); ++i) scenes[i].seed = 100 + i;
   fs::remove_all(folder / "cache");

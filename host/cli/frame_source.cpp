@@ -48,10 +48,9 @@ class SyntheticSource : public FrameSource {
   const Trajectory& truth() const override { return truth_; }
   std::string truth_name() const override { return "exact poses of the renderer"; }
   std::string kept() const override {
-    const auto& progress = frames_.progress();
-    if (frames_.folder().empty() || !frames_.why_not_kept().empty() || progress.ready == 0) return {};
-    return std::to_string(progress.ready) + " of " + std::to_string(progress.frames) + " rendered frames are kept in " +
-           frames_.folder();
+    if (frames_.kept() == 0) return {};
+    return std::to_string(frames_.kept()) + " of " + std::to_string(frames_.progress().frames) +
+           " rendered frames are kept in " + frames_.folder();
   }
 
  private:

@@ -122,6 +122,17 @@ RenderedFrames::RenderedFrames(const SyntheticOptions& options, const std::strin
   progress_.frames = options.frames;
 }
 
+std::uintmax_t RenderedFrames::frames_within_bound() const {
+  const auto& camera = sequence_.rig().left;
+  return bound_ / (2 * static_cast<std::uintmax_t>(camera.width) * static_cast<std::uintmax_t>(camera.height));
+}
+
+int RenderedFrames::kept() const {
+  return keeps_ ? static_cast<int>(
+                      std::min<std::uintmax_t>(frames_within_bound(), static_cast<std::uintmax_t>(progress_.ready)))
+                : 0;
+}
+
 void RenderedFrames::make_folder() {
   if (!keeps_) return;
   std::error_code error;
@@ -141,8 +152,7 @@ bool RenderedFrames::make_view(int frame, bool right, Image& image) {
   const std::string file = view_file(folder_, frame, right);
   if (!folder_.empty() && read_view(file, image)) return false;
   image = sequence_.render(frame, right).image;
-  const bool fits = 2 * image.pixels.size() * (static_cast<std::uintmax_t>(frame) + 1) <= bound_;
-  if (!keeps_ || !fits) return true;
+  if (!keeps_ || static_cast<std::uintmax_t>(frame) >= frames_within_bound()) return true;
   try {
     write_atomically(file, pgm(image));
   } catch (const DataError& error) {
@@ -162,9 +172,7 @@ bool RenderedFrames::prepare() {
   const int frames = sequence_.frames();
   if (next_ == frames || next_ < first_ + static_cast<int>(block_.size())) return true;
   make_folder();
-  const auto& camera = sequence_.rig().left;
-  const auto frame_bytes = 2 * static_cast<std::uintmax_t>(camera.width) * static_cast<std::uintmax_t>(camera.height);
-  const auto count = std::clamp<std::uintmax_t>(bound_ / frame_bytes, 1, static_cast<std::uintmax_t>(frames - next_));
+  const auto count = std::clamp<std::uintmax_t>(frames_within_bound(), 1, static_cast<std::uintmax_t>(frames - next_));
   first_ = next_;
   block_ = std::vector<FramePrefetcher::Frame>(count);
   const int views = 2 * static_cast<int>(count), rendered_before = 2 * progress_.rendered;
@@ -182,7 +190,7 @@ bool RenderedFrames::prepare() {
   for (int i = 0; i < std::min(threads_, views); ++i) workers.push_back(std::async(std::launch::async, work));
   for (const auto& worker : workers) {
     while (worker.wait_for(kPoll) != std::future_status::ready) {
-      if (!stop) stop = !tell(first_ + made / 2, rendered);
+      if (!stop && made < views) stop = !tell(first_ + made / 2, rendered);
     }
   }
   for (auto& worker : workers) worker.get();

@@ -49,11 +49,14 @@ class RenderedFrames {
   const RenderingProgress& progress() const { return progress_; }
   /// Where this sequence's views are kept, FOLDER/KEY; empty without a folder.
   const std::string& folder() const { return folder_; }
+  /// How many of the ready frames another run will find in folder().
+  int kept() const;
   /// Why views that were rendered are not kept; empty when they are.
   const std::string& why_not_kept() const { return why_not_kept_; }
 
  private:
   bool make_view(int frame, bool right, Image& image);
+  std::uintmax_t frames_within_bound() const;
   void make_folder();
   bool tell(int ready, int rendered_views);
 
