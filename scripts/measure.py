@@ -78,7 +78,10 @@ class Programs:
 
     def call(self, command, allowed=(0,)):
         command = [str(part) for part in command]
-        result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        try:
+            result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        except OSError as error:
+            raise Problem(f"{command[0]} cannot be started: {error.strerror}") from error
         if result.returncode not in allowed:
             raise Problem(f"{shlex.join(command)}\nended with code {result.returncode}: {result.stderr.strip()}")
 
