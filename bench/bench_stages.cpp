@@ -1,6 +1,6 @@
 /// \file bench_stages.cpp  Kernel time of every stage by OpenCL events, for each kernel variant, on the device of
 /// QUADEDGE_DEVICE
-/// ("auto" without it): bench_stages --benchmark_filter=edges
+/// ("auto" without it): bench_stages --benchmark_filter=edge_detection
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cstdlib>

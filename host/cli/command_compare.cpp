@@ -51,7 +51,7 @@ class CompareCommand : public Command {
     return "check and measure every kernel variant of every stage on the same input";
   }
   std::string examples() const override {
-    return "  quadedge compare --stage edges\n"
+    return "  quadedge compare --stage edge_detection\n"
            "  quadedge compare --save";
   }
 
