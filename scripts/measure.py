@@ -357,10 +357,11 @@ def main():
             programs.call(["cmake", "--build", REPOSITORY / "build", "--target", *missing])
         options.quadedge = options.quadedge or REPOSITORY / "build" / "quadedge"
         options.baseline = options.baseline or REPOSITORY / "build" / "bench" / "opencv_baseline"
+        measured = commit()  # of the programs, whatever is committed while they run
         for part in options.only:
             rows = PARTS[part](programs)
             result = {
-                "commit": commit(),
+                "commit": measured,
                 "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
                 "rows": rows,
             }
