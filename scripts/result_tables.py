@@ -127,10 +127,9 @@ def beside(results):
         cells = [title]
         for system in ("default", "opencv"):
             row = found.get(system, {})
-            cells += [
-                f"{number(row.get('rpe_rotation_deg'), 2)} deg, {length(row.get('rpe_translation_m'))}",
-                drift(row),
-            ]
+            judged = "rpe_translation_m" in row
+            error = f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if judged else "-"
+            cells += [error, drift(row)]
         rows.append(cells)
     return (
         table(["recording", "QuadEdge: error per frame", "drift", "OpenCV SIFT + PnP: error per frame", "drift"], rows)
