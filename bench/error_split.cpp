@@ -18,7 +18,7 @@
 namespace {
 
 using namespace quadedge;
-using evaluation::TruePlaces;
+using evaluation::TruePositions;
 using evaluation::Visibility;
 
 constexpr double kWrong = 1.0;  // a quad farther than this from the truth across its edge, in any of its images [px]
@@ -53,9 +53,9 @@ struct Errors {
 /// Quads with rows of their own, so that each can be changed, and the true places of their ends.
 struct Quads {
   StereoEdges before, now;
-  TruePlaces before_right;         ///< of the earlier left edge in the earlier right image
-  TruePlaces now_left, now_right;  ///< of the earlier left edge in the later images
-  TruePlaces now_own_right;        ///< of the later left edge in its right image
+  TruePositions before_right;         ///< of the earlier left edge in the earlier right image
+  TruePositions now_left, now_right;  ///< of the earlier left edge in the later images
+  TruePositions now_own_right;        ///< of the later left edge in its right image
 
   std::size_t size() const { return before.size(); }
 };
@@ -72,7 +72,7 @@ void append(const StereoEdges& from, std::size_t i, StereoEdges& to) {
   to.ncc.push_back(from.ncc[i]);
 }
 
-evaluation::EdgePlaces left_places(const StereoEdges& edges) {
+evaluation::EdgePositions left_places(const StereoEdges& edges) {
   return {edges.left_x, edges.left_y, edges.left_direction};
 }
 
@@ -96,7 +96,7 @@ bool right(const Quads& q, std::size_t i) {
 
 Quads select(const Quads& all, const std::function<bool(const Quads&, std::size_t)>& wanted) {
   Quads kept;
-  const auto place = [](const TruePlaces& from, std::size_t i, TruePlaces& to) {
+  const auto place = [](const TruePositions& from, std::size_t i, TruePositions& to) {
     to.push(from.x[i], from.y[i], from.state[i], from.contour[i] != 0);
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -209,10 +209,10 @@ class Split {
       append(details.previous_stereo, static_cast<std::size_t>(details.quads.previous[q]), quads.before);
       append(details.stereo, static_cast<std::size_t>(details.quads.current[q]), quads.now);
     }
-    quads.before_right = true_right_places(source_.rig(), before, left_places(quads.before));
-    quads.now_left = true_later_places(source_.rig(), before, now, false, left_places(quads.before));
-    quads.now_right = true_later_places(source_.rig(), before, now, true, left_places(quads.before));
-    quads.now_own_right = true_right_places(source_.rig(), now, left_places(quads.now));
+    quads.before_right = true_right_positions(source_.rig(), before, left_places(quads.before));
+    quads.now_left = true_later_positions(source_.rig(), before, now, false, left_places(quads.before));
+    quads.now_right = true_later_positions(source_.rig(), before, now, true, left_places(quads.before));
+    quads.now_own_right = true_right_positions(source_.rig(), now, left_places(quads.now));
     return quads;
   }
 

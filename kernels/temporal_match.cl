@@ -2,11 +2,13 @@
 // both images, agreement, the best and its rivals. The same as temporal_candidates.cl, candidate_filters.cl without SIFT and
 // temporal_quads.cl one after the other, without lists in global memory.
 //
-// Needs similarity.cl and point_index.cl. In: predicted places of the base's stereo edges in both current images (NaN: none), the
+// Needs similarity.cl and point_index.cl. In: predicted positions of the base's stereo edges in both current images (NaN: none), the
 // current stereo edges of both sides in the order of their point indices, side patches with the number of each stereo edge's patch.
 // Out per row, which belongs to base edge row * row_step: {current edge or -1, rivals, score as bits, flags}.
 // With LANES (16) a work-item tests as many points of the index at once, and asks for memory ahead: for CPUs.
-// Reference: host/reference/temporal_candidates.cpp, candidate_filters.cpp, temporal_quads.cpp.
+// With TAP it also writes down every candidate within the radius, with its scores and its state
+// (layouts.cl). The orders of the filters are defined with TAP.
+// Reference: host/reference/temporal_match.cpp.
 
 // Candidates of a row and side that there is room for; a row with more says so and has no result.
 #define MOST 160
@@ -24,13 +26,47 @@ inline void ask_for_patch(global const char* patch) {
 #endif
 }
 
+#ifdef TAP
+// What a tap sees of one side of a row: {current edge, state, NCC as bits, SIFT distance as bits}
+// per candidate. SIFT is measured for the tap alone and decides nothing here.
+typedef struct {
+  global int* seen;                // of this row
+  int room;                        // candidates that fit there
+  int count;                       // candidates so far
+  int at[MOST];                    // where in `seen` the candidate in each slot of `target` stands
+  global const uchar* descriptor;  // of the base's stereo edge
+  global const uchar* descriptors;
+} TappedSide;
+
+inline int tap_candidate(TappedSide* tap, const int edge, const int state) {
+  if (tap->count < tap->room) vstore4((int4)(edge, state, 0, 0), tap->count, tap->seen);
+  return tap->count++;
+}
+inline void tap_state(TappedSide* tap, const int slot, const int state) {
+  if (tap->at[slot] < tap->room) tap->seen[4 * tap->at[slot] + 1] = state;
+}
+inline void tap_scores(TappedSide* tap, const int slot, const int edge, const float ncc) {
+  if (tap->at[slot] >= tap->room) return;
+  const int distance2 = sift_distance2(tap->descriptor, tap->descriptors + kEdgeSiftBytes * (size_t)edge);
+  tap->seen[4 * tap->at[slot] + 2] = as_int(ncc);
+  tap->seen[4 * tap->at[slot] + 3] = as_int(sqrt((float)distance2));
+}
+#define TAPPED(statement) statement
+#define TAP_PARAMETER , TappedSide* tap
+#define TAP_ARGUMENT(tap) , tap
+#else
+#define TAPPED(statement)
+#define TAP_PARAMETER
+#define TAP_ARGUMENT(tap)
+#endif
+
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
 inline int alike_near(const float x, const float y, const float direction, global const float* xs,
                       global const float* ys, global const float* directions, global const int* numbers,
                       global const int* cell_first, const int columns, const int rows, const float radius,
                       const float orientation, global const char* patch, global const char* patches,
                       global const int* patch_numbers, const float ncc_min, const float ncc_nearly_best, int* target,
-                      float* ncc) {
+                      float* ncc TAP_PARAMETER) {
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
   const int first_column = cell_of(x - radius, kCellWidth, columns),
             last_column = cell_of(x + radius, kCellWidth, columns);
@@ -46,13 +82,17 @@ inline int alike_near(const float x, const float y, const float direction, globa
     // The same tests in the same arithmetic: by how much each fails at most. Points beyond the cells are read and left out.
     for (const int last = min(end - 1, total - LANES); k <= last && near <= MOST - LANES; k += LANES) {
       float excess[LANES];
+      TAPPED(float too_far[LANES];)
       for (int lane = 0; lane < LANES; ++lane) {
         const float dx = xs[k + lane] - x, dy = ys[k + lane] - y;
+        TAPPED(too_far[lane] = dx * dx + dy * dy - radius * radius;)
         excess[lane] =
             fmax(dx * dx + dy * dy - radius * radius, angle_between(directions[k + lane], direction) - orientation);
       }
       const int lanes = min(LANES, end - k);
       for (int lane = 0; lane < lanes; ++lane) {  // what does not pass is overwritten by what comes next
+        TAPPED(if (too_far[lane] <= 0.0f) tap->at[near] =
+                   tap_candidate(tap, numbers[k + lane], excess[lane] <= 0.0f ? kCandidateAlive : ORIENTATION_ORDER);)
         target[near] = numbers[k + lane];
         near += excess[lane] <= 0.0f;
       }
@@ -61,8 +101,11 @@ inline int alike_near(const float x, const float y, const float direction, globa
     for (; k < end; ++k) {
       const float dx = xs[k] - x, dy = ys[k] - y;
       if (dx * dx + dy * dy > radius * radius) continue;
-      if (angle_between(directions[k], direction) > orientation) continue;
+      const int turned = angle_between(directions[k], direction) > orientation;
+      TAPPED(const int at = tap_candidate(tap, numbers[k], turned ? ORIENTATION_ORDER : kCandidateAlive);)
+      if (turned) continue;
       if (near == MOST) return -1;
+      TAPPED(tap->at[near] = at;)
       target[near++] = numbers[k];
     }
   }
@@ -74,21 +117,30 @@ inline int alike_near(const float x, const float y, const float direction, globa
   float best = 0.0f;
   for (int c = 0; c < near; ++c) {
     const float similarity = patch_ncc(patch, patches + kEdgePatchBytes * (size_t)patch_numbers[target[c]]);
-    if (similarity < ncc_min) continue;
+    TAPPED(tap_scores(tap, c, target[c], similarity);)
+    if (similarity < ncc_min) {
+      TAPPED(tap_state(tap, c, NCC_ORDER);)
+      continue;
+    }
+    TAPPED(tap->at[alike] = tap->at[c];)
     target[alike] = target[c];
     ncc[alike++] = similarity;
     best = fmax(best, similarity);
   }
   int kept = 0;
   for (int c = 0; c < alike; ++c) {
-    if (ncc[c] < ncc_nearly_best * best) continue;
+    if (ncc[c] < ncc_nearly_best * best) {
+      TAPPED(tap_state(tap, c, NEARLY_BEST_NCC_ORDER);)
+      continue;
+    }
+    TAPPED(tap->at[kept] = tap->at[c];)
     target[kept] = target[c];
     ncc[kept++] = ncc[c];
   }
   return kept;
 }
 
-// Groups of edges that chain up by place and direction: single linkage.
+// Groups of edges that chain up by position and direction: single linkage.
 inline int count_clusters(const int* edges, const int count, global const float* x, global const float* y,
                           global const float* direction, const float gap, const float orientation) {
   int label[MOST];
@@ -111,35 +163,56 @@ inline int count_clusters(const int* edges, const int count, global const float*
   return clusters;
 }
 
-kernel void temporal_match(const int rows, const int row_step, global const float* left_predicted_x,
-                           global const float* left_predicted_y, global const float* left_predicted_direction,
-                           global const float* right_predicted_x, global const float* right_predicted_y,
-                           global const float* right_predicted_direction, global const float* left_xs,
-                           global const float* left_ys, global const float* left_directions,
-                           global const int* left_numbers, global const int* left_cell_first, const int left_columns,
-                           const int left_cell_rows, global const float* right_xs, global const float* right_ys,
-                           global const float* right_directions, global const int* right_numbers,
-                           global const int* right_cell_first, const int right_columns, const int right_cell_rows,
-                           global const char* base_left_patches, global const int* base_left_index,
-                           global const char* base_right_patches, global const char* left_patches,
-                           global const int* left_index, global const char* right_patches, global const int* itself,
-                           global const float* current, const int stride, const float radius, const float orientation,
-                           const float ncc_min, const float ncc_nearly_best, const float distance_weight,
-                           const float cluster_gap, const float cluster_orientation, global int* result) {
+kernel void temporal_match(
+    const int rows, const int row_step, global const float* left_predicted_x, global const float* left_predicted_y,
+    global const float* left_predicted_direction, global const float* right_predicted_x,
+    global const float* right_predicted_y, global const float* right_predicted_direction, global const float* left_xs,
+    global const float* left_ys, global const float* left_directions, global const int* left_numbers,
+    global const int* left_cell_first, const int left_columns, const int left_cell_rows, global const float* right_xs,
+    global const float* right_ys, global const float* right_directions, global const int* right_numbers,
+    global const int* right_cell_first, const int right_columns, const int right_cell_rows,
+    global const char* base_left_patches, global const int* base_left_index, global const char* base_right_patches,
+    global const char* left_patches, global const int* left_index, global const char* right_patches,
+    global const int* itself, global const float* current, const int stride, const float radius,
+    const float orientation, const float ncc_min, const float ncc_nearly_best, const float distance_weight,
+    const float cluster_gap, const float cluster_orientation,
+    global int* result
+#ifdef TAP
+    // Lists of both sides: row 2 r is the left one of row r, 2 r + 1 the right one. In the first of
+    // two launches capacity is 0, and only `seen_counts` is written.
+    ,
+    global const int* seen_first, const int seen_capacity, global int* seen_counts, global int* seen,
+    global const uchar* base_left_sift, global const uchar* base_right_sift, global const uchar* left_sift,
+    global const uchar* right_sift
+#endif
+) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int i = row * row_step;
   int left_target[MOST], right_target[MOST];
   float left_ncc[MOST], right_ncc[MOST];
+#ifdef TAP
+  TappedSide tapped[2];
+  for (int side = 0; side < 2; ++side) {
+    const int begin = seen_capacity > 0 ? seen_first[2 * row + side] : 0;
+    tapped[side].seen = seen + 4 * (size_t)begin;
+    tapped[side].room = seen_capacity > 0 ? min(seen_first[2 * row + side + 1], seen_capacity) - begin : 0;
+    tapped[side].count = 0;
+    tapped[side].descriptor = (side == 0 ? base_left_sift : base_right_sift) + kEdgeSiftBytes * (size_t)i;
+    tapped[side].descriptors = side == 0 ? left_sift : right_sift;
+  }
+#endif
   const float x = left_predicted_x[i], y = left_predicted_y[i];
   const int left = alike_near(x, y, left_predicted_direction[i], left_xs, left_ys, left_directions, left_numbers,
                               left_cell_first, left_columns, left_cell_rows, radius, orientation,
                               base_left_patches + kEdgePatchBytes * (size_t)base_left_index[i], left_patches,
-                              left_index, ncc_min, ncc_nearly_best, left_target, left_ncc);
-  const int right = alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs,
-                               right_ys, right_directions, right_numbers, right_cell_first, right_columns,
-                               right_cell_rows, radius, orientation, base_right_patches + kEdgePatchBytes * (size_t)i,
-                               right_patches, itself, ncc_min, ncc_nearly_best, right_target, right_ncc);
+                              left_index, ncc_min, ncc_nearly_best, left_target, left_ncc TAP_ARGUMENT(&tapped[0]));
+  const int right =
+      alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs, right_ys,
+                 right_directions, right_numbers, right_cell_first, right_columns, right_cell_rows, radius, orientation,
+                 base_right_patches + kEdgePatchBytes * (size_t)i, right_patches, itself, ncc_min, ncc_nearly_best,
+                 right_target, right_ncc TAP_ARGUMENT(&tapped[1]));
+  TAPPED(for (int side = 0; side < 2; ++side) seen_counts[2 * row + side] = tapped[side].count;)
   const int flags =
       (left > 0 ? LEFT_ALIVE : 0) | (right > 0 ? RIGHT_ALIVE : 0) | (left < 0 || right < 0 ? OVERFLOW : 0);
   int agreeing = 0, winner = -1;
@@ -149,7 +222,10 @@ kernel void temporal_match(const int rows, const int row_step, global const floa
     for (int d = 0; d < right && found < 0; ++d) {
       if (right_target[d] == left_target[c]) found = d;
     }
-    if (found < 0) continue;
+    if (found < 0) {
+      TAPPED(tap_state(&tapped[0], c, AGREEMENT_ORDER);)
+      continue;
+    }
     const int j = left_target[c];
     const float mean = 0.5f * (left_ncc[c] + right_ncc[found]);
     const float dx = current[j] - x, dy = current[stride + j] - y;

@@ -74,17 +74,17 @@ TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   Config config;
   config.stereo.max_disparity = 30;
   MatchingObserver observer(small_rig(), config, {}, true);
-  observer.begin(plane_truth());
+  observer.begin(0, plane_truth());
   observer.edges(left, right);
   CandidateLists lists;
   lists.first = {0, 2, 3};
   lists.target = {0, 1, 1};
-  observer.stereo_filter(1, "on the line", lists);
-  observer.stereo_filter(2, "near", lists);
+  observer.stereo_filter(StereoFilter::epipolar_distance, lists);
+  observer.stereo_filter(StereoFilter::disparity, lists);
   lists.cue = {100, 300, 150};
-  observer.stereo_filter(3, "parallel", lists);
+  observer.stereo_filter(StereoFilter::orientation, lists);
   lists.cue = {0.9F, 0.45F, 0.95F};
-  observer.stereo_filter(5, "similar", lists);
+  observer.stereo_filter(StereoFilter::ncc, lists);
   FrameMatching measured = observer.end({});
   REQUIRE(measured.stereo[0].paired.pool == 1);
 
@@ -119,13 +119,13 @@ TEST_CASE("Shares of the best SIFT distance are turned over: the best has 1", "[
   lists.first = {0, 2};
   lists.target = {0, 1};
   lists.cue = {50, 200};
-  TruePlaces truth;
+  TruePositions truth;
   truth.push(5, 5, Visibility::visible, false);
   const Pools pools{{1}, {1}};
   const std::vector<float> x = {5, 9}, y = {5, 5};
   auto cues = make_cues(small_rig(), {});
   CueDistribution& cue = *find_cue(cues, CueTable::stereo, 7);
-  collect_shares(lists, {truth, pools, {}, x, y}, false, cue);
+  collect_ratios(lists, {truth, pools, {}, x, y}, false, cue);
   CHECK(in_bin(cue.veridical, 0.999) == 1);
   CHECK(in_bin(cue.other, 0.25) == 1);
 }

@@ -26,14 +26,14 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   add_edge(right, 60, 30.8F);  // 4
   Config config;
   MatchingObserver observer(small_rig(), config, {});
-  observer.begin(plane_truth());
+  observer.begin(0, plane_truth());
   observer.edges(left, right);
   // 0: two true candidates and a false one; 1: a true one; 2: a false one; 3, 4: candidates that must not count; 5: a
   // false one.
   CandidateLists lists;
   lists.first = {0, 3, 4, 5, 6, 7, 8, 8};
   lists.target = {0, 1, 3, 2, 3, 0, 0, 2};
-  observer.stereo_filter(1, "first", lists);
+  observer.stereo_filter(StereoFilter::epipolar_distance, lists);
   // Edge 0 keeps one true candidate, edge 1 loses its own and keeps nothing, edge 2 gets a refined place that is
   // true, and edge 5 one that would be if it could be seen.
   CandidateLists refined;
@@ -41,14 +41,14 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   refined.target = {1, 3, 2};
   refined.x = {20.1F, 40.5F, -5};
   refined.y = {10, 30, 50};
-  observer.stereo_filter(2, "second", refined);
+  observer.stereo_filter(StereoFilter::disparity, refined);
   const FrameMatching measured = observer.end({});
 
   REQUIRE(measured.stereo.size() == 3);
   CHECK(measured.census.edges == 7);
   CHECK(measured.census.no_statement == 1);
   CHECK(measured.census.along_line == 1);
-  CHECK(measured.census.hidden == 1);
+  CHECK(measured.census.occluded == 1);
   // Pools: paired = {0, 1}, all = {0, 1, 2, 5, 6}.
   const auto& baseline = measured.stereo[0];
   CHECK(baseline.paired.pool == 2);
@@ -90,131 +90,13 @@ TEST_CASE("The error of a final stereo edge is its distance from the true place,
   edges.right_direction = {0.5F};
   edges.ncc = {1};
   MatchingObserver observer(small_rig(), {}, {});
-  observer.begin(plane_truth());
+  observer.begin(0, plane_truth());
   observer.edges(left, right);
   observer.stereo(edges);
   const FrameMatching measured = observer.end({});
   REQUIRE(measured.disparity_error.size() == 1);
   CHECK(measured.disparity_error[0] == Approx(0.5));  // disparity 10.5 instead of 10
   CHECK(measured.across_error[0] == Approx(0.5 * std::sin(0.5)));
-}
-
-namespace {
-
-/// A stereo edge whose left and right points are given.
-void add_stereo(StereoEdges& edges, float left_x, float y, float right_x) {
-  edges.left_index.push_back(static_cast<std::int32_t>(edges.left_index.size()));
-  edges.right_index.push_back(edges.left_index.back());
-  edges.left_x.push_back(left_x);
-  edges.right_x.push_back(right_x);
-  for (auto* list : {&edges.left_y, &edges.right_y}) list->push_back(y);
-  for (auto* list : {&edges.left_direction, &edges.right_direction}) list->push_back(kSteep);
-  edges.ncc.push_back(1);
-}
-
-/// The edges that the stereo edges were made of.
-std::pair<EdgeSet, EdgeSet> images_of(const StereoEdges& stereo) {
-  std::pair<EdgeSet, EdgeSet> sets;
-  for (std::size_t i = 0; i < stereo.size(); ++i) {
-    add_edge(sets.first, stereo.left_x[i], stereo.left_y[i]);
-    add_edge(sets.second, stereo.right_x[i], stereo.right_y[i]);
-  }
-  return sets;
-}
-
-/// The plane 1 m away, seen from `x` m further right.
-FrameTruth plane_from(double x) {
-  FrameTruth truth = plane_truth();
-  truth.depth_scale = 10;  // focal length 100 px, baseline 0.1 m
-  truth.right_is_measured = true;
-  truth.world_from_left = Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0));
-  return truth;
-}
-
-}  // namespace
-
-// LONG: one pair of frames, judged from all sides.
-TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time that were worked out on paper",
-          "[matching]") {
-  // The rig moves by 0.05 m: everything shifts 5 px to the left in both images.
-  StereoEdges before, now;
-  add_stereo(before, 30, 10, 20);  // 0: goes to 0
-  add_stereo(before, 40, 20, 30);  // 1: goes to 1
-  add_stereo(before, 50, 30, 40);  // 2: nothing within a pixel of (45, 30)
-  add_stereo(before, 60, 40, 55);  // 3: a wrong stereo edge; what its left point becomes is known all the same
-  add_stereo(now, 25, 10, 15);
-  add_stereo(now, 35, 20, 25);
-  add_stereo(now, 48, 30, 38);
-  add_stereo(now, 55, 40, 45);
-  Config config;
-  config.stereo.max_disparity = 30;
-  MatchingObserver observer(small_rig(), config, {});
-  FrameResult result;
-  result.new_key_rig = true;
-  observer.begin(plane_from(0));
-  observer.edges(images_of(before).first, images_of(before).second);
-  observer.stereo(before);
-  const FrameMatching first = observer.end(result);
-  CHECK(first.temporal_left.empty());
-  CHECK(first.classes == MatchClassCounts{3, 1, 0, 0});
-
-  observer.begin(plane_from(0.05));
-  observer.edges(images_of(now).first, images_of(now).second);
-  observer.stereo(now);
-  const ExpectedEdges expected{{30, 40, 50, 60}, {10, 20, 30, 40}, {kSteep, kSteep, kSteep, kSteep}};
-  observer.temporal_search(expected, expected, 30, 1);
-  CandidateLists lists;
-  lists.first = {0, 2, 3, 4, 5};
-  lists.target = {0, 2, 2, 2, 3};  // 0: the true one and a false one; 1 and 2: a false one; 3: the true one
-  observer.temporal_filter(1, "first", 0, lists);
-  lists.first = {0, 1, 2, 3, 4};
-  lists.target = {0, 1, 2, 3};
-  observer.temporal_filter(1, "first", 1, lists);
-  TemporalMatches matches;
-  matches.previous = {0, 1, 3};
-  matches.current = {0, 2, 3};
-  matches.left_x = {25.2F, 48, 55};
-  matches.right_x = {15.1F, 38, 45};
-  matches.left_y = matches.right_y = {10, 30, 40};
-  matches.ncc = {1, 1, 1};
-  matches.rivals = {3, 1, 5};
-  observer.quads(matches);
-  result.status = FrameStatus::tracked;
-  result.world_from_left.translation().x() = 0.053;
-  const FrameMatching second = observer.end(result);
-
-  // Pools: paired = {0, 1}, all = {0, 1, 2, 3}.
-  REQUIRE(second.temporal_left.size() == 3);
-  const auto& baseline = second.temporal_left[0];
-  CHECK(baseline.paired.pool == 2);
-  CHECK(baseline.paired.recall() == 1.0);
-  CHECK(baseline.paired.precision() == Approx(2.0 / 8));
-  CHECK(baseline.all.pool == 4);
-  CHECK(baseline.all.recall() == Approx(3.0 / 4));
-  const auto& left = second.temporal_left[1];
-  CHECK(left.paired.recall() == 0.5);
-  CHECK(left.paired.precision() == Approx(1.0 / 3));
-  CHECK(left.paired.ambiguity_mean() == Approx(0.5));
-  CHECK(left.all.recall() == Approx(2.0 / 4));
-  CHECK(left.all.precision() == Approx(2.0 / 5));
-  const auto& right = second.temporal_right[1];
-  CHECK(right.paired.recall() == 1.0);
-  CHECK(right.paired.precision() == 1.0);
-  CHECK(right.all.precision() == Approx(3.0 / 4));
-  CHECK(second.quads_paired.pool == 2);
-  CHECK(second.quads_paired.recall() == 0.5);
-  CHECK(second.quads_paired.precision() == 0.5);
-  CHECK(second.quads_all.pool == 4);
-  CHECK(second.quads_all.recall() == 0.5);
-  CHECK(second.quads_all.precision() == Approx(2.0 / 3));
-  MatchingResult sequence{"paper", {first, second}, {}, {}};
-  CHECK(summarise({sequence}).quads_ambiguity_mean == Approx((3 + 1) / 2.0));
-  // Pairs are drawn from the quads 0, 1 and 3; one of three has two true ones.
-  const auto& pairs = second.pairs.table[0];
-  CHECK(static_cast<double>(pairs.veridical) / static_cast<double>(pairs.pairs) == Approx(1.0 / 3).margin(0.01));
-  REQUIRE(second.motion);
-  CHECK(second.motion->translation_m == Approx(0.003));
-  CHECK(second.motion->rotation_deg == Approx(0).margin(1e-9));
 }
 
 TEST_CASE("Pooled tables add up counts, not percentages, and tell the spread over the frames", "[matching]") {

@@ -1,7 +1,6 @@
 #include <map>
 #include <set>
 
-#include "common/filter_names.hpp"
 #include "frontends.hpp"
 #include "quadedge/error.hpp"
 
@@ -54,35 +53,41 @@ void compare(const FrontendResult& a, const FrontendResult& b) {
   CHECK(quads(b.quads, a.quads) > 0.99);
 }
 
-/// Keeps the lists of the last frame per cascade, side and order.
+/// Keeps the lists of the last frame per cascade, side and filter.
 class Lists : public Tap {
  public:
   void edges(const EdgeSet&, const EdgeSet&) override { ++edge_calls; }
-  void stereo_filter(int order, const std::string& name, const CandidateLists& lists) override {
-    CHECK(name == kStereoFilters[static_cast<std::size_t>(order)]);
-    stereo_lists[order] = lists;
+  void stereo_filter(StereoFilter filter, const CandidateLists& lists) override {
+    stereo_lists[order_of(filter)] = lists;
   }
   void stereo(const StereoEdges& edges) override { stereo_edges = edges; }
-  void temporal_filter(int order, const std::string& name, int side, const CandidateLists& lists) override {
-    CHECK(name == kTemporalFilters[static_cast<std::size_t>(order)]);
-    temporal_lists[side][order] = lists;
+  void temporal_filter(TemporalFilter filter, Side side, const CandidateLists& lists) override {
+    temporal_lists[index_of(side)][order_of(filter)] = lists;
   }
-  void temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double radius, int step) override {
-    expected_left = left;
-    expected_right = right;
-    search_radius = radius;
-    search_step = step;
-  }
+  void temporal_search(const ObservedSearch& observed) override { search = observed; }
   void quads(const TemporalMatches& matches) override { matched = matches; }
 
-  ExpectedEdges expected_left, expected_right;
-  double search_radius = 0;
-  int search_step = 0;
+  ObservedSearch search;
   int edge_calls = 0;
   std::map<int, CandidateLists> stereo_lists, temporal_lists[2];
   StereoEdges stereo_edges;
   TemporalMatches matched;
 };
+
+/// Whether two taps of the same frames were told the same of the filters in time.
+bool same_searches(const Lists& a, const Lists& b) {
+  for (const Side side : kSides) {
+    const auto &p = a.temporal_lists[index_of(side)], &q = b.temporal_lists[index_of(side)];
+    if (p.size() != q.size()) return false;
+    for (const auto& [order, lists] : p) {
+      const auto found = q.find(order);
+      if (found == q.end() || found->second.first != lists.first || found->second.target != lists.target ||
+          found->second.cue != lists.cue)
+        return false;
+    }
+  }
+  return same_bytes(a.matched, b.matched);
+}
 
 /// Every candidate that fulfils `passes` is kept by the filter that judges its cue, and no other.
 template <class Passes>
@@ -258,7 +263,7 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       check_cue(tap.stereo_lists[4], tap.stereo_lists[5],
                 [&](float ncc) { return ncc >= static_cast<float>(config.stereo.ncc_min); });
       check_cue(tap.stereo_lists[8], tap.stereo_lists[9],
-                [&](float likeness) { return likeness >= static_cast<float>(config.stereo.refined_ncc_min); });
+                [&](float similarity) { return similarity >= static_cast<float>(config.stereo.refined_ncc_min); });
       CHECK(tap.stereo_lists[5].cue.size() == tap.stereo_lists[5].target.size());
       CHECK(tap.stereo_lists[6].cue.size() == tap.stereo_lists[6].target.size());
       CHECK(tap.stereo_lists[7].cue.empty());
@@ -267,10 +272,13 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
         check_cue(lists[2], lists[3], [&](float ncc) { return ncc >= static_cast<float>(config.temporal.ncc_min); });
         check_cue(lists[3], lists[4], [&](float sift) { return sift <= static_cast<float>(config.temporal.sift_max); });
       }
-      CHECK(tap.search_radius == 16);
-      CHECK(tap.search_step == step);
-      CHECK(tap.expected_left.x == seen.previous.left_x);
-      CHECK(tap.expected_right.direction == seen.previous.right_direction);
+      CHECK(tap.search.number == 0);
+      CHECK(tap.search.base_frame == 0);
+      CHECK(tap.search.radius == 16);
+      CHECK(tap.search.step == step);
+      CHECK(tap.search.left.x == seen.previous.left_x);
+      CHECK(tap.search.right.direction == seen.previous.right_direction);
+      CHECK(seen.quads.search == 0);
       for (std::size_t i = 0; i < seen.current.size(); ++i) {  // the final edge is one of the clusters of its row
         const auto row = static_cast<std::size_t>(seen.current.left_index[i]);
         const auto& lists = tap.stereo_lists[9];
@@ -284,9 +292,9 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       }
       const auto rows = (seen.previous.size() + static_cast<std::size_t>(step) - 1) / static_cast<std::size_t>(step);
       for (const int side : {0, 1}) {
-        REQUIRE(tap.temporal_lists[side].size() == (side == 0 ? 7 : 6));  // the agreement is told for the left list
+        REQUIRE(tap.temporal_lists[side].size() == 7);  // filters 1 to 7; 8 is the quads
         CHECK(tap.temporal_lists[side][1].first.size() == rows + 1);
-        for (int order = 2; order <= (side == 0 ? 7 : 6); ++order)
+        for (int order = 2; order <= 7; ++order)
           check_subset(tap.temporal_lists[side][order - 1], tap.temporal_lists[side][order]);
       }
       for (std::size_t q = 0; q < seen.quads.size(); ++q) {  // a quad was alive in both lists
@@ -298,6 +306,29 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
           if (std::find(begin, end, seen.quads.current[q]) == end)
             FAIL_CHECK("quad " << q << " is not in the lists of side " << side);
         }
+      }
+    }
+  }
+}
+
+TEST_CASE("frontend: without SIFT a tap sees the one kernel's own decisions, which are those of the lists",
+          "[frontend][matching][device]") {
+  const RenderedScene scene("room", 161, 97, 2);
+  for (const auto& device : all_devices()) {
+    for (const int step : {1, 8}) {
+      Lists by_lists;
+      const auto expected = run_frontend(scene, device, {{"temporal_match", "lists"}}, &by_lists, 16, step);
+      REQUIRE(expected.quads.size() > 10);
+      REQUIRE(by_lists.temporal_lists[0].size() == 7);
+      for (const auto& variant : opencl::all_variants()) {
+        if (variant.stage != "temporal_match" || variant.name == "lists") continue;
+        INFO("device " << device << ", " << variant.name << ", step " << step);
+        const Variants chosen{{variant.stage, variant.name}};
+        Lists tap;
+        const auto seen = run_frontend(scene, device, chosen, &tap, 16, step);
+        CHECK(same_bytes(seen, run_frontend(scene, device, chosen, nullptr, 16, step)));
+        CHECK(same_bytes(seen, expected));
+        CHECK(same_searches(tap, by_lists));
       }
     }
   }

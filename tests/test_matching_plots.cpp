@@ -41,9 +41,10 @@ MatchingResult sequence(int frames) {
     frame.counts.temporal_left = 300;
     frame.counts.temporal_right = 290;
     frame.counts.quads = 200;
+    TemporalMatching& temporal = frame.temporal.emplace();
     for (std::size_t order = 0; order < kConstraintNames.size(); ++order) {
-      frame.pairs.table[order] = {1000, 500 + 10 * f};
-      frame.pairs.accuracy[order] = {1.0 / f, 0.01 / f};
+      temporal.pairs.table[order] = {1000, 500 + 10 * f};
+      temporal.pairs.accuracy[order] = {1.0 / f, 0.01 / f};
     }
     frame.motion = MotionError{0.1 / f, 0.001 / f};
   }

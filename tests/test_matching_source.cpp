@@ -40,10 +40,10 @@ void write_mask(const std::string& folder) {
   REQUIRE(cv::imwrite(folder + "/mask0nocc.png", mask));
 }
 
-TruePlaces places(const MatchingSource& source, const std::vector<float>& x) {
+TruePositions places(const MatchingSource& source, const std::vector<float>& x) {
   const TrueFrame frame = source.load(0);
   const std::vector<float> y(x.size(), 12), direction(x.size(), kVertical);
-  return true_right_places(source.rig(), frame.truth, {x, y, direction});
+  return true_right_positions(source.rig(), frame.truth, {x, y, direction});
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ TEST_CASE("Without a mask the disparities themselves tell what is hidden", "[mat
   // Column 25 of the wall falls on column 19 of the right view, where the board stands (30 - 12 = 18 to 27).
   const auto found = places(*source, {20, 25, 35, 12});
   CHECK(found.state ==
-        std::vector<Visibility>{Visibility::visible, Visibility::hidden, Visibility::visible, Visibility::visible});
+        std::vector<Visibility>{Visibility::visible, Visibility::occluded, Visibility::visible, Visibility::visible});
   CHECK(found.x[0] == 14);
   CHECK(found.x[2] == 23);
 }
@@ -69,7 +69,7 @@ TEST_CASE("A mask marks hidden and unknown pixels, and leaves the contour of a n
   // pixel is marked.
   const auto found = places(*source, {12, 13, 16, 20, 29.4F});
   CHECK(found.state == std::vector<Visibility>{Visibility::unknown, Visibility::unknown, Visibility::visible,
-                                               Visibility::hidden, Visibility::visible});
+                                               Visibility::occluded, Visibility::visible});
   CHECK(found.contour[4] == 1);
   CHECK(found.x[4] == Approx(29.4 - 12));
 }
@@ -91,5 +91,5 @@ TEST_CASE("Measured disparities of the right view decide where both views disagr
   const auto source = make_recorded_source(open_dataset(path));
   CHECK(source->load(0).truth.right_is_measured);
   const auto found = places(*source, {16, 35});
-  CHECK(found.state == std::vector<Visibility>{Visibility::hidden, Visibility::hidden});
+  CHECK(found.state == std::vector<Visibility>{Visibility::occluded, Visibility::occluded});
 }

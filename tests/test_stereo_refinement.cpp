@@ -209,7 +209,7 @@ TEST_CASE("stereo refinement: rejects what leaves the clamp, finds unlike what i
   auto result = scene.scores;
   scene.refine(result);
   CHECK(result.state[1] == 5);
-  for (std::size_t i = 0; i < scene.right.size(); i += 3) CHECK(result.state[i] == kStereoRefinementOrder);
+  for (std::size_t i = 0; i < scene.right.size(); i += 3) CHECK(result.state[i] == order_of(StereoFilter::refinement));
   scene.right_image =
       image_of(97, 71, [](double x, double y) { return 128 + 70 * std::sin(1.3 * x) * std::cos(1.1 * y); });
   result = scene.scores;

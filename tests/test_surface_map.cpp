@@ -89,9 +89,9 @@ TEST_CASE("Infinite and missing values of disparity and depth files are unknown"
 TEST_CASE("A point is visible, hidden by something nearer, or contradicted", "[matching]") {
   const auto map = board();
   CHECK(visibility(map, 10, 10, 20.6) == Visibility::visible);
-  CHECK(visibility(map, 10, 10, 5) == Visibility::hidden);
+  CHECK(visibility(map, 10, 10, 5) == Visibility::occluded);
   CHECK(visibility(map, 30, 10, 20) == Visibility::unknown);
-  CHECK(visibility(map, -0.5, 10, 20) == Visibility::hidden);
+  CHECK(visibility(map, -0.5, 10, 20) == Visibility::occluded);
   CHECK(visibility(make_map(9, 9, [](int, int) { return static_cast<double>(kNan); }), 4, 4, 5) == Visibility::unknown);
 }
 
@@ -115,8 +115,8 @@ TEST_CASE("Seen from the right, a board hides the part of the wall beside it", "
   truth.left = left;
   truth.right = right;
   const std::vector<float> x = {16, 10, 35}, y = {4, 4, 4}, direction = {0, 0, 0};
-  const auto places = true_right_places({}, truth, {x, y, direction});
-  CHECK(places.state[0] == Visibility::hidden);
+  const auto places = true_right_positions({}, truth, {x, y, direction});
+  CHECK(places.state[0] == Visibility::occluded);
   CHECK(places.state[1] == Visibility::visible);
   CHECK(places.state[2] == Visibility::visible);
   CHECK(places.x[1] == 8.0F);
@@ -137,18 +137,18 @@ TEST_CASE("A point of known depth is found again after a known motion", "[matchi
   const std::vector<float> x = {59.5F, 36.5F}, y = {49.5F, 39.5F}, direction = {1.5F, 1.5F};
   // Offsets from the principal point: X = 10 px * 2 m / 200 px = 0.1 m, minus 0.1 m; Y = 0.1 m; then the right camera
   // 0.1 m further.
-  const auto left = true_later_places(rig, before, now, false, {x, y, direction});
+  const auto left = true_later_positions(rig, before, now, false, {x, y, direction});
   CHECK(left.x[0] == Approx(49.5));
   CHECK(left.y[0] == Approx(39.5 + 200 * 0.1 / 1.6));
   CHECK(left.state[0] == Visibility::visible);
-  const auto right = true_later_places(rig, before, now, true, {x, y, direction});
+  const auto right = true_later_positions(rig, before, now, true, {x, y, direction});
   CHECK(right.x[0] == Approx(49.5 - 200 * 0.1 / 1.6));
   // X = -13 px * 2 m / 200 px - 0.1 m = -0.23 m: column 49.5 - 28.75 = 20.75 in the left view, 8.25 behind the obstacle
   // in the right.
   CHECK(left.x[1] == Approx(20.75));
   CHECK(left.state[1] == Visibility::visible);
-  CHECK(right.state[1] == Visibility::hidden);
-  const auto stereo = true_right_places(rig, before, {x, y, direction});
+  CHECK(right.state[1] == Visibility::occluded);
+  const auto stereo = true_right_positions(rig, before, {x, y, direction});
   CHECK(stereo.x[0] == Approx(49.5));
   CHECK(stereo.y[0] == Approx(49.5));
 }

@@ -3,8 +3,9 @@
 #include "common/filter_limits.hpp"
 #include "matching.hpp"
 #include "reference/patches.hpp"
+#include "reference/sift.hpp"
 #include "reference/temporal_candidates.hpp"
-#include "reference/temporal_quads.hpp"
+#include "reference/temporal_match.hpp"
 #include "stages/temporal_match.hpp"
 
 using namespace quadedge;
@@ -16,6 +17,7 @@ namespace {
 struct MatchedRows {
   TemporalMatches quads;
   int left_alive = 0, right_alive = 0;
+  stages::TappedMatch tapped;  ///< of the tap form
 };
 
 constexpr int kWidth = 97, kHeight = 61;
@@ -39,15 +41,22 @@ struct Scene {
   StereoEdges base, current;
   std::vector<std::int8_t> base_left, base_right, left,
       right;  ///< patches: left ones by left edge, right ones by stereo edge
+  std::vector<std::uint8_t> base_left_sift, base_right_sift, left_sift, right_sift;  ///< by stereo edge
   TemporalSearch search;
   TemporalConfig config;
 
   Scene(int base_edges, int current_edges, std::uint64_t seed, int step = 1) {
     Random random(seed);
     search.radius = 3;
+    config.ncc_nearly_best = 0.97;  // so near that this filter too has something to do
     search.step = step;
     fill(random, base_edges, base, base_left, base_right);
     fill(random, current_edges, current, left, right);
+    for (auto* sift : {&base_left_sift, &base_right_sift})
+      sift->resize(kEdgeSiftBytes * static_cast<std::size_t>(base_edges));
+    for (auto* sift : {&left_sift, &right_sift}) sift->resize(kEdgeSiftBytes * static_cast<std::size_t>(current_edges));
+    for (auto* sift : {&base_left_sift, &base_right_sift, &left_sift, &right_sift})
+      for (auto& value : *sift) value = static_cast<std::uint8_t>(random(0, 255.99));
     for (std::size_t i = 0; i < base.size(); ++i) {
       const bool known = random(0, 1) < 0.9;
       const float nan = std::nanf("");
@@ -79,54 +88,41 @@ struct Scene {
     }
   }
 
-  struct Expected {
-    TemporalMatches quads;
-    int left_alive = 0, right_alive = 0;
-  };
-  static int living_rows(const reference::Candidates& lists, const reference::CandidateScores& scores) {
-    int rows = 0;
-    for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
-      bool alive = false;
-      for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]); ++c)
-        alive |= scores.state[c] == kCandidateAlive;
-      rows += alive ? 1 : 0;
-    }
-    return rows;
-  }
-  /// Patches by stereo edge, as the reference wants them; SIFT takes no part.
+  /// Descriptions by stereo edge, as the reference wants them.
   static reference::EdgeDescriptions described(const std::vector<std::int8_t>& patches,
-                                               const std::vector<std::int32_t>& numbers) {
+                                               const std::vector<std::int32_t>& numbers,
+                                               const std::vector<std::uint8_t>& sift) {
     reference::EdgeDescriptions set;
     for (const auto number : numbers) {
       const auto begin = patches.begin() + static_cast<std::ptrdiff_t>(number) * kEdgePatchBytes;
       set.patches.insert(set.patches.end(), begin, begin + kEdgePatchBytes);
     }
-    set.sift.assign(256 * numbers.size(), 0);
+    set.sift = sift;
     return set;
   }
-  Expected expected() const {
-    const auto side = [&](const PlacedEdges& predicted, const PlacedEdges& places) {
-      PointIndex index;
-      make_point_index(places.x, places.y, kWidth, kHeight, index);
-      return reference::temporal_candidates(predicted, places, index, search.radius,
-                                            static_cast<float>(config.orientation * kDegree), search.step);
-    };
-    const auto lefts = side(search.left, {current.left_x, current.left_y, current.left_direction});
-    const auto rights = side(search.right, {current.right_x, current.right_y, current.right_direction});
-    const auto limits = temporal_limits(config, search);
-    auto left_scores = reference::candidate_filters(lefts, described(base_left, base.left_index),
-                                                    described(left, current.left_index), limits, search.step);
-    const auto right_scores = reference::candidate_filters(rights, described(base_right, base.right_index),
-                                                           described(right, current.right_index), limits, search.step);
-    Expected result;
-    result.left_alive = living_rows(lefts, left_scores);
-    result.right_alive = living_rows(rights, right_scores);
-    const auto agreement = reference::temporal_agreement(lefts, left_scores, rights, right_scores);
-    result.quads = reference::temporal_best(lefts, left_scores, agreement, current, config, search);
-    return result;
+  PlacedEdges image_edges(Side side) const {
+    if (side == Side::left) return {current.left_x, current.left_y, current.left_direction};
+    return {current.right_x, current.right_y, current.right_direction};
+  }
+  reference::TemporalMatchResult expected() const {
+    const auto of_base_left = described(base_left, base.left_index, base_left_sift),
+               of_left = described(left, current.left_index, left_sift),
+               of_base_right = described(base_right, base.right_index, base_right_sift),
+               of_right = described(right, current.right_index, right_sift);
+    return reference::temporal_match(search, current, {of_base_left, of_left, kWidth, kHeight},
+                                     {of_base_right, of_right, kWidth, kHeight}, config);
+  }
+  /// Edges within the radius alone, as the reference finds them.
+  reference::Candidates displaced(Side side) const {
+    const PlacedEdges places = image_edges(side);
+    PointIndex index;
+    make_point_index(places.x, places.y, kWidth, kHeight, index);
+    return reference::temporal_candidates(side == Side::left ? search.left : search.right, places, index, search.radius,
+                                          4, search.step);
   }
   static void upload_rig(opencl::Context& context, const StereoEdges& edges, const std::vector<std::int8_t>& of_left,
-                         const std::vector<std::int8_t>& of_right, stages::DeviceStereoEdges& rig) {
+                         const std::vector<std::int8_t>& of_right, const std::vector<std::uint8_t>& sift_left,
+                         const std::vector<std::uint8_t>& sift_right, stages::DeviceStereoEdges& rig) {
     rig.count = rig.stride = static_cast<int>(edges.size());
     std::vector<float> packed;
     for (const auto* block : {&edges.left_x, &edges.left_y, &edges.left_direction})
@@ -135,62 +131,119 @@ struct Scene {
     rig.left_index.write(context, edges.left_index);
     rig.left_patches.write(context, of_left);
     rig.right_patches.write(context, of_right);
+    rig.left_sift.write(context, sift_left);
+    rig.right_sift.write(context, sift_right);
   }
-  /// What every variant but the lists finds on every device.
-  void on_devices(const std::function<void(const std::optional<MatchedRows>&)>& check) const {
-    for_each_variant(
-        "temporal_match", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-          stages::TemporalMatch stage(context, config, variants);
-          if (!stage.serves(search)) return;
-          INFO(name);
-          stages::DeviceStereoEdges device_base, device_current;
-          upload_rig(context, base, base_left, base_right, device_base);
-          upload_rig(context, current, left, right, device_current);
-          stages::DevicePointIndex left_index, right_index;
-          left_index.build(context, current.left_x, current.left_y, current.left_direction, kWidth, kHeight);
-          right_index.build(context, current.right_x, current.right_y, current.right_direction, kWidth, kHeight);
-          stages::DevicePlaces left_places, right_places;
-          left_places.write(context, search.left);
-          right_places.write(context, search.right);
-          std::vector<cl_int> numbers(current.size());
-          std::iota(numbers.begin(), numbers.end(), 0);
-          opencl::Buffer<cl_int> itself;
-          itself.write(context, numbers);
-          MatchedRows matched;
-          const auto alive = stage.run(left_places, right_places, search, device_base, device_current, left_index,
-                                       right_index, itself, current, matched.quads);
-          if (alive) {
-            matched.left_alive = alive->left;
-            matched.right_alive = alive->right;
-          }
-          check(alive ? std::optional(matched) : std::nullopt);
-        });
+  /// What both forms of every variant but the lists find on every device: the production one, and that of a tap.
+  void on_devices(const std::function<void(const std::optional<MatchedRows>&, bool tapped)>& check) const {
+    for_each_variant("temporal_match", [&](opencl::Context& context, const Variants& variants,
+                                           const std::string& name) {
+      stages::TemporalMatch stage(context, config, variants);
+      if (!stage.serves(search)) return;
+      INFO(name);
+      stages::DeviceStereoEdges device_base, device_current;
+      upload_rig(context, base, base_left, base_right, base_left_sift, base_right_sift, device_base);
+      upload_rig(context, current, left, right, left_sift, right_sift, device_current);
+      stages::DevicePointIndex left_index, right_index;
+      left_index.build(context, current.left_x, current.left_y, current.left_direction, kWidth, kHeight);
+      right_index.build(context, current.right_x, current.right_y, current.right_direction, kWidth, kHeight);
+      stages::DevicePlaces left_places, right_places;
+      left_places.write(context, search.left);
+      right_places.write(context, search.right);
+      std::vector<cl_int> numbers(current.size());
+      std::iota(numbers.begin(), numbers.end(), 0);
+      opencl::Buffer<cl_int> itself;
+      itself.write(context, numbers);
+      for (const bool tapped : {false, true}) {
+        INFO((tapped ? "tap form" : "production form"));
+        MatchedRows matched;
+        const auto alive = stage.run(left_places, right_places, search, device_base, device_current, left_index,
+                                     right_index, itself, current, matched.quads, tapped ? &matched.tapped : nullptr);
+        if (alive) {
+          matched.left_alive = alive->left;
+          matched.right_alive = alive->right;
+        }
+        check(alive ? std::optional(matched) : std::nullopt, tapped);
+      }
+    });
+  }
+  /// A tap sees the candidates within the radius, and of each what the reference's filters say.
+  void check_tapped(const stages::JudgedCandidates& seen, Side side, const reference::TemporalMatchLists& lists) const {
+    const auto all = displaced(side);
+    CHECK(seen.first == all.first);
+    CHECK(seen.target == all.target);
+    stages::JudgedCandidates near;  // without those that the orientation rejects
+    near.first.assign(1, 0);
+    for (std::size_t row = 0; row + 1 < seen.first.size(); ++row) {
+      for (auto c = static_cast<std::size_t>(seen.first[row]); c < static_cast<std::size_t>(seen.first[row + 1]); ++c) {
+        if (seen.state[c] == order_of(TemporalFilter::orientation)) continue;
+        near.target.push_back(seen.target[c]);
+        near.state.push_back(seen.state[c]);
+        near.ncc.push_back(seen.ncc[c]);
+        near.sift.push_back(seen.sift[c]);
+      }
+      near.first.push_back(static_cast<std::int32_t>(near.target.size()));
+    }
+    CHECK(near.first == lists.candidates.first);
+    CHECK(near.target == lists.candidates.target);
+    CHECK(near.state == lists.scores.state);
+    CHECK(near.ncc == lists.scores.ncc);
+    CHECK(near.sift == lists.scores.sift);
   }
   std::size_t compare_devices() const {
     const auto truth = expected();
-    int variants = 0;
-    on_devices([&](const auto& found) {
-      ++variants;
+    int forms = 0;
+    on_devices([&](const auto& found, bool tapped) {
+      ++forms;
       REQUIRE(found);
-      CHECK(found->left_alive == truth.left_alive);
-      CHECK(found->right_alive == truth.right_alive);
-      CHECK(found->quads.previous == truth.quads.previous);
-      CHECK(found->quads.current == truth.quads.current);
-      CHECK(found->quads.rivals == truth.quads.rivals);
-      CHECK(found->quads.ncc == truth.quads.ncc);
-      CHECK(found->quads.right_x == truth.quads.right_x);
+      CHECK(found->left_alive == truth.left.alive_rows);
+      CHECK(found->right_alive == truth.right.alive_rows);
+      CHECK(found->quads.previous == truth.matches.previous);
+      CHECK(found->quads.current == truth.matches.current);
+      CHECK(found->quads.rivals == truth.matches.rivals);
+      CHECK(found->quads.ncc == truth.matches.ncc);
+      CHECK(found->quads.right_x == truth.matches.right_x);
+      if (!tapped) return;
+      check_tapped(found->tapped.left, Side::left, truth.left);
+      check_tapped(found->tapped.right, Side::right, truth.right);
     });
-    CHECK(variants >= 2);
-    return truth.quads.size();
+    CHECK(forms >= 4);
+    return truth.matches.size();
   }
 };
 
 }  // namespace
 
-TEST_CASE("temporal match: one kernel finds what the reference's cascade finds, to the last bit",
+TEST_CASE("temporal match: one kernel finds what the reference's cascade finds, and a tap sees why, to the last bit",
           "[temporal][matching][device]") {
-  CHECK(Scene(400, 2000, 3).compare_devices() > 100);
-  CHECK(Scene(401, 1999, 4, 3).compare_devices() > 30);
+  for (const std::uint64_t seed : {3, 13, 23}) CHECK(Scene(600, 2400, seed).compare_devices() > 100);
+  CHECK(Scene(601, 2399, 4, 3).compare_devices() > 30);
+}
+
+TEST_CASE("temporal match: every filter of the tap form rejects something in these scenes", "[temporal][matching]") {
+  // Without this the comparison above would say nothing of a filter.
+  const Scene scene(600, 2400, 3);
+  const auto truth = scene.expected();
+  CHECK(scene.displaced(Side::left).target.size() > truth.left.candidates.target.size() + 100);
+  for (const auto filter : {TemporalFilter::ncc, TemporalFilter::nearly_best_ncc, TemporalFilter::agreement}) {
+    const auto& state = truth.left.scores.state;
+    INFO(to_string(filter));
+    CHECK(std::count(state.begin(), state.end(), order_of(filter)) > 20);
+  }
+}
+
+TEST_CASE("temporal match: SIFT distances of a tap decide nothing", "[temporal][matching][device]") {
+  Scene scene(101, 500, 9);
+  const auto before = scene.expected().matches;
+  for (auto& value : scene.base_left_sift) value = static_cast<std::uint8_t>(255 - value);
+  int forms = 0;
+  scene.on_devices([&](const auto& found, bool) {
+    ++forms;
+    REQUIRE(found);
+    CHECK(found->quads.current == before.current);
+    CHECK(found->quads.ncc == before.ncc);
+  });
+  CHECK(forms >= 4);
 }
 
 TEST_CASE("temporal match: few edges, and none", "[temporal][matching][device][oclgrind]") {
@@ -209,5 +262,5 @@ TEST_CASE("temporal match: a row with more candidates than there is room for say
   }
   scene.search.left.x[2] = scene.base.left_x[2] + 6;
   scene.search.left.y[2] = scene.base.left_y[2];
-  scene.on_devices([](const auto& found) { CHECK_FALSE(found); });
+  scene.on_devices([](const auto& found, bool) { CHECK_FALSE(found); });
 }

@@ -107,7 +107,8 @@ TEST_CASE("temporal agreement: a candidate needs its counterpart alive in the ot
   other.state[2] = 3;
   other.ncc = {0.5f, 0.7f, 0.6f, 0.8f};
   const auto agreement = reference::temporal_agreement(left, scores, right, other);
-  CHECK(scores.state == std::vector<std::uint8_t>{0, kAgreementOrder, 5, kAgreementOrder});
+  CHECK(scores.state ==
+        std::vector<std::uint8_t>{0, order_of(TemporalFilter::agreement), 5, order_of(TemporalFilter::agreement)});
   CHECK(agreement[0] == Approx(0.8));
 }
 

@@ -108,8 +108,8 @@ void print_matching(const std::string& title, const evaluation::MatchingSummary&
   std::printf("\n=== %s: %d stereo frame%s ===\n", title.c_str(), summary.frames, summary.frames == 1 ? "" : "s");
   const auto& census = summary.census;
   std::printf("left edges %" PRId64 ": no statement about %" PRId64 ", along their epipolar line %" PRId64
-              ", hidden %" PRId64 ", on depth steps %" PRId64 "\n",
-              census.edges, census.no_statement, census.along_line, census.hidden, census.contour);
+              ", occluded %" PRId64 ", on depth steps %" PRId64 "\n",
+              census.edges, census.no_statement, census.along_line, census.occluded, census.contour);
   print_filters("Table 1: stereo", summary.stereo);
   std::printf("final stereo edges: ");
   for (std::size_t kind = 0; kind < summary.classes.size(); ++kind) {

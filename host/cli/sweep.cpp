@@ -3,33 +3,45 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/filter_names.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge::cli {
 namespace {
 
 /// Which filter a constant belongs to; the beginning of its name decides.
+template <class Filter>
 struct Belongs {
   const char* key;
-  int order;
+  Filter filter;
 };
-constexpr Belongs kStereo[] = {
-    {"stereo.epipolar_distance", 1}, {"stereo.min_depth", 2},        {"stereo.max_disparity", 2},
-    {"stereo.orientation", 3},       {"stereo.sift_max", 4},         {"stereo.ncc_min", 5},
-    {"stereo.ncc_nearly_best", 6},   {"stereo.sift_nearly_best", 7}, {"stereo.shift", 8},
-    {"stereo.refine_", 8},           {"stereo.cluster", 8},          {"stereo.refined_ncc_min", 9}};
-constexpr Belongs kTemporal[] = {{"temporal.radius", 1},          {"temporal.orientation", 2},
-                                 {"temporal.ncc_min", 3},         {"temporal.sift_max", 4},
-                                 {"temporal.ncc_nearly_best", 5}, {"temporal.sift_nearly_best", 6}};
+constexpr Belongs<StereoFilter> kStereo[] = {{"stereo.epipolar_distance", StereoFilter::epipolar_distance},
+                                             {"stereo.min_depth", StereoFilter::disparity},
+                                             {"stereo.max_disparity", StereoFilter::disparity},
+                                             {"stereo.orientation", StereoFilter::orientation},
+                                             {"stereo.sift_max", StereoFilter::sift},
+                                             {"stereo.ncc_min", StereoFilter::ncc},
+                                             {"stereo.ncc_nearly_best", StereoFilter::nearly_best_ncc},
+                                             {"stereo.sift_nearly_best", StereoFilter::nearly_best_sift},
+                                             {"stereo.shift", StereoFilter::refinement},
+                                             {"stereo.refine_", StereoFilter::refinement},
+                                             {"stereo.cluster", StereoFilter::refinement},
+                                             {"stereo.refined_ncc_min", StereoFilter::similarity}};
+constexpr Belongs<TemporalFilter> kTemporal[] = {{"temporal.radius", TemporalFilter::displacement},
+                                                 {"temporal.orientation", TemporalFilter::orientation},
+                                                 {"temporal.ncc_min", TemporalFilter::ncc},
+                                                 {"temporal.sift_max", TemporalFilter::sift},
+                                                 {"temporal.ncc_nearly_best", TemporalFilter::nearly_best_ncc},
+                                                 {"temporal.sift_nearly_best", TemporalFilter::nearly_best_sift}};
 
-template <class Table>
-std::vector<int> rows_of(const std::string& key, const Table& table, int last) {
+/// Rows of the filters that a constant belongs to, then the last row.
+template <class Filter, std::size_t Size>
+std::vector<int> rows_of(const std::string& key, const Belongs<Filter> (&table)[Size]) {
   std::vector<int> rows;
   for (const auto& entry : table) {
-    if (key.rfind(entry.key, 0) == 0 && entry.order != last) rows.push_back(entry.order);
+    if (key.rfind(entry.key, 0) == 0) rows.push_back(order_of(entry.filter));
   }
-  rows.push_back(last);
+  rows.push_back(order_of(Filter::best));
   return rows;
 }
 
@@ -50,8 +62,8 @@ Sweep parse_sweep(const std::string& text) {
   sweep.key = text.substr(0, equals);
   const int count = static_cast<int>((last - first) / step + 1e-9) + 1;
   for (int i = 0; i < count; ++i) sweep.values.push_back(first + i * step);
-  sweep.stereo_orders = rows_of(sweep.key, kStereo, static_cast<int>(kStereoFilters.size()) - 1);
-  sweep.temporal_orders = rows_of(sweep.key, kTemporal, static_cast<int>(kTemporalFilters.size()) - 1);
+  sweep.stereo_orders = rows_of(sweep.key, kStereo);
+  sweep.temporal_orders = rows_of(sweep.key, kTemporal);
   with_value({}, sweep.key, first);
   return sweep;
 }

@@ -1,10 +1,10 @@
 #pragma once
 /// \file filter_limits.hpp  Thresholds of the similarity filters, for stereo and for each kind of search in time.
 
-#include "common/filter_names.hpp"
 #include "common/layouts.hpp"
 #include "common/temporal_search.hpp"
 #include "quadedge/config.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge {
 
@@ -13,8 +13,8 @@ inline FilterLimits stereo_limits(const StereoConfig& config) {
           static_cast<float>(config.sift_max),
           static_cast<float>(config.ncc_nearly_best),
           static_cast<float>(config.sift_nearly_best),
-          kStereoNccOrder,
-          kStereoSiftOrder};
+          order_of(StereoFilter::ncc),
+          order_of(StereoFilter::sift)};
 }
 
 inline FilterLimits temporal_limits(const TemporalConfig& config, const TemporalSearch& search) {
@@ -23,16 +23,16 @@ inline FilterLimits temporal_limits(const TemporalConfig& config, const Temporal
             static_cast<float>(config.sift_max),
             static_cast<float>(config.ncc_nearly_best),
             static_cast<float>(config.sift_nearly_best),
-            kTemporalNccOrder,
-            kTemporalSiftOrder};
+            order_of(TemporalFilter::ncc),
+            order_of(TemporalFilter::sift)};
   }
   const bool wide = search.radius > static_cast<float>(config.coarse_radius);
   return {static_cast<float>(config.coarse_ncc_min),
           static_cast<float>(wide ? config.coarse_wide_sift_max : config.coarse_sift_max),
           static_cast<float>(config.coarse_ncc_nearly_best),
           static_cast<float>(config.coarse_sift_nearly_best),
-          kTemporalNccOrder,
-          kTemporalSiftOrder};
+          order_of(TemporalFilter::ncc),
+          order_of(TemporalFilter::sift)};
 }
 
 }  // namespace quadedge

@@ -1,5 +1,5 @@
 #pragma once
-/// \file consistency.hpp  Are the covariances honest? Errors of the poses against what the estimator says of their
+/// \file consistency.hpp  Are the covariances consistent? Errors of the poses against what the estimator says of their
 /// size.
 
 #include <vector>

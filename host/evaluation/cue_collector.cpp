@@ -12,12 +12,12 @@ namespace {
 /// Calls `visit(row, candidate, target, veridical)` for every candidate in a row of the paired pool.
 template <class Visit>
 void visit_candidates(const CandidateLists& lists, const CandidateTruth& judge, const Visit& visit) {
-  const bool placed = lists.x.size() == lists.target.size();
+  const bool refined = lists.x.size() == lists.target.size();
   for (std::size_t i = 0; i + 1 < lists.first.size(); ++i) {
     if (judge.pools.paired[i] == 0) continue;
     for (auto k = static_cast<std::size_t>(lists.first[i]); k < static_cast<std::size_t>(lists.first[i + 1]); ++k) {
       const auto target = static_cast<std::size_t>(lists.target[k]);
-      const double x = placed ? lists.x[k] : judge.target_x[target], y = placed ? lists.y[k] : judge.target_y[target];
+      const double x = refined ? lists.x[k] : judge.target_x[target], y = refined ? lists.y[k] : judge.target_y[target];
       visit(i, k, target, is_veridical(judge.truth, i, x, y, judge.tolerance));
     }
   }
@@ -41,7 +41,7 @@ void collect_scores(const CandidateLists& lists, const CandidateTruth& judge, Cu
   });
 }
 
-void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
+void collect_ratios(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
                     CueDistribution& cue) {
   if (lists.cue.size() != lists.target.size()) return;
   visit_candidates(lists, judge, [&](std::size_t row, std::size_t candidate, std::size_t, bool veridical) {
@@ -63,7 +63,7 @@ void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint
   std::mt19937_64 random(seed);
   for (std::size_t i = 0; i < judge.pools.paired.size(); ++i) {
     if (judge.pools.paired[i] == 0) continue;
-    nearby.visit(judge.truth.x[i], judge.truth.y[i], judge.tolerance.place,
+    nearby.visit(judge.truth.x[i], judge.truth.y[i], judge.tolerance.position,
                  [&](std::size_t target) { add(value(i, target), true, cue); });
     for (int n = 0; n < kDrawnOthers; ++n) {
       const std::size_t target = draw(random, judge.target_x.size());

@@ -14,10 +14,10 @@ namespace quadedge::evaluation {
 
 /// What decides whether a candidate is veridical. Candidates are counted in rows of the paired pool.
 struct CandidateTruth {
-  const TruePlaces& truth;
+  const TruePositions& truth;
   const Pools& pools;
   const MatchingTolerance& tolerance;
-  const std::vector<float>& target_x;  ///< places of the targets [px]
+  const std::vector<float>& target_x;  ///< positions of the targets [px]
   const std::vector<float>& target_y;
 };
 
@@ -32,7 +32,7 @@ void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, 
 void collect_scores(const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue);
 
 /// The cue that the lists carry, set in relation to the best of each list: value / highest, or lowest / value.
-void collect_shares(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
+void collect_ratios(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
                     CueDistribution& cue);
 
 /// A cue before the first filter, where every row is paired with every target: the veridical pairs all, of the others

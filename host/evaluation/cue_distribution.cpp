@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/filter_names.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge::evaluation {
 namespace {
@@ -26,33 +26,35 @@ CueDistribution make_cue(CueTable table, int order, const std::string& cue, cons
   return {table, order, cue, unit, keeps_small, sampled, thresholds, empty, empty};
 }
 
-const Range kNcc{kSimilarityLow, kSimilarityHigh, 100}, kSift{0, kSiftHigh, 100}, kShare{0, 1, 100};
+const Range kNcc{kSimilarityLow, kSimilarityHigh, 100}, kSift{0, kSiftHigh, 100}, kRatio{0, 1, 100};
 
-void add_similarities(CueTable table, int ncc_order, int sift_order, double ncc_min, double sift_max,
-                      double ncc_nearly_best, double sift_nearly_best, std::vector<CueDistribution>& cues) {
-  const int nearly_best = std::max(ncc_order, sift_order) + 1;
-  const auto ncc = make_cue(table, ncc_order, "NCC", "", false, {ncc_min}, kNcc);
+/// The cues of NCC and SIFT, in the order of their cascade.
+template <class Filter>
+void add_similarities(CueTable table, double ncc_min, double sift_max, double ncc_nearly_best, double sift_nearly_best,
+                      std::vector<CueDistribution>& cues) {
+  const auto ncc = make_cue(table, order_of(Filter::ncc), "NCC", "", false, {ncc_min}, kNcc);
   const bool uses_sift = sift_max > 0;  // 0: without SIFT
-  const auto sift = make_cue(table, sift_order, "SIFT distance", "", true,
+  const auto sift = make_cue(table, order_of(Filter::sift), "SIFT distance", "", true,
                              uses_sift ? std::vector<double>{sift_max} : std::vector<double>{}, kSift);
-  cues.push_back(ncc_order < sift_order ? ncc : sift);
-  cues.push_back(ncc_order < sift_order ? sift : ncc);
-  cues.push_back(make_cue(table, nearly_best, "NCC / best NCC", "", false, {ncc_nearly_best}, kShare));
-  cues.push_back(make_cue(table, nearly_best + 1, "best SIFT / SIFT distance", "", false,
-                          uses_sift ? std::vector<double>{sift_nearly_best} : std::vector<double>{}, kShare));
+  cues.push_back(Filter::ncc < Filter::sift ? ncc : sift);
+  cues.push_back(Filter::ncc < Filter::sift ? sift : ncc);
+  cues.push_back(
+      make_cue(table, order_of(Filter::nearly_best_ncc), "NCC / best NCC", "", false, {ncc_nearly_best}, kRatio));
+  cues.push_back(make_cue(table, order_of(Filter::nearly_best_sift), "best SIFT / SIFT distance", "", false,
+                          uses_sift ? std::vector<double>{sift_nearly_best} : std::vector<double>{}, kRatio));
 }
 
 }  // namespace
 
 void Histogram::add(double value) {
   if (std::isnan(value)) return;
-  const double place = (value - low) / width();
-  if (place < -kRounding) {
+  const double bin = (value - low) / width();
+  if (bin < -kRounding) {
     ++below;
-  } else if (place > static_cast<double>(bins.size()) + kRounding) {
+  } else if (bin > static_cast<double>(bins.size()) + kRounding) {
     ++above;
   } else {
-    ++bins[std::min(static_cast<std::size_t>(std::max(place, 0.0)), bins.size() - 1)];
+    ++bins[std::min(static_cast<std::size_t>(std::max(bin, 0.0)), bins.size() - 1)];
   }
 }
 
@@ -82,21 +84,25 @@ std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& confi
     disparity = {rig.left.fx * rig.baseline() / stereo.min_depth};
   }
   const auto table = CueTable::stereo;
+  cues.push_back(make_cue(table, order_of(StereoFilter::epipolar_distance), "distance from the epipolar line", "px",
+                          true, {stereo.epipolar_distance}, {0, 5, 100}, true));
   cues.push_back(
-      make_cue(table, 1, "distance from the epipolar line", "px", true, {stereo.epipolar_distance}, {0, 5, 100}, true));
-  cues.push_back(make_cue(table, 2, "disparity", "px", true, disparity, {-20, 480, 500}));
-  cues.push_back(make_cue(table, 3, "difference of directions", "deg", true, {stereo.orientation}, {0, 90, 180}));
-  add_similarities(table, kStereoNccOrder, kStereoSiftOrder, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
-                   stereo.sift_nearly_best, cues);
-  cues.push_back(make_cue(table, 9, "likeness of representatives", "", false, {stereo.refined_ncc_min}, kNcc));
+      make_cue(table, order_of(StereoFilter::disparity), "disparity", "px", true, disparity, {-20, 480, 500}));
+  cues.push_back(make_cue(table, order_of(StereoFilter::orientation), "difference of directions", "deg", true,
+                          {stereo.orientation}, {0, 90, 180}));
+  add_similarities<StereoFilter>(table, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
+                                 stereo.sift_nearly_best, cues);
+  cues.push_back(make_cue(table, order_of(StereoFilter::similarity), "similarity of representatives", "", false,
+                          {stereo.refined_ncc_min}, kNcc));
 
   const auto& temporal = config.temporal;
   for (const auto side : {CueTable::temporal_left, CueTable::temporal_right}) {
-    cues.push_back(
-        make_cue(side, 1, "distance from the expected place", "px", true, {temporal.radius}, {0, 50, 200}, true));
-    cues.push_back(make_cue(side, 2, "difference of directions", "deg", true, {temporal.orientation}, {0, 180, 360}));
-    add_similarities(side, kTemporalNccOrder, kTemporalSiftOrder, temporal.ncc_min, temporal.sift_max,
-                     temporal.ncc_nearly_best, temporal.sift_nearly_best, cues);
+    cues.push_back(make_cue(side, order_of(TemporalFilter::displacement), "distance from the expected position", "px",
+                            true, {temporal.radius}, {0, 50, 200}, true));
+    cues.push_back(make_cue(side, order_of(TemporalFilter::orientation), "difference of directions", "deg", true,
+                            {temporal.orientation}, {0, 180, 360}));
+    add_similarities<TemporalFilter>(side, temporal.ncc_min, temporal.sift_max, temporal.ncc_nearly_best,
+                                     temporal.sift_nearly_best, cues);
   }
 
   const auto& pose = config.pose;

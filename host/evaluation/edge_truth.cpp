@@ -8,89 +8,91 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
-bool is_marked_hidden(const FrameTruth& truth, double x, double y) {
-  if (truth.hidden.empty()) return false;
+bool is_marked_occluded(const FrameTruth& truth, double x, double y) {
+  if (truth.occluded.empty()) return false;
   const auto column = static_cast<std::size_t>(std::round(x)), row = static_cast<std::size_t>(std::round(y));
-  return truth.hidden[row * static_cast<std::size_t>(truth.left.width) + column] != 0;
+  return truth.occluded[row * static_cast<std::size_t>(truth.left.width) + column] != 0;
 }
 
-/// A view that only holds what the left map tells says nothing about places where it is empty: they count as visible.
+/// A view that only holds what the left map tells says nothing about positions where it is empty: they count as
+/// visible.
 Visibility visibility_in(const SurfaceMap& map, bool measured, double x, double y, double nearness) {
   const Visibility found = visibility(map, x, y, nearness);
   return found == Visibility::unknown && !measured ? Visibility::visible : found;
 }
 
-/// Adds the place of a point of the left camera's frame of `before` in a camera of `now`.
+/// Adds the position of a point of the left camera's frame of `before` in a camera of `now`.
 void push_projection(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_point,
                      const Eigen::Vector3d& point, const SurfaceMap& map, double depth_scale, bool contour,
-                     TruePlaces& places) {
+                     TruePositions& positions) {
   const Eigen::Vector3d seen = camera_from_point * point;
   if (!(seen.z() > 0)) {
-    places.push(kNowhere, kNowhere, Visibility::hidden, contour);
+    positions.push(kNowhere, kNowhere, Visibility::occluded, contour);
     return;
   }
   const Eigen::Vector2d pixel = camera.project(seen);
-  places.push(pixel.x(), pixel.y(), visibility(map, pixel.x(), pixel.y(), depth_scale / seen.z()), contour);
+  positions.push(pixel.x(), pixel.y(), visibility(map, pixel.x(), pixel.y(), depth_scale / seen.z()), contour);
 }
 
 }  // namespace
 
-void TruePlaces::reserve(std::size_t size) {
+void TruePositions::reserve(std::size_t size) {
   x.reserve(size);
   y.reserve(size);
   state.reserve(size);
   contour.reserve(size);
 }
 
-void TruePlaces::push(double place_x, double place_y, Visibility visible, bool on_contour) {
-  x.push_back(static_cast<float>(place_x));
-  y.push_back(static_cast<float>(place_y));
+void TruePositions::push(double at_x, double at_y, Visibility visible, bool on_contour) {
+  x.push_back(static_cast<float>(at_x));
+  y.push_back(static_cast<float>(at_y));
   state.push_back(visible);
   contour.push_back(on_contour ? 1 : 0);
 }
 
-TruePlaces true_right_places(const StereoRig& rig, const FrameTruth& truth, const EdgePlaces& edges) {
-  TruePlaces places;
-  places.reserve(edges.x.size());
+TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth, const EdgePositions& edges) {
+  TruePositions positions;
+  positions.reserve(edges.x.size());
   for (std::size_t i = 0; i < edges.x.size(); ++i) {
     const double x = edges.x[i], y = edges.y[i];
     const auto surface = surface_at(truth.left, x, y, edges.direction[i]);
     if (!surface) {
-      places.push(kNowhere, kNowhere, Visibility::unknown, false);
+      positions.push(kNowhere, kNowhere, Visibility::unknown, false);
     } else if (truth.depth_scale > 0) {
       push_projection(rig.right, rig.right_from_left, rig.left.ray({x, y}) * (truth.depth_scale / surface->nearness),
-                      truth.right, truth.depth_scale, surface->contour, places);
+                      truth.right, truth.depth_scale, surface->contour, positions);
     } else {
       const double right_x = x - surface->nearness;
       // A contour belongs to the nearer surface, which is seen; the pixel under it may be of the farther one.
-      const bool marked = !surface->contour && is_marked_hidden(truth, x, y);
-      places.push(right_x, y,
-                  marked ? Visibility::hidden
-                         : visibility_in(truth.right, truth.right_is_measured, right_x, y, surface->nearness),
-                  surface->contour);
+      const bool marked = !surface->contour && is_marked_occluded(truth, x, y);
+      positions.push(right_x, y,
+                     marked ? Visibility::occluded
+                            : visibility_in(truth.right, truth.right_is_measured, right_x, y, surface->nearness),
+                     surface->contour);
     }
   }
-  return places;
+  return positions;
 }
 
-TruePlaces true_later_places(const StereoRig& rig, const FrameTruth& before, const FrameTruth& now, bool right,
-                             const EdgePlaces& edges) {
+TruePositions true_later_positions(const StereoRig& rig, const FrameTruth& before, const FrameTruth& now, Side side,
+                                   const EdgePositions& edges) {
   Eigen::Isometry3d camera_from_before = now.world_from_left.value().inverse() * before.world_from_left.value();
+  const bool right = side == Side::right;
   if (right) camera_from_before = rig.right_from_left * camera_from_before;
   const PinholeCamera& camera = right ? rig.right : rig.left;
-  TruePlaces places;
-  places.reserve(edges.x.size());
+  TruePositions positions;
+  positions.reserve(edges.x.size());
   for (std::size_t i = 0; i < edges.x.size(); ++i) {
     const double x = edges.x[i], y = edges.y[i];
     const auto surface = surface_at(before.left, x, y, edges.direction[i]);
     if (!surface) {
-      places.push(kNowhere, kNowhere, Visibility::unknown, false);
+      positions.push(kNowhere, kNowhere, Visibility::unknown, false);
       continue;
     }
     push_projection(camera, camera_from_before, rig.left.ray({x, y}) * (before.depth_scale / surface->nearness),
-                    right ? now.right : now.left, now.depth_scale, surface->contour, places);
+                    right ? now.right : now.left, now.depth_scale, surface->contour, positions);
   }
-  return places;
+  return positions;
 }
 
 }  // namespace quadedge::evaluation

@@ -8,6 +8,7 @@
 
 #include "evaluation/surface_map.hpp"
 #include "quadedge/camera.hpp"
+#include "quadedge/side.hpp"
 
 namespace quadedge::evaluation {
 
@@ -16,38 +17,38 @@ struct FrameTruth {
   SurfaceMap left, right;
   /// The right map was measured; else it only holds what the left map tells (right_from_left).
   bool right_is_measured = false;
-  /// Left pixels that the data set itself marks as hidden in the right view; empty without such a mask.
-  std::vector<std::uint8_t> hidden;
-  /// Depth [m] = depth_scale / nearness. 0 for pairs with disparities: the true place is then x - disparity in the same
-  /// row.
+  /// Left pixels that the data set itself marks as occluded in the right view; empty without such a mask.
+  std::vector<std::uint8_t> occluded;
+  /// Depth [m] = depth_scale / nearness. 0 for pairs with disparities: the true position is then x - disparity in the
+  /// same row.
   double depth_scale = 0;
   /// Pose of the left camera; nothing for single pairs.
   std::optional<Eigen::Isometry3d> world_from_left;
 };
 
 /// Edges of one image [px, rad].
-struct EdgePlaces {
+struct EdgePositions {
   const std::vector<float>& x;
   const std::vector<float>& y;
   const std::vector<float>& direction;
 };
 
-/// One entry per edge: the place in the other view [px], and whether it can be seen there. A hidden edge has a place
-/// too.
-struct TruePlaces {
+/// One entry per edge: the position in the other view [px], and whether it can be seen there. An occluded edge has a
+/// position too.
+struct TruePositions {
   std::vector<float> x, y;
   std::vector<Visibility> state;      ///< unknown: no statement about this edge
   std::vector<std::uint8_t> contour;  ///< the edge lies on a depth step of its own view
 
   void reserve(std::size_t size);
-  void push(double place_x, double place_y, Visibility visible, bool on_contour);
+  void push(double at_x, double at_y, Visibility visible, bool on_contour);
 };
 
-/// True places of left edges in the right image of the same frame.
-TruePlaces true_right_places(const StereoRig& rig, const FrameTruth& truth, const EdgePlaces& left_edges);
+/// True positions of left edges in the right image of the same frame.
+TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth, const EdgePositions& left_edges);
 
-/// True places of the left edges of `before` in the left or right image of `now`; both frames with poses and depths.
-TruePlaces true_later_places(const StereoRig& rig, const FrameTruth& before, const FrameTruth& now, bool right,
-                             const EdgePlaces& left_edges);
+/// True positions of the left edges of `before` in one image of `now`; both frames with poses and depths.
+TruePositions true_later_positions(const StereoRig& rig, const FrameTruth& before, const FrameTruth& now, Side side,
+                                   const EdgePositions& left_edges);
 
 }  // namespace quadedge::evaluation

@@ -55,22 +55,22 @@ void add(FilterTable& sum, const FilterTable& other) {
   }
 }
 
-bool is_veridical(const TruePlaces& truth, std::size_t i, double x, double y, const MatchingTolerance& tolerance) {
+bool is_veridical(const TruePositions& truth, std::size_t i, double x, double y, const MatchingTolerance& tolerance) {
   if (truth.state[i] != Visibility::visible) return false;
-  return std::hypot(x - truth.x[i], y - truth.y[i]) <= tolerance.place;
+  return std::hypot(x - truth.x[i], y - truth.y[i]) <= tolerance.position;
 }
 
 FilterRow judge(int order, const std::string& filter, const CandidateLists& lists, const std::vector<float>& target_x,
-                const std::vector<float>& target_y, const TruePlaces& truth, const Pools& pools,
+                const std::vector<float>& target_y, const TruePositions& truth, const Pools& pools,
                 const MatchingTolerance& tolerance) {
-  const bool placed = lists.x.size() == lists.target.size();
+  const bool refined = lists.x.size() == lists.target.size();
   FilterRow row{order, filter, {}, {}};
   for (std::size_t i = 0; i + 1 < lists.first.size(); ++i) {
     if (pools.all[i] == 0) continue;
     std::int64_t veridical = 0;
     for (auto k = static_cast<std::size_t>(lists.first[i]); k < static_cast<std::size_t>(lists.first[i + 1]); ++k) {
       const auto target = static_cast<std::size_t>(lists.target[k]);
-      const float x = placed ? lists.x[k] : target_x[target], y = placed ? lists.y[k] : target_y[target];
+      const float x = refined ? lists.x[k] : target_x[target], y = refined ? lists.y[k] : target_y[target];
       veridical += is_veridical(truth, i, x, y, tolerance) ? 1 : 0;
     }
     const std::int64_t candidates = lists.first[i + 1] - lists.first[i];
@@ -81,7 +81,7 @@ FilterRow judge(int order, const std::string& filter, const CandidateLists& list
 }
 
 FilterRow judge_baseline(const std::string& filter, const std::vector<float>& target_x,
-                         const std::vector<float>& target_y, int image_height, const TruePlaces& truth,
+                         const std::vector<float>& target_y, int image_height, const TruePositions& truth,
                          const Pools& pools, const MatchingTolerance& tolerance) {
   const NearbyTargets nearby(target_x, target_y, image_height);
   FilterRow row{0, filter, {}, {}};
@@ -89,7 +89,7 @@ FilterRow judge_baseline(const std::string& filter, const std::vector<float>& ta
     if (pools.all[i] == 0) continue;
     std::int64_t veridical = 0;
     if (truth.state[i] == Visibility::visible) {
-      nearby.visit(truth.x[i], truth.y[i], tolerance.place, [&](std::size_t) { ++veridical; });
+      nearby.visit(truth.x[i], truth.y[i], tolerance.position, [&](std::size_t) { ++veridical; });
     }
     const auto candidates = static_cast<std::int64_t>(target_x.size());
     row.all.add_edge(candidates, veridical);

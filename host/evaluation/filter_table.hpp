@@ -13,8 +13,8 @@ namespace quadedge::evaluation {
 
 /// When a candidate counts as the true one, and when an edge has a counterpart at all.
 struct MatchingTolerance {
-  double place = 1.0;                ///< px from the true place: veridical
-  double wrong = 10.0;               ///< px from the true place: beyond it a match is wrong, before only inaccurate
+  double position = 1.0;             ///< px from the true position: veridical
+  double wrong = 10.0;               ///< px from the true position: beyond it a match is wrong, before only inaccurate
   double line = 0.5;                 ///< px from the epipolar line; counterparts in stereo
   double stereo_direction = 5.0;     ///< deg, modulo 180; counterparts in stereo
   double temporal_direction = 10.0;  ///< deg, modulo 180; counterparts in time
@@ -24,7 +24,8 @@ struct MatchingTolerance {
 struct Pools {
   /// The paper's pool: visible edges that have a detected counterpart. Recall is 1 at the start by construction.
   std::vector<std::uint8_t> paired;
-  /// Every edge whose true place is known, hidden ones included. A candidate of a hidden edge is never veridical.
+  /// Every edge whose true position is known, occluded ones included. A candidate of an occluded edge is never
+  /// veridical.
   std::vector<std::uint8_t> all;
 };
 
@@ -56,18 +57,18 @@ using FilterTable = std::vector<FilterRow>;
 /// Adds `other` row by row. \throws UsageError when the rows are not the same filters.
 void add(FilterTable& sum, const FilterTable& other);
 
-/// Counts what a filter left. Candidates that carry a refined place are judged by it, others by the place of their
-/// target.
+/// Counts what a filter left. Candidates that carry a refined position are judged by it, others by the position of
+/// their target.
 FilterRow judge(int order, const std::string& filter, const CandidateLists& lists, const std::vector<float>& target_x,
-                const std::vector<float>& target_y, const TruePlaces& truth, const Pools& pools,
+                const std::vector<float>& target_y, const TruePositions& truth, const Pools& pools,
                 const MatchingTolerance& tolerance);
 
 /// Row 0: every edge is paired with every target, without writing the lists down.
 FilterRow judge_baseline(const std::string& filter, const std::vector<float>& target_x,
-                         const std::vector<float>& target_y, int image_height, const TruePlaces& truth,
+                         const std::vector<float>& target_y, int image_height, const TruePositions& truth,
                          const Pools& pools, const MatchingTolerance& tolerance);
 
-/// True within `tolerance.place` of edge i's true place; never for an edge that is hidden or unknown.
-bool is_veridical(const TruePlaces& truth, std::size_t i, double x, double y, const MatchingTolerance& tolerance);
+/// True within `tolerance.position` of edge i's true position; never for an edge that is occluded or unknown.
+bool is_veridical(const TruePositions& truth, std::size_t i, double x, double y, const MatchingTolerance& tolerance);
 
 }  // namespace quadedge::evaluation

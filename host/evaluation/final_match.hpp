@@ -9,17 +9,17 @@
 
 namespace quadedge::evaluation {
 
-/// What the truth says about a final stereo edge whose true place is known.
+/// What the truth says about a final stereo edge whose true position is known.
 enum class MatchClass {
-  correct,     ///< within MatchingTolerance::place of the true place
+  correct,     ///< within MatchingTolerance::position of the true position
   inaccurate,  ///< farther, but within MatchingTolerance::wrong
   wrong,       ///< farther still
-  hidden,      ///< the right view cannot show the edge: whatever was matched is something else
+  occluded,    ///< the right view cannot show the edge: whatever was matched is something else
 };
-inline constexpr std::array<const char*, 4> kMatchClassNames = {"correct", "inaccurate", "wrong", "hidden"};
+inline constexpr std::array<const char*, 4> kMatchClassNames = {"correct", "inaccurate", "wrong", "occluded"};
 using MatchClassCounts = std::array<std::int64_t, kMatchClassNames.size()>;
 
-/// A final stereo edge [px, rad] and the true place of its left edge in the right image.
+/// A final stereo edge [px, rad] and the true position of its left edge in the right image.
 struct FinalMatch {
   float left_x, left_y, left_direction;
   float right_x, right_y, right_direction;

@@ -23,7 +23,7 @@ MatchingResult evaluate_matching(const MatchingSource& source, Device& device, C
   const int drawn = std::min(options.draw_frame, count - 1);
   for (int number = 0; number < count; ++number) {
     TrueFrame frame = source.load(number);
-    observer.begin(std::move(frame.truth));
+    observer.begin(number, std::move(frame.truth));
     FrameMatching measured =
         observer.end(odometry.track({frame.frame.stamp_ns, frame.frame.left.view(), frame.frame.right.view()}));
     add(result.cues, measured.cues);

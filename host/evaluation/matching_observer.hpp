@@ -1,8 +1,8 @@
 #pragma once
 /// \file matching_observer.hpp  Judges what the pipeline's filters leave, while it runs.
 
+#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "evaluation/edge_truth.hpp"
@@ -13,58 +13,73 @@
 namespace quadedge::evaluation {
 
 /// A tap of one StereoOdometry. Per frame: begin(), StereoOdometry::track(), end(). The pipeline learns nothing from
-/// it.
+/// it, and it decides nothing: the pipeline tells what each search looked for and which one gave the motion.
 class MatchingObserver : public Tap {
  public:
   /// \param distributions also collect the cues of all candidates
   MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance,
                    bool distributions = false);
 
-  /// The truth of the frame that is tracked next.
-  void begin(FrameTruth truth);
-  /// Takes the pipeline's own result of the frame and returns what was measured.
+  /// The truth of the frame that is tracked next. \param frame its number, as the pipeline counts
+  void begin(int frame, FrameTruth truth);
+  /// Takes the pipeline's own result of the frame and returns what was measured. Of the searches in time only the one
+  /// that the frame's motion was taken from counts; a lost frame has none.
   FrameMatching end(const FrameResult& result);
   /// The final stereo edges of known truth of the frame that ended last.
   const std::vector<FinalMatch>& final_matches() const { return final_matches_; }
 
   void edges(const EdgeSet& left, const EdgeSet& right) override;
-  void stereo_filter(int order, const std::string& name, const CandidateLists& candidates) override;
+  void stereo_filter(StereoFilter filter, const CandidateLists& candidates) override;
   void stereo(const StereoEdges& edges) override;
-  void temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double radius, int step) override;
-  void temporal_filter(int order, const std::string& name, int side, const CandidateLists& candidates) override;
+  void temporal_search(const ObservedSearch& search) override;
+  void temporal_filter(TemporalFilter filter, Side side, const CandidateLists& candidates) override;
   void quads(const TemporalMatches& matches) override;
 
  private:
-  /// A frame that others are matched with.
+  /// A frame that others may be matched with.
   struct Rig {
     FrameTruth truth;
     StereoEdges edges;
     std::vector<std::uint8_t> veridical;                                ///< per stereo edge
     Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();  ///< as the pipeline found it
   };
-  void start_temporal();
-  void collect_stereo(int order, const CandidateLists& candidates);
-  void collect_temporal(int order, bool right, const CandidateLists& candidates);
-  CueDistribution* cue(CueTable table, int order);
-  bool is_known_motion() const { return base_ && base_->truth.world_from_left && current_.truth.world_from_left; }
+  /// One search of the current frame: the truth of what it looks for, and what it leaves.
+  struct Search {
+    int base_frame = 0;
+    ExpectedEdges expected[2];  ///< these and the next two: left, right
+    TruePositions later[2];
+    Pools pools[2], quad_pools;
+    /// Nothing where the motion is unknown, or only a part of the edges is looked for: that makes a prediction, never a
+    /// pose.
+    std::optional<TemporalMatching> measured;
+    std::vector<CueDistribution> cues;
+  };
+  /// Edges of a rig in one image.
+  static EdgePositions image_edges(const StereoEdges& edges, Side side);
+  Rig& current() { return rigs_.at(frame_); }
+  bool is_known_motion(const Rig& base) { return base.truth.world_from_left && current().truth.world_from_left; }
+  const PinholeCamera& camera(Side side) const { return side == Side::left ? rig_.left : rig_.right; }
+
+  void start_temporal(const Rig& base, Search& search);
+  void judge_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates);
+  void collect_stereo(StereoFilter filter, const CandidateLists& candidates);
+  void collect_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates);
   void measure_quads(const TemporalMatches& matches);
 
   StereoRig rig_;
   Config config_;
   MatchingTolerance tolerance_;
   std::vector<CueDistribution> empty_cues_;
-  Rig current_;
-  std::optional<Rig> base_;
+  int frame_ = -1;
+  std::map<int, Rig> rigs_;  ///< by the number of the frame: the current one, and those that it may be matched with
   FrameMatching measured_;
   std::vector<FinalMatch> final_matches_;
 
   EdgeSet left_, right_;
-  TruePlaces stereo_truth_;
+  TruePositions stereo_truth_;
   Pools stereo_pools_;
-  TruePlaces later_left_, later_right_;
-  Pools left_pools_, right_pools_, quad_pools_;
-  ExpectedEdges expected_left_, expected_right_;
-  bool complete_search_ = false;  ///< the lists have a row for every previous stereo edge
+  std::map<int, Search> searches_;  ///< of the current frame, by their number
+  Search* search_ = nullptr;        ///< the one that goes on
 };
 
 }  // namespace quadedge::evaluation

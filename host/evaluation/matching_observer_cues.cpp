@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "common/epipolar_geometry.hpp"
-#include "common/filter_names.hpp"
 #include "evaluation/cue_collector.hpp"
 #include "evaluation/matching_observer.hpp"
 #include "evaluation/pools.hpp"
@@ -12,14 +11,12 @@ namespace quadedge::evaluation {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kRepresentativesOrder = static_cast<int>(kStereoFilters.size()) - 2;
 
-/// Adds the NCC or SIFT distance that lists carry, as filter `order` judges it.
-void collect_similarity(int order, int ncc_order, int sift_order, const CandidateLists& lists,
-                        const CandidateTruth& judge, CueDistribution& cue) {
-  const int nearly_best_ncc = std::max(ncc_order, sift_order) + 1;
-  if (order == nearly_best_ncc || order == nearly_best_ncc + 1) {
-    collect_shares(lists, judge, order == nearly_best_ncc, cue);
+/// Adds the NCC or SIFT distance that lists carry, as `filter` judges it.
+template <class Filter>
+void collect_similarity(Filter filter, const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue) {
+  if (filter == Filter::nearly_best_ncc || filter == Filter::nearly_best_sift) {
+    collect_ratios(lists, judge, filter == Filter::nearly_best_ncc, cue);
   } else {
     collect_scores(lists, judge, cue);
   }
@@ -29,16 +26,14 @@ double direction_difference_deg(double a, double b) { return std::abs(std::remai
 
 }  // namespace
 
-CueDistribution* MatchingObserver::cue(CueTable table, int order) { return find_cue(measured_.cues, table, order); }
-
-/// What the filter after `order` judges.
-void MatchingObserver::collect_stereo(int order, const CandidateLists& candidates) {
-  CueDistribution* found = cue(CueTable::stereo, order + 1);
+/// What the filter after `filter` judges.
+void MatchingObserver::collect_stereo(StereoFilter filter, const CandidateLists& candidates) {
+  CueDistribution* found = find_cue(measured_.cues, CueTable::stereo, order_of(next(filter)));
   if (found == nullptr) return;
   const CandidateTruth judge{stereo_truth_, stereo_pools_, tolerance_, right_.x, right_.y};
   const auto geometry = make_epipolar_geometry(rig_, config_.stereo);
   const auto line_of = [&](std::size_t row) { return epipolar_line(geometry, left_.x[row], left_.y[row]); };
-  if (order == 0) {
+  if (filter == StereoFilter::baseline) {
     collect_unfiltered(
         judge, rig_.right.height, config_.seed,
         [&](std::size_t row, std::size_t target) {
@@ -47,7 +42,7 @@ void MatchingObserver::collect_stereo(int order, const CandidateLists& candidate
               std::abs((right_.y[target] - line.y) * line.ex - (right_.x[target] - line.x) * line.ey));
         },
         *found);
-  } else if (order == 1) {
+  } else if (filter == StereoFilter::epipolar_distance) {
     collect_geometry(
         candidates, judge,
         [&](std::size_t row, std::size_t target) {
@@ -55,45 +50,43 @@ void MatchingObserver::collect_stereo(int order, const CandidateLists& candidate
           return static_cast<double>((right_.x[target] - line.x) * line.ex + (right_.y[target] - line.y) * line.ey);
         },
         *found);
-  } else if (order == 2) {
+  } else if (filter == StereoFilter::disparity) {
     collect_geometry(
         candidates, judge,
         [&](std::size_t row, std::size_t target) {
           return line_angle_deg(left_.direction[row], right_.direction[target]);
         },
         *found);
-  } else if (order + 1 == kRepresentativesOrder) {
-    collect_scores(candidates, judge, *found);
   } else {
-    collect_similarity(order + 1, kStereoNccOrder, kStereoSiftOrder, candidates, judge, *found);
+    collect_similarity(next(filter), candidates, judge, *found);
   }
 }
 
-void MatchingObserver::collect_temporal(int order, bool right, const CandidateLists& candidates) {
-  CueDistribution* found = cue(right ? CueTable::temporal_right : CueTable::temporal_left, order + 1);
+/// The same in time, of the search that goes on.
+void MatchingObserver::collect_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates) {
+  const CueTable table = side == Side::left ? CueTable::temporal_left : CueTable::temporal_right;
+  CueDistribution* found = find_cue(search_->cues, table, order_of(next(filter)));
   if (found == nullptr) return;
-  const StereoEdges& now = current_.edges;
-  const auto &x = right ? now.right_x : now.left_x, &y = right ? now.right_y : now.left_y;
-  const auto& direction = right ? now.right_direction : now.left_direction;
-  const ExpectedEdges& expected = right ? expected_right_ : expected_left_;
-  const CandidateTruth judge{right ? later_right_ : later_left_, right ? right_pools_ : left_pools_, tolerance_, x, y};
-  if (order == 0) {
-    const int height = right ? rig_.right.height : rig_.left.height;
+  const auto s = static_cast<std::size_t>(index_of(side));
+  const EdgePositions now = image_edges(current().edges, side);
+  const ExpectedEdges& expected = search_->expected[s];
+  const CandidateTruth judge{search_->later[s], search_->pools[s], tolerance_, now.x, now.y};
+  if (filter == TemporalFilter::baseline) {
     collect_unfiltered(
-        judge, height, config_.seed,
+        judge, camera(side).height, config_.seed,
         [&](std::size_t row, std::size_t target) {
-          return static_cast<double>(std::hypot(x[target] - expected.x[row], y[target] - expected.y[row]));
+          return static_cast<double>(std::hypot(now.x[target] - expected.x[row], now.y[target] - expected.y[row]));
         },
         *found);
-  } else if (order == 1) {
+  } else if (filter == TemporalFilter::displacement) {
     collect_geometry(
         candidates, judge,
         [&](std::size_t row, std::size_t target) {
-          return direction_difference_deg(expected.direction[row], direction[target]);
+          return direction_difference_deg(expected.direction[row], now.direction[target]);
         },
         *found);
   } else {
-    collect_similarity(order + 1, kTemporalNccOrder, kTemporalSiftOrder, candidates, judge, *found);
+    collect_similarity(next(filter), candidates, judge, *found);
   }
 }
 

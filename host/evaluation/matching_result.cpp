@@ -22,9 +22,9 @@ double deviation(const std::vector<double>& values) {
 }
 
 /// Quantile of values in any order; NaN without any.
-double quantile(std::vector<float> values, double share) {
+double quantile(std::vector<float> values, double fraction) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1) + 0.5);
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<std::size_t>(rank)];
 }
@@ -61,7 +61,7 @@ std::vector<PooledRow> pool(const std::vector<const FilterTable*>& tables) {
 }
 
 /// The frames with a matching in time.
-void pool_quads(const std::vector<const FrameMatching*>& frames, MatchingSummary& summary) {
+void pool_quads(const std::vector<const TemporalMatching*>& frames, MatchingSummary& summary) {
   FrameValues paired, all;
   std::int64_t rivals = 0;
   for (const auto* frame : frames) {
@@ -94,7 +94,7 @@ void add(EdgeCensus& sum, const EdgeCensus& census) {
   sum.edges += census.edges;
   sum.no_statement += census.no_statement;
   sum.along_line += census.along_line;
-  sum.hidden += census.hidden;
+  sum.occluded += census.occluded;
   sum.contour += census.contour;
 }
 
@@ -103,7 +103,7 @@ void add(EdgeCensus& sum, const EdgeCensus& census) {
 MatchingSummary summarise(const std::vector<MatchingResult>& results) {
   MatchingSummary summary;
   std::vector<const FilterTable*> stereo, temporal_left, temporal_right;
-  std::vector<const FrameMatching*> matched_in_time;
+  std::vector<const TemporalMatching*> matched_in_time;
   std::vector<float> errors, absolute, across;
   for (const auto& result : results) {
     add(summary.cues, result.cues);
@@ -114,11 +114,11 @@ MatchingSummary summarise(const std::vector<MatchingResult>& results) {
       if (!frame.stereo.empty()) stereo.push_back(&frame.stereo);
       errors.insert(errors.end(), frame.disparity_error.begin(), frame.disparity_error.end());
       across.insert(across.end(), frame.across_error.begin(), frame.across_error.end());
-      if (frame.temporal_left.empty()) continue;
+      if (!frame.temporal) continue;
       ++summary.temporal_frames;
-      temporal_left.push_back(&frame.temporal_left);
-      temporal_right.push_back(&frame.temporal_right);
-      matched_in_time.push_back(&frame);
+      temporal_left.push_back(&frame.temporal->left);
+      temporal_right.push_back(&frame.temporal->right);
+      matched_in_time.push_back(&*frame.temporal);
     }
   }
   summary.stereo = pool(stereo);

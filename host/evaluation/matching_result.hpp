@@ -12,6 +12,7 @@
 #include "evaluation/final_match.hpp"
 #include "evaluation/quad_pairs.hpp"
 #include "quadedge/odometry.hpp"
+#include "quadedge/side.hpp"
 
 namespace quadedge::evaluation {
 
@@ -20,24 +21,32 @@ struct EdgeCensus {
   std::int64_t edges = 0;
   std::int64_t no_statement = 0;  ///< unknown disparity, or no telling which surface owns the edge
   std::int64_t along_line = 0;    ///< known, but along the epipolar line: takes no part in stereo
-  std::int64_t hidden = 0;        ///< of the others: not visible in the right view
+  std::int64_t occluded = 0;      ///< of the others: not visible in the right view
   std::int64_t contour = 0;       ///< of the others: on a depth step
+};
+
+/// What was measured of the search in time that a frame's motion was taken from.
+struct TemporalMatching {
+  FilterTable left, right;  ///< Table 2
+  FilterCounts quads_paired, quads_all;
+  std::int64_t quad_rivals = 0;  ///< further clusters that the paired quads' edges had
+  PairMeasurement pairs;         ///< Table 3 and Figure 7
+
+  FilterTable& table(Side side) { return side == Side::left ? left : right; }
 };
 
 /// One frame.
 struct FrameMatching {
   FrameCounts counts;  ///< the pipeline's own
   FrameStatus status = FrameStatus::first;
-  std::string message;                        ///< the pipeline's: why a frame was lost, or what overflowed
-  FilterTable stereo;                         ///< Table 1
-  FilterTable temporal_left, temporal_right;  ///< Table 2; empty for the first frame and single pairs
-  FilterCounts quads_paired, quads_all;
-  std::int64_t quad_rivals = 0;  ///< further clusters that the paired quads' edges had
+  std::string message;  ///< the pipeline's: why a frame was lost, or what overflowed
+  FilterTable stereo;   ///< Table 1
   EdgeCensus census;
-  PairMeasurement pairs;  ///< Table 3 and Figure 7
+  /// Nothing for first and lost frames, single pairs, and where the true motion is unknown.
+  std::optional<TemporalMatching> temporal;
   /// Error of the motion that the pipeline found since the frame that this one was matched with; for tracked frames.
   std::optional<MotionError> motion;
-  /// Final stereo edges whose truth is known and visible [px]: place along the epipolar line minus the true one, and
+  /// Final stereo edges whose truth is known and visible [px]: position along the epipolar line minus the true one, and
   /// the part of it that is across the edge, without sign.
   std::vector<float> disparity_error, across_error;
   MatchClassCounts classes{};         ///< final stereo edges of the pool `all`

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint8_t kMaskHidden = 128,
+constexpr std::uint8_t kMaskOccluded = 128,
                        kMaskUnknown = 0;  // of mask0nocc.png, whose third value is 255: seen in both views
 
 /// Names of the right view's disparities and of the mask that belong to a left one, in the published layouts.
@@ -61,7 +61,7 @@ FrameTruth read_pair_truth(const Dataset& dataset) {
       const Image image = read_grey_image(mask.string());
       check_size({image.width, image.height, {}}, dataset.rig.left, mask.string());
       for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        truth.hidden.push_back(image.pixels[i] == kMaskHidden ? 1 : 0);
+        truth.occluded.push_back(image.pixels[i] == kMaskOccluded ? 1 : 0);
         if (image.pixels[i] == kMaskUnknown) truth.left.nearness[i] = std::numeric_limits<float>::quiet_NaN();
       }
     }

@@ -21,7 +21,7 @@ Pools empty_pools(std::size_t size) { return {std::vector<std::uint8_t>(size, 0)
 
 double line_angle_deg(double a, double b) { return std::abs(std::remainder(a - b, kPi)) * 180 / kPi; }
 
-Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& right, const TruePlaces& truth,
+Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& right, const TruePositions& truth,
                    double min_epipolar_angle, const MatchingTolerance& tolerance) {
   const Eigen::Matrix3d f = fundamental_matrix(rig);
   // The left epipole: image of the right camera's centre.
@@ -37,7 +37,7 @@ Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& rig
     if (truth.state[i] != Visibility::visible) continue;
     const Eigen::Vector3d line = f * pixel;
     const double norm = line.head<2>().norm();
-    nearby.visit(truth.x[i], truth.y[i], tolerance.place, [&](std::size_t j) {
+    nearby.visit(truth.x[i], truth.y[i], tolerance.position, [&](std::size_t j) {
       const double distance = std::abs(line.dot(Eigen::Vector3d(right.x[j], right.y[j], 1))) / norm;
       if (distance > tolerance.line ||
           line_angle_deg(left.direction[i], right.direction[j]) > tolerance.stereo_direction)
@@ -49,15 +49,15 @@ Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& rig
 }
 
 Pools temporal_pools(const std::vector<float>& previous_direction,
-                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePlaces& current,
-                     int image_height, const TruePlaces& truth, const MatchingTolerance& tolerance) {
+                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePositions& current,
+                     int image_height, const TruePositions& truth, const MatchingTolerance& tolerance) {
   const NearbyTargets nearby(current.x, current.y, image_height);
   Pools pools = empty_pools(previous_direction.size());
   for (std::size_t i = 0; i < previous_direction.size(); ++i) {
     if (truth.state[i] == Visibility::unknown) continue;
     pools.all[i] = 1;
     if (truth.state[i] != Visibility::visible || previous_is_veridical[i] == 0) continue;
-    nearby.visit(truth.x[i], truth.y[i], tolerance.place, [&](std::size_t j) {
+    nearby.visit(truth.x[i], truth.y[i], tolerance.position, [&](std::size_t j) {
       if (line_angle_deg(previous_direction[i], current.direction[j]) <= tolerance.temporal_direction)
         pools.paired[i] = 1;
     });
@@ -66,15 +66,15 @@ Pools temporal_pools(const std::vector<float>& previous_direction,
 }
 
 Pools quad_pools(const StereoEdges& previous, const std::vector<std::uint8_t>& previous_is_veridical,
-                 const StereoEdges& current, int image_height, const TruePlaces& left_truth,
-                 const TruePlaces& right_truth, const MatchingTolerance& tolerance) {
+                 const StereoEdges& current, int image_height, const TruePositions& left_truth,
+                 const TruePositions& right_truth, const MatchingTolerance& tolerance) {
   const NearbyTargets nearby(current.left_x, current.left_y, image_height);
   Pools pools = empty_pools(previous.size());
   for (std::size_t i = 0; i < previous.size(); ++i) {
     if (left_truth.state[i] == Visibility::unknown || right_truth.state[i] == Visibility::unknown) continue;
     pools.all[i] = 1;
     if (left_truth.state[i] != Visibility::visible || previous_is_veridical[i] == 0) continue;
-    nearby.visit(left_truth.x[i], left_truth.y[i], tolerance.place, [&](std::size_t j) {
+    nearby.visit(left_truth.x[i], left_truth.y[i], tolerance.position, [&](std::size_t j) {
       if (!is_veridical(right_truth, i, current.right_x[j], current.right_y[j], tolerance)) return;
       if (line_angle_deg(previous.left_direction[i], current.left_direction[j]) > tolerance.temporal_direction) return;
       if (line_angle_deg(previous.right_direction[i], current.right_direction[j]) > tolerance.temporal_direction)

@@ -12,7 +12,7 @@
 
 namespace quadedge::evaluation {
 
-/// Edges of an image that can be asked for those near a place.
+/// Edges of an image that can be asked for those near a position.
 class NearbyTargets {
  public:
   /// The arrays must outlive the object. `height`: of the image [px].
@@ -21,7 +21,7 @@ class NearbyTargets {
     make_point_index(x, y, std::max(1, static_cast<int>(std::ceil(right_end)) + 1), height, index_);
   }
 
-  /// Calls `found(index)` for every target within `radius` px of the place.
+  /// Calls `found(index)` for every target within `radius` px of the position.
   template <class Found>
   void visit(double x, double y, double radius, const Found& found) const {
     constexpr float kRounding = 0.01F;
@@ -43,20 +43,20 @@ double line_angle_deg(double a, double b);
 
 /// Pools of stereo matching. Edges nearer than `min_epipolar_angle` [deg] to their epipolar line belong to neither:
 /// they take no part in stereo. An edge is paired when it is visible and a right edge lies within the tolerance of its
-/// true place, of its epipolar line, and of its own direction.
-Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& right, const TruePlaces& truth,
+/// true position, of its epipolar line, and of its own direction.
+Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& right, const TruePositions& truth,
                    double min_epipolar_angle, const MatchingTolerance& tolerance);
 
 /// Pools of matching in time within one image. An edge is paired when it is visible, its own stereo edge is veridical,
-/// and a current stereo edge lies within the tolerance of its true place and of its previous direction. \param
+/// and a current stereo edge lies within the tolerance of its true position and of its previous direction. \param
 /// previous_is_veridical one entry per previous stereo edge
 Pools temporal_pools(const std::vector<float>& previous_direction,
-                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePlaces& current,
-                     int image_height, const TruePlaces& truth, const MatchingTolerance& tolerance);
+                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePositions& current,
+                     int image_height, const TruePositions& truth, const MatchingTolerance& tolerance);
 
 /// Pools of quads: paired when ONE current stereo edge is the counterpart in both images.
 Pools quad_pools(const StereoEdges& previous, const std::vector<std::uint8_t>& previous_is_veridical,
-                 const StereoEdges& current, int image_height, const TruePlaces& left_truth,
-                 const TruePlaces& right_truth, const MatchingTolerance& tolerance);
+                 const StereoEdges& current, int image_height, const TruePositions& left_truth,
+                 const TruePositions& right_truth, const MatchingTolerance& tolerance);
 
 }  // namespace quadedge::evaluation

@@ -26,7 +26,7 @@ StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
     const Eigen::Isometry3d true_step = true_before->inverse() * *true_after;
     const Eigen::Isometry3d error = true_step.inverse() * (before->inverse() * *after);
     const double degrees = Eigen::AngleAxisd(error.linear()).angle() * kDegreesPerRadian;
-    const double allowed = limits.translation_m + limits.translation_share * true_step.translation().norm();
+    const double allowed = limits.translation_m + limits.translation_ratio * true_step.translation().norm();
     if (error.translation().norm() < allowed && degrees < limits.rotation_deg) {
       ++result.right;
     } else {

@@ -12,7 +12,7 @@ namespace quadedge::evaluation {
 /// A step is right while E = truth_step^-1 estimated_step stays below both limits.
 struct StepLimits {
   double translation_m = 0.05;      ///< |t(E)| at most this much,
-  double translation_share = 0.10;  ///< plus this share of the true step's length
+  double translation_ratio = 0.10;  ///< plus this part of the true step's length
   double rotation_deg = 2;          ///< angle of R(E)
 };
 

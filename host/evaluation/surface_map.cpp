@@ -85,7 +85,7 @@ std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y
 }
 
 Visibility visibility(const SurfaceMap& map, double x, double y, double nearness) {
-  if (!(x >= 0 && y >= 0 && x <= map.width - 1 && y <= map.height - 1)) return Visibility::hidden;
+  if (!(x >= 0 && y >= 0 && x <= map.width - 1 && y <= map.height - 1)) return Visibility::occluded;
   int nearer = 0, farther = 0;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
@@ -95,7 +95,7 @@ Visibility visibility(const SurfaceMap& map, double x, double y, double nearness
       ++(value > nearness ? nearer : farther);
     }
   }
-  return nearer > 0 && farther == 0 ? Visibility::hidden : Visibility::unknown;
+  return nearer > 0 && farther == 0 ? Visibility::occluded : Visibility::unknown;
 }
 
 SurfaceMap right_from_left(const SurfaceMap& left, int right_width) {
@@ -104,9 +104,9 @@ SurfaceMap right_from_left(const SurfaceMap& left, int right_width) {
       std::vector<float>(static_cast<std::size_t>(right_width) * static_cast<std::size_t>(left.height), kUnknown)};
   const auto put = [&](int row, double column, double value) {
     if (!(column >= 0 && column < right_width)) return;
-    float& place = right.nearness[static_cast<std::size_t>(row) * static_cast<std::size_t>(right_width) +
-                                  static_cast<std::size_t>(column)];
-    if (std::isnan(place) || value > place) place = static_cast<float>(value);
+    float& nearest = right.nearness[static_cast<std::size_t>(row) * static_cast<std::size_t>(right_width) +
+                                    static_cast<std::size_t>(column)];
+    if (std::isnan(nearest) || value > nearest) nearest = static_cast<float>(value);
   };
   for (int row = 0; row < left.height; ++row) {
     for (int column = 0; column < left.width; ++column) {

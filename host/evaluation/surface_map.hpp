@@ -16,7 +16,7 @@ struct SurfaceMap {
   int width = 0, height = 0;
   std::vector<float> nearness;
   bool empty() const { return nearness.empty(); }
-  /// Value at the pixel nearest to a place, NaN outside.
+  /// Value at the pixel nearest to a position, NaN outside.
   float nearest(double x, double y) const;
 };
 
@@ -49,20 +49,20 @@ struct SurfacePoint {
 /// - Any of them unknown: no statement (an unseen nearer surface could own the edge).
 /// - They differ by more than kDepthStep: the edge is an occluding contour and belongs to the nearer surface, whose
 /// values
-///   within kDepthStep of the nearest one are weighted by their closeness to the edge's place and averaged.
+///   within kDepthStep of the nearest one are weighted by their closeness to the edge's position and averaged.
 /// - A nearer surface begins between kContourReach and kDoubtReach to either side: no statement.
-/// - Else bilinear interpolation, over those of the four pixels around the place that lie within kDepthStep of the
+/// - Else bilinear interpolation, over those of the four pixels around the position that lie within kDepthStep of the
 /// nearest
 ///   pixel: a step that the edge ends at (along its direction) does not smear into it.
 /// \param direction of the tangent [rad]
 std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y, double direction);
 
 /// Whether another view shows a point.
-enum class Visibility { unknown, visible, hidden };
+enum class Visibility { unknown, visible, occluded };
 
 /// Compares a point's nearness with the map of a view in which it falls on (x, y). Visible: one of the pixels
-/// within 1.5 px shows that nearness to within kDepthStep. Hidden: all known ones are nearer, or the place is outside
-/// the image. Unknown: none is known, or the view shows something farther there, which contradicts the point.
+/// within 1.5 px shows that nearness to within kDepthStep. Occluded: all known ones are nearer, or the position is
+/// outside the image. Unknown: none is known, or the view shows something farther there, which contradicts the point.
 Visibility visibility(const SurfaceMap& map, double x, double y, double nearness);
 
 /// The right view's map as far as the left one tells it (rectified pairs): every known pixel moved by its disparity,

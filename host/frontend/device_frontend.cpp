@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "common/filter_names.hpp"
 #include "common/layouts.hpp"
 #include "common/point_index.hpp"
 
@@ -99,8 +98,8 @@ void DeviceFrontend::index_current() {
   indexed_ = true;
 }
 
-stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges& rig, bool right) const {
-  if (right) return {rig.right_patches, itself_, rig.right_sift};
+stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges& rig, Side side) const {
+  if (side == Side::right) return {rig.right_patches, itself_, rig.right_sift};
   return {rig.left_patches, rig.left_index, rig.left_sift};
 }
 
@@ -121,54 +120,59 @@ void DeviceFrontend::describe_by_sift(DeviceRig& rig) {
   rig.on_device.has_sift = true;
 }
 
-void DeviceFrontend::match_side(int side, DeviceRig& base, const TemporalSearch& search,
+void DeviceFrontend::match_side(Side side, DeviceRig& base, const TemporalSearch& search,
                                 stages::DeviceCandidates& candidates) {
   DeviceRig& current = rigs_.current();
-  temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius,
+  temporal_candidates_.run(predicted_[index_of(side)], search.step, index(side), search.radius,
                            static_cast<float>(config_.temporal.orientation * kDegree), candidates);
   const FilterLimits limits = temporal_limits(config_.temporal, search);
-  if (tap_ != nullptr || limits.sift_max > 0) {
+  if (limits.sift_max > 0) {
     describe_by_sift(base);
     describe_by_sift(current);
   }
   context_.begin_stage("temporal_filters");
-  filters_.run(described(base.on_device, side == 1), described(current.on_device, side == 1), limits, search.step,
+  filters_.run(described(base.on_device, side), described(current.on_device, side), limits, search.step,
                tap_ != nullptr, candidates);
-  if (tap_ != nullptr) tap_temporal(side, search);
 }
 
 void DeviceFrontend::match_by_lists(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
-  match_side(0, base, search, temporal_left_);
-  match_side(1, base, search, temporal_right_);
+  match_side(Side::left, base, search, temporal_left_);
+  match_side(Side::right, base, search, temporal_right_);
   counts_.temporal_left = temporal_left_.living_rows();
   counts_.temporal_right = temporal_right_.living_rows();
   temporal_quads_.agree(temporal_left_, temporal_right_);
-  if (tap_ != nullptr) {
-    tap_->temporal_filter(kAgreementOrder, kTemporalFilters[kAgreementOrder], 0,
-                          temporal_left_.alive_after(kAgreementOrder, nullptr));
-  }
   const DeviceRig& current = rigs_.current();
   matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_[0], temporal_left_);
+  if (tap_ == nullptr) return;
+  tap_displaced(search);
+  tap_temporal(TemporalFilter::orientation, temporal_left_.read_judged(), temporal_right_.read_judged());
+}
+
+bool DeviceFrontend::match_fused(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
+  DeviceRig& current = rigs_.current();
+  stages::TappedMatch tapped;
+  const auto alive =
+      temporal_match_.run(predicted_[0], predicted_[1], search, base.on_device, current.on_device, left_index_,
+                          right_index_, itself_, current.edges, matches, tap_ != nullptr ? &tapped : nullptr);
+  if (!alive) return false;
+  counts_.temporal_left = alive->left;
+  counts_.temporal_right = alive->right;
+  if (tap_ != nullptr) tap_temporal(TemporalFilter::displacement, tapped.left, tapped.right);
+  return true;
 }
 
 void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
   DeviceRig& base = rigs_.own(base_rig);
-  const DeviceRig& current = rigs_.current();
   index_current();
   predicted_[0].write(context_, search.left);
   predicted_[1].write(context_, search.right);
   if (tap_ != nullptr) {
-    tap_->temporal_search({search.left.x, search.left.y, search.left.direction},
-                          {search.right.x, search.right.y, search.right.direction}, search.radius, search.step);
-  } else if (temporal_match_.serves(search)) {
-    if (const auto alive = temporal_match_.run(predicted_[0], predicted_[1], search, base.on_device, current.on_device,
-                                               left_index_, right_index_, itself_, current.edges, matches)) {
-      counts_.temporal_left = alive->left;
-      counts_.temporal_right = alive->right;
-      return;
-    }
+    tap_search(base, search);
+    describe_by_sift(base);
+    describe_by_sift(rigs_.current());
   }
-  match_by_lists(base, search, matches);
+  if (!temporal_match_.serves(search) || !match_fused(base, search, matches)) match_by_lists(base, search, matches);
+  matches.search = counts_.searches++;
   if (tap_ != nullptr) tap_->quads(matches);
 }
 

@@ -33,6 +33,7 @@ class DeviceFrontend : public Frontend {
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
   void match_anywhere(const Rig& base, TemporalMatches& matches) override;
   EdgeSet edges(bool right) override;
+  void set_tap(Tap* tap) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
  private:
@@ -47,14 +48,20 @@ class DeviceFrontend : public Frontend {
 
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
-  stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, bool right) const;
+  const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
+  stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, Side side) const;
   /// SIFT descriptors of a rig's stereo edges, unless it has them.
   void describe_by_sift(DeviceRig& rig);
-  void match_side(int side, DeviceRig& base, const TemporalSearch& search, stages::DeviceCandidates& candidates);
+  /// The search in one kernel. \returns false where it has no room for the candidates: `matches` is nothing then.
+  bool match_fused(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches);
+  /// For searches with SIFT, for those without room, and for the variant that wants it.
   void match_by_lists(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches);
+  void match_side(Side side, DeviceRig& base, const TemporalSearch& search, stages::DeviceCandidates& candidates);
   void tap_stereo();
   void tap_candidates_without_limits();
-  void tap_temporal(int side, const TemporalSearch& search);
+  void tap_search(const Rig& base, const TemporalSearch& search);
+  void tap_displaced(const TemporalSearch& search);
+  void tap_temporal(TemporalFilter first, const stages::JudgedCandidates& left, const stages::JudgedCandidates& right);
 
   opencl::Context& context_;
   Config config_;

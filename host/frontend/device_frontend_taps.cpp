@@ -1,8 +1,5 @@
 /// \file device_frontend_taps.cpp  What the device frontend shows a tap after each filter; nothing here runs without
 /// one.
-#include <algorithm>
-
-#include "common/filter_names.hpp"
 #include "frontend/device_frontend.hpp"
 
 namespace quadedge::frontend {
@@ -10,73 +7,99 @@ namespace {
 
 constexpr float kAllDirections = 4.0f;  // rad, more than any angle
 
-std::string stereo_name(int order) { return kStereoFilters[static_cast<std::size_t>(order)]; }
-std::string temporal_name(int order) { return kTemporalFilters[static_cast<std::size_t>(order)]; }
-
-/// The scores that filter number `order` of a cascade judges; null for filters that judge neither.
-const opencl::Buffer<cl_float>* scores_for(const stages::DeviceCandidates& lists, int order, int sift_order,
-                                           int ncc_order) {
-  const int nearly_best_ncc = std::max(sift_order, ncc_order) + 1;
-  if (order == sift_order || order == nearly_best_ncc + 1) return &lists.sift;
-  if (order == ncc_order || order == nearly_best_ncc) return &lists.ncc;
+/// The scores that a filter judges; null for filters that judge neither.
+template <class Filter>
+const std::vector<float>* scores_for(const stages::JudgedCandidates& lists, Filter filter) {
+  if (filter == Filter::sift || filter == Filter::nearly_best_sift) return &lists.sift;
+  if (filter == Filter::ncc || filter == Filter::nearly_best_ncc) return &lists.ncc;
   return nullptr;
+}
+
+/// What a filter left, with the scores that the next one judges.
+template <class Filter>
+CandidateLists alive_after(const stages::JudgedCandidates& lists, Filter filter) {
+  return lists.alive_after(order_of(filter), scores_for(lists, next(filter)));
 }
 
 }  // namespace
 
+void DeviceFrontend::set_tap(Tap* tap) {
+  Frontend::set_tap(tap);
+  if (tap != nullptr) temporal_match_.prepare_tap();
+}
+
+/// Filters 1 and 2, which the kernel applies together with filter 3: the kernel itself, with the limits of the later
+/// ones opened. Filter 3's lists are those that the frame goes on with.
 void DeviceFrontend::tap_candidates_without_limits() {
   stages::DeviceCandidates lists;
   opencl::Buffer<cl_float> geometry;
-  for (int order = 1; order < kStereoSiftOrder - 1; ++order) {
-    geometry.write(context_, without_limits(epipolar_, order < 2, order < 3).packed());
+  for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
+    geometry.write(context_, without_limits(epipolar_, filter < StereoFilter::disparity, true).packed());
     stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, lists);
-    lists.state.fill(0, static_cast<std::size_t>(lists.host_total));
-    tap_->stereo_filter(order, stereo_name(order), lists.alive_after(order, nullptr));
+    tap_->stereo_filter(filter, lists.read());
   }
 }
 
 void DeviceFrontend::tap_stereo() {
-  for (int order = kStereoSiftOrder - 1; order <= kStereoNccOrder + 2; ++order) {
-    const auto* scores = scores_for(candidates_, order + 1, kStereoSiftOrder, kStereoNccOrder);
-    tap_->stereo_filter(order, stereo_name(order), candidates_.alive_after(order, scores));
-  }
+  const auto judged = candidates_.read_judged();
+  for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
+    tap_->stereo_filter(filter, alive_after(judged, filter));
   const auto rows = static_cast<std::size_t>(candidates_.rows), size = static_cast<std::size_t>(candidates_.capacity);
-  const auto first = candidates_.first.read(rows + 1);
   const auto count = clusters_.count.read(rows);
-  const auto place = clusters_.position.read(size), likeness = clusters_.similarity.read(size);
+  const auto position = clusters_.position.read(size), similarity = clusters_.similarity.read(size);
   const auto anchor = clusters_.anchor.read(size);
   const auto x = left_.edges.x.read(rows), y = left_.edges.y.read(rows);
-  for (const bool only_similar : {false, true}) {
+  for (const auto filter : {StereoFilter::refinement, StereoFilter::similarity}) {
     CandidateLists lists;
     lists.first.assign(1, 0);
     for (std::size_t i = 0; i < rows; ++i) {
       const auto line = epipolar_line(epipolar_, x[i], y[i]);
-      for (auto k = static_cast<std::size_t>(first[i]); k < static_cast<std::size_t>(first[i] + count[i]); ++k) {
-        if (only_similar && likeness[k] < static_cast<float>(config_.stereo.refined_ncc_min)) continue;
+      const auto begin = static_cast<std::size_t>(judged.first[i]);
+      for (std::size_t k = begin; k < begin + static_cast<std::size_t>(count[i]); ++k) {
+        // The kernel's own comparison: it chooses the best among the clusters that pass without marking the others.
+        const bool similar = similarity[k] >= static_cast<float>(config_.stereo.refined_ncc_min);
+        if (filter == StereoFilter::similarity && !similar) continue;
         lists.target.push_back(anchor[k]);
-        lists.x.push_back(line.x + place[k] * line.ex);
-        lists.y.push_back(line.y + place[k] * line.ey);
-        lists.cue.push_back(likeness[k]);
+        lists.x.push_back(line.x + position[k] * line.ex);
+        lists.y.push_back(line.y + position[k] * line.ey);
+        lists.cue.push_back(similarity[k]);
       }
       lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
     }
-    const int order = only_similar ? 9 : 8;
-    tap_->stereo_filter(order, stereo_name(order), lists);
+    tap_->stereo_filter(filter, lists);
   }
   tap_->stereo(rigs_.current().edges);
 }
 
-void DeviceFrontend::tap_temporal(int side, const TemporalSearch& search) {
-  stages::DeviceCandidates near;
-  temporal_candidates_.run(predicted_[side], search.step, side == 0 ? left_index_ : right_index_, search.radius,
-                           kAllDirections, near);
-  near.state.fill(0, static_cast<std::size_t>(near.host_total));
-  tap_->temporal_filter(1, temporal_name(1), side, near.alive_after(1, nullptr));
-  const stages::DeviceCandidates& lists = side == 0 ? temporal_left_ : temporal_right_;
-  for (int order = 2; order < kAgreementOrder; ++order) {
-    const auto* scores = scores_for(lists, order + 1, kTemporalSiftOrder, kTemporalNccOrder);
-    tap_->temporal_filter(order, temporal_name(order), side, lists.alive_after(order, scores));
+void DeviceFrontend::tap_search(const Rig& base, const TemporalSearch& search) {
+  tap_->temporal_search({counts_.searches,
+                         base.frame,
+                         {search.left.x, search.left.y, search.left.direction},
+                         {search.right.x, search.right.y, search.right.direction},
+                         search.radius,
+                         search.step});
+}
+
+/// Filter 1 of a search by lists, whose kernel applies it together with filter 2: the kernel itself, with the limit of
+/// filter 2 opened.
+void DeviceFrontend::tap_displaced(const TemporalSearch& search) {
+  stages::DeviceCandidates lists;
+  for (const Side side : kSides) {
+    temporal_candidates_.run(predicted_[index_of(side)], search.step, index(side), search.radius, kAllDirections,
+                             lists);
+    tap_->temporal_filter(TemporalFilter::displacement, side, lists.read());
   }
+}
+
+/// Both sides from filter `first` to the agreement.
+void DeviceFrontend::tap_temporal(TemporalFilter first, const stages::JudgedCandidates& left,
+                                  const stages::JudgedCandidates& right) {
+  for (auto filter = first; filter < TemporalFilter::agreement; filter = next(filter)) {
+    tap_->temporal_filter(filter, Side::left, alive_after(left, filter));
+    tap_->temporal_filter(filter, Side::right, alive_after(right, filter));
+  }
+  const auto agreeing = alive_after(left, TemporalFilter::agreement);
+  for (const Side side : kSides) tap_->temporal_filter(TemporalFilter::agreement, side, agreeing);
 }
 
 }  // namespace quadedge::frontend

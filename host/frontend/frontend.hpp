@@ -20,6 +20,7 @@ struct FrontendCounts {
   int edges_left = 0, edges_right = 0;
   int dropped_edges = 0;                      ///< beyond edges.max_edges, both images
   int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() that keep a candidate before the agreement
+  int searches = 0;                           ///< calls of match(); they number TemporalMatches::search
 };
 
 /// Two implementations: the OpenCL stages, and the plain C++ reference. The caller decides which rigs are kept, by
@@ -55,7 +56,7 @@ class Frontend {
   virtual std::size_t device_bytes() const = 0;
 
   /// Observes every filter from now on; null stops.
-  void set_tap(Tap* tap) { tap_ = tap; }
+  virtual void set_tap(Tap* tap) { tap_ = tap; }
 
  protected:
   FrontendCounts counts_;

@@ -1,19 +1,16 @@
 #include "frontend/reference_frontend.hpp"
 
-#include "common/filter_names.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
 #include "reference/stereo_clusters.hpp"
-#include "reference/temporal_quads.hpp"
+#include "reference/temporal_match.hpp"
 #include "reference/undistortion.hpp"
 #include "reference/wide_description.hpp"
 #include "reference/wide_matching.hpp"
 
 namespace quadedge::frontend {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
   if (!table.empty()) return reference::undistort(recorded, table);
@@ -52,16 +49,6 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
           reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction, config.sift)};
 }
 
-int living_rows(const reference::Candidates& candidates, const reference::CandidateScores& scores) {
-  int rows = 0;
-  for (std::size_t row = 0; row + 1 < candidates.first.size(); ++row) {
-    const auto begin = scores.state.begin() + candidates.first[row],
-               end = scores.state.begin() + candidates.first[row + 1];
-    if (std::find(begin, end, kCandidateAlive) != end) ++rows;
-  }
-  return rows;
-}
-
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
@@ -96,30 +83,18 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   return rigs_.current_handle();
 }
 
-reference::Candidates ReferenceFrontend::side_candidates(int side, const TemporalSearch& search) {
-  const StereoEdges& edges = rigs_.current().edges;
-  const PlacedEdges current = side == 0 ? PlacedEdges{edges.left_x, edges.left_y, edges.left_direction}
-                                        : PlacedEdges{edges.right_x, edges.right_y, edges.right_direction};
-  const PinholeCamera& camera = side == 0 ? calibration_.left : calibration_.right;
-  PointIndex index;
-  make_point_index(current.x, current.y, camera.width, camera.height, index);
-  return reference::temporal_candidates(side == 0 ? search.left : search.right, current, index, search.radius,
-                                        static_cast<float>(config_.temporal.orientation * kDegree), search.step);
-}
-
 void ReferenceFrontend::match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) {
   const ReferenceRig& before = rigs_.own(base);
   const ReferenceRig& now = rigs_.current();
-  const auto limits = temporal_limits(config_.temporal, search);
-  const auto left = side_candidates(0, search), right = side_candidates(1, search);
-  auto left_scores =
-      reference::candidate_filters(left, before.left_descriptions, now.left_descriptions, limits, search.step);
-  const auto right_scores =
-      reference::candidate_filters(right, before.right_descriptions, now.right_descriptions, limits, search.step);
-  counts_.temporal_left = living_rows(left, left_scores);
-  counts_.temporal_right = living_rows(right, right_scores);
-  const auto agreement = reference::temporal_agreement(left, left_scores, right, right_scores);
-  matches = reference::temporal_best(left, left_scores, agreement, now.edges, config_.temporal, search);
+  auto result = reference::temporal_match(
+      search, now.edges,
+      {before.left_descriptions, now.left_descriptions, calibration_.left.width, calibration_.left.height},
+      {before.right_descriptions, now.right_descriptions, calibration_.right.width, calibration_.right.height},
+      config_.temporal);
+  counts_.temporal_left = result.left.alive_rows;
+  counts_.temporal_right = result.right.alive_rows;
+  matches = std::move(result.matches);
+  matches.search = counts_.searches++;
 }
 
 void ReferenceFrontend::match_anywhere(const Rig& base, TemporalMatches& matches) {

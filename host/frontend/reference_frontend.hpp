@@ -3,7 +3,6 @@
 
 #include "frontend/frontend.hpp"
 #include "reference/candidate_filters.hpp"
-#include "reference/temporal_candidates.hpp"
 
 namespace quadedge::frontend {
 
@@ -25,8 +24,6 @@ class ReferenceFrontend : public Frontend {
   std::size_t device_bytes() const override { return 0; }
 
  private:
-  reference::Candidates side_candidates(int side, const TemporalSearch& search);
-
   StereoRig calibration_;
   Config config_;
   EpipolarGeometry epipolar_;

@@ -242,6 +242,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.disparity_offset = offset_.value() + step.motion.offset;
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
+  result.search = step.matches.search;
   result.reference_frame = key_rig_.frame();
   result.current_from_reference = current_from_key;
   result.covariance = covariance;

@@ -68,7 +68,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       const auto found = align_edge(right_image, right_frame(s, 0), line.ex, line.ey, on_edge,
                                     patch_derivative(left_image, left_frame, line.ex, line.ey), stiffness, settings);
       if (!found) {
-        scores.state[c] = kStereoRefinementOrder;
+        scores.state[c] = static_cast<std::uint8_t>(order_of(StereoFilter::refinement));
         continue;
       }
       refined.position[c] = s + found->move;
@@ -92,7 +92,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
           nearest = k;
       }
       if (nearest == end)
-        scores.state[c] = kStereoRefinementOrder;
+        scores.state[c] = static_cast<std::uint8_t>(order_of(StereoFilter::refinement));
       else
         refined.similarity[c] = refined.similarity[nearest];
     }

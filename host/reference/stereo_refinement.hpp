@@ -1,7 +1,6 @@
 #pragma once
 /// \file stereo_refinement.hpp  Plain C++ twin of kernels/stereo_refinement.cl, double precision.
 
-#include "common/filter_names.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/image.hpp"
 #include "reference/candidate_filters.hpp"

@@ -53,7 +53,7 @@ std::vector<float> temporal_agreement(const Candidates& left_candidates, Candida
         found = true;
         agreement[c] = 0.5f * (left.ncc[c] + right.ncc[d]);
       }
-      if (!found) left.state[c] = kAgreementOrder;
+      if (!found) left.state[c] = static_cast<std::uint8_t>(order_of(TemporalFilter::agreement));
     }
   }
   return agreement;

@@ -1,7 +1,6 @@
 #pragma once
 /// \file temporal_quads.hpp  Plain C++ twin of kernels/temporal_quads.cl.
 
-#include "common/filter_names.hpp"
 #include "common/temporal_search.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"

@@ -27,7 +27,7 @@ std::string meaning(MatchClass kind, double tolerance, double wrong) {
     case MatchClass::correct: return "within " + limit(tolerance) + " of the true place";
     case MatchClass::inaccurate: return limit(tolerance) + " to " + limit(wrong) + " from the true place";
     case MatchClass::wrong: return "more than " + limit(wrong) + " from the true place";
-    case MatchClass::hidden: return "matched although the right view hides the edge";
+    case MatchClass::occluded: return "matched although the edge is occluded in the right view";
   }
   return {};
 }

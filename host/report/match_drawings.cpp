@@ -33,7 +33,7 @@ void write_match_drawings(const std::string& folder, const std::vector<evaluatio
     if (!result.drawn) continue;
     std::string name = file_name_of(result.name);
     if (const int number = ++used[name]; number > 1) name += "_" + std::to_string(number);
-    for (const auto& drawing : draw_matches(*result.drawn, result.name, tolerance.place, tolerance.wrong)) {
+    for (const auto& drawing : draw_matches(*result.drawn, result.name, tolerance.position, tolerance.wrong)) {
       write_png((std::filesystem::path(folder) / (name + "_" + drawing.file)).string(), drawing.picture);
     }
   }

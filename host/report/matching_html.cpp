@@ -46,10 +46,11 @@ void add_facts(HtmlPage& page, const MatchingReportFacts& facts) {
       {{"program", std::string("QuadEdge ") + QUADEDGE_VERSION},
        {"device", facts.device.name + ", " + facts.device.opencl + ", driver " + facts.device.driver},
        {"constants", changed_constants(facts.config)},
-       {"veridical", "within " + axis_text(facts.tolerance.place) + " px of the true place, in a view that shows it"},
+       {"veridical",
+        "within " + axis_text(facts.tolerance.position) + " px of the true place, in a view that shows it"},
        {"pool: paired",
         "edges whose counterpart was detected (the paper's pool): recall starts at 100 % by construction"},
-       {"pool: all", "all edges of known truth, also those whose counterpart is hidden or was not detected"},
+       {"pool: all", "all edges of known truth, also those whose counterpart is occluded or was not detected"},
        {"recall", "share of the pool's edges that still have a veridical candidate"},
        {"precision", "veridical candidates / all candidates"},
        {"ambiguity", "candidates beyond the first, per edge that has any"},
@@ -147,7 +148,8 @@ void add_drawings(HtmlPage& page, const std::vector<MatchingResult>& results, co
       ++left_out;
       continue;
     }
-    all.emplace_back(&result, draw_matches(*result.drawn, result.name, facts.tolerance.place, facts.tolerance.wrong));
+    all.emplace_back(&result,
+                     draw_matches(*result.drawn, result.name, facts.tolerance.position, facts.tolerance.wrong));
     pictures += all.back().second.size();
   }
   if (pictures == 0) return;

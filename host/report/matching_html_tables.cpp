@@ -72,7 +72,7 @@ HtmlTable overview_table(const std::vector<evaluation::MatchingResult>& results,
                   {"stereo, all [%]", 2},
                   {"disparity, median", 1},
                   {"quads, paired [%]", 2}};
-  table.columns = {"data",   "frames",    "left edges", "correct",   "inaccurate", "wrong",  "hidden",
+  table.columns = {"data",   "frames",    "left edges", "correct",   "inaccurate", "wrong",  "occluded",
                    "recall", "precision", "recall",     "precision", "error [px]", "recall", "precision"};
   for (const auto& result : results) table.rows.push_back(overview_row(result.name, evaluation::summarise({result})));
   if (results.size() > 1) {
@@ -140,12 +140,12 @@ HtmlTable disparity_table(const MatchingSummary& summary) {
   HtmlTable table;
   table.caption = "Final stereo edges against the truth, and what the truth says about the left edges";
   table.groups = {{"disparity error [px]", 3}, {"part across the edge [px]", 2}, {"left edges", 5}};
-  table.columns = {"median",   "90 %",         "bias",           "median", "90 %",
-                   "detected", "no statement", "along the line", "hidden", "on depth steps"};
+  table.columns = {"median",   "90 %",         "bias",           "median",   "90 %",
+                   "detected", "no statement", "along the line", "occluded", "on depth steps"};
   const auto& census = summary.census;
   table.rows = {{decimal(summary.disparity_median, 4), decimal(summary.disparity_p90, 4),
                  decimal(summary.disparity_bias, 4), decimal(summary.across_median, 4), decimal(summary.across_p90, 4),
-                 count(census.edges), count(census.no_statement), count(census.along_line), count(census.hidden),
+                 count(census.edges), count(census.no_statement), count(census.along_line), count(census.occluded),
                  count(census.contour)}};
   return table;
 }

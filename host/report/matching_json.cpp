@@ -105,7 +105,7 @@ Json everything(const evaluation::MatchingSummary& summary) {
   json["left_edges"] = {{"detected", summary.census.edges},
                         {"no_statement", summary.census.no_statement},
                         {"along_line", summary.census.along_line},
-                        {"hidden", summary.census.hidden},
+                        {"occluded", summary.census.occluded},
                         {"contour", summary.census.contour}};
   for (std::size_t kind = 0; kind < summary.classes.size(); ++kind) {
     json["stereo_edges"][evaluation::kMatchClassNames[kind]] = summary.classes[kind];

@@ -140,8 +140,9 @@ AccuracyPlots accuracy_plots(const std::vector<MatchingResult>& results) {
     std::vector<double> x, degrees, millimetres;
     for (const auto& result : results) {
       for (const auto& frame : result.frames) {
-        const auto& counts = frame.pairs.table[order];
-        const auto& error = frame.pairs.accuracy[order];
+        if (!frame.temporal) continue;
+        const auto& counts = frame.temporal->pairs.table[order];
+        const auto& error = frame.temporal->pairs.accuracy[order];
         if (counts.pairs == 0) continue;
         const double precision = 100 * static_cast<double>(counts.veridical) / static_cast<double>(counts.pairs);
         if (order + 1 == orders && frame.motion) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "opencl/kernel.hpp"
-#include "quadedge/tap.hpp"
+#include "stages/judged_candidates.hpp"
 #include "stages/scan.hpp"
 
 namespace quadedge::stages {
@@ -54,8 +54,9 @@ struct DeviceCandidates {
         std::count_if(counts_per_row.begin(), counts_per_row.end(), [](cl_int n) { return n > 0; }));
   }
 
-  /// Candidates that no filter of order <= `order` has rejected, for a tap.
-  CandidateLists alive_after(int order, const opencl::Buffer<cl_float>* cue) const;
+  /// All candidates, without scores; and with what the filters decided, for a tap.
+  CandidateLists read() const;
+  JudgedCandidates read_judged() const;
 };
 
 }  // namespace quadedge::stages

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "common/filter_names.hpp"
 #include "opencl/variants.hpp"
 
 namespace quadedge::stages {
@@ -43,8 +42,8 @@ void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& r
           static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
           static_cast<float>(std::pow(config_.refine_noise_sigma / config_.refine_prior_sigma, 2)),
           config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
-          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min), kStereoRefinementOrder,
-          candidates.state, refined.position, refined.similarity);
+          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min),
+          order_of(StereoFilter::refinement), candidates.state, refined.position, refined.similarity);
 }
 
 }  // namespace quadedge::stages

@@ -1,15 +1,17 @@
 #include "stages/temporal_match.hpp"
 
 #include <cstring>
+#include <limits>
 
 #include "opencl/variants.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge::stages {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // As in kernels/temporal_match.cl.
-constexpr std::size_t kRowInts = 4;
+constexpr std::size_t kRowInts = 4, kSeenInts = 4;
 constexpr cl_int kLeftAlive = 1, kRightAlive = 2, kOverflow = 4;
 
 float from_bits(cl_int bits) {
@@ -18,37 +20,95 @@ float from_bits(cl_int bits) {
   return value;
 }
 
+cl::Program match_program(opencl::Context& context, const opencl::Defines& defines) {
+  return context.program({"similarity.cl", "point_index.cl", "temporal_match.cl"}, defines);
+}
+
 }  // namespace
 
 TemporalMatch::TemporalMatch(opencl::Context& context, const TemporalConfig& config,
                              const std::map<std::string, std::string>& variants)
-    : context_(context), config_(config) {
+    : context_(context), config_(config), variants_(variants) {
   const auto& variant = opencl::choose_variant("temporal_match", context, variants);
   fused_ = variant.name != "lists";
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  if (fused_)
-    kernel_ = {context, context.program({"similarity.cl", "point_index.cl", "temporal_match.cl"}, variant.defines),
-               "temporal_match"};
+  if (fused_) kernel_ = {context, match_program(context, variant.defines), "temporal_match"};
+}
+
+void TemporalMatch::prepare_tap() {
+  if (tap_ || !fused_) return;
+  opencl::Defines defines = opencl::choose_variant("temporal_match", context_, variants_).defines;
+  defines["TAP"] = "1";
+  for (const auto& [name, filter] : {std::pair("ORIENTATION_ORDER", TemporalFilter::orientation),
+                                     {"NCC_ORDER", TemporalFilter::ncc},
+                                     {"NEARLY_BEST_NCC_ORDER", TemporalFilter::nearly_best_ncc},
+                                     {"AGREEMENT_ORDER", TemporalFilter::agreement}}) {
+    defines[name] = std::to_string(order_of(filter));
+  }
+  tap_.emplace();
+  tap_->scan = Scan(context_, variants_);
+  tap_->kernel = {context_, match_program(context_, defines), "temporal_match"};
+}
+
+/// Sorts what the kernel wrote of both sides into lists of their own.
+void TemporalMatch::read_tapped(std::size_t rows, TappedMatch& tapped) const {
+  const auto first = tap_->first.read(2 * rows + 1);
+  const auto seen = tap_->seen.read(kSeenInts * static_cast<std::size_t>(first.back()));
+  tapped = {};
+  for (auto* side : {&tapped.left, &tapped.right}) side->first.assign(1, 0);
+  for (std::size_t list = 0; list < 2 * rows; ++list) {
+    JudgedCandidates& side = list % 2 == 0 ? tapped.left : tapped.right;
+    for (auto c = static_cast<std::size_t>(first[list]); c < static_cast<std::size_t>(first[list + 1]); ++c) {
+      const cl_int* values = seen.data() + kSeenInts * c;
+      side.target.push_back(values[0]);
+      side.state.push_back(static_cast<std::uint8_t>(values[1]));
+      side.ncc.push_back(from_bits(values[2]));
+      side.sift.push_back(from_bits(values[3]));
+    }
+    side.first.push_back(static_cast<std::int32_t>(side.target.size()));
+  }
 }
 
 std::optional<AliveRows> TemporalMatch::run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted,
                                             const TemporalSearch& search, const DeviceStereoEdges& base,
                                             const DeviceStereoEdges& current, const DevicePointIndex& left,
                                             const DevicePointIndex& right, const opencl::Buffer<cl_int>& itself,
-                                            const StereoEdges& edges, TemporalMatches& matches) {
+                                            const StereoEdges& edges, TemporalMatches& matches, TappedMatch* tapped) {
   context_.begin_stage("temporal_match");
   const int count = (left_predicted.count + search.step - 1) / search.step;
   const auto rows = static_cast<std::size_t>(count);
   result_.ensure(context_, kRowInts * rows);
   const FilterLimits limits = temporal_limits(config_, search);
-  kernel_({rows, local_size_}, count, search.step, left_predicted.x, left_predicted.y, left_predicted.direction,
-          right_predicted.x, right_predicted.y, right_predicted.direction, left.x, left.y, left.direction, left.number,
-          left.cell_first, left.columns, left.rows, right.x, right.y, right.direction, right.number, right.cell_first,
-          right.columns, right.rows, base.left_patches, base.left_index, base.right_patches, current.left_patches,
-          current.left_index, current.right_patches, itself, current.packed, current.stride, search.radius,
-          static_cast<float>(config_.orientation * kDegree), limits.ncc_min, limits.ncc_nearly_best,
-          static_cast<float>(config_.distance_weight) / (search.radius * search.radius),
-          static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree), result_);
+  const auto launch = [&](const auto& kernel, auto&&... of_tap) {
+    kernel({rows, local_size_}, count, search.step, left_predicted.x, left_predicted.y, left_predicted.direction,
+           right_predicted.x, right_predicted.y, right_predicted.direction, left.x, left.y, left.direction, left.number,
+           left.cell_first, left.columns, left.rows, right.x, right.y, right.direction, right.number, right.cell_first,
+           right.columns, right.rows, base.left_patches, base.left_index, base.right_patches, current.left_patches,
+           current.left_index, current.right_patches, itself, current.packed, current.stride, search.radius,
+           static_cast<float>(config_.orientation * kDegree), limits.ncc_min, limits.ncc_nearly_best,
+           static_cast<float>(config_.distance_weight) / (search.radius * search.radius),
+           static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree), result_,
+           of_tap...);
+  };
+  if (tapped == nullptr) {
+    launch(kernel_);
+  } else {
+    prepare_tap();
+    auto& [scan, counts, first, total, seen, tap_kernel] = *tap_;
+    counts.ensure(context_, 2 * rows);
+    first.ensure(context_, 2 * rows + 1);
+    seen.ensure(context_, 1);
+    const auto launch_tap = [&](cl_int capacity) {
+      launch(tap_kernel, first, capacity, counts, seen, base.left_sift, base.right_sift, current.left_sift,
+             current.right_sift);
+    };
+    launch_tap(0);
+    scan.run(counts, 2 * count, std::numeric_limits<cl_int>::max(), first, total);
+    const cl_int size = total.read(2)[0];
+    seen.ensure(context_, kSeenInts * static_cast<std::size_t>(size));
+    if (size > 0) launch_tap(size);
+    read_tapped(rows, *tapped);
+  }
   rows_.resize(kRowInts * rows);
   result_.read(rows_.data(), rows_.size());
   matches.clear();

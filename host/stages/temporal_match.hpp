@@ -1,5 +1,5 @@
 #pragma once
-/// \file temporal_match.hpp  Stage 6 in one kernel: from predicted places to quads, without SIFT and without lists.
+/// \file temporal_match.hpp  Stage 6 in one kernel: from predicted positions to quads, without SIFT and without lists.
 
 #include <map>
 #include <optional>
@@ -12,6 +12,8 @@
 #include "quadedge/edges.hpp"
 #include "stages/device_point_index.hpp"
 #include "stages/device_stereo_edges.hpp"
+#include "stages/judged_candidates.hpp"
+#include "stages/scan.hpp"
 #include "stages/temporal_candidates.hpp"
 
 namespace quadedge::stages {
@@ -19,6 +21,12 @@ namespace quadedge::stages {
 /// Rows that kept a candidate in each image before the agreement.
 struct AliveRows {
   int left = 0, right = 0;
+};
+
+/// What a tap sees of a search: every candidate within the radius in either image. What the agreement rejected is
+/// marked in the left lists.
+struct TappedMatch {
+  JudgedCandidates left, right;
 };
 
 /// doc/method.md section 4 for searches without SIFT. Variants of the stage "temporal_match".
@@ -30,13 +38,18 @@ class TemporalMatch {
   /// Whether the chosen variant is a fused kernel at all, and the limits leave SIFT out.
   bool serves(const TemporalSearch& search) const { return fused_ && temporal_limits(config_, search).sift_max == 0; }
 
+  /// Builds the tap form, which is the same source, unless it is there.
+  void prepare_tap();
+
   /// Matches and reads the rows back into `matches`; `edges` holds the current stereo edges on the host. `itself`: 0,
-  /// 1, 2 ... \returns nothing where a row has more candidates than the kernel has room for: then lists have to be used
+  /// 1, 2 ... \param tapped where given, the kernel's tap form runs and shows its candidates; both
+  /// rigs then need their SIFT descriptors. \returns nothing where a row has more candidates than the kernel has room
+  /// for: then lists have to be used
   std::optional<AliveRows> run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted,
                                const TemporalSearch& search, const DeviceStereoEdges& base,
                                const DeviceStereoEdges& current, const DevicePointIndex& left,
                                const DevicePointIndex& right, const opencl::Buffer<cl_int>& itself,
-                               const StereoEdges& edges, TemporalMatches& matches);
+                               const StereoEdges& edges, TemporalMatches& matches, TappedMatch* tapped = nullptr);
 
  private:
   template <class T>
@@ -44,18 +57,34 @@ class TemporalMatch {
   template <class T>
   using Out = opencl::Out<T>;
 
+  /// The arguments of the production form, then those of the tap form.
+  template <class... Tapped>
+  using MatchKernel =
+      opencl::Kernel<cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
+                     In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>,
+                     In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_char>, In<cl_int>,
+                     In<cl_char>, In<cl_char>, In<cl_int>, In<cl_char>, In<cl_int>, In<cl_float>, cl_int, cl_float,
+                     cl_float, cl_float, cl_float, cl_float, cl_float, cl_float, Out<cl_int>, Tapped...>;
+
+  void read_tapped(std::size_t rows, TappedMatch& tapped) const;
+
   opencl::Context& context_;
   TemporalConfig config_;
+  std::map<std::string, std::string> variants_;
   bool fused_;
   std::size_t local_size_;
   opencl::Buffer<cl_int> result_;
   std::vector<cl_int> rows_;
-  opencl::Kernel<cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>,
-                 In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_char>, In<cl_int>,
-                 In<cl_char>, In<cl_char>, In<cl_int>, In<cl_char>, In<cl_int>, In<cl_float>, cl_int, cl_float,
-                 cl_float, cl_float, cl_float, cl_float, cl_float, cl_float, Out<cl_int>>
-      kernel_;
+  MatchKernel<> kernel_;
+
+  /// What only a tap needs.
+  struct TapForm {
+    Scan scan;
+    opencl::Buffer<cl_int> counts, first, total, seen;
+    MatchKernel<In<cl_int>, cl_int, Out<cl_int>, Out<cl_int>, In<cl_uchar>, In<cl_uchar>, In<cl_uchar>, In<cl_uchar>>
+        kernel;
+  };
+  std::optional<TapForm> tap_;
 };
 
 }  // namespace quadedge::stages

@@ -1,7 +1,7 @@
 #include "stages/temporal_quads.hpp"
 
-#include "common/filter_names.hpp"
 #include "opencl/variants.hpp"
+#include "quadedge/filters.hpp"
 
 namespace quadedge::stages {
 namespace {
@@ -24,8 +24,8 @@ void TemporalQuads::agree(DeviceCandidates& left, const DeviceCandidates& right)
   context_.begin_stage("temporal_quads");
   score_.ensure(context_, static_cast<std::size_t>(left.capacity));
   agree_({static_cast<std::size_t>(left.rows), local_size_}, left.first, left.target, left.capacity, left.ncc,
-         left.state, right.first, right.target, right.capacity, right.ncc, right.state, left.rows, kAgreementOrder,
-         score_);
+         left.state, right.first, right.target, right.capacity, right.ncc, right.state, left.rows,
+         order_of(TemporalFilter::agreement), score_);
 }
 
 TemporalMatches TemporalQuads::collect(const DeviceStereoEdges& current, const StereoEdges& edges,

@@ -46,12 +46,14 @@ struct TemporalMatches {
   std::vector<float> right_x, right_y;  ///< its refined right point
   std::vector<float> ncc;               ///< mean of the left and the right similarity
   std::vector<std::int32_t> rivals;     ///< how many other clusters the previous edge has (0: unambiguous)
+  int search = -1;                      ///< number of the search in time that found them, see Tap; -1: none
 
   std::size_t size() const { return previous.size(); }
   /// Keeps the memory.
   void clear() {
     for (auto* values : {&previous, &current, &rivals}) values->clear();
     for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
+    search = -1;
   }
   /// Adds a match with stereo edge `current_edge` of `edges`, at its places.
   void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity,

@@ -62,6 +62,7 @@ struct FrameResult {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double disparity_offset = 0;  ///< found so far, added to every disparity [px]
   int reference_frame = 0;      ///< number of the frame that was the key stereo rig
+  int search = -1;              ///< number of the frame's search in time that its motion was taken from; -1: no motion
   bool new_key_rig = false;     ///< this frame becomes the key stereo rig of the following ones
   bool overflow = false;        ///< a capacity ran out (edges or candidates); the message says which
   std::string message;          ///< empty, or one sentence for a person

@@ -2,10 +2,11 @@
 /// \file tap.hpp  Observing the production pipeline after every filter (doc/design.md section 3).
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "quadedge/edges.hpp"
+#include "quadedge/filters.hpp"
+#include "quadedge/side.hpp"
 
 namespace quadedge {
 
@@ -13,40 +14,46 @@ namespace quadedge {
 struct CandidateLists {
   std::vector<std::int32_t> first;   ///< size rows + 1
   std::vector<std::int32_t> target;  ///< index of the other edge
-  std::vector<float> x, y;           ///< place of the candidate [px]: detected, then refined
-  /// What the NEXT filter will judge, before it does: NCC or SIFT distance. Empty where places and directions decide.
+  std::vector<float> x, y;           ///< refined positions of the candidates [px]; empty: where the targets lie
+  /// What the NEXT filter will judge, before it does: NCC or SIFT distance. Empty where positions and directions
+  /// decide.
   std::vector<float> cue;
 };
 
-/// Where a search in time expects every previous stereo edge in one of the current images [px, rad]; NaN: nowhere.
+/// Where a search in time expects every stereo edge of its base in one of the current images [px, rad]; NaN: nowhere.
 struct ExpectedEdges {
   std::vector<float> x, y, direction;
 };
 
-/// Receives copies of what each stage leaves. All functions have empty defaults; overriding one makes the pipeline read
-/// back.
+/// A search for the stereo edges of an earlier frame, its base, in the current one.
+struct ObservedSearch {
+  int number = 0;      ///< of the searches of one frame, from 0; see TemporalMatches::search and FrameResult::search
+  int base_frame = 0;  ///< number of the base; the frames that StereoOdometry takes count from 0
+  ExpectedEdges left, right;  ///< one entry per stereo edge of the base
+  double radius = 0;          ///< px around the expected positions
+  int step = 1;               ///< only every step-th stereo edge of the base is looked for; each has a row
+};
+
+/// Receives copies of what each stage leaves, as the production kernels decided it. All functions have empty defaults;
+/// overriding one makes the pipeline read back.
 class Tap {
  public:
   virtual ~Tap() = default;
   /// After edge detection of a frame.
   virtual void edges(const EdgeSet& left, const EdgeSet& right) { (void)left, (void)right; }
-  /// After stereo filter number `order` (Table 1): rows are left edges, targets right edges.
-  virtual void stereo_filter(int order, const std::string& name, const CandidateLists& candidates) {
-    (void)order, (void)name, (void)candidates;
-  }
+  /// After every stereo filter between the baseline and the best: rows are left edges, targets right edges.
+  virtual void stereo_filter(StereoFilter filter, const CandidateLists& candidates) { (void)filter, (void)candidates; }
   /// The final stereo edges of a frame.
   virtual void stereo(const StereoEdges& edges) { (void)edges; }
-  /// Before every search in time: it looks within `radius` px of the expected places of every `step`-th previous stereo
-  /// edge.
-  virtual void temporal_search(const ExpectedEdges& left, const ExpectedEdges& right, double radius, int step) {
-    (void)left, (void)right, (void)radius, (void)step;
+  /// Before every search in time.
+  virtual void temporal_search(const ObservedSearch& search) { (void)search; }
+  /// After every filter of that search between the baseline and the best, of the left and of the right image: row r is
+  /// stereo edge r * step of the base, targets are current stereo edges. What the agreement leaves is one list, told
+  /// for either side.
+  virtual void temporal_filter(TemporalFilter filter, Side side, const CandidateLists& candidates) {
+    (void)filter, (void)side, (void)candidates;
   }
-  /// After temporal filter number `order` (Table 2): rows are previous stereo edges, targets current ones.
-  /// `side`: 0 left, 1 right.
-  virtual void temporal_filter(int order, const std::string& name, int side, const CandidateLists& candidates) {
-    (void)order, (void)name, (void)side, (void)candidates;
-  }
-  /// The final quads of a frame.
+  /// The quads of that search. FrameResult::search says which search of the frame its motion was taken from.
   virtual void quads(const TemporalMatches& matches) { (void)matches; }
 };
 
