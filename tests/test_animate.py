@@ -16,7 +16,8 @@ script, quadedge = sys.argv[1:]
 
 def animate(*options):
     return subprocess.run(
-        [sys.executable, script, *map(str, options)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False
+        [sys.executable, script, *map(str, options)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        check=False
     )
 
 

@@ -132,6 +132,7 @@ std::string StageResult::best() const {
   return best;
 }
 
+// LONG: four steps on one list of candidates: check, compare, measure, relate.
 StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
                              const Ceilings& ceilings, const std::function<void(const std::string&)>& progress) {
   StageResult result;
