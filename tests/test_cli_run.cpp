@@ -287,6 +287,26 @@ TEST_CASE("demo: renders before it tracks, and only once", "[cli][device]") {
   }
 }
 
+TEST_CASE("demo: two that render the same at the same time do not disturb one another", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
+  const auto demo = [&](const std::string& out) {
+    return std::vector<std::string>{"demo", "-o", folder / out, "--frames", "4", "--size", "320x200"};
+  };
+  BackgroundProgram one(demo("one"), folder / "log_one", environment);
+  BackgroundProgram other(demo("other"), folder / "log_other", environment);
+  for (auto* program : {&one, &other}) {
+    program->wait_until([] { return false; });
+    const int status = program->end_by(0);  // it has ended by itself
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+  }
+  CHECK(read_text(folder / "one/trajectory.txt") == read_text(folder / "other/trajectory.txt"));
+  CHECK(lines(folder / "one/trajectory.txt").size() == 5);
+  const auto again = run_program(demo("again"), environment);
+  CHECK(again.err.find("rendering") == std::string::npos);
+  CHECK(read_text(folder / "again/trajectory.txt") == read_text(folder / "one/trajectory.txt"));
+}
+
 TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string out = folder / "out", cache = folder / "cache", rendered = cache + "/quadedge/rendered";
