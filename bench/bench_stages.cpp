@@ -1,11 +1,8 @@
-/// \file bench_stages.cpp  Kernel time of every stage by OpenCL events, for each kernel variant, on the device of
-/// QUADEDGE_DEVICE
-/// ("auto" without it): bench_stages --benchmark_filter=edge_detection
-#include <algorithm>
+/// \file bench_stages.cpp  Kernel times of all stages (bench_STAGE.cpp) on the device of QUADEDGE_DEVICE ("auto"
+/// without it): bench_stages --benchmark_filter=patches
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <iostream>
-#include <string>
 #include <vector>
 
 #include "benchmark/frontend_agreement.hpp"
@@ -13,7 +10,9 @@
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/synthetic.hpp"
+#include "stage_bench.hpp"
 
+namespace stage_bench {
 namespace {
 
 using namespace quadedge;
@@ -41,60 +40,70 @@ const Scene& scene() {
   return made;
 }
 
-std::string device_choice() {
-  const char* chosen = std::getenv("QUADEDGE_DEVICE");
-  return chosen == nullptr ? "auto" : chosen;
-}
-
-/// The second frame again and again with one variant of one stage; only that stage's kernels count.
-void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant,
-               const std::vector<std::string>& booked_as) {
-  Device device(device_choice(), "", true);
+/// `variant` may be empty: the default.
+void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant, const Prepare& prepare) {
+  Device device(stage_bench::device_choice(), "", true);
   Config config = scene().config;
-  config.variants[stage] = variant;
-  const auto frontend = frontend::make_frontend(scene().sequence.rig(), device, config);
+  StereoRig rig = scene().sequence.rig();
+  if (prepare) prepare(config, rig);
+  if (!variant.empty()) config.variants[stage] = variant;
+  const auto frontend = frontend::make_frontend(rig, device, config);
   const auto warm = bench::run_frontend(*frontend, scene().frames[0], scene().frames[1], config);
   const auto search = bench::search_in_place(warm.previous, config.temporal, false);
   const auto& second = scene().frames[1];
+  TemporalMatches matches;
   device.context()->take_profile();
   for (auto unused : state) {
     (void)unused;
     frontend->process({second.stamp_ns, second.left.view(), second.right.view()});
-    frontend->match(*warm.first, search);
+    frontend->match(*warm.first, search, matches);
+    frontend->match_anywhere(*warm.first, matches);
     double ms = 0;
     for (const auto& [name, time] : device.context()->take_profile()) {
-      if (std::find(booked_as.begin(), booked_as.end(), name) != booked_as.end()) ms += time;
+      if (name == stage) ms += time;
     }
+    if (ms == 0) return state.SkipWithError("this variant never runs the stage");
     state.SetIterationTime(ms * 1e-3);
   }
   state.counters["edges"] = frontend->counts().edges_left + frontend->counts().edges_right;
 }
 
-void register_stages() {
+}  // namespace
+
+std::string device_choice() {
+  const char* chosen = std::getenv("QUADEDGE_DEVICE");
+  return chosen == nullptr ? "auto" : chosen;
+}
+
+bool register_stage(const std::string& stage, const Prepare& prepare) {
+  std::vector<std::string> variants;
   for (const auto& variant : opencl::all_variants()) {
-    if (variant.stage == "undistortion") continue;  // the built-in sequence has no distortion
-    const std::string stage = variant.stage, name = variant.name;
-    std::vector<std::string> booked_as = {stage};
-    if (stage == "candidate_filters") booked_as = {"stereo_filters", "temporal_filters"};
-    if (stage == "scan") booked_as = {"edge_detection", "stereo_candidates", "temporal_candidates"};
-    benchmark::RegisterBenchmark((stage + "/" + name).c_str(),
-                                 [=](benchmark::State& state) { run_stage(state, stage, name, booked_as); })
+    if (variant.stage == stage) variants.push_back(variant.name);
+  }
+  if (variants.empty()) variants.emplace_back();
+  for (const auto& variant : variants) {
+    const std::string name = variant.empty() ? stage : stage + "/" + variant;
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [=](benchmark::State& state) { run_stage(state, stage, variant, prepare); })
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
   }
+  return true;
 }
 
-}  // namespace
+void match_by_lists(Config& config, StereoRig&) { config.variants["temporal_match"] = "lists"; }
+void match_with_sift(Config& config, StereoRig&) { config.stereo.sift_max = 500; }
+
+}  // namespace stage_bench
 
 int main(int argc, char** argv) {
   try {
-    register_stages();
     benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(ExitCode::usage);
-    benchmark::AddCustomContext("device", Device(device_choice()).info().name);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(quadedge::ExitCode::usage);
+    benchmark::AddCustomContext("device", quadedge::Device(stage_bench::device_choice()).info().name);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
-  } catch (const Error& error) {
+  } catch (const quadedge::Error& error) {
     std::cerr << "bench_stages: " << error.what() << "\n";
     return static_cast<int>(error.exit_code());
   }

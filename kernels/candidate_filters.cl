@@ -1,7 +1,7 @@
 // candidate_filters.cl: NCC, SIFT and both best-and-nearly-best filters over candidate lists, in stereo and in time.
 //
-// Needs similarity.cl. In: candidate lists; patches of both sets of edges, with the numbers under which an edge's own stand there, and
-// their SIFT descriptors in the order of the edges.
+// Needs similarity.cl. In: candidate lists; patches of both sets of edges, with the numbers under which an edge's own
+// stand there, and their SIFT descriptors in the order of the edges.
 // Out per candidate: NCC, SIFT distance and state; per row the number of survivors. One work-item = one row.
 // Reference: host/reference/candidate_filters.cpp.
 

@@ -1,8 +1,10 @@
-// candidate_positions.cl: positions of a left edge's candidates on its epipolar line, and which candidate is refined for all at one position.
+// candidate_positions.cl: positions of a left edge's candidates on its epipolar line, and which candidate is refined
+// for all at one position.
 // Functions only. Needs direction.cl and epipolar.cl.
 // Reference: host/reference/stereo_refinement.cpp.
 
-// Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its position s.
+// Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its
+// position s.
 inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
                             const float min_sine, const float max_shift) {
   const float dx = x - line.x, dy = y - line.y;
@@ -17,8 +19,8 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
   return fabs(shift) < max_shift ? s + shift * along : s;
 }
 
-// Candidate c against the earlier ones of its row, which begins at `begin`: of candidates at one position the one whose sides are most
-// similar stays alive and represents the others. To be called in the order of the row.
+// Candidate c against the earlier ones of its row, which begins at `begin`: of candidates at one position the one whose
+// sides are most similar stays alive and represents the others. To be called in the order of the row.
 inline void choose_representative(const int begin, const int c, global const float* ncc, global const float* position,
                                   global uchar* state) {
   for (int k = begin; k < c; ++k) {
@@ -29,8 +31,8 @@ inline void choose_representative(const int begin, const int c, global const flo
   }
 }
 
-// After the refinement of a row: represented candidates stay where they are and take the similarity of the nearest alive one; where
-// none is left they are rejected like it.
+// After the refinement of a row: represented candidates stay where they are and take the similarity of the nearest
+// alive one; where none is left they are rejected like it.
 inline void follow_representatives(const int begin, const int end, const int rejected_order,
                                    global const float* position, global uchar* state, global float* similarity) {
   for (int c = begin; c < end; ++c) {

@@ -1,11 +1,14 @@
-// edge_detection.cl: third-order edges, what both ways of detecting them share (edge_detection_strip.cl for CPUs, edge_detection_tile.cl for GPUs).
+// edge_detection.cl: third-order edges, what both ways of detecting them share (edge_detection_strip.cl for CPUs,
+// edge_detection_tile.cl for GPUs).
 //
-// doc/method.md section 1; reference: host/reference/edge_detection.cpp. Both ways give the same bytes: every number is computed by the macros
-// and functions of this file, with one order of operations. fma is used where one rounding is wanted, and it is exact in
-// vectors and scalars alike; exp and atan2 are written out for the same reason.
+// doc/method.md section 1; reference: host/reference/edge_detection.cpp. Both ways give the same bytes: every number is
+// computed by the macros and functions of this file, with one order of operations. fma is used where one rounding is
+// wanted, and it is exact in vectors and scalars alike; exp and atan2 are written out for the same reason.
 //
-// Data: plane = the image as floats with replicated border (edges_pad); pixel (i, j) lies at (j + PAD_Y) * stride + i + PAD_X.
-// Cell (X, Y) of the doubled grid lies at pixel (X / 2, Y / 2); Y even: phase 0, on a pixel row; Y odd: phase 1, between two.
+// Data: plane = the image as floats with replicated border (edges_pad); pixel (i, j) lies at (j + PAD_Y) * stride + i +
+// PAD_X.
+// Cell (X, Y) of the doubled grid lies at pixel (X / 2, Y / 2); Y even: phase 0, on a pixel row; Y odd: phase 1,
+// between two.
 // taps = for phase 0, then phase 1: RADIUS + 1 weights of G, then of G', for the pairs of pixels at k + phase and -k.
 // winners = 4 floats per cell that won the maximum test: x, y, strength, X.
 
@@ -28,7 +31,8 @@
 #define SMOOTH_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS)
 #define SLOPE_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS + PAIRS)
 
-// result = sum over k of weights[k] * (AT(k + phase) +- AT(-k)), in this order. AT(k) is the sample k pixels further on.
+// result = sum over k of weights[k] * (AT(k + phase) +- AT(-k)), in this order. AT(k) is the sample k pixels further
+// on.
 #define SMOOTH(T, result, AT, weights, phase)                                                                        \
   {                                                                                                                  \
     T sum_ = (T)((weights)[0]) * (AT(phase) + AT(0));                                                                \
@@ -64,7 +68,8 @@ DEFINE_PROBES(probes16, float16)
 // No smaller than either probe and larger than one.
 #define IS_MAXIMUM(m, ahead, behind) ((((m) > (behind)) & ((m) >= (ahead))) | (((m) >= (behind)) & ((m) > (ahead))))
 
-// Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) grid steps away, which cancels.
+// Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) grid steps away, which
+// cancels.
 inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, const float gy, const float magnitude,
                             const float ahead, const float behind) {
   const float rise = ahead - behind;
@@ -125,8 +130,8 @@ inline float window_level(global const float* plane, const int stride, const int
     return copysign(x < 0.0f ? PI_F - quarter : quarter, y);   \
   }
 
-// From the nine derivatives d = ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy at (x, y) to the direction, and the Newton step
-// onto F = 0, which moves x and y.
+// From the nine derivatives d = ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy at (x, y) to the direction, and the
+// Newton step onto F = 0, which moves x and y.
 #define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                      \
   inline T NAME(const T* d, const float newton_max, T* x, T* y) {                                               \
     const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                               \

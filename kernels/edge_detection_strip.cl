@@ -1,7 +1,5 @@
-// edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs edge_detection.cl.
-
-// Floats of a line of the strip's scratch memory: 16 in front of the first pixel, then the columns.
-#define LINE_FRONT 16
+// edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs
+// edge_detection.cl.
 
 // Vectors at any float's address. PoCL splits vload16 into pairs of floats; a packed structure becomes two plain loads.
 typedef struct __attribute__((packed)) {
@@ -25,15 +23,18 @@ inline uint lane_bits(const int16 lanes) {
 
 // Gradient and maximum test of strip_rows rows of the doubled grid per work-item.
 //
-// scratch: 20 lines of `line` floats per work-item (2 of column sums, then for 3 rows x 2 phases gx, gy and magnitude).
+// scratch: kStripLines lines of `line` floats per work-item (2 of column sums, then for 3 rows x 2 phases gx, gy and
+// magnitude).
 // Out: winners, the cells of grid row r from 4 * r * 2 * width on, in scan order; counts[r], for all 2 * height rows.
-kernel void edges_strip_maxima(global const float* plane, const int stride, const int width, const int height,
-                               global const float* taps, const float threshold, const int margin, const int strip_rows,
-                               global float* scratch, const int line, global float* winners, global int* counts) {
+kernel void edges_strip_maxima(const DetectionArguments args, const int strip_rows, global const float* plane,
+                               global const float* taps, global float* scratch, const int line, global float* winners,
+                               global int* counts) {
+  const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
+  const float threshold = args.threshold;
   const int strip = (int)get_global_id(0);
   const int first_row = strip * strip_rows, last_row = min(first_row + strip_rows, 2 * height);
   if (first_row >= last_row) return;
-  global float* lines = scratch + (size_t)strip * 20 * line + LINE_FRONT;
+  global float* lines = scratch + (size_t)strip * kStripLines * line + kStripLineFront;
   global float* smooth_y = lines;
   global float* slope_y = lines + line;
   // Rows and columns of cells strictly inside the margin; the pixels that hold them and their neighbours.
@@ -181,12 +182,17 @@ inline void window_derivatives(global const float* plane, const int stride, cons
 
 // Third-order direction and Newton step of the winners, written in their position in scan order.
 // One work-item = one row of the doubled grid, 8 edges at a time.
-kernel void edges_strip_directions(global const float* plane, const int stride, const int width, const int rows,
+kernel void edges_strip_directions(const DetectionArguments args, global const float* plane,
                                    global const float* winners, global const int* counts, global const int* row_first,
-                                   const int max_edges, const float newton_max, global float* xs, global float* ys,
-                                   global float* directions, global float* strengths) {
+                                   global float* edges) {
   const int row = (int)get_global_id(0);
-  if (row >= rows) return;
+  if (row >= 2 * args.height) return;
+  const int stride = args.plane_stride, width = args.width, max_edges = args.max_edges;
+  const float newton_max = args.newton_max;
+  global float* xs = edges;
+  global float* ys = edges + max_edges;
+  global float* directions = edges + 2 * max_edges;
+  global float* strengths = edges + 3 * max_edges;
   const int first = row_first[row], count = min(counts[row], max_edges - first);
   float derivatives[9 * 8], x[8], y[8], theta[8];
   for (int k = 0; k < 72; ++k) derivatives[k] = 0.0f;

@@ -1,4 +1,5 @@
-// edge_detection_tile.cl: edge detection for GPUs. One work-group per tile, per row or for a few edges; needs edge_detection.cl.
+// edge_detection_tile.cl: edge detection for GPUs. One work-group per tile, per row or for a few edges; needs
+// edge_detection.cl.
 
 #ifndef LOCAL
 #define LOCAL 64
@@ -12,17 +13,18 @@
 
 // Gradient and maximum test of TILE_X x TILE_Y pixels per work-group of LOCAL.
 //
-// Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's position (4 * (r * 2 * width + X)) where it did.
-kernel void edges_tile_maxima(global const float* plane, const int stride, const int width, const int height,
-                              global const float* taps, const float threshold, const int margin, const int tiles_x,
-                              global float* winners, global uchar* flags) {
+// Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's position (4 * (r * 2 * width + X)) where
+// it did.
+kernel void edges_tile_maxima(const DetectionArguments args, const int tiles_x, global const float* plane,
+                              global const float* taps, global float* winners, global uchar* flags) {
   local float smooth_y[TILE_ROWS * TILE_COLUMNS], slope_y[TILE_ROWS * TILE_COLUMNS];
   local float gx[TILE_ROWS * TILE_CELLS], gy[TILE_ROWS * TILE_CELLS], magnitude[TILE_ROWS * TILE_CELLS];
+  const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
   const int item = (int)get_local_id(0);
   const int x0 = ((int)get_group_id(0) % tiles_x) * TILE_X, y0 = ((int)get_group_id(0) / tiles_x) * TILE_Y;
 
-  // Along y: rows 2 y0 - 1 .. 2 (y0 + TILE_Y) of the doubled grid, columns from x0 - 1 - RADIUS on. What reaches beyond the
-  // plane belongs to no cell of the image.
+  // Along y: rows 2 y0 - 1 .. 2 (y0 + TILE_Y) of the doubled grid, columns from x0 - 1 - RADIUS on. What reaches beyond
+  // the plane belongs to no cell of the image.
   for (int i = item; i < TILE_ROWS * TILE_COLUMNS; i += LOCAL) {
     const int row = 2 * y0 - 1 + i / TILE_COLUMNS, phase = row & 1;
     const int y = min(row >> 1, height), x = min(x0 - 1 - RADIUS + i % TILE_COLUMNS, width + RADIUS);
@@ -55,7 +57,7 @@ kernel void edges_tile_maxima(global const float* plane, const int stride, const
     const int at = (i / (2 * TILE_X) + 1) * TILE_CELLS + i % (2 * TILE_X) + 2;
     uchar won = 0;
     if (cell_x > 2 * margin && cell_x < 2 * (width - 1 - margin) && cell_y > 2 * margin &&
-        cell_y < 2 * (height - 1 - margin) && magnitude[at] > threshold) {
+        cell_y < 2 * (height - 1 - margin) && magnitude[at] > args.threshold) {
       float ahead, behind;
       local const float* m = magnitude + at;
       probes(gx[at], gy[at], m[-1], m[1], m[-TILE_CELLS], m[TILE_CELLS], m[-TILE_CELLS - 1], m[-TILE_CELLS + 1],
@@ -84,8 +86,8 @@ kernel void edges_tile_count(global const uchar* flags, const int cells, global 
   if (item == 0) counts[row] = sums[0];
 }
 
-// Moves the winners of a row to their position in scan order, as far as the capacity reaches; rows[position] = row of the doubled
-// grid. One work-group per row.
+// Moves the winners of a row to their position in scan order, as far as the capacity reaches; rows[position] = row of
+// the doubled grid. One work-group per row.
 kernel void edges_tile_compact(global const uchar* flags, const int cells, global const float* winners,
                                global const int* row_first, const int max_edges, global float* compact,
                                global int* rows) {
@@ -113,15 +115,14 @@ kernel void edges_tile_compact(global const uchar* flags, const int cells, globa
   }
 }
 
-// Third-order direction and Newton step. 8 work-items per edge: lane l sums the columns l, l + 8, l + 16 ... of the window.
-kernel void edges_tile_directions(global const float* plane, const int stride, global const float* compact,
-                                  global const int* rows, global const int* total, const float newton_max,
-                                  global float* xs, global float* ys, global float* directions,
-                                  global float* strengths) {
+// Third-order direction and Newton step. 8 work-items per edge: lane l sums the columns l, l + 8, l + 16 ... of the
+// window.
+kernel void edges_tile_directions(const DetectionArguments args, global const float* plane, global const float* compact,
+                                  global const int* rows, global const int* total, global float* edges) {
   local float weights_y[LOCAL / 8][4][COLUMNS];
   local float sums[9][LOCAL];
   const int item = (int)get_local_id(0), lane = item & 7, group = item >> 3;
-  const int n = (int)get_global_id(0) >> 3;
+  const int n = (int)get_global_id(0) >> 3, stride = args.plane_stride;
   const bool active = n < total[0];
   const float4 winner = active ? vload4(n, compact) : (float4)0.0f;
   const float x = AT_CELL ? 0.5f * winner.w : winner.x, y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
@@ -163,9 +164,9 @@ kernel void edges_tile_directions(global const float* plane, const int stride, g
   if (active && lane == 0) {
     float d[9], edge_x = winner.x, edge_y = winner.y;
     for (int j = 0; j < 9; ++j) d[j] = sums[j][item];
-    directions[n] = third_order(d, newton_max, &edge_x, &edge_y);
-    xs[n] = edge_x;
-    ys[n] = edge_y;
-    strengths[n] = winner.z;
+    edges[2 * args.max_edges + n] = third_order(d, args.newton_max, &edge_x, &edge_y);
+    edges[n] = edge_x;
+    edges[args.max_edges + n] = edge_y;
+    edges[3 * args.max_edges + n] = winner.z;
   }
 }

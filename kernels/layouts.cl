@@ -1,17 +1,19 @@
-// layouts.cl: put in front of every program, behind common.cl. What host and kernels have to lay out alike, written once: the host
-// compiles this very file (host/common/layouts.hpp), so it keeps to what is C and C++ at once. Constants named kLikeThis stand here.
+// layouts.cl: put in front of every program, behind common.cl. What host and kernels have to lay out alike, written
+// once: the host compiles this very file (host/common/layouts.hpp), so it keeps to what is C and C++ at once. Constants
+// named kLikeThis stand here.
 //
-// Structures are passed to kernels by value. Their fields are int, float, arrays or structures of these: all of 4 bytes, so that no
-// compiler puts room between them. tests/test_layouts.cpp compares them on every device, field by field.
+// Structures are passed to kernels by value. Their fields are int, float, arrays or structures of these: all of 4
+// bytes, so that no compiler puts room between them. tests/test_layouts.cpp compares them on every device, field by
+// field.
 
-#ifdef __OPENCL_VERSION__
-#define FLOAT_CONSTANT constant float
-#else
+#ifdef __cplusplus
 #define FLOAT_CONSTANT constexpr float
+#else
+#define FLOAT_CONSTANT constant float
 #endif
 
-// Side patches of an edge (patches.cl): seven rows of 16 bytes, 8 of the dark and 8 of the bright patch, the last of each zero; then
-// 1 / norm of both patches as floats.
+// Side patches of an edge (patches.cl): seven rows of 16 bytes, 8 of the dark and 8 of the bright patch, the last of
+// each zero; then 1 / norm of both patches as floats.
 enum {
   kPatchSide = 7,                                // samples along each axis
   kPatchSamples = kPatchSide * kPatchSide,       // of one patch
@@ -27,7 +29,8 @@ enum {
   kSiftCells = 4,   // spatial bins along each axis
   kSiftAngles = 8,  // orientation bins
   kSiftBytes = kSiftCells * kSiftCells * kSiftAngles,
-  kEdgeSiftBytes = 2 * kSiftBytes
+  kEdgeSiftBytes = 2 * kSiftBytes,
+  kSiftPadding = 16  // of the gradient's maps, px
 };
 
 // Wide descriptor of a stereo edge (wide_description.cl): bytes [cell across][cell along][angle].
@@ -42,24 +45,94 @@ enum {
 FLOAT_CONSTANT kCellWidth = 8.0f;
 FLOAT_CONSTANT kCellHeight = 4.0f;
 
-// State of a candidate, one byte: alive, rejected by the filter of that order (1 to 254), or represented by another candidate at the same
-// position, which is refined for both.
+// State of a candidate, one byte: alive, rejected by the filter of that order (1 to 254), or represented by another
+// candidate at the same position, which is refined for both.
 enum { kCandidateAlive = 0, kCandidateRepresented = 255 };
 
-// Candidates that shift onto the epipolar line within so many px of one another lie at the same position: neighbours on a curve, which
-// the refinement leads to the same point (stereo_refinement.cl).
+// Candidates that shift onto the epipolar line within so many px of one another lie at the same position: neighbours on
+// a curve, which the refinement leads to the same point (stereo_refinement.cl).
 FLOAT_CONSTANT kSamePosition = 0.5f;
 // Largest difference of contrast that the photometric alignment evens out (photometric.cl).
 FLOAT_CONSTANT kGainMax = 2.0f;
-// Members of a cluster whose similarity differs by less are equally similar: the first right edge in scan order represents the cluster.
-// Members that the refinement led to the same position always are; rounding must not choose between them (stereo_clusters.cl).
+// Members of a cluster whose similarity differs by less are equally similar: the first right edge in scan order
+// represents the cluster. Members that the refinement led to the same position always are; rounding must not choose
+// between them (stereo_clusters.cl).
 FLOAT_CONSTANT kSimilarityTie = 1e-4f;
-// What a represented member of a cluster falls behind: more than two similarities can differ, so that it represents a cluster only
-// where no member is alive, and no limit of similarity lets that cluster pass.
+// What a represented member of a cluster falls behind: more than two similarities can differ, so that it represents a
+// cluster only where no member is alive, and no limit of similarity lets that cluster pass.
 FLOAT_CONSTANT kBehindAll = 3.0f;
 
-// Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 6. The orders are the filters' numbers in their
-// cascade; the nearly-best filters follow at the larger one + 1 and + 2. sift_max = 0: SIFT takes no part.
+// Positions of edges packed in one buffer of floats: of edge i, x [px] stands at first + i, y at first + stride + i and
+// direction [rad] at first + 2 stride + i.
+typedef struct {
+  int first, stride, count;
+} PackedPositions;
+
+// The rig and the limits of the search in single precision, as kernels and reference use them.
+//
+// A left pixel p seen at depth Z projects to h + t / Z (homogeneous), h = K_R R0 K_L^-1 (p, 1), t = K_R T0: its
+// epipolar line starts at the point of infinite depth and runs towards nearer points. Positions on the line are
+// measured by s, pixels from the point at infinity; on a rectified rig s is the disparity.
+typedef struct {
+  float h[9];               // K_R R0 K_L^-1, row-major
+  float t[3];               // K_R T0
+  float epipole[3];         // left epipole, homogeneous: the left line through p runs along epipole.xy - epipole.z p
+  float inverse_min_depth;  // 1/m; 0 where max_disparity limits the search
+  float max_disparity;      // px
+  float tolerance;          // beyond either end of the segment, px
+  float epipolar_distance;  // px
+  float orientation;        // rad, modulo half a turn
+  float min_epipolar_sine;  // sine of the smallest angle between an edge and its left epipolar line
+} EpipolarGeometry;
+
+// Gauss-Newton on the position of a patch (photometric.cl).
+typedef struct {
+  int steps;
+  float tolerance;  // px
+  float huber;      // grey levels
+  float clamp;      // px
+} AlignmentSettings;
+
+// Scratch memory of edge_detection_strip.cl: lines per work-item, and floats of a line in front of the first pixel.
+enum { kStripLines = 20, kStripLineFront = 16 };
+
+// edge_detection_strip.cl and edge_detection_tile.cl. Edges are packed in blocks of max_edges floats: x, y, direction,
+// strength.
+typedef struct {
+  int width, height;  // of the image
+  int plane_stride;   // floats per row of the padded image
+  float threshold;    // grey levels per px
+  int margin;         // px
+  float newton_max;   // px
+  int max_edges;
+} DetectionArguments;
+
+// patches.cl.
+typedef struct {
+  int width, height;
+  float offset;  // px from the edge to the middle of a patch
+  PackedPositions edges;
+} PatchArguments;
+
+// sift.cl.
+typedef struct {
+  int width, height;
+  int stride;    // floats per row of the maps
+  float offset;  // px from the edge to the middle of a descriptor
+  PackedPositions edges;
+} SiftArguments;
+
+// stereo_candidates.cl: candidates per row that the first sweep can note.
+enum { kNotedCandidates = 32 };
+typedef struct {
+  PackedPositions left, right;
+  int right_height;  // px
+  EpipolarGeometry geometry;
+} StereoCandidateArguments;
+
+// Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 6. The orders are the filters'
+// numbers in their cascade; the nearly-best filters follow at the larger one + 1 and + 2. sift_max = 0: SIFT takes no
+// part.
 typedef struct {
   float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
   int ncc_order, sift_order;
@@ -73,3 +146,50 @@ typedef struct {
   int all_scores;  // not 0: both similarities of every candidate, also where one decides
   FilterLimits limits;
 } FilterArguments;
+
+// stereo_refinement.cl and stereo_refinement_lanes.cl.
+typedef struct {
+  PackedPositions left, right;
+  int capacity;  // of the candidate lists
+  int left_width, left_height, right_width, right_height;
+  float patch_offset;               // px from an edge to its side patches
+  float shift_min_sine, shift_max;  // of the shift onto the line
+  float stiffness;                  // of the prior across the edge, grey levels^2 / px^2
+  AlignmentSettings alignment;
+  float similarity_min;
+  int rejected_order;
+  EpipolarGeometry geometry;
+} StereoRefinementArguments;
+
+// stereo_clusters.cl. Clusters are packed in blocks of `capacity` floats: position, direction, similarity.
+typedef struct {
+  PackedPositions left, right;
+  int capacity;  // of the candidate lists
+  float cluster_gap;
+  float cluster_orientation;  // rad
+  int cluster_size_max;
+  float cluster_sigma;
+  float similarity_min;
+  float mutual_radius;
+  EpipolarGeometry geometry;
+} StereoClusterArguments;
+
+// temporal_candidates.cl.
+typedef struct {
+  int rows;
+  int row_step;            // row r belongs to base edge r * row_step
+  int columns, cell_rows;  // cells of the point index
+  float radius;            // px
+  float orientation;       // rad
+} TemporalCandidateArguments;
+
+// wide_matching.cl and wide_matching_blocks.cl: edges packed in blocks of `stride` floats (left x, left y ...), of
+// which every step-th takes part.
+typedef struct {
+  int stride, count, step;
+} WideSelection;
+typedef struct {
+  WideSelection rows, columns;
+  float neighbourhood;  // px
+  float ratio;
+} WideMatchingArguments;

@@ -1,7 +1,8 @@
-// patches.cl: two side patches of 7 x 7 samples per edge, mean-free, in 8 bits with their norms (doc/method.md section 2).
+// patches.cl: two side patches of 7 x 7 samples per edge, mean-free, in 8 bits with their norms (doc/method.md section
+// 2).
 //
-// In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]). Out: 128 bytes per edge, laid out as in
-// host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
+// In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]). Out: 128 bytes per edge, laid out as
+// in host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
 //   ITEMS_PER_EDGE 1: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
 //   EXCHANGE_FLOATS floats.
@@ -10,7 +11,8 @@
 #ifndef ITEMS_PER_EDGE
 #define ITEMS_PER_EDGE 1
 #endif
-// Added and taken away again it leaves the nearest integer, halves to the even one: 1.5 * 2^23 has no room for a fraction.
+// Added and taken away again it leaves the nearest integer, halves to the even one: 1.5 * 2^23 has no room for a
+// fraction.
 #define NO_FRACTION 12582912.0f
 
 #if ITEMS_PER_EDGE == 1
@@ -19,8 +21,8 @@
 #define SIDES float  // of the work-item's side
 #endif
 
-// A patch becomes integers, at most kPatchLargest of magnitude; a flat one becomes zeros. Their squares add up to less than 2^24: floats hold
-// these sums exactly.
+// A patch becomes integers, at most kPatchLargest of magnitude; a flat one becomes zeros. Their squares add up to less
+// than 2^24: floats hold these sums exactly.
 inline SIDES scale_of(const SIDES largest) {
   return largest < kFlatPatchContrast ? (SIDES)(0.0f) : (float)kPatchLargest / largest;
 }
@@ -44,9 +46,13 @@ inline float2 sums_of_lanes(const float16 v) {
   return two.even + two.odd;
 }
 
-kernel void side_patches(global const uint* corners, const int width, const int height, global const float* xs,
-                         global const float* ys, global const float* directions, const int count, const float offset,
+kernel void side_patches(const PatchArguments args, global const uint* corners, global const float* positions,
                          global char* patches) {
+  const int width = args.width, height = args.height, count = args.edges.count;
+  const float offset = args.offset;
+  global const float* xs = positions + args.edges.first;
+  global const float* ys = xs + args.edges.stride;
+  global const float* directions = ys + args.edges.stride;
   const int edge = (int)get_global_id(0);
   if (edge >= count) return;
   float cosine;
@@ -78,10 +84,16 @@ inline float largest_used(const float8 v) {
   return max(two.x, two.y);
 }
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(
-    global const uint* corners, const int width, const int height, global const float* xs, global const float* ys,
-    global const float* directions, const int count, const float offset, global char* patches) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(const PatchArguments args,
+                                                                            global const uint* corners,
+                                                                            global const float* positions,
+                                                                            global char* patches) {
   local float memory[EXCHANGE_FLOATS];
+  const int width = args.width, height = args.height, count = args.edges.count;
+  const float offset = args.offset;
+  global const float* xs = positions + args.edges.first;
+  global const float* ys = xs + args.edges.stride;
+  global const float* directions = ys + args.edges.stride;
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), side = patch_in_group() & 1;
   const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);

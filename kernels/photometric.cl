@@ -1,8 +1,8 @@
 // photometric.cl: patches on and beside an edge, and their photometric alignment. Functions only.
 // Needs direction.cl. Images come as the corners of pixel_corners.cl.
 //
-// A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the bright side. The
-// eighth lane is a sample again, finite and without meaning; sums leave it out.
+// A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the bright side.
+// The eighth lane is a sample again, finite and without meaning; sums leave it out.
 // Reference: host/reference/photometric.cpp.
 
 #define PATCH_REACH 8  // px, more than half the diagonal of a patch
@@ -41,7 +41,8 @@ inline float16 two_corner_bytes(const uint16 corners, const uint shift) {
   return convert_float16(as_int16(corners >> shift & (uint16)(255u)));
 }
 
-// Whether no sample of a patch can leave the image, given the pixel PATCH_REACH up and left of its centre: then nothing has to be clamped.
+// Whether no sample of a patch can leave the image, given the pixel PATCH_REACH up and left of its centre: then nothing
+// has to be clamped.
 inline int lies_inside(const int base_x, const int base_y, const int width, const int height) {
   return base_x >= 0 && base_y >= 0 && base_x + 2 * PATCH_REACH < width && base_y + 2 * PATCH_REACH < height;
 }
@@ -152,14 +153,6 @@ inline void patch_derivative(global const uint* corners, const int width, const 
   for (int i = 0; i < kPatchSide; ++i) rows[i] = both[i].lo - both[i].hi;
 }
 
-// Settings of the Gauss-Newton loop.
-typedef struct {
-  int steps;
-  float tolerance;  // px
-  float huber;      // grey levels
-  float clamp;      // px
-} RefinementSettings;
-
 inline float8 huber_weight(const float8 residual, const float limit) { return limit / max(fabs(residual), limit); }
 
 // Norm of a mean-free patch.
@@ -184,12 +177,13 @@ inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
 #define ALIGN_MOVED 1    // after the last step
 #define ALIGN_SETTLED 2  // with a step below the tolerance: `values` is the patch that it found
 
-// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`; `derivative` is
-// that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the start.
+// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`;
+// `derivative` is that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the
+// start.
 inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving,
                       const float ex, const float ey, const float8* fixed, const float fixed_norm,
-                      const float8* derivative, const float stiffness, const RefinementSettings settings,
-                      float8* values, float* move) {
+                      const float8* derivative, const float stiffness, const AlignmentSettings settings, float8* values,
+                      float* move) {
   float alpha = 0.0f;
   int status = ALIGN_MOVED;
   for (int step = 0; step < settings.steps; ++step) {

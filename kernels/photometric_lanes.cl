@@ -1,9 +1,10 @@
-// photometric_lanes.cl: photometric.cl with one work-item per lane of a patch, which holds the seven samples of its column.
+// photometric_lanes.cl: photometric.cl with one work-item per lane of a patch, which holds the seven samples of its
+// column.
 // Functions only. Needs photometric.cl; every result is the same bits as there.
 //
-// Eight neighbouring work-items share a patch; a group of GROUP works on GROUP / LANES patches. The eighth lane's samples have no
-// meaning, it works along. All work-items of a group must call the functions that take an Exchange: they contain barriers. Where a
-// function takes `wanted`, a patch without it only attends the barriers.
+// Eight neighbouring work-items share a patch; a group of GROUP works on GROUP / LANES patches. The eighth lane's
+// samples have no meaning, it works along. All work-items of a group must call the functions that take an Exchange:
+// they contain barriers. Where a function takes `wanted`, a patch without it only attends the barriers.
 
 #ifndef GROUP
 #define GROUP 64
@@ -11,8 +12,9 @@
 #define LANES 8
 #define EXCHANGE_FLOATS (4 * GROUP)
 
-// What work-items tell one another, two floats each, through local memory. The halves serve in turn, so that one barrier an
-// exchange is enough: before a half is written again, everyone has passed the other's barrier and thus read it.
+// What work-items tell one another, two floats each, through local memory. The halves serve in turn, so that one
+// barrier an exchange is enough: before a half is written again, everyone has passed the other's barrier and thus read
+// it.
 typedef struct {
   local float* memory;  // EXCHANGE_FLOATS
   int turn;             // half to be written next
@@ -122,7 +124,7 @@ inline float column_product(const float* a, const float* b) {
 // align_edge(); patches of the group that end early wait for the others. ALIGN_LEFT where not `wanted`.
 inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving,
                          const float ex, const float ey, const float* fixed, const float fixed_norm,
-                         const float* derivative, const float stiffness, const RefinementSettings settings,
+                         const float* derivative, const float stiffness, const AlignmentSettings settings,
                          const int wanted, Exchange* exchange, float* values, float* move) {
   float alpha = 0.0f;
   int status = wanted ? ALIGN_MOVED : ALIGN_LEFT, going = wanted;

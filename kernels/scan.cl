@@ -1,9 +1,9 @@
 // scan.cl: exclusive prefix sums of int counts, cut at a capacity.
 //
 // In: counts (count). Out: first (count + 1) with first[i] = min(counts[0] + ... + counts[i - 1], capacity), and
-// total = {elements that fit, elements that were cut off}. Every group owns one contiguous part of the counts, every work-item
-// one contiguous part of its group's. Two launches over the same groups: scan_sums, then scan_write; with one group the first
-// may be left out. Integer sums, so the result does not depend on the sizes chosen.
+// total = {elements that fit, elements that were cut off}. Every group owns one contiguous part of the counts, every
+// work-item one contiguous part of its group's. Two launches over the same groups: scan_sums, then scan_write; with one
+// group the first may be left out. Integer sums, so the result does not depend on the sizes chosen.
 #ifndef SCAN_LOCAL
 #define SCAN_LOCAL 1
 #endif

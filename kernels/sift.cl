@@ -1,13 +1,15 @@
-// sift.cl: SIFT descriptors of both sides of an edge at one fixed scale (doc/method.md section 2; Lowe 2004, section 6).
+// sift.cl: SIFT descriptors of both sides of an edge at one fixed scale (doc/method.md section 2; Lowe 2004, section
+// 6).
 //
-// The gradient of the blurred image is made once per image, in three passes over planes of `stride` floats per row. Pixel
-// (x, y) of the planes of the blur stands at y * stride + PAD + x; the maps also have PAD rows above and below, so that a
-// descriptor's samples need no test: outside the image and on its outermost pixels the magnitude is zero.
-// stride = PAD + width rounded up to 8 + PAD. One work-item = 8 pixels of a row.
+// The gradient of the blurred image is made once per image, in three passes over planes of `stride` floats per row.
+// Pixel (x, y) of the planes of the blur stands at y * stride + kSiftPadding + x; the maps also have kSiftPadding rows
+// above and below, so that a descriptor's samples need no test: outside the image and on its outermost pixels the
+// magnitude is zero.
+// stride = kSiftPadding + width rounded up to 8 + kSiftPadding. One work-item = 8 pixels of a row.
 // sift_blur_down   In: image (width x height, packed). Out: blurred along y; columns -8 .. width rounded up + 8.
 // sift_blur_along  In: that plane. Out: blurred along x too; columns 0 .. width rounded up.
 // sift_gradient    In: that plane. Out: magnitude [grey levels per 2 px] and angle [bins of 45 degrees, -4 .. 4] of the
-//                  central difference, (height + 2 PAD) rows.
+//                  central difference, (height + 2 kSiftPadding) rows.
 // sift_describe    In: both maps, edges (x, y [px], direction [rad]). Out: 256 bytes per edge, laid out as in
 //                  host/reference/sift.hpp. Two forms with the same arithmetic in the same order:
 //                  ITEMS_PER_EDGE 1: one work-item = one edge; the 8 angle bins of a cell are the lanes of a float8;
@@ -21,7 +23,6 @@
 #ifndef GROUP
 #define GROUP 64
 #endif
-#define PAD 16
 #define RADIUS 5
 #define WINDOW (2 * RADIUS + 1)
 #define CELL_WIDTH 1.5f
@@ -31,7 +32,8 @@
 // Normalised Gaussian weights of the middle tap and its six neighbours; variance 1.6^2 - 0.5^2.
 constant float kBlur[7] = {0.262488298f,   0.211400891f,   0.110432628f,   0.0374181004f,
                            0.00822355864f, 0.00117228061f, 0.000108391968f};
-// exp(-k^2 / 18) for k = -5 .. 5: the window's Gaussian has a standard deviation of 2 cells = 3 px. Padded for two vectors.
+// exp(-k^2 / 18) for k = -5 .. 5: the window's Gaussian has a standard deviation of 2 cells = 3 px. Padded for two
+// vectors.
 constant float kWindow[16] = {0.249352209f, 0.411112291f, 0.60653066f, 0.800737403f, 0.945959469f, 1.0f,
                               0.945959469f, 0.800737403f, 0.60653066f, 0.411112291f, 0.249352209f};
 
@@ -52,29 +54,29 @@ inline float8 pixels8(global const uchar* row, const int x, const int width) {
 kernel void sift_blur_down(global const uchar* image, const int width, const int height, const int stride,
                            global float* plane) {
   const int x = (int)get_global_id(0) * 8 - 8, y = (int)get_global_id(1);
-  if (x >= stride - 2 * PAD + 8 || y >= height) return;
+  if (x >= stride - 2 * kSiftPadding + 8 || y >= height) return;
   float8 sum = kBlur[0] * pixels8(image + y * width, x, width);
   for (int k = 1; k < 7; ++k) {
     sum += kBlur[k] * (pixels8(image + reflect(y - k, height) * width, x, width) +
                        pixels8(image + reflect(y + k, height) * width, x, width));
   }
-  vstore8(sum, 0, plane + (size_t)y * stride + PAD + x);
+  vstore8(sum, 0, plane + (size_t)y * stride + kSiftPadding + x);
 }
 
 kernel void sift_blur_along(global const float* plane, const int height, const int stride, global float* blurred) {
   const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
-  if (x >= stride - 2 * PAD || y >= height) return;
-  global const float* p = plane + (size_t)y * stride + PAD + x;
+  if (x >= stride - 2 * kSiftPadding || y >= height) return;
+  global const float* p = plane + (size_t)y * stride + kSiftPadding + x;
   float8 sum = kBlur[0] * vload8(0, p);
   for (int k = 1; k < 7; ++k) sum += kBlur[k] * (vload8(0, p - k) + vload8(0, p + k));
-  vstore8(sum, 0, blurred + (size_t)y * stride + PAD + x);
+  vstore8(sum, 0, blurred + (size_t)y * stride + kSiftPadding + x);
 }
 
 kernel void sift_gradient(global const float* blurred, const int width, const int height, const int stride,
                           global float* magnitude, global float* angle) {
   const int column = (int)get_global_id(0) * 8, row = (int)get_global_id(1);
-  if (column >= stride || row >= height + 2 * PAD) return;
-  const int x = column - PAD, y = row - PAD;
+  if (column >= stride || row >= height + 2 * kSiftPadding) return;
+  const int x = column - kSiftPadding, y = row - kSiftPadding;
   float8 length = 0.0f, bins = 0.0f;
   if (y >= 1 && y < height - 1 && x >= 0 && x < width) {
     global const float* p = blurred + (size_t)y * stride + column;
@@ -88,7 +90,8 @@ kernel void sift_gradient(global const float* blurred, const int width, const in
   vstore8(bins, 0, angle + (size_t)row * stride + column);
 }
 
-// Nearest pixel of a key point, kept so near the image that its samples stay inside the maps (they are all zero beyond it).
+// Nearest pixel of a key point, kept so near the image that its samples stay inside the maps (they are all zero beyond
+// it).
 inline int nearest(const float coordinate, const int size) {
   return (int)clamp(rint(coordinate), -(float)(RADIUS + 1), (float)(size + RADIUS));
 }
@@ -156,10 +159,13 @@ inline float8 two_bins(const float low, const float high, const int bin) {
 // Lane k of two vectors that stand behind one another.
 #define LANE(T, vectors, k) ((const T*)(vectors))[k]
 
-kernel void sift_describe(global const float* magnitude, global const float* angle, const int width, const int height,
-                          const int stride, global const float* xs, global const float* ys,
-                          global const float* directions, const int count, const float offset,
-                          global uchar* descriptors) {
+kernel void sift_describe(const SiftArguments args, global const float* magnitude, global const float* angle,
+                          global const float* positions, global uchar* descriptors) {
+  const int width = args.width, height = args.height, stride = args.stride, count = args.edges.count;
+  const float offset = args.offset;
+  global const float* xs = positions + args.edges.first;
+  global const float* ys = xs + args.edges.stride;
+  global const float* directions = ys + args.edges.stride;
   const int edge = (int)get_global_id(0);
   if (edge >= count) return;
   const float direction = directions[edge], x = xs[edge], y = ys[edge];
@@ -168,15 +174,16 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
   const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
   const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
   const float turn = direction * (kSiftAngles / (2.0f * PI_F));
-  const size_t dark_first =
-      (size_t)(nearest(y + to_dark_y, height) + PAD - RADIUS) * stride + nearest(x + to_dark_x, width) + PAD - RADIUS;
-  const size_t bright_first =
-      (size_t)(nearest(y - to_dark_y, height) + PAD - RADIUS) * stride + nearest(x - to_dark_x, width) + PAD - RADIUS;
+  const size_t dark_first = (size_t)(nearest(y + to_dark_y, height) + kSiftPadding - RADIUS) * stride +
+                            nearest(x + to_dark_x, width) + kSiftPadding - RADIUS;
+  const size_t bright_first = (size_t)(nearest(y - to_dark_y, height) + kSiftPadding - RADIUS) * stride +
+                              nearest(x - to_dark_x, width) + kSiftPadding - RADIUS;
 
   float8 dark[ROW * ROW], bright[ROW * ROW];
   for (int k = 0; k < ROW * ROW; ++k) dark[k] = bright[k] = 0.0f;
 
-  // Samples of a row inside the window: |j c + i s| < 2.5 and |i c - j s| < 2.5. A c or s that is nearly 0 bounds nothing.
+  // Samples of a row inside the window: |j c + i s| < 2.5 and |i c - j s| < 2.5. A c or s that is nearly 0 bounds
+  // nothing.
   const float by_c = 1.0f / copysign(max(fabs(c), 1e-3f), c), by_s = 1.0f / copysign(max(fabs(s), 1e-3f), s);
   const float reach_c = fabs(2.5f * by_c), reach_s = fabs(2.5f * by_s);
 
@@ -237,10 +244,11 @@ kernel void sift_describe(global const float* magnitude, global const float* ang
 #define SIDES 2
 #define EDGES_PER_GROUP (GROUP / ITEMS_PER_EDGE)
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
-    global const float* magnitude, global const float* angle, const int width, const int height, const int stride,
-    global const float* xs, global const float* ys, global const float* directions, const int count, const float offset,
-    global uchar* descriptors) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(const SiftArguments args,
+                                                                             global const float* magnitude,
+                                                                             global const float* angle,
+                                                                             global const float* positions,
+                                                                             global uchar* descriptors) {
   // What each sample of the window is, the same for both sides except the gradient.
   local int2
       corner[EDGES_PER_GROUP][WINDOW * WINDOW];  // cells across and along, the lower ones; outside the window: -9
@@ -249,6 +257,11 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
   local int lower_bin[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];
   local float histogram[EDGES_PER_GROUP][SIDES][kSiftBytes];
 
+  const int width = args.width, height = args.height, stride = args.stride, count = args.edges.count;
+  const float offset = args.offset;
+  global const float* xs = positions + args.edges.first;
+  global const float* ys = xs + args.edges.stride;
+  global const float* directions = ys + args.edges.stride;
   const int local_edge = (int)get_local_id(0) / ITEMS_PER_EDGE, item = (int)get_local_id(0) % ITEMS_PER_EDGE;
   const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
   const int edge = min(wanted, count - 1);  // surplus work-items work along with the last edge for the barriers
@@ -258,9 +271,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(
   const float to_dark_x = offset * sine, to_dark_y = -offset * cosine;
   const float c = cosine * (1.0f / CELL_WIDTH), s = sine * (1.0f / CELL_WIDTH);
   const float turn = direction * (kSiftAngles / (2.0f * PI_F));
-  const int first[SIDES] = {
-      (nearest(y + to_dark_y, height) + PAD - RADIUS) * stride + nearest(x + to_dark_x, width) + PAD - RADIUS,
-      (nearest(y - to_dark_y, height) + PAD - RADIUS) * stride + nearest(x - to_dark_x, width) + PAD - RADIUS};
+  const int first[SIDES] = {(nearest(y + to_dark_y, height) + kSiftPadding - RADIUS) * stride +
+                                nearest(x + to_dark_x, width) + kSiftPadding - RADIUS,
+                            (nearest(y - to_dark_y, height) + kSiftPadding - RADIUS) * stride +
+                                nearest(x - to_dark_x, width) + kSiftPadding - RADIUS};
 
   for (int k = item; k < WINDOW * WINDOW; k += ITEMS_PER_EDGE) {
     const int row = k / WINDOW, column = k % WINDOW;

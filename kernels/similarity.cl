@@ -1,4 +1,5 @@
-// similarity.cl: how alike two edges are (doc/method.md section 2). Plain functions for the filters; name this file before theirs.
+// similarity.cl: how alike two edges are (doc/method.md section 2). Plain functions for the filters; name this file
+// before theirs.
 //
 // The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
 // Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
@@ -32,7 +33,8 @@ inline float patch_ncc(global const char* a, global const char* b) {
   return max(max(scores.x, scores.y), max(scores.z, scores.w));
 }
 
-// Sum of squares from its two running forms in 16 bits: `total` modulo 65536 and `high`, the sum of the squares' upper bytes.
+// Sum of squares from its two running forms in 16 bits: `total` modulo 65536 and `high`, the sum of the squares' upper
+// bytes.
 // Eight squares a lane: neither `high` nor the sum of the lower bytes, total - 256 high, can overflow.
 inline uint4 wide_sum(const ushort16 total, const ushort16 high) {
   const ushort16 low = total - (high << (ushort16)8);

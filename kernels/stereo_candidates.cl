@@ -1,15 +1,15 @@
-// stereo_candidates.cl: filters 1 to 3 of the stereo cascade in one sweep: epipolar proximity, limited disparity, orientation.
+// stereo_candidates.cl: filters 1 to 3 of the stereo cascade in one sweep: epipolar proximity, limited disparity,
+// orientation.
 //
-// Needs direction.cl and epipolar.cl. In: left and right edges (scan order, with the right rows' starts), packed epipolar geometry.
+// Needs direction.cl and epipolar.cl. In: left and right edges (scan order, with the right rows' starts), packed
+// epipolar geometry.
 // Out: candidate lists in compressed rows, targets in the scan order of the right edges.
-// One work-item = one left edge; with LANES (16) it tests as many right edges at once. Two launches: count, then (after an exclusive
-// scan) fill.
+// One work-item = one left edge; with LANES (16) it tests as many right edges at once. Two launches: count, then (after
+// an exclusive scan) fill.
 // Reference: host/reference/stereo_candidates.cpp.
 
-// Candidates per row that the first sweep can note (kNoted in host/stages/stereo_candidates.cpp).
-#define NOTED 32
-
-// A position differs from its cell of the doubled grid by at most this [px] (kEdgeRowReach in host/reference/edge_detection.hpp).
+// A position differs from its cell of the doubled grid by at most this [px] (kEdgeRowReach in
+// include/quadedge/edges.hpp).
 #define CELL_SLACK 0.5f
 
 // First index in [begin, end) whose x may reach `x`: positions within a row are ordered up to twice the slack.
@@ -41,14 +41,16 @@ inline int passes(const Wanted* wanted, const float x, const float y, const floa
          !(angle_between(direction, wanted->direction) > wanted->orientation);
 }
 
-// Visits the right edges [begin, end) of a row up to x = `to`; writes those that pass to target[] while fewer than `room` are written.
+// Visits the right edges [begin, end) of a row up to x = `to`; writes those that pass to target[] while fewer than
+// `room` are written.
 inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys,
                      global const float* directions, int begin, const int end, const int total, const float to,
                      global int* target, const int room, int count) {
 #ifndef LANES
   (void)total;
 #else
-  // The same tests in the same arithmetic: by how much each fails at most. Edges beyond the row's end are read and left out.
+  // The same tests in the same arithmetic: by how much each fails at most. Edges beyond the row's end are read and left
+  // out.
   for (const int last = min(end - 1, total - LANES); begin <= last; begin += LANES) {
     float excess[LANES], lowest = INFINITY;
     for (int lane = 0; lane < LANES; ++lane) {
@@ -89,19 +91,14 @@ inline int visit_row(const Wanted* wanted, global const float* xs, global const 
 // Visits every right edge that passes; writes to target[] while fewer than `room` are written.
 inline int visit_candidates(const float x, const float y, const float direction, global const float* right_x,
                             global const float* right_y, global const float* right_direction,
-                            global const int* right_row_first, const int right_height, global const float* g,
+                            global const int* right_row_first, const int right_height, const EpipolarGeometry* g,
                             global int* target, const int room) {
-  if (left_epipolar_sine(g, x, y, direction) < g[GEOMETRY_MIN_EPIPOLAR_SINE]) return 0;
+  if (left_epipolar_sine(g, x, y, direction) < g->min_epipolar_sine) return 0;
   const EpipolarLine line = epipolar_line(g, x, y);
   if (!line.valid) return 0;
-  const Wanted wanted = {line,
-                         direction,
-                         g[GEOMETRY_EPIPOLAR_DISTANCE],
-                         g[GEOMETRY_ORIENTATION],
-                         -g[GEOMETRY_TOLERANCE],
-                         line.s_max + g[GEOMETRY_TOLERANCE],
-                         -line.ey,
-                         line.ex};
+  const Wanted wanted = {line,           direction,     g->epipolar_distance,
+                         g->orientation, -g->tolerance, line.s_max + g->tolerance,
+                         -line.ey,       line.ex};
   const float ax = line.x + wanted.s_low * line.ex, bx = line.x + wanted.s_high * line.ex;
   const float ay = line.y + wanted.s_low * line.ey, by = line.y + wanted.s_high * line.ey;
   const float x_low = fmin(ax, bx) - wanted.tau, x_high = fmax(ax, bx) + wanted.tau;
@@ -126,33 +123,39 @@ inline int visit_candidates(const float x, const float y, const float direction,
   return count;
 }
 
-kernel void stereo_candidates_count(global const float* left_x, global const float* left_y,
-                                    global const float* left_direction, const int left_count,
-                                    global const float* right_x, global const float* right_y,
-                                    global const float* right_direction, global const int* right_row_first,
-                                    const int right_height, global const float* geometry, global int* counts,
-                                    global int* noted) {
-  const int i = (int)get_global_id(0);
-  if (i >= left_count) return;
-  counts[i] = visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction,
-                               right_row_first, right_height, geometry, noted + i * NOTED, NOTED);
+// The candidates of left edge i.
+inline int visit_row_of(const StereoCandidateArguments* args, const int i, global const float* left_edges,
+                        global const float* right_edges, global const int* right_row_first, global int* target,
+                        const int room) {
+  global const float* left = left_edges + args->left.first + i;
+  global const float* right = right_edges + args->right.first;
+  return visit_candidates(left[0], left[args->left.stride], left[2 * args->left.stride], right,
+                          right + args->right.stride, right + 2 * args->right.stride, right_row_first,
+                          args->right_height, &args->geometry, target, room);
 }
 
-// Copies what the first sweep noted; only rows with more candidates than that sweep again. Rows beyond the capacity stay empty: the host sees the total, makes room and runs again.
-kernel void stereo_candidates_fill(global const float* left_x, global const float* left_y,
-                                   global const float* left_direction, const int left_count,
-                                   global const float* right_x, global const float* right_y,
-                                   global const float* right_direction, global const int* right_row_first,
-                                   const int right_height, global const float* geometry, global const int* first,
-                                   const int capacity, global const int* noted, global int* target) {
+kernel void stereo_candidates_count(const StereoCandidateArguments args, global const float* left_edges,
+                                    global const float* right_edges, global const int* right_row_first,
+                                    global int* counts, global int* noted) {
   const int i = (int)get_global_id(0);
-  if (i >= left_count) return;
+  if (i >= args.left.count) return;
+  counts[i] =
+      visit_row_of(&args, i, left_edges, right_edges, right_row_first, noted + i * kNotedCandidates, kNotedCandidates);
+}
+
+// Copies what the first sweep noted; only rows with more candidates than that sweep again. Rows beyond the capacity
+// stay empty: the host sees the total, makes room and runs again.
+kernel void stereo_candidates_fill(const StereoCandidateArguments args, global const float* left_edges,
+                                   global const float* right_edges, global const int* right_row_first,
+                                   global const int* first, const int capacity, global const int* noted,
+                                   global int* target) {
+  const int i = (int)get_global_id(0);
+  if (i >= args.left.count) return;
   const int room = min(first[i + 1], capacity) - first[i];
   if (room <= 0) return;
-  if (room <= NOTED) {
-    for (int k = 0; k < room; ++k) target[first[i] + k] = noted[i * NOTED + k];
+  if (room <= kNotedCandidates) {
+    for (int k = 0; k < room; ++k) target[first[i] + k] = noted[i * kNotedCandidates + k];
     return;
   }
-  visit_candidates(left_x[i], left_y[i], left_direction[i], right_x, right_y, right_direction, right_row_first,
-                   right_height, geometry, target + first[i], room);
+  visit_row_of(&args, i, left_edges, right_edges, right_row_first, target + first[i], room);
 }

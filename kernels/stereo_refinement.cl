@@ -1,10 +1,11 @@
-// stereo_refinement.cl: filter 8a and 8b of the stereo cascade: epipolar shift, then photometric refinement along the line.
+// stereo_refinement.cl: filter 8a and 8b of the stereo cascade: epipolar shift, then photometric refinement along the
+// line.
 //
-// Needs direction.cl, epipolar.cl, photometric.cl and candidate_positions.cl. In: both images as corners, edges, the left edges' side
-// patches (patches.cl), candidate lists.
-// Out per candidate: its position `s` on the left edge's epipolar line (px from the point at infinity), how alike both positions look,
-// and state = rejected_order where the refinement diverged. One work-item = one left edge; stereo_refinement_lanes.cl has
-// eight per edge.
+// Needs direction.cl, epipolar.cl, photometric.cl and candidate_positions.cl. In: both images as corners, edges, the
+// left edges' side patches (patches.cl), candidate lists.
+// Out per candidate: its position `s` on the left edge's epipolar line (px from the point at infinity), how alike both
+// positions look, and state = rejected_order where the refinement diverged. One work-item = one left edge;
+// stereo_refinement_lanes.cl has eight per edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
 // The higher NCC of the two side patches of a left edge and those cut at two positions of the right image.
@@ -22,28 +23,26 @@ inline float better_side(global const uint* corners, const int width, const int 
               bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) * inverse_norms.y / bright_norm);
 }
 
-kernel void stereo_refinement(global const int* first, global const int* target, global const float* ncc,
-                              const int capacity, const int left_count, global const uint* left_corners,
-                              const int left_width, const int left_height, global const uint* right_corners,
-                              const int right_width, const int right_height, global const char* left_patches,
-                              global const float* left_x, global const float* left_y,
-                              global const float* left_direction, global const float* right_x,
-                              global const float* right_y, global const float* right_direction,
-                              global const float* geometry, const float patch_offset, const float shift_min_sine,
-                              const float shift_max, const float stiffness, const int steps, const float tolerance,
-                              const float huber, const float clamp_px, const float similarity_min,
-                              const int rejected_order, global uchar* state, global float* position,
-                              global float* similarity) {
+kernel void stereo_refinement(const StereoRefinementArguments args, global const int* first, global const int* target,
+                              global const float* ncc, global const uint* left_corners,
+                              global const uint* right_corners, global const char* left_patches,
+                              global const float* left_edges, global const float* right_edges, global uchar* state,
+                              global float* position, global float* similarity) {
   const int i = (int)get_global_id(0);
-  if (i >= left_count) return;
-  const int begin = first[i], end = min(first[i + 1], capacity);
+  if (i >= args.left.count) return;
+  const int begin = first[i], end = min(first[i + 1], args.capacity);
   if (begin >= end) return;
-  const RefinementSettings settings = {steps, tolerance, huber, clamp_px};
+  global const float* left_x = left_edges + args.left.first;
+  global const float* left_y = left_x + args.left.stride;
+  global const float* left_direction = left_y + args.left.stride;
+  global const float* right_x = right_edges + args.right.first;
+  global const float* right_y = right_x + args.right.stride;
+  global const float* right_direction = right_y + args.right.stride;
   const float x = left_x[i], y = left_y[i];
-  const EpipolarLine line = epipolar_line(geometry, x, y);
+  const EpipolarLine line = epipolar_line(&args.geometry, x, y);
   // A position known across the edge is known the worse along the line the flatter the edge lies to it.
-  const float line_sine = left_epipolar_sine(geometry, x, y, left_direction[i]);
-  const float edge_stiffness = stiffness * line_sine * line_sine;
+  const float line_sine = left_epipolar_sine(&args.geometry, x, y, left_direction[i]);
+  const float edge_stiffness = args.stiffness * line_sine * line_sine;
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
@@ -53,44 +52,45 @@ kernel void stereo_refinement(global const int* first, global const int* target,
   for (int c = begin; c < end; ++c) {
     if (state[c] != kCandidateAlive) continue;
     const int j = target[c];
-    position[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+    position[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], args.shift_min_sine, args.shift_max);
     choose_representative(begin, c, ncc, position, state);
   }
   for (int c = begin; c < end; ++c) {
     if (state[c] != kCandidateAlive) continue;
     if (!ready) {
-      cut_patch(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, fixed);
+      cut_patch(left_corners, args.left_width, args.left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), 0.0f,
+                0.0f, fixed);
       fixed_norm = patch_norm(fixed);
-      patch_derivative(left_corners, left_width, left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), line.ex,
-                       line.ey, derivative);
+      patch_derivative(left_corners, args.left_width, args.left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f),
+                       line.ex, line.ey, derivative);
       ready = 1;
     }
     float s = position[c];
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
-    const int aligned = align_edge(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed,
-                                   fixed_norm, derivative, edge_stiffness, settings, values, &move);
+    const int aligned = align_edge(right_corners, args.right_width, args.right_height, moving, line.ex, line.ey, fixed,
+                                   fixed_norm, derivative, edge_stiffness, args.alignment, values, &move);
     if (aligned == ALIGN_LEFT) {
-      state[c] = (uchar)rejected_order;
+      state[c] = (uchar)args.rejected_order;
       continue;
     }
     s += move;
     position[c] = s;
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
     if (aligned == ALIGN_MOVED) {
-      cut_patch(right_corners, right_width, right_height,
+      cut_patch(right_corners, args.right_width, args.right_height,
                 patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, values);
     }
     const float on_edge = rows_ncc(fixed, fixed_norm, values);
     // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
     float beside = -1.0f;
-    if (0.5f * (on_edge + 1.0f) >= similarity_min) {
-      beside = better_side(right_corners, right_width, right_height,
-                           patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset),
-                           patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, patch_offset), side_patches);
+    if (0.5f * (on_edge + 1.0f) >= args.similarity_min) {
+      beside = better_side(right_corners, args.right_width, args.right_height,
+                           patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, args.patch_offset),
+                           patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, args.patch_offset), side_patches);
     }
     similarity[c] = 0.5f * (on_edge + beside);
   }
-  follow_representatives(begin, end, rejected_order, position, state, similarity);
+  follow_representatives(begin, end, args.rejected_order, position, state, similarity);
 }

@@ -1,9 +1,10 @@
 // stereo_refinement_lanes.cl: stereo_refinement.cl with eight work-items per left edge, for GPUs.
 //
-// Needs direction.cl, epipolar.cl, photometric.cl, photometric_lanes.cl and candidate_positions.cl. In and out as there, and the same
-// bits: a work-item is one lane across the edge, its patches are columns in private memory, sums over lanes go through local memory.
-// Groups of GROUP work-items refine one candidate of each of their edges at a time; the first lane of an edge keeps its row of
-// candidates. Local memory: EXCHANGE_FLOATS floats.
+// Needs direction.cl, epipolar.cl, photometric.cl, photometric_lanes.cl and candidate_positions.cl. In and out as
+// there, and the same bits: a work-item is one lane across the edge, its patches are columns in private memory, sums
+// over lanes go through local memory.
+// Groups of GROUP work-items refine one candidate of each of their edges at a time; the first lane of an edge keeps its
+// row of candidates. Local memory: EXCHANGE_FLOATS floats.
 // Reference: host/reference/stereo_refinement.cpp.
 
 // NCC of a side patch of the left edge, columns of 16 bytes apart, and the patch at `frame` of the right image.
@@ -19,28 +20,29 @@ inline float side_ncc(global const uint* corners, const int width, const int hei
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement(
-    global const int* first, global const int* target, global const float* ncc, const int capacity,
-    const int left_count, global const uint* left_corners, const int left_width, const int left_height,
-    global const uint* right_corners, const int right_width, const int right_height, global const char* left_patches,
-    global const float* left_x, global const float* left_y, global const float* left_direction,
-    global const float* right_x, global const float* right_y, global const float* right_direction,
-    global const float* geometry, const float patch_offset, const float shift_min_sine, const float shift_max,
-    const float stiffness, const int steps, const float tolerance, const float huber, const float clamp_px,
-    const float similarity_min, const int rejected_order, global uchar* state, global float* position,
+    const StereoRefinementArguments args, global const int* first, global const int* target, global const float* ncc,
+    global const uint* left_corners, global const uint* right_corners, global const char* left_patches,
+    global const float* left_edges, global const float* right_edges, global uchar* state, global float* position,
     global float* similarity) {
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), first_item = LANES * patch_in_group();
   // Surplus work-items work along with the last edge and an empty row for the barriers.
-  const int wanted = (int)(get_global_id(0) / LANES);
+  const int wanted = (int)(get_global_id(0) / LANES), left_count = args.left.count;
   const int i = min(wanted, left_count - 1);
-  const int begin = wanted < left_count ? first[i] : 0, end = wanted < left_count ? min(first[i + 1], capacity) : 0;
-  const RefinementSettings settings = {steps, tolerance, huber, clamp_px};
+  const int begin = wanted < left_count ? first[i] : 0,
+            end = wanted < left_count ? min(first[i + 1], args.capacity) : 0;
+  global const float* left_x = left_edges + args.left.first;
+  global const float* left_y = left_x + args.left.stride;
+  global const float* left_direction = left_y + args.left.stride;
+  global const float* right_x = right_edges + args.right.first;
+  global const float* right_y = right_x + args.right.stride;
+  global const float* right_direction = right_y + args.right.stride;
   const float x = left_x[i], y = left_y[i];
-  const EpipolarLine line = epipolar_line(geometry, x, y);
+  const EpipolarLine line = epipolar_line(&args.geometry, x, y);
   // A position known across the edge is known the worse along the line the flatter the edge lies to it.
-  const float line_sine = left_epipolar_sine(geometry, x, y, left_direction[i]);
-  const float edge_stiffness = stiffness * line_sine * line_sine;
+  const float line_sine = left_epipolar_sine(&args.geometry, x, y, left_direction[i]);
+  const float edge_stiffness = args.stiffness * line_sine * line_sine;
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
@@ -49,7 +51,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   for (int c = begin + lane; c < end; c += LANES) {
     const int j = target[c];
     if (state[c] == kCandidateAlive)
-      position[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], shift_min_sine, shift_max);
+      position[c] =
+          epipolar_shift(line, right_x[j], right_y[j], right_direction[j], args.shift_min_sine, args.shift_max);
   }
   barrier(CLK_GLOBAL_MEM_FENCE);
   // From here on only the first lane reads and writes the row.
@@ -74,8 +77,9 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     if (!any_patch(told)) break;
     if (!ready) {  // an edge without a candidate now has none later
       const PatchFrame frame = patch_frame(x, y, cosine, sine, 0.0f, 0.0f);
-      cut_column(left_corners, left_width, left_height, frame, living, &exchange, fixed);
-      derivative_column(left_corners, left_width, left_height, frame, line.ex, line.ey, living, &exchange, derivative);
+      cut_column(left_corners, args.left_width, args.left_height, frame, living, &exchange, fixed);
+      derivative_column(left_corners, args.left_width, args.left_height, frame, line.ex, line.ey, living, &exchange,
+                        derivative);
       fixed_norm = sqrt(sum_lanes(&exchange, column_product(fixed, fixed)));
       ready = 1;
     }
@@ -83,31 +87,31 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
     const int aligned =
-        align_columns(right_corners, right_width, right_height, moving, line.ex, line.ey, fixed, fixed_norm, derivative,
-                      edge_stiffness, settings, living, &exchange, values, &move);
+        align_columns(right_corners, args.right_width, args.right_height, moving, line.ex, line.ey, fixed, fixed_norm,
+                      derivative, edge_stiffness, args.alignment, living, &exchange, values, &move);
     s += move;
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
-    cut_column(right_corners, right_width, right_height,
+    cut_column(right_corners, args.right_width, args.right_height,
                patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), aligned == ALIGN_MOVED, &exchange,
                values);
     const float2 sums = sum_two_lanes(&exchange, column_product(values, values), column_product(fixed, values));
     const float norms = fixed_norm * sqrt(sums.x);
     const float on_edge = norms < 1e-10f ? 0.0f : sums.y / norms;
     // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
-    const int alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= similarity_min;
-    const float dark = side_ncc(right_corners, right_width, right_height,
-                                patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, patch_offset), side_patches,
-                                inverse_norms.x, alike, &exchange);
-    const float bright = side_ncc(right_corners, right_width, right_height,
-                                  patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, patch_offset),
+    const int alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= args.similarity_min;
+    const float dark = side_ncc(right_corners, args.right_width, args.right_height,
+                                patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, args.patch_offset),
+                                side_patches, inverse_norms.x, alike, &exchange);
+    const float bright = side_ncc(right_corners, args.right_width, args.right_height,
+                                  patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, args.patch_offset),
                                   side_patches + LANES, inverse_norms.y, alike, &exchange);
     if (!found) continue;
     if (aligned == ALIGN_LEFT) {
-      state[c] = (uchar)rejected_order;
+      state[c] = (uchar)args.rejected_order;
     } else {
       position[c] = s;
       similarity[c] = 0.5f * (on_edge + (alike ? fmax(dark, bright) : -1.0f));
     }
   }
-  if (keeper) follow_representatives(begin, end, rejected_order, position, state, similarity);
+  if (keeper) follow_representatives(begin, end, args.rejected_order, position, state, similarity);
 }

@@ -1,7 +1,9 @@
-// temporal_candidates.cl: filters 1 and 2 of the temporal cascade: displacement and orientation, for the left or the right images.
+// temporal_candidates.cl: filters 1 and 2 of the temporal cascade: displacement and orientation, for the left or the
+// right images.
 //
-// Needs point_index.cl. In: predicted positions and directions of the base's stereo edges in the current image (NaN: none), the
-// current stereo edges of that side in the order of their point index, with the index. Row r belongs to base edge r * row_step.
+// Needs point_index.cl. In: predicted positions and directions of the base's stereo edges in the current image (NaN:
+// none), the current stereo edges of that side in the order of their point index, with the index. Row r belongs to base
+// edge r * row_step.
 // Out: candidate lists in compressed rows, targets are current stereo edges in the order of the point index.
 // One work-item = one row. Two launches: count, then (after an exclusive scan) fill.
 // Reference: host/reference/temporal_candidates.cpp.
@@ -28,31 +30,28 @@ inline int visit_near(const float x, const float y, const float direction, globa
   return count;
 }
 
-kernel void temporal_candidates_count(global const float* predicted_x, global const float* predicted_y,
-                                      global const float* predicted_direction, const int rows, const int row_step,
+kernel void temporal_candidates_count(const TemporalCandidateArguments args, global const float* predicted_x,
+                                      global const float* predicted_y, global const float* predicted_direction,
                                       global const float* xs, global const float* ys, global const float* directions,
-                                      global const int* numbers, global const int* cell_first, const int columns,
-                                      const int cell_rows, const float radius, const float orientation,
-                                      global int* counts) {
+                                      global const int* numbers, global const int* cell_first, global int* counts) {
   const int row = (int)get_global_id(0);
-  if (row >= rows) return;
-  const int i = row * row_step;
+  if (row >= args.rows) return;
+  const int i = row * args.row_step;
   counts[row] = visit_near(predicted_x[i], predicted_y[i], predicted_direction[i], xs, ys, directions, numbers,
-                           cell_first, columns, cell_rows, radius, orientation, 0, 0);
+                           cell_first, args.columns, args.cell_rows, args.radius, args.orientation, 0, 0);
 }
 
 // Rows beyond the capacity stay empty: the host sees the total, makes room and runs again.
-kernel void temporal_candidates_fill(global const float* predicted_x, global const float* predicted_y,
-                                     global const float* predicted_direction, const int rows, const int row_step,
+kernel void temporal_candidates_fill(const TemporalCandidateArguments args, global const float* predicted_x,
+                                     global const float* predicted_y, global const float* predicted_direction,
                                      global const float* xs, global const float* ys, global const float* directions,
-                                     global const int* numbers, global const int* cell_first, const int columns,
-                                     const int cell_rows, const float radius, const float orientation,
-                                     global const int* first, const int capacity, global int* target) {
+                                     global const int* numbers, global const int* cell_first, global const int* first,
+                                     const int capacity, global int* target) {
   const int row = (int)get_global_id(0);
-  if (row >= rows) return;
-  const int i = row * row_step;
+  if (row >= args.rows) return;
+  const int i = row * args.row_step;
   const int room = min(first[row + 1], capacity) - first[row];
   if (room <= 0) return;
-  visit_near(predicted_x[i], predicted_y[i], predicted_direction[i], xs, ys, directions, numbers, cell_first, columns,
-             cell_rows, radius, orientation, target + first[row], room);
+  visit_near(predicted_x[i], predicted_y[i], predicted_direction[i], xs, ys, directions, numbers, cell_first,
+             args.columns, args.cell_rows, args.radius, args.orientation, target + first[row], room);
 }

@@ -1,9 +1,10 @@
-// temporal_match.cl: the whole temporal cascade of one row in one work-item: displacement, orientation, NCC and nearly best NCC in
-// both images, agreement, the best and its rivals. The same as temporal_candidates.cl, candidate_filters.cl without SIFT and
-// temporal_quads.cl one after the other, without lists in global memory.
+// temporal_match.cl: the whole temporal cascade of one row in one work-item: displacement, orientation, NCC and nearly
+// best NCC in both images, agreement, the best and its rivals. The same as temporal_candidates.cl, candidate_filters.cl
+// without SIFT and temporal_quads.cl one after the other, without lists in global memory.
 //
-// Needs similarity.cl and point_index.cl. In: predicted positions of the base's stereo edges in both current images (NaN: none), the
-// current stereo edges of both sides in the order of their point indices, side patches with the number of each stereo edge's patch.
+// Needs similarity.cl and point_index.cl. In: predicted positions of the base's stereo edges in both current images
+// (NaN: none), the current stereo edges of both sides in the order of their point indices, side patches with the number
+// of each stereo edge's patch.
 // Out per row, which belongs to base edge row * row_step: {current edge or -1, rivals, score as bits, flags}.
 // With LANES (16) a work-item tests as many points of the index at once, and asks for memory ahead: for CPUs.
 // With TAP it also writes down every candidate within the radius, with its scores and its state
@@ -16,7 +17,8 @@
 #define RIGHT_ALIVE 2
 #define OVERFLOW 4
 
-// Brings a patch's two cache lines near where the compiler targets a CPU; OpenCL's own prefetch() does nothing there (PoCL).
+// Brings a patch's two cache lines near where the compiler targets a CPU; OpenCL's own prefetch() does nothing there
+// (PoCL).
 inline void ask_for_patch(global const char* patch) {
 #if defined(__x86_64__) || defined(__aarch64__)
   __builtin_prefetch(patch);
@@ -79,7 +81,8 @@ inline int alike_near(const float x, const float y, const float direction, globa
     const int end = cell_first[row * columns + last_column + 1];
     int k = cell_first[row * columns + first_column];
 #ifdef LANES
-    // The same tests in the same arithmetic: by how much each fails at most. Points beyond the cells are read and left out.
+    // The same tests in the same arithmetic: by how much each fails at most. Points beyond the cells are read and left
+    // out.
     for (const int last = min(end - 1, total - LANES); k <= last && near <= MOST - LANES; k += LANES) {
       float excess[LANES];
       TAPPED(float too_far[LANES];)

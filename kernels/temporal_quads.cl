@@ -1,10 +1,10 @@
-// temporal_quads.cl: the circle is closed (a candidate must be alive in the left and in the right images), and the best of what
-// remains makes the quad.
+// temporal_quads.cl: the circle is closed (a candidate must be alive in the left and in the right images), and the best
+// of what remains makes the quad.
 //
 // Row r belongs to previous stereo edge r * row_step. Reference: host/reference/temporal_quads.cpp.
 
-// One work-item = one row. A living left candidate stays if the right list holds the same current edge alive; `score` becomes the mean
-// of both NCC.
+// One work-item = one row. A living left candidate stays if the right list holds the same current edge alive; `score`
+// becomes the mean of both NCC.
 kernel void temporal_agreement(global const int* left_first, global const int* left_target, const int left_capacity,
                                global const float* left_ncc, global uchar* left_state, global const int* right_first,
                                global const int* right_target, const int right_capacity, global const float* right_ncc,
@@ -33,8 +33,8 @@ kernel void temporal_agreement(global const int* left_first, global const int* l
 #define LEFT_DIRECTION(edges, count, i) (edges)[2 * (count) + (i)]
 
 // One work-item = one row. Joins living candidates whose left places chain up within cluster_gap with directions within
-// cluster_orientation. The member with the highest score wins; a score counts less by distance_weight (1 / px^2) for the squared
-// distance from the predicted left place.
+// cluster_orientation. The member with the highest score wins; a score counts less by distance_weight (1 / px^2) for
+// the squared distance from the predicted left place.
 // Out per row: best (current edge, -1: none), rivals (other clusters) and score. `label` is scratch.
 kernel void temporal_best(global const int* first, global const int* target, const int capacity, const int rows,
                           const int row_step, global const float* current, const int current_count,

@@ -1,9 +1,12 @@
-// wide_description.cl: what surrounds an edge, as one descriptor of 36 x 36 px turned with the edge, for finding it anywhere.
+// wide_description.cl: what surrounds an edge, as one descriptor of 36 x 36 px turned with the edge, for finding it
+// anywhere.
 //
-// wide_shrink    In: image (width x height, packed). Out: means of blocks of kWideShrink x kWideShrink pixels, small_width x small_height.
+// wide_shrink    In: image (width x height, packed). Out: means of blocks of kWideShrink x kWideShrink pixels,
+// small_width x small_height.
 //                One work-item = one block.
-// wide_describe  In: that image, stereo edges packed as stereo_collect writes them (the left blocks are used). Row r belongs to
-//                edge r * step. Out: 128 bytes per row, laid out as in host/reference/wide_description.hpp. One work-item = one row.
+// wide_describe  In: that image, stereo edges packed as stereo_collect writes them (the left blocks are used). Row r
+//                belongs to edge r * step. Out: 128 bytes per row, laid out as in host/reference/wide_description.hpp.
+//                One work-item = one row.
 // Needs direction.cl before it. Reference: host/reference/wide_description.cpp.
 
 #define HALF 7  // samples on either side of the middle one

@@ -1,11 +1,12 @@
 // wide_matching.cl: finds every row's edge among all columns, anywhere in the image, by its wide descriptor.
 //
-// Rows are every row_step-th stereo edge of the earlier rig, columns every column_step-th one of the current rig; edges packed as
-// stereo_collect writes them (left x, y). The similarity of two descriptors of norm 512 is their product, their squared distance
-// 2 (512^2 - product): whole numbers below 2^24, exact in single precision in any order.
+// Rows are every row_step-th stereo edge of the earlier rig, columns every column_step-th one of the current rig; edges
+// packed as stereo_collect writes them (left x, y). The similarity of two descriptors of norm 512 is their product,
+// their squared distance 2 (512^2 - product): whole numbers below 2^24, exact in single precision in any order.
 // Out per row: the column with the highest similarity, the first on a tie, or -1 where
 //   - another row farther than `neighbourhood` px from this one is at least as alike to that column, or
-//   - a column farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test against a rival elsewhere).
+//   - a column farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test against
+//   a rival elsewhere).
 // One work-item = one row. Reference: host/reference/wide_matching.cpp.
 
 #define BLOCKS (kWideBytes / 16)
@@ -35,11 +36,12 @@ inline bool wide_apart(global const float* x, global const float* y, const int i
   return dx * dx + dy * dy > distance * distance;
 }
 
-kernel void wide_match(global const uchar* row_descriptors, global const float* row_edges, const int row_stride,
-                       const int rows, const int row_step, global const uchar* column_descriptors,
-                       global const float* column_edges, const int column_stride, const int columns,
-                       const int column_step, const float neighbourhood, const float ratio, global int* best,
-                       global float* similarity) {
+kernel void wide_match(const WideMatchingArguments args, global const uchar* row_descriptors,
+                       global const float* row_edges, global const uchar* column_descriptors,
+                       global const float* column_edges, global int* best, global float* similarity) {
+  const int rows = args.rows.count, row_step = args.rows.step, row_stride = args.rows.stride;
+  const int columns = args.columns.count, column_step = args.columns.step, column_stride = args.columns.stride;
+  const float neighbourhood = args.neighbourhood, ratio = args.ratio;
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   best[row] = -1;

@@ -1,5 +1,6 @@
-// wide_matching_blocks.cl: the same as wide_matching.cl for devices with wide vectors: sixteen descriptors at once, one per lane, against
-// ROWS others, so that no product is summed across lanes. All products are whole numbers below 2^24: the same bits as there.
+// wide_matching_blocks.cl: the same as wide_matching.cl for devices with wide vectors: sixteen descriptors at once, one
+// per lane, against ROWS others, so that no product is summed across lanes. All products are whole numbers below 2^24:
+// the same bits as there.
 //
 // wide_transpose  In: descriptors. Out: blocks of sixteen, byte by byte: byte k of descriptor 16 b + lane is element
 //                 (kWideBytes b + k) * 16 + lane; zeros after the last one. One work-item = one block.
@@ -58,7 +59,8 @@ inline float wide_limit(const float highest, const float ratio) {
   return SQUARE - (SQUARE - highest) / (ratio * ratio);
 }
 
-// Whether a descriptor of the block reaches `limit` (or exceeds it, where `above`) farther than `distance` px from edge `from`.
+// Whether a descriptor of the block reaches `limit` (or exceeds it, where `above`) farther than `distance` px from edge
+// `from`.
 inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block,
                            const int count, global const float* x, global const float* y, const int step,
                            const int from, const float distance) {
@@ -73,12 +75,13 @@ inline bool wide_elsewhere(const float16 products, const float limit, const bool
   return false;
 }
 
-kernel void wide_match(global const uchar* row_descriptors, global const uchar* row_blocks,
-                       global const float* row_edges, const int row_stride, const int rows, const int row_step,
+kernel void wide_match(const WideMatchingArguments args, global const uchar* row_descriptors,
+                       global const uchar* row_blocks, global const float* row_edges,
                        global const uchar* column_descriptors, global const uchar* column_blocks,
-                       global const float* column_edges, const int column_stride, const int columns,
-                       const int column_step, const float neighbourhood, const float ratio, global int* best,
-                       global float* similarity) {
+                       global const float* column_edges, global int* best, global float* similarity) {
+  const int rows = args.rows.count, row_step = args.rows.step, row_stride = args.rows.stride;
+  const int columns = args.columns.count, column_step = args.columns.step, column_stride = args.columns.stride;
+  const float neighbourhood = args.neighbourhood, ratio = args.ratio;
   const int first = (int)get_global_id(0) * ROWS;
   if (first >= rows) return;
   float mine[ROWS * kWideBytes], found[ROWS * kWideBytes];
@@ -105,7 +108,8 @@ kernel void wide_match(global const uchar* row_descriptors, global const uchar* 
         while (of_lane[lane] != here) ++lane;
         winner[r] = block * LANES + lane;
       }
-      // The limit only rises: what it has passed is no rival. A full list is cleared of that; LISTED + 1 says it did not suffice.
+      // The limit only rises: what it has passed is no rival. A full list is cleared of that; LISTED + 1 says it did
+      // not suffice.
       const float limit = wide_limit(highest[r], ratio);
       if (here <= limit || listed[r] > LISTED) continue;
       if (listed[r] == LISTED) {

@@ -9,7 +9,8 @@
 #include "opencl/variants.hpp"
 #include "quadedge/image.hpp"
 #include "reference/patches.hpp"
-#include "stages/edge_description.hpp"
+#include "stages/patches.hpp"
+#include "stages/sift.hpp"
 
 struct TestEdges {
   std::vector<float> x, y, direction;
@@ -26,6 +27,17 @@ inline TestEdges random_edges(int width, int height, int count, unsigned seed, d
     edges.direction.push_back(static_cast<float>((2 * uniform() - 1) * 3.14159265358979));
   }
   return edges;
+}
+
+/// The edges in `packed`, as a stage takes them.
+inline quadedge::stages::PositionsView upload(quadedge::opencl::Context& context, const TestEdges& edges,
+                                              quadedge::opencl::Buffer<cl_float>& packed) {
+  std::vector<float> blocks;
+  for (const auto* block : {&edges.x, &edges.y, &edges.direction})
+    blocks.insert(blocks.end(), block->begin(), block->end());
+  packed.write(context, blocks);
+  const auto count = static_cast<int>(edges.x.size());
+  return {packed, {0, count, count}};
 }
 
 struct TestDescriptions {
@@ -45,24 +57,24 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
     Device device(index);
     auto& context = *device.context();
     opencl::Buffer<cl_uchar> pixels;
-    opencl::Buffer<cl_float> x, y, direction;
+    opencl::Buffer<cl_float> packed;
     pixels.write(context, image.pixels);
-    x.write(context, edges.x);
-    y.write(context, edges.y);
-    direction.write(context, edges.direction);
+    const auto positions = upload(context, edges, packed);
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != stage) continue;
-      stages::EdgeDescription describer(context, image.width, image.height, {}, {}, {{stage, variant.name}});
+      const std::map<std::string, std::string> chosen = {{stage, variant.name}};
+      stages::Patches patch_stage(context, image.width, image.height, {}, chosen);
+      stages::Sift sift_stage(context, image.width, image.height, {}, chosen);
       TestDescriptions found[2];
       for (auto& run : found) {
         opencl::Buffer<cl_char> patches;
         opencl::Buffer<cl_uchar> sift;
-        describer.prepare(pixels);
-        describer.prepare_sift(pixels);
-        describer.cut_patches(x, y, direction, static_cast<int>(count), patches);
-        describer.describe_sift(x, y, direction, static_cast<int>(count), sift);
+        patch_stage.prepare(pixels);
+        sift_stage.prepare(pixels);
+        patch_stage.cut(positions, patches);
+        sift_stage.describe(positions, sift);
         run = {device.info().name + " " + variant.name, patches.read(count * quadedge::kEdgePatchBytes),
-               sift.read(count * 256)};
+               sift.read(count * quadedge::kEdgeSiftBytes)};
       }
       CHECK(found[0].patches == found[1].patches);
       CHECK(found[0].sift == found[1].sift);

@@ -69,9 +69,11 @@ inline EdgeSet make_edges(std::vector<Edge> edges, int height, double slack = 0,
 
 inline stages::DeviceEdges upload(opencl::Context& context, const EdgeSet& edges) {
   stages::DeviceEdges device;
-  device.x.write(context, edges.x);
-  device.y.write(context, edges.y);
-  device.direction.write(context, edges.direction);
+  device.stride = static_cast<int>(edges.size());
+  std::vector<float> packed;
+  for (const auto* block : {&edges.x, &edges.y, &edges.direction})
+    packed.insert(packed.end(), block->begin(), block->end());
+  device.packed.write(context, packed);
   device.row_first.write(context, edges.row_first);
   device.host_count = static_cast<int>(edges.size());
   return device;

@@ -10,7 +10,6 @@
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
-#include "reference/edge_thinning.hpp"
 #include "stages/edge_detection.hpp"
 
 using namespace quadedge;
@@ -183,39 +182,6 @@ TEST_CASE("edge detection: a full edge list is cut in scan order and says how ma
     for (std::size_t row = 0; row < all.row_first.size(); ++row) {
       REQUIRE(cut.edges.row_first[row] == std::min(all.row_first[row], 40));
     }
-  });
-}
-
-TEST_CASE("edge detection: thinning keeps exactly the edges that the reference rule keeps",
-          "[edges][device][oclgrind]") {
-  const Image image = textured_image(30, 26);
-  for_each_variant([&](Device& device, const std::string& variant) {
-    INFO(variant);
-    EdgesConfig config = small_capacity(2);
-    config.max_edges = 500;
-    const EdgeSet all = detect(device, variant, image, config).edges;
-    const std::vector<std::uint8_t> kept = reference::kept_by_thinning(all);
-    EdgeSet expected;
-    for (std::size_t row = 0; row + 1 < all.row_first.size(); ++row) {
-      expected.row_first.push_back(static_cast<std::int32_t>(expected.size()));
-      for (auto i = static_cast<std::size_t>(all.row_first[row]); i < static_cast<std::size_t>(all.row_first[row + 1]);
-           ++i) {
-        if (!kept[i]) continue;
-        expected.x.push_back(all.x[i]);
-        expected.y.push_back(all.y[i]);
-        expected.direction.push_back(all.direction[i]);
-        expected.strength.push_back(all.strength[i]);
-      }
-    }
-    expected.row_first.push_back(static_cast<std::int32_t>(expected.size()));
-    REQUIRE(expected.size() < all.size());
-    config.thinning = true;
-    CHECK(same_bytes(detect(device, variant, image, config).edges, expected));
-    // What the capacity cuts off before the thinning is still counted.
-    config.max_edges = 40;
-    const Detection cut = detect(device, variant, image, config);
-    CHECK(cut.dropped == static_cast<int>(all.size()) - 40);
-    CHECK(cut.edges.size() <= 40);
   });
 }
 

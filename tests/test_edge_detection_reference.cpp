@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "edge_images.hpp"
+#include "edge_structure.hpp"
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
-#include "reference/edge_thinning.hpp"
 
 using namespace quadedge;
 using reference::ReferenceEdges;
@@ -20,28 +20,6 @@ constexpr double kDegree = kPi / 180.0;
 double effective_sigma(const EdgesConfig& config) { return std::sqrt(config.sigma * config.sigma + 1.0 / 12.0); }
 
 double angle_error(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * kPi)); }
-
-void check_structure(const ReferenceEdges& edges, int width, int height, const EdgesConfig& config) {
-  REQUIRE(edges.row_first.size() == static_cast<std::size_t>(2 * height + 1));
-  CHECK(edges.row_first.front() == 0);
-  CHECK(edges.row_first.back() == static_cast<int>(edges.size()));
-  for (int row = 0; row < 2 * height; ++row) {
-    const auto r = static_cast<std::size_t>(row);
-    REQUIRE(edges.row_first[r] <= edges.row_first[r + 1]);
-    for (auto i = static_cast<std::size_t>(edges.row_first[r]); i < static_cast<std::size_t>(edges.row_first[r + 1]);
-         ++i) {
-      REQUIRE(edges.cell_y[i] == row);
-      if (i > static_cast<std::size_t>(edges.row_first[r])) REQUIRE(edges.cell_x[i - 1] < edges.cell_x[i]);
-      REQUIRE(std::abs(edges.y[i] - 0.5 * row) < kEdgeRowReach);
-    }
-  }
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    REQUIRE(edges.strength[i] > config.threshold);
-    REQUIRE((edges.direction[i] > -kPi && edges.direction[i] <= kPi));
-    REQUIRE((edges.x[i] > config.margin && edges.x[i] < width - 1 - config.margin));
-    REQUIRE((edges.y[i] > config.margin && edges.y[i] < height - 1 - config.margin));
-  }
-}
 
 }  // namespace
 
@@ -222,44 +200,4 @@ TEST_CASE("edges: directions at the winning cell agree with those at the sub-pix
   EdgesConfig parabola;
   parabola.newton_max = 0;
   CHECK(edges.x == reference::detect_edges(image.view(), parabola).x);
-}
-
-TEST_CASE("thinning: the strongest of a pixel survives, directions 45 degrees apart do not meet", "[edges]") {
-  EdgeSet edges;
-  const auto add = [&](float x, float y, double direction_deg, float strength) {
-    edges.x.push_back(x);
-    edges.y.push_back(y);
-    edges.direction.push_back(static_cast<float>(direction_deg * kDegree));
-    edges.strength.push_back(strength);
-  };
-  add(5.2F, 7.4F, 10, 3);     // 0: weaker neighbour of 1
-  add(4.6F, 6.6F, 50, 4);     // 1: strongest of pixel (5, 7)
-  add(5.0F, 7.0F, 96, 3.5F);  // 2: more than 45 degrees from 1
-  add(5.6F, 7.0F, 10, 1);     // 3: alone in pixel (6, 7)
-  add(9.1F, 7.0F, 175, 2);    // 4: equal to 5, comes first
-  add(8.9F, 7.0F, -175, 2);   // 5: 10 degrees from 4 across the wrap
-  add(8.8F, 7.0F, -5, 1);     // 6: opposite contrast
-  CHECK(reference::kept_by_thinning(edges) == std::vector<std::uint8_t>{0, 1, 1, 1, 1, 0, 1});
-}
-
-TEST_CASE("thinning: along a curve every pixel keeps one edge and none is left without", "[edges]") {
-  const Image image = render_half_plane(64, 64, 31.4, 32.2, 41.0 * kDegree);
-  EdgesConfig thin;
-  thin.thinning = true;
-  const ReferenceEdges all = reference::detect_edges(image.view(), {}),
-                       thinned = reference::detect_edges(image.view(), thin);
-  check_structure(thinned, 64, 64, thin);
-  const auto pixels = [](const ReferenceEdges& edges) {
-    std::vector<std::pair<int, int>> found;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      found.emplace_back(static_cast<int>(std::floor(edges.x[i] + 0.5)),
-                         static_cast<int>(std::floor(edges.y[i] + 0.5)));
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  };
-  auto occupied = pixels(all);
-  occupied.erase(std::unique(occupied.begin(), occupied.end()), occupied.end());
-  CHECK(all.size() > thinned.size());
-  CHECK(pixels(thinned) == occupied);
 }

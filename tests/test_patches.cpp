@@ -245,19 +245,17 @@ TEST_CASE("patches: all variants give the same bits, and none writes beyond its 
     Device device(index);
     auto& context = *device.context();
     opencl::Buffer<cl_uchar> pixels;
-    opencl::Buffer<cl_float> x, y, direction;
+    opencl::Buffer<cl_float> packed;
     pixels.write(context, image.pixels);
-    x.write(context, edges.x);
-    y.write(context, edges.y);
-    direction.write(context, edges.direction);
+    const auto positions = upload(context, edges, packed);
     std::vector<cl_char> first;
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "patches") continue;
-      stages::EdgeDescription describer(context, 131, 77, {}, {}, {{"patches", variant.name}});
-      describer.prepare(pixels);
+      stages::Patches stage(context, 131, 77, {}, {{"patches", variant.name}});
+      stage.prepare(pixels);
       opencl::Buffer<cl_char> patches(context, 1003 * kEdgePatchBytes + 64);
       patches.fill(7, 1003 * kEdgePatchBytes + 64);
-      describer.cut_patches(x, y, direction, 1003, patches);
+      stage.cut(positions, patches);
       const auto found = patches.read(1003 * kEdgePatchBytes + 64);
       if (first.empty()) first = found;
       CAPTURE(device.info().name, variant.name);

@@ -1,10 +1,9 @@
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <numeric>
 #include <vector>
 
 #include "devices.hpp"
 #include "opencl/variants.hpp"
+#include "reference/scan.hpp"
 #include "stages/scan.hpp"
 
 using namespace quadedge;
@@ -24,19 +23,25 @@ void check_scan(const std::vector<int>& sizes, int capacity) {
         device_counts.write(*device.context(), counts);
         scan.run(device_counts, size, capacity, first, total);
 
-        std::vector<cl_int> expected(counts.size() + 1, 0);
-        std::partial_sum(counts.begin(), counts.end(), expected.begin() + 1);
-        const int found = expected.back(), kept = std::min(found, capacity);
-        for (auto& value : expected) value = std::min(value, capacity);
+        const reference::Scan expected = reference::scan(counts, capacity);
         INFO(variant.name << ", " << size << " counts, capacity " << capacity);
-        CHECK(first.read(expected.size()) == expected);
-        CHECK(total.read(2) == std::vector<cl_int>{kept, found - kept});
+        CHECK(first.read(counts.size() + 1) == expected.first);
+        CHECK(total.read(2) == std::vector<cl_int>{expected.fitting, expected.cut_off});
       }
     }
   }
 }
 
 }  // namespace
+
+TEST_CASE("scan: the reference sums on paper", "[scan]") {
+  const reference::Scan free = reference::scan({3, 0, 2, 4}, 100), cut = reference::scan({3, 0, 2, 4}, 4);
+  CHECK(free.first == std::vector<std::int32_t>{0, 3, 3, 5, 9});
+  CHECK((free.fitting == 9 && free.cut_off == 0));
+  CHECK(cut.first == std::vector<std::int32_t>{0, 3, 3, 4, 4});
+  CHECK((cut.fitting == 4 && cut.cut_off == 5));
+  CHECK(reference::scan({}, 4).first == std::vector<std::int32_t>{0});
+}
 
 TEST_CASE("scan: every device and variant gives the exclusive sums of small lists", "[scan][device][oclgrind]") {
   check_scan({0, 1, 2, 255, 256, 257, 1000}, 1 << 30);

@@ -87,11 +87,9 @@ std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, c
       "stereo_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
         INFO(name);
         stages::StereoCandidates stage(context, variants);
-        opencl::Buffer<cl_float> packed;
-        packed.write(context, geometry.packed());
         const auto device_left = upload(context, left), device_right = upload(context, right);
         stages::DeviceCandidates found;
-        stage.run(device_left, device_right, rig.right.height, packed, found);
+        stage.run(device_left, device_right, rig.right.height, geometry, found);
         check_lists(found.first.read(left.size() + 1), found.target.read(static_cast<std::size_t>(found.host_total)),
                     rig, config, left, right);
       });

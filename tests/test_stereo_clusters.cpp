@@ -81,20 +81,18 @@ struct Scene {
         "stereo_clusters", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
           INFO(name);
           stages::StereoClusters stage(context, config, variants);
-          stages::EdgeDescription describe_right(context, 97, 71, all.patches, all.sift, {});
+          stages::Patches right_patches(context, 97, 71, all.patches, {});
           const auto image = upload(context, right_image);
           const auto device_left = upload(context, left), device_right = upload(context, right);
-          describe_right.prepare(image.pixels);
+          right_patches.prepare(image.pixels);
           auto lists = upload(context, candidates);
           upload(context, scores, lists);
-          opencl::Buffer<cl_float> packed;
-          packed.write(context, geometry.packed());
           stages::DeviceRefined device_refined;
           device_refined.position.write(context, {refined.position.begin(), refined.position.end()});
           device_refined.similarity.write(context, {refined.similarity.begin(), refined.similarity.end()});
           stages::DeviceClusters clusters;
           stages::DeviceStereoEdges result;
-          stage.run(device_left, device_right, describe_right, packed, lists, device_refined, clusters, result);
+          stage.run(device_left, device_right, right_patches, geometry, lists, device_refined, clusters, result);
           StereoEdges found;
           result.read(found);
           std::size_t same = 0, j = 0;

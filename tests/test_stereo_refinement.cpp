@@ -93,16 +93,14 @@ struct Scene {
           stages::StereoRefinement stage(context, config, kOffset, variants);
           auto device = upload(context, lists);
           upload(context, scores, device);
-          opencl::Buffer<cl_float> packed;
           opencl::Buffer<cl_char> device_patches;
           stages::DeviceRefined found;
-          packed.write(context, geometry.packed());
           device_patches.write(context, left_patches());
           stages::PixelCorners left_corners(context), right_corners(context);
           left_corners.prepare(upload(context, left_image).pixels, left_image.width, left_image.height);
           right_corners.prepare(upload(context, right_image).pixels, right_image.width, right_image.height);
-          stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches, packed,
-                    device, found);
+          stage.run(left_corners, right_corners, upload(context, left), upload(context, right), device_patches,
+                    geometry, device, found);
           const auto states = device.state.read(positions.size());
           const auto device_positions = found.position.read(positions.size()),
                      device_similarity = found.similarity.read(positions.size());

@@ -24,8 +24,7 @@ constexpr double kWorthChanging = 0.97;                 // of the default's time
 
 /// The names under which the pipeline books the kernels of a stage with variants.
 std::vector<std::string> booked_as(const std::string& stage) {
-  if (stage == kGuidedMatch) return {kGuidedMatch, "temporal_candidates", "temporal_filters", "temporal_quads"};
-  if (stage == "candidate_filters") return {"stereo_filters", "temporal_filters"};
+  if (stage == kGuidedMatch) return {kGuidedMatch, "temporal_candidates", "candidate_filters", "temporal_quads"};
   if (stage == "scan") return {"edge_detection", "stereo_candidates", "temporal_candidates"};  // the stages that use it
   return {stage};
 }

@@ -13,15 +13,6 @@ constexpr float kWholeImage = 1e5f;        // px, longer than any line
 
 }  // namespace
 
-std::vector<float> EpipolarGeometry::packed() const {
-  std::vector<float> values(h.begin(), h.end());
-  values.insert(values.end(), t.begin(), t.end());
-  values.insert(values.end(), epipole.begin(), epipole.end());
-  values.insert(values.end(),
-                {inverse_min_depth, max_disparity, tolerance, epipolar_distance, orientation, min_epipolar_sine});
-  return values;
-}
-
 EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig& config) {
   if (config.max_disparity <= 0 && config.min_depth <= 0) {
     throw UsageError("stereo.max_disparity [px] or stereo.min_depth [m] must be given: nothing limits the disparity");

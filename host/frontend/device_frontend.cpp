@@ -23,7 +23,8 @@ DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& ca
                                const Config& config)
     : undistortion(context, table, camera.width, camera.height, config.variants),
       detection(context, camera.width, camera.height, config.edges, config.variants),
-      description(context, camera.width, camera.height, config.patches, config.sift, config.variants) {}
+      patches(context, camera.width, camera.height, config.patches, config.variants),
+      sift(context, camera.width, camera.height, config.sift, config.variants) {}
 
 DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
     : context_(context),
@@ -41,7 +42,6 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       temporal_match_(context, config.temporal, config.variants),
       wide_description_(context, rig.left.width, rig.left.height, config.variants),
       wide_matching_(context, config.temporal, config.variants) {
-  geometry_.write(context, epipolar_.packed());
   std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
   std::iota(itself.begin(), itself.end(), 0);
   itself_.write(context, itself);
@@ -63,24 +63,23 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
   if (tap_ != nullptr) tap_->edges(edges(false), edges(true));
 
-  left_.description.prepare(rig.left_image.pixels);
-  right_.description.prepare(rig.right_image.pixels);
-  left_.description.cut_patches(left_.edges, rig.left_patches);
-  right_.description.cut_patches(right_.edges, right_patches_);
+  left_.patches.prepare(rig.left_image.pixels);
+  right_.patches.prepare(rig.right_image.pixels);
+  left_.patches.cut(left_.edges.positions(), rig.left_patches);
+  right_.patches.cut(right_.edges.positions(), right_patches_);
   if (tap_ != nullptr || config_.stereo.sift_max > 0) {
-    left_.description.prepare_sift(rig.left_image.pixels);
-    right_.description.prepare_sift(rig.right_image.pixels);
-    left_.description.describe_sift(left_.edges, left_sift_);
-    right_.description.describe_sift(right_.edges, right_sift_);
+    left_.sift.prepare(rig.left_image.pixels);
+    right_.sift.prepare(rig.right_image.pixels);
+    left_.sift.describe(left_.edges.positions(), left_sift_);
+    right_.sift.describe(right_.edges.positions(), right_sift_);
   }
   if (tap_ != nullptr) tap_candidates_without_limits();
-  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry_, candidates_);
-  context_.begin_stage("stereo_filters");
+  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, epipolar_, candidates_);
   filters_.run({rig.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
-  refinement_.run(left_.description.corners(), right_.description.corners(), left_.edges, right_.edges,
-                  rig.left_patches, geometry_, candidates_, refined_);
-  clustering_.run(left_.edges, right_.edges, right_.description, geometry_, candidates_, refined_, clusters_, rig);
+  refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges, rig.left_patches,
+                  epipolar_, candidates_, refined_);
+  clustering_.run(left_.edges, right_.edges, right_.patches, epipolar_, candidates_, refined_, clusters_, rig);
   rig.read(current.edges);
   rig.has_sift = false;
   indexed_ = false;
@@ -105,19 +104,12 @@ stages::DescribedEdges DeviceFrontend::described(const stages::DeviceStereoEdges
 
 void DeviceFrontend::describe_by_sift(DeviceRig& rig) {
   if (rig.on_device.has_sift) return;
-  const auto describe = [&](stages::EdgeDescription& description, const stages::DeviceImage& image,
-                            const PlacedEdges& places, opencl::Buffer<cl_uchar>& sift) {
-    described_places_.write(context_, places);
-    description.prepare_sift(image.pixels);
-    description.describe_sift(described_places_.x, described_places_.y, described_places_.direction,
-                              described_places_.count, sift);
-  };
-  const StereoEdges& edges = rig.edges;
-  describe(left_.description, rig.on_device.left_image, {edges.left_x, edges.left_y, edges.left_direction},
-           rig.on_device.left_sift);
-  describe(right_.description, rig.on_device.right_image, {edges.right_x, edges.right_y, edges.right_direction},
-           rig.on_device.right_sift);
-  rig.on_device.has_sift = true;
+  stages::DeviceStereoEdges& edges = rig.on_device;
+  left_.sift.prepare(edges.left_image.pixels);
+  left_.sift.describe(edges.left(), edges.left_sift);
+  right_.sift.prepare(edges.right_image.pixels);
+  right_.sift.describe(edges.right(), edges.right_sift);
+  edges.has_sift = true;
 }
 
 void DeviceFrontend::match_side(Side side, DeviceRig& base, const TemporalSearch& search,
@@ -130,7 +122,6 @@ void DeviceFrontend::match_side(Side side, DeviceRig& base, const TemporalSearch
     describe_by_sift(base);
     describe_by_sift(current);
   }
-  context_.begin_stage("temporal_filters");
   filters_.run(described(base.on_device, side), described(current.on_device, side), limits, search.step,
                tap_ != nullptr, candidates);
 }

@@ -4,8 +4,9 @@
 #include "common/epipolar_geometry.hpp"
 #include "frontend/frontend.hpp"
 #include "stages/candidate_filters.hpp"
-#include "stages/edge_description.hpp"
 #include "stages/edge_detection.hpp"
+#include "stages/patches.hpp"
+#include "stages/sift.hpp"
 #include "stages/stereo_candidates.hpp"
 #include "stages/stereo_clusters.hpp"
 #include "stages/stereo_refinement.hpp"
@@ -41,7 +42,8 @@ class DeviceFrontend : public Frontend {
   struct Camera {
     stages::Undistortion undistortion;
     stages::EdgeDetection detection;
-    stages::EdgeDescription description;
+    stages::Patches patches;
+    stages::Sift sift;
     stages::DeviceEdges edges;
     Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table, const Config& config);
   };
@@ -66,7 +68,6 @@ class DeviceFrontend : public Frontend {
   opencl::Context& context_;
   Config config_;
   EpipolarGeometry epipolar_;
-  opencl::Buffer<cl_float> geometry_;
   StereoRig calibration_;
   Camera left_, right_;
   stages::StereoCandidates stereo_candidates_;
@@ -89,8 +90,7 @@ class DeviceFrontend : public Frontend {
   bool indexed_ = false;                   ///< of the current frame
   opencl::Buffer<cl_char> right_patches_;  ///< of every edge of the right image
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
-      right_sift_{context_, 0};  ///< of every edge, where the stereo cascade asks for SIFT
-  stages::DevicePlaces described_places_;
+      right_sift_{context_, 0};    ///< of every edge, where the stereo cascade asks for SIFT
   opencl::Buffer<cl_int> itself_;  ///< 0, 1, 2 ...
   RigPool<DeviceRig> rigs_;
 };

@@ -32,9 +32,8 @@ void DeviceFrontend::set_tap(Tap* tap) {
 /// ones opened. Filter 3's lists are those that the frame goes on with.
 void DeviceFrontend::tap_candidates_without_limits() {
   stages::DeviceCandidates lists;
-  opencl::Buffer<cl_float> geometry;
   for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
-    geometry.write(context_, without_limits(epipolar_, filter < StereoFilter::disparity, true).packed());
+    const EpipolarGeometry geometry = without_limits(epipolar_, filter < StereoFilter::disparity, true);
     stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, lists);
     tap_->stereo_filter(filter, lists.read());
   }
@@ -46,9 +45,11 @@ void DeviceFrontend::tap_stereo() {
     tap_->stereo_filter(filter, alive_after(judged, filter));
   const auto rows = static_cast<std::size_t>(candidates_.rows), size = static_cast<std::size_t>(candidates_.capacity);
   const auto count = clusters_.count.read(rows);
-  const auto position = clusters_.position.read(size), similarity = clusters_.similarity.read(size);
+  const auto position = clusters_.packed.read(size),
+             similarity = clusters_.packed.read(size, 2 * static_cast<std::size_t>(clusters_.stride));
   const auto anchor = clusters_.anchor.read(size);
-  const auto x = left_.edges.x.read(rows), y = left_.edges.y.read(rows);
+  const auto x = left_.edges.packed.read(rows),
+             y = left_.edges.packed.read(rows, static_cast<std::size_t>(left_.edges.stride));
   for (const auto filter : {StereoFilter::refinement, StereoFilter::similarity}) {
     CandidateLists lists;
     lists.first.assign(1, 0);

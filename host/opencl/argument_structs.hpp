@@ -8,8 +8,20 @@
 
 /// Every structure of kernels/layouts.cl; tests/test_layouts.cpp holds the list complete.
 #define QUADEDGE_KERNEL_STRUCTS(VISIT) \
+  VISIT(PackedPositions)               \
+  VISIT(EpipolarGeometry)              \
+  VISIT(AlignmentSettings)             \
+  VISIT(DetectionArguments)            \
+  VISIT(PatchArguments)                \
+  VISIT(SiftArguments)                 \
+  VISIT(StereoCandidateArguments)      \
   VISIT(FilterLimits)                  \
-  VISIT(FilterArguments)
+  VISIT(FilterArguments)               \
+  VISIT(StereoRefinementArguments)     \
+  VISIT(StereoClusterArguments)        \
+  VISIT(TemporalCandidateArguments)    \
+  VISIT(WideSelection)                 \
+  VISIT(WideMatchingArguments)
 
 namespace quadedge::opencl {
 

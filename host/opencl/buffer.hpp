@@ -68,9 +68,9 @@ class Buffer {
   void read_later(T* values, std::size_t count, std::size_t offset = 0) const {
     if (count > 0) enqueue_read(values, count, offset, CL_FALSE);
   }
-  std::vector<T> read(std::size_t count) const {
+  std::vector<T> read(std::size_t count, std::size_t offset = 0) const {
     std::vector<T> values(count);
-    read(values.data(), count);
+    read(values.data(), count, offset);
     return values;
   }
   /// Sets the first `count` elements, on the device.

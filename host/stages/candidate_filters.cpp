@@ -13,6 +13,7 @@ CandidateFilters::CandidateFilters(opencl::Context& context, const std::map<std:
 
 void CandidateFilters::run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step,
                            bool all_scores, DeviceCandidates& candidates) {
+  context_.begin_stage("candidate_filters");
   candidates.alive.ensure(context_, static_cast<std::size_t>(candidates.rows));
   const FilterArguments arguments{candidates.rows, row_step, candidates.capacity, all_scores ? 1 : 0, limits};
   kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, arguments, candidates.first, candidates.target,

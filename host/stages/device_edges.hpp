@@ -3,19 +3,27 @@
 
 #include "opencl/buffer.hpp"
 #include "quadedge/edges.hpp"
+#include "stages/packed_positions.hpp"
 
 namespace quadedge::stages {
 
-/// Third-order edges in scan order (EdgeSet on the device). Only the first host_count elements mean anything.
+/// Third-order edges in scan order (EdgeSet on the device). Only the first host_count elements of a block mean
+/// anything.
 struct DeviceEdges {
-  opencl::Buffer<cl_float> x, y;       ///< pixels
-  opencl::Buffer<cl_float> direction;  ///< radians in (-pi, pi]
-  opencl::Buffer<cl_float> strength;   ///< grey levels per pixel
-  opencl::Buffer<cl_int> row_first;    ///< 2 * height + 1 starts of the rows of the doubled grid
-  opencl::Buffer<cl_int> count;        ///< {number of edges, edges cut off because the capacity ran out}
-  cl_int host_values[2] = {0, 0};      ///< `count` on its way to the host
-  int host_count = 0;                  ///< count[0] after read_count()
-  int host_dropped = 0;                ///< count[1] after read_count(); not zero is an overflow that the frame reports
+  /// Four blocks of `stride` floats: x, y [px], direction [rad], strength [grey levels per px].
+  opencl::Buffer<cl_float> packed;
+  int stride = 0;
+  opencl::Buffer<cl_int> row_first;  ///< 2 * height + 1 starts of the rows of the doubled grid
+  opencl::Buffer<cl_int> count;      ///< {number of edges, edges cut off because the capacity ran out}
+  cl_int host_values[2] = {0, 0};    ///< `count` on its way to the host
+  int host_count = 0;                ///< count[0] after read_count()
+  int host_dropped = 0;              ///< count[1] after read_count(); not zero is an overflow that the frame reports
+
+  /// Makes room for `capacity` edges; contents are lost when it grows.
+  void reserve(opencl::Context& context, int capacity) {
+    packed.ensure(context, 4 * static_cast<std::size_t>(capacity));
+    stride = capacity;
+  }
 
   /// Waits for the detection and copies the two numbers of `count` to the host.
   void read_count() {
@@ -29,11 +37,19 @@ struct DeviceEdges {
     host_dropped = host_values[1];
   }
 
+  /// After read_count().
+  PositionsView positions() const { return {packed, {0, stride, host_count}}; }
+
   /// Copies the edges to the host; after read_count(). `height` of the image in pixels.
   EdgeSet read(int height) const {
-    const auto size = static_cast<std::size_t>(host_count);
-    return {x.read(size), y.read(size), direction.read(size), strength.read(size),
-            row_first.read(2 * static_cast<std::size_t>(height) + 1)};
+    EdgeSet edges;
+    std::size_t block = 0;
+    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength}) {
+      values->resize(static_cast<std::size_t>(host_count));
+      packed.read_later(values->data(), values->size(), static_cast<std::size_t>(stride) * block++);
+    }
+    edges.row_first = row_first.read(2 * static_cast<std::size_t>(height) + 1);
+    return edges;
   }
 };
 

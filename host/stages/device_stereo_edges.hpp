@@ -7,6 +7,7 @@
 #include "opencl/buffer.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/device_image.hpp"
+#include "stages/packed_positions.hpp"
 
 namespace quadedge::stages {
 
@@ -16,7 +17,6 @@ struct DeviceStereoEdges {
   opencl::Buffer<cl_int> left_index, right_index;
   /// Six blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad].
   opencl::Buffer<cl_float> packed;
-  opencl::Buffer<cl_float> right_x, right_y, right_direction;  ///< the right blocks again, for cutting patches
   opencl::Buffer<cl_float> ncc;
   opencl::Buffer<cl_char> left_patches;   ///< of every edge of the left image, see host/reference/patches.hpp
   opencl::Buffer<cl_char> right_patches;  ///< of every stereo edge, cut at its refined position
@@ -26,6 +26,9 @@ struct DeviceStereoEdges {
   bool has_sift = false;
   int stride = 0;
   int count = 0;
+
+  PositionsView left() const { return {packed, {0, stride, count}}; }
+  PositionsView right() const { return {packed, {3 * stride, stride, count}}; }
 
   /// Copies the rows to the host; waits for the device once.
   void read(StereoEdges& edges) const {

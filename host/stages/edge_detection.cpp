@@ -13,8 +13,6 @@ namespace {
 
 constexpr int kStripRows = 64;  // rows of the doubled grid that one work-item filters: two more are computed twice
 constexpr std::size_t kPadGroup = 32;  // work-items per group of the padding kernel
-constexpr int kLinesPerStrip = 20;
-constexpr int kLineFront = 16;
 
 int round_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 
@@ -62,19 +60,16 @@ EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, co
   winners_.ensure(context, 4 * cells);
   counts_.ensure(context, 2 * static_cast<std::size_t>(height));
   if (strips_) {
-    line_ = kLineFront + round_up(width + 2 * radius + 2 + 32, 16);
+    line_ = kStripLineFront + round_up(width + 2 * radius + 2 + 32, 16);
     const int strips = (2 * height + kStripRows - 1) / kStripRows;
     scratch_.ensure(context,
-                    static_cast<std::size_t>(strips) * kLinesPerStrip * static_cast<std::size_t>(line_) + kLineFront);
+                    static_cast<std::size_t>(strips) * kStripLines * static_cast<std::size_t>(line_) + kStripLineFront);
   } else {
     flags_.ensure(context, cells);
     compact_.ensure(context, 4 * capacity);
     rows_.ensure(context, capacity);
   }
-  if (config.thinning) {
-    flags_.ensure(context, std::max(cells, capacity));
-    reserve(all_);
-  }
+  if (config.thinning) thinning_.emplace(context, height, config.max_edges, variants);
 }
 
 void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
@@ -102,74 +97,53 @@ void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
     tile_compact_ = {context_, program, "edges_tile_compact"};
     tile_directions_ = {context_, program, "edges_tile_directions"};
   }
-  if (config_.thinning) {
-    const cl::Program program = context_.program({"edge_thinning.cl"}, {});
-    thinning_flags_ = {context_, program, "edges_thinning_flags"};
-    thinning_move_ = {context_, program, "edges_thinning_move"};
-  }
 }
 
-void EdgeDetection::reserve(DeviceEdges& edges) const {
-  const auto capacity = static_cast<std::size_t>(config_.max_edges);
-  edges.x.ensure(context_, capacity);
-  edges.y.ensure(context_, capacity);
-  edges.direction.ensure(context_, capacity);
-  edges.strength.ensure(context_, capacity);
+DetectionArguments EdgeDetection::arguments() const {
+  const double newton_max = config_.direction_at == "cell" ? 0.0 : config_.newton_max;
+  return {width_,           height_,
+          plane_.stride,    static_cast<float>(config_.threshold),
+          config_.margin,   static_cast<float>(newton_max),
+          config_.max_edges};
 }
 
 void EdgeDetection::run(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges) {
-  context_.begin_stage("edge_detection");
-  reserve(edges);
-  if (config_.thinning) {
-    detect(image, all_);
-    thin(edges);
-  } else {
-    detect(image, edges);
-  }
+  if (!thinning_) return detect(image, edges);
+  detect(image, all_);
+  thinning_->run(all_, edges);
 }
 
 void EdgeDetection::detect(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges) {
-  const float newton_max = config_.direction_at == "cell" ? 0.0F : static_cast<float>(config_.newton_max);
+  context_.begin_stage("edge_detection");
+  edges.reserve(context_, config_.max_edges);
+  const DetectionArguments arguments = this->arguments();
   const auto rows = static_cast<std::size_t>(2 * height_);
   pad_({static_cast<std::size_t>(plane_.stride / 16), static_cast<std::size_t>(plane_.rows), kPadGroup, 1}, image,
        width_, height_, plane_.pixels, plane_.stride);
   if (strips_) {
     find_maxima_in_strips();
     scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
-    strip_directions_({rows, local_size_}, plane_.pixels, plane_.stride, width_, 2 * height_, winners_, counts_,
-                      edges.row_first, config_.max_edges, newton_max, edges.x, edges.y, edges.direction,
-                      edges.strength);
+    strip_directions_({rows, local_size_}, arguments, plane_.pixels, winners_, counts_, edges.row_first, edges.packed);
   } else {
     find_maxima_in_tiles();
     scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
     tile_compact_({rows * local_size_, local_size_}, flags_, 2 * width_, winners_, edges.row_first, config_.max_edges,
                   compact_, rows_);
-    tile_directions_({8 * static_cast<std::size_t>(config_.max_edges), local_size_}, plane_.pixels, plane_.stride,
-                     compact_, rows_, edges.count, newton_max, edges.x, edges.y, edges.direction, edges.strength);
+    tile_directions_({8 * static_cast<std::size_t>(config_.max_edges), local_size_}, arguments, plane_.pixels, compact_,
+                     rows_, edges.count, edges.packed);
   }
 }
 
 void EdgeDetection::find_maxima_in_strips() {
   const auto strips = static_cast<std::size_t>((2 * height_ + kStripRows - 1) / kStripRows);
-  strip_maxima_({strips, local_size_}, plane_.pixels, plane_.stride, width_, height_, taps_,
-                static_cast<float>(config_.threshold), config_.margin, kStripRows, scratch_, line_, winners_, counts_);
+  strip_maxima_({strips, local_size_}, arguments(), kStripRows, plane_.pixels, taps_, scratch_, line_, winners_,
+                counts_);
 }
 
 void EdgeDetection::find_maxima_in_tiles() {
   const auto tiles = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
-  tile_maxima_({tiles * local_size_, local_size_}, plane_.pixels, plane_.stride, width_, height_, taps_,
-               static_cast<float>(config_.threshold), config_.margin, tiles_x_, winners_, flags_);
+  tile_maxima_({tiles * local_size_, local_size_}, arguments(), tiles_x_, plane_.pixels, taps_, winners_, flags_);
   tile_count_({2 * static_cast<std::size_t>(height_) * local_size_, local_size_}, flags_, 2 * width_, counts_);
-}
-
-void EdgeDetection::thin(DeviceEdges& edges) {
-  const opencl::Range rows(2 * static_cast<std::size_t>(height_), local_size_);
-  thinning_flags_(rows, all_.x, all_.y, all_.direction, all_.strength, all_.row_first, 2 * height_, flags_, counts_);
-  scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
-  thinning_move_(rows, all_.x, all_.y, all_.direction, all_.strength, all_.row_first, 2 * height_, flags_,
-                 edges.row_first, edges.x, edges.y, edges.direction, edges.strength);
-  // What was cut off was cut off before the thinning.
-  edges.count.copy(all_.count, 1, 1);
 }
 
 }  // namespace quadedge::stages

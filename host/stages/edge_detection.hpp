@@ -1,12 +1,14 @@
 #pragma once
-/// \file edge_detection.hpp  Stage 2: third-order edges of one image on the device. doc/method.md section 1.
+/// \file edge_detection.hpp  Stage 2a: third-order edges of one image on the device. doc/method.md section 1.
 
 #include <map>
+#include <optional>
 #include <string>
 
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "stages/device_edges.hpp"
+#include "stages/edge_thinning.hpp"
 #include "stages/scan.hpp"
 
 namespace quadedge::stages {
@@ -36,8 +38,7 @@ class EdgeDetection {
   void detect(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges);
   void find_maxima_in_strips();
   void find_maxima_in_tiles();
-  void thin(DeviceEdges& edges);
-  void reserve(DeviceEdges& edges) const;
+  DetectionArguments arguments() const;
 
   using In = opencl::In<cl_float>;
   using Out = opencl::Out<cl_float>;
@@ -55,25 +56,24 @@ class EdgeDetection {
   int line_ = 0;  ///< floats of one scratch line of a strip
 
   opencl::Kernel<InByte, cl_int, cl_int, Out, cl_int> pad_;
-  opencl::Kernel<In, cl_int, cl_int, cl_int, In, cl_float, cl_int, cl_int, Out, cl_int, Out, OutInt> strip_maxima_;
-  opencl::Kernel<In, cl_int, cl_int, cl_int, In, InInt, InInt, cl_int, cl_float, Out, Out, Out, Out> strip_directions_;
-  opencl::Kernel<In, cl_int, cl_int, cl_int, In, cl_float, cl_int, cl_int, Out, OutByte> tile_maxima_;
+  opencl::Kernel<DetectionArguments, cl_int, In, In, Out, cl_int, Out, OutInt> strip_maxima_;
+  opencl::Kernel<DetectionArguments, In, In, InInt, InInt, Out> strip_directions_;
+  opencl::Kernel<DetectionArguments, cl_int, In, In, Out, OutByte> tile_maxima_;
   opencl::Kernel<InByte, cl_int, OutInt> tile_count_;
   opencl::Kernel<InByte, cl_int, In, InInt, cl_int, Out, OutInt> tile_compact_;
-  opencl::Kernel<In, cl_int, In, InInt, InInt, cl_float, Out, Out, Out, Out> tile_directions_;
-  opencl::Kernel<In, In, In, In, InInt, cl_int, OutByte, OutInt> thinning_flags_;
-  opencl::Kernel<In, In, In, In, InInt, cl_int, InByte, InInt, Out, Out, Out, Out> thinning_move_;
+  opencl::Kernel<DetectionArguments, In, In, InInt, InInt, Out> tile_directions_;
   Scan scan_;
 
   PaddedPlane plane_;
   opencl::Buffer<cl_float> taps_;
   opencl::Buffer<cl_float> scratch_;  ///< strips: lines of column sums and gradients
   opencl::Buffer<cl_float> winners_;  ///< 4 floats per cell of the doubled grid
-  opencl::Buffer<cl_int> counts_;     ///< winners, then kept edges, per row of the doubled grid
-  opencl::Buffer<cl_uchar> flags_;    ///< tiles: cells that won; thinning: edges that stay
+  opencl::Buffer<cl_int> counts_;     ///< winners per row of the doubled grid
+  opencl::Buffer<cl_uchar> flags_;    ///< tiles: cells that won
   opencl::Buffer<cl_float> compact_;  ///< tiles: winners in scan order
   opencl::Buffer<cl_int> rows_;       ///< tiles: their rows
-  DeviceEdges all_;                   ///< thinning: the edges before it
+  std::optional<EdgeThinning> thinning_;
+  DeviceEdges all_;  ///< the edges before thinning
 };
 
 }  // namespace quadedge::stages

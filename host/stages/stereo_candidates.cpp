@@ -5,7 +5,6 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr std::size_t kNoted = 32;         // NOTED in kernels/stereo_candidates.cl
 constexpr int kFirstCapacityPerEdge = 24;  // grows on its own where a data set needs more
 
 }  // namespace
@@ -20,18 +19,18 @@ StereoCandidates::StereoCandidates(opencl::Context& context, const std::map<std:
 }
 
 void StereoCandidates::run(const DeviceEdges& left, const DeviceEdges& right, int right_height,
-                           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates) {
+                           const EpipolarGeometry& geometry, DeviceCandidates& candidates) {
   context_.begin_stage("stereo_candidates");
   candidates.rows = left.host_count;
   candidates.counts.ensure(context_, static_cast<std::size_t>(left.host_count));
-  noted_.ensure(context_, kNoted * static_cast<std::size_t>(left.host_count));
+  noted_.ensure(context_, kNotedCandidates * static_cast<std::size_t>(left.host_count));
   candidates.reserve(context_, kFirstCapacityPerEdge * left.host_count);
   const opencl::Range range(static_cast<std::size_t>(left.host_count), local_size_);
-  count_(range, left.x, left.y, left.direction, left.host_count, right.x, right.y, right.direction, right.row_first,
-         right_height, geometry, candidates.counts, noted_);
+  const StereoCandidateArguments arguments{left.positions().at, right.positions().at, right_height, geometry};
+  count_(range, arguments, left.packed, right.packed, right.row_first, candidates.counts, noted_);
   candidates.build(context_, scan_, [&] {
-    fill_(range, left.x, left.y, left.direction, left.host_count, right.x, right.y, right.direction, right.row_first,
-          right_height, geometry, candidates.first, candidates.capacity, noted_, candidates.target);
+    fill_(range, arguments, left.packed, right.packed, right.row_first, candidates.first, candidates.capacity, noted_,
+          candidates.target);
   });
 }
 

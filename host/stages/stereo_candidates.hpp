@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/epipolar_geometry.hpp"
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
 
@@ -16,9 +16,9 @@ class StereoCandidates {
  public:
   StereoCandidates(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
-  /// One row per left edge. `right_height` [px]; `geometry` packed (EpipolarGeometry::packed).
-  void run(const DeviceEdges& left, const DeviceEdges& right, int right_height,
-           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates);
+  /// One row per left edge. `right_height` [px].
+  void run(const DeviceEdges& left, const DeviceEdges& right, int right_height, const EpipolarGeometry& geometry,
+           DeviceCandidates& candidates);
 
  private:
   template <class T>
@@ -30,11 +30,9 @@ class StereoCandidates {
   std::size_t local_size_;
   Scan scan_;
   opencl::Buffer<cl_int> noted_;  ///< the first candidates of every row
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
-                 cl_int, In<cl_float>, Out<cl_int>, Out<cl_int>>
-      count_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>,
-                 cl_int, In<cl_float>, In<cl_int>, cl_int, In<cl_int>, Out<cl_int>>
+  opencl::Kernel<StereoCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>, Out<cl_int>> count_;
+  opencl::Kernel<StereoCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, In<cl_int>,
+                 Out<cl_int>>
       fill_;
 };
 

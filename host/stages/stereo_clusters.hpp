@@ -4,24 +4,25 @@
 #include <map>
 #include <string>
 
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
 #include "stages/device_stereo_edges.hpp"
-#include "stages/edge_description.hpp"
+#include "stages/patches.hpp"
 #include "stages/stereo_refinement.hpp"
 
 namespace quadedge::stages {
 
 /// Clusters of one frame's candidates, in the rows of the candidates.
 struct DeviceClusters {
-  opencl::Buffer<cl_int> order;       ///< scratch
-  opencl::Buffer<cl_int> count;       ///< clusters per left edge
-  opencl::Buffer<cl_float> position;  ///< on the epipolar line [px from the point at infinity]
-  opencl::Buffer<cl_float> direction;
-  opencl::Buffer<cl_int> anchor;  ///< right edge of the representative
-  opencl::Buffer<cl_float> similarity;
+  opencl::Buffer<cl_int> order;  ///< scratch
+  opencl::Buffer<cl_int> count;  ///< clusters per left edge
+  /// Three blocks of `stride` floats: position on the epipolar line [px from the point at infinity], direction [rad],
+  /// similarity.
+  opencl::Buffer<cl_float> packed;
+  int stride = 0;
+  opencl::Buffer<cl_int> anchor;          ///< right edge of the representative
   opencl::Buffer<cl_int> best;            ///< best cluster per left edge, -1: none
   opencl::Buffer<cl_int> claimed, owner;  ///< per right edge
   opencl::Buffer<cl_int> keep, keep_first, total;
@@ -34,10 +35,10 @@ class StereoClusters {
                  const std::map<std::string, std::string>& variants);
 
   /// Clusters, best and mutual; waits for the number of stereo edges and fills the rows of `result` and its right
-  /// patches. `right_description` has the right image prepared.
-  void run(const DeviceEdges& left, const DeviceEdges& right, EdgeDescription& right_description,
-           const opencl::Buffer<cl_float>& geometry, const DeviceCandidates& candidates, const DeviceRefined& refined,
-           DeviceClusters& clusters, DeviceStereoEdges& result);
+  /// patches. `right_patches` has the right image prepared.
+  void run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches, const EpipolarGeometry& geometry,
+           const DeviceCandidates& candidates, const DeviceRefined& refined, DeviceClusters& clusters,
+           DeviceStereoEdges& result);
 
  private:
   template <class T>
@@ -49,16 +50,13 @@ class StereoClusters {
   StereoConfig config_;
   std::size_t local_size_;
   Scan scan_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_float>,
-                 cl_float, cl_float, cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>,
-                 Out<cl_int>, Out<cl_float>, Out<cl_int>>
+  opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_float>,
+                 Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_int>, Out<cl_int>>
       cluster_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, Out<cl_int>> claim_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, In<cl_int>, Out<cl_int>> owner_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, In<cl_float>, cl_float, In<cl_int>, Out<cl_int>> mutual_;
-  opencl::Kernel<In<cl_int>, cl_int, In<cl_int>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_float>, In<cl_int>, In<cl_float>, cl_int, Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_float>,
-                 Out<cl_float>, Out<cl_float>, Out<cl_float>>
+  opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, Out<cl_int>> claim_;
+  opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_int>, Out<cl_int>> owner_, mutual_;
+  opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>,
+                 Out<cl_int>, Out<cl_float>, Out<cl_float>>
       collect_;
 };
 

@@ -30,20 +30,30 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
 
 void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
                            const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches,
-                           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates,
-                           DeviceRefined& refined) {
+                           const EpipolarGeometry& geometry, DeviceCandidates& candidates, DeviceRefined& refined) {
   context_.begin_stage("stereo_refinement");
   refined.position.ensure(context_, static_cast<std::size_t>(candidates.capacity));
   refined.similarity.ensure(context_, static_cast<std::size_t>(candidates.capacity));
-  kernel_({static_cast<std::size_t>(candidates.rows) * items_per_edge_, local_size_}, candidates.first,
-          candidates.target, candidates.ncc, candidates.capacity, candidates.rows, left_image.values(),
-          left_image.width(), left_image.height(), right_image.values(), right_image.width(), right_image.height(),
-          left_patches, left.x, left.y, left.direction, right.x, right.y, right.direction, geometry, patch_offset_,
-          static_cast<float>(std::sin(config_.shift_min_angle * kDegree)), static_cast<float>(config_.shift_max),
-          static_cast<float>(std::pow(config_.refine_noise_sigma / config_.refine_prior_sigma, 2)),
-          config_.refine_steps, static_cast<float>(config_.refine_tolerance), static_cast<float>(config_.refine_huber),
-          static_cast<float>(config_.refine_clamp), static_cast<float>(config_.refined_ncc_min),
-          order_of(StereoFilter::refinement), candidates.state, refined.position, refined.similarity);
+  StereoRefinementArguments arguments{};
+  arguments.left = left.positions().at;
+  arguments.right = right.positions().at;
+  arguments.capacity = candidates.capacity;
+  arguments.left_width = left_image.width();
+  arguments.left_height = left_image.height();
+  arguments.right_width = right_image.width();
+  arguments.right_height = right_image.height();
+  arguments.patch_offset = patch_offset_;
+  arguments.shift_min_sine = static_cast<float>(std::sin(config_.shift_min_angle * kDegree));
+  arguments.shift_max = static_cast<float>(config_.shift_max);
+  arguments.stiffness = static_cast<float>(std::pow(config_.refine_noise_sigma / config_.refine_prior_sigma, 2));
+  arguments.alignment = {config_.refine_steps, static_cast<float>(config_.refine_tolerance),
+                         static_cast<float>(config_.refine_huber), static_cast<float>(config_.refine_clamp)};
+  arguments.similarity_min = static_cast<float>(config_.refined_ncc_min);
+  arguments.rejected_order = order_of(StereoFilter::refinement);
+  arguments.geometry = geometry;
+  kernel_({static_cast<std::size_t>(candidates.rows) * items_per_edge_, local_size_}, arguments, candidates.first,
+          candidates.target, candidates.ncc, left_image.values(), right_image.values(), left_patches, left.packed,
+          right.packed, candidates.state, refined.position, refined.similarity);
 }
 
 }  // namespace quadedge::stages

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
@@ -28,8 +28,8 @@ class StereoRefinement {
   /// Living candidates get a position and a similarity; those that diverge are rejected. Both images prepared for
   /// sampling; `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.
   void run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,
-           const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches,
-           const opencl::Buffer<cl_float>& geometry, DeviceCandidates& candidates, DeviceRefined& refined);
+           const DeviceEdges& right, const opencl::Buffer<cl_char>& left_patches, const EpipolarGeometry& geometry,
+           DeviceCandidates& candidates, DeviceRefined& refined);
 
  private:
   template <class T>
@@ -41,10 +41,8 @@ class StereoRefinement {
   StereoConfig config_;
   float patch_offset_;
   std::size_t local_size_, items_per_edge_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, In<cl_float>, cl_int, cl_int, In<cl_uint>, cl_int, cl_int, In<cl_uint>, cl_int,
-                 cl_int, In<cl_char>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_float>, In<cl_float>, cl_float, cl_float, cl_float, cl_float, cl_int, cl_float, cl_float,
-                 cl_float, cl_float, cl_int, Out<cl_uchar>, Out<cl_float>, Out<cl_float>>
+  opencl::Kernel<StereoRefinementArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_uint>, In<cl_uint>, In<cl_char>,
+                 In<cl_float>, In<cl_float>, Out<cl_uchar>, Out<cl_float>, Out<cl_float>>
       kernel_;
 };
 

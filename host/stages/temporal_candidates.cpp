@@ -25,13 +25,13 @@ void TemporalCandidates::run(const DevicePlaces& predicted, int row_step, const 
   candidates.counts.ensure(context_, static_cast<std::size_t>(candidates.rows));
   candidates.reserve(context_, kFirstCapacityPerRow * candidates.rows);
   const opencl::Range range(static_cast<std::size_t>(candidates.rows), local_size_);
-  count_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.x, current.y,
-         current.direction, current.number, current.cell_first, current.columns, current.rows, radius, orientation,
-         candidates.counts);
+  const TemporalCandidateArguments arguments{candidates.rows, row_step, current.columns,
+                                             current.rows,    radius,   orientation};
+  count_(range, arguments, predicted.x, predicted.y, predicted.direction, current.x, current.y, current.direction,
+         current.number, current.cell_first, candidates.counts);
   candidates.build(context_, scan_, [&] {
-    fill_(range, predicted.x, predicted.y, predicted.direction, candidates.rows, row_step, current.x, current.y,
-          current.direction, current.number, current.cell_first, current.columns, current.rows, radius, orientation,
-          candidates.first, candidates.capacity, candidates.target);
+    fill_(range, arguments, predicted.x, predicted.y, predicted.direction, current.x, current.y, current.direction,
+          current.number, current.cell_first, candidates.first, candidates.capacity, candidates.target);
   });
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/temporal_search.hpp"
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_point_index.hpp"
 
@@ -44,11 +44,11 @@ class TemporalCandidates {
   opencl::Context& context_;
   std::size_t local_size_;
   Scan scan_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_int>, In<cl_int>, cl_int, cl_int, cl_float, cl_float, Out<cl_int>>
+  opencl::Kernel<TemporalCandidateArguments, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
+                 In<cl_float>, In<cl_int>, In<cl_int>, Out<cl_int>>
       count_;
-  opencl::Kernel<In<cl_float>, In<cl_float>, In<cl_float>, cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_int>, In<cl_int>, cl_int, cl_int, cl_float, cl_float, In<cl_int>, cl_int, Out<cl_int>>
+  opencl::Kernel<TemporalCandidateArguments, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
+                 In<cl_float>, In<cl_int>, In<cl_int>, In<cl_int>, cl_int, Out<cl_int>>
       fill_;
 };
 

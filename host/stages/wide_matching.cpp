@@ -42,17 +42,19 @@ TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWi
   const auto rows = static_cast<std::size_t>(earlier.rows);
   best_.ensure(context_, rows);
   similarity_.ensure(context_, rows);
+  const WideMatchingArguments arguments{{earlier.edges.stride, earlier.rows, earlier.step},
+                                        {current.edges.stride, current.rows, current.step},
+                                        neighbourhood_,
+                                        ratio_};
   if (rows_per_item_ == 0) {
-    kernel_({rows, local_size_}, earlier.descriptors, earlier.edges.packed, earlier.edges.stride, earlier.rows,
-            earlier.step, current.descriptors, current.edges.packed, current.edges.stride, current.rows, current.step,
-            neighbourhood_, ratio_, best_, similarity_);
+    kernel_({rows, local_size_}, arguments, earlier.descriptors, earlier.edges.packed, current.descriptors,
+            current.edges.packed, best_, similarity_);
   } else {
     transpose(earlier, earlier_blocks_);
     transpose(current, current_blocks_);
-    blocks_kernel_({(rows + rows_per_item_ - 1) / rows_per_item_, local_size_}, earlier.descriptors, earlier_blocks_,
-                   earlier.edges.packed, earlier.edges.stride, earlier.rows, earlier.step, current.descriptors,
-                   current_blocks_, current.edges.packed, current.edges.stride, current.rows, current.step,
-                   neighbourhood_, ratio_, best_, similarity_);
+    blocks_kernel_({(rows + rows_per_item_ - 1) / rows_per_item_, local_size_}, arguments, earlier.descriptors,
+                   earlier_blocks_, earlier.edges.packed, current.descriptors, current_blocks_, current.edges.packed,
+                   best_, similarity_);
   }
   std::vector<cl_int> best(rows);
   best_.read_later(best.data(), rows);

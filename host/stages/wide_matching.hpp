@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/device_stereo_edges.hpp"
@@ -44,12 +44,12 @@ class WideMatching {
   opencl::Buffer<cl_uchar> earlier_blocks_, current_blocks_;
   opencl::Buffer<cl_int> best_;
   opencl::Buffer<cl_float> similarity_;
-  opencl::Kernel<In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int,
-                 cl_float, cl_float, Out<cl_int>, Out<cl_float>>
+  opencl::Kernel<WideMatchingArguments, In<cl_uchar>, In<cl_float>, In<cl_uchar>, In<cl_float>, Out<cl_int>,
+                 Out<cl_float>>
       kernel_;
   opencl::Kernel<In<cl_uchar>, cl_int, Out<cl_uchar>> transpose_;
-  opencl::Kernel<In<cl_uchar>, In<cl_uchar>, In<cl_float>, cl_int, cl_int, cl_int, In<cl_uchar>, In<cl_uchar>,
-                 In<cl_float>, cl_int, cl_int, cl_int, cl_float, cl_float, Out<cl_int>, Out<cl_float>>
+  opencl::Kernel<WideMatchingArguments, In<cl_uchar>, In<cl_uchar>, In<cl_float>, In<cl_uchar>, In<cl_uchar>,
+                 In<cl_float>, Out<cl_int>, Out<cl_float>>
       blocks_kernel_;
 };
 

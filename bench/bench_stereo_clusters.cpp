@@ -1,0 +1,8 @@
+/// \file bench_stereo_clusters.cpp  Clusters of refined candidates to stereo edges.
+#include "stage_bench.hpp"
+
+namespace {
+
+[[maybe_unused]] const bool registered = stage_bench::register_stage("stereo_clusters");
+
+}  // namespace

@@ -1,0 +1,9 @@
+/// \file bench_temporal_candidates.cpp  Candidates in time, as lists.
+#include "stage_bench.hpp"
+
+namespace {
+
+[[maybe_unused]] const bool registered =
+    stage_bench::register_stage("temporal_candidates", stage_bench::match_by_lists);
+
+}  // namespace

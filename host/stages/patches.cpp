@@ -1,0 +1,31 @@
+#include "stages/patches.hpp"
+
+#include "opencl/variants.hpp"
+
+namespace quadedge::stages {
+
+Patches::Patches(opencl::Context& context, int width, int height, const PatchesConfig& config,
+                 const std::map<std::string, std::string>& variants)
+    : context_(context), width_(width), height_(height), offset_(static_cast<float>(config.offset)), corners_(context) {
+  const auto& variant = opencl::choose_variant("patches", context, variants);
+  local_size_ = static_cast<std::size_t>(variant.local_size);
+  items_per_edge_ = std::stoul(variant.defines.at("ITEMS_PER_EDGE"));
+  const auto program =
+      context.program({"direction.cl", "photometric.cl", "photometric_lanes.cl", "patches.cl"}, variant.defines);
+  kernel_ = {context, program, "side_patches"};
+}
+
+void Patches::prepare(const opencl::Buffer<cl_uchar>& image) {
+  context_.begin_stage("patches");
+  corners_.prepare(image, width_, height_);
+}
+
+void Patches::cut(const PositionsView& edges, opencl::Buffer<cl_char>& patches) {
+  context_.begin_stage("patches");
+  const auto count = static_cast<std::size_t>(edges.at.count);
+  patches.ensure(context_, count * kEdgePatchBytes);
+  kernel_({count * items_per_edge_, local_size_}, {width_, height_, offset_, edges.at}, corners_.values(), edges.packed,
+          patches);
+}
+
+}  // namespace quadedge::stages

@@ -1,0 +1,43 @@
+#pragma once
+/// \file patches.hpp  Stage 3a: side patches of the edges of one camera's image.
+
+#include <map>
+#include <string>
+
+#include "opencl/argument_structs.hpp"
+#include "quadedge/config.hpp"
+#include "stages/packed_positions.hpp"
+#include "stages/pixel_corners.hpp"
+
+namespace quadedge::stages {
+
+/// Cuts side patches on the device. One object per camera: it keeps the prepared image until the next one, so that
+/// patches can be cut anew at refined positions. Variants of the stage "patches".
+class Patches {
+ public:
+  /// For images of width x height pixels.
+  Patches(opencl::Context& context, int width, int height, const PatchesConfig& config,
+          const std::map<std::string, std::string>& variants);
+
+  /// Takes the next image (packed, height x width): prepares bilinear sampling.
+  void prepare(const opencl::Buffer<cl_uchar>& image);
+
+  /// Side patches of edges anywhere in the prepared image: kernels/patches.cl.
+  void cut(const PositionsView& edges, opencl::Buffer<cl_char>& patches);
+
+  /// The prepared image for bilinear sampling.
+  const PixelCorners& corners() const { return corners_; }
+
+ private:
+  template <class T>
+  using In = opencl::In<T>;
+
+  opencl::Context& context_;
+  int width_, height_;
+  float offset_;
+  std::size_t local_size_, items_per_edge_;
+  PixelCorners corners_;
+  opencl::Kernel<PatchArguments, In<cl_uint>, In<cl_float>, opencl::Out<cl_char>> kernel_;
+};
+
+}  // namespace quadedge::stages

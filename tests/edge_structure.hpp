@@ -1,0 +1,31 @@
+#pragma once
+/// \file edge_structure.hpp  What holds of every set of edges that the reference detects, shared by tests.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "quadedge/config.hpp"
+#include "reference/edge_detection.hpp"
+
+inline void check_structure(const quadedge::reference::ReferenceEdges& edges, int width, int height,
+                            const quadedge::EdgesConfig& config) {
+  REQUIRE(edges.row_first.size() == static_cast<std::size_t>(2 * height + 1));
+  CHECK(edges.row_first.front() == 0);
+  CHECK(edges.row_first.back() == static_cast<int>(edges.size()));
+  for (int row = 0; row < 2 * height; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    REQUIRE(edges.row_first[r] <= edges.row_first[r + 1]);
+    for (auto i = static_cast<std::size_t>(edges.row_first[r]); i < static_cast<std::size_t>(edges.row_first[r + 1]);
+         ++i) {
+      REQUIRE(edges.cell_y[i] == row);
+      if (i > static_cast<std::size_t>(edges.row_first[r])) REQUIRE(edges.cell_x[i - 1] < edges.cell_x[i]);
+      REQUIRE(std::abs(edges.y[i] - 0.5 * row) < quadedge::kEdgeRowReach);
+    }
+  }
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    REQUIRE(edges.strength[i] > config.threshold);
+    REQUIRE((edges.direction[i] > -3.14159265358979323846 && edges.direction[i] <= 3.14159265358979323846));
+    REQUIRE((edges.x[i] > config.margin && edges.x[i] < width - 1 - config.margin));
+    REQUIRE((edges.y[i] > config.margin && edges.y[i] < height - 1 - config.margin));
+  }
+}
