@@ -4,7 +4,7 @@
 
 using namespace quadedge;
 using odometry::KeyRig;
-using odometry::KeyRigState;
+using odometry::KeyRigFitness;
 
 namespace {
 
@@ -26,6 +26,12 @@ StereoEdges row_of_edges(int count, float shift = 0) {
   return edges;
 }
 
+KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isometry3d::Identity()) {
+  auto rig = std::make_shared<frontend::Rig>();
+  rig->start(frame);
+  return KeyRig(rig, world_from_left);
+}
+
 }  // namespace
 
 TEST_CASE("key rig: parallax is the median distance of both ends", "[odometry][key_rig]") {
@@ -41,54 +47,65 @@ TEST_CASE("key rig: parallax is the median distance of both ends", "[odometry][k
   CHECK(odometry::median_parallax(row_of_edges(3), {}, distances) == 0);
 }
 
-TEST_CASE("key rig: remembers its frame and place", "[odometry][key_rig]") {
-  KeyRig rig;
+TEST_CASE("key rig: remembers its frame and pose", "[odometry][key_rig]") {
+  CHECK(KeyRig().frame() == -1);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(1, 2, 3);
-  rig.start(4, pose);
+  const KeyRig rig = key_rig(4, pose);
   CHECK(rig.frame() == 4);
-  CHECK(rig.world_from_key().translation() == Eigen::Vector3d(1, 2, 3));
+  CHECK(rig.world_from_left().translation() == Eigen::Vector3d(1, 2, 3));
 }
 
-TEST_CASE("key rig: each criterion alone wears it out", "[odometry][key_rig]") {
+TEST_CASE("key rig: each criterion alone calls for a replacement", "[odometry][key_rig]") {
   OdometryConfig config;
   config.key_min_quads = 2;
   config.key_max_parallax = 40;
   const auto fit = [] {
-    KeyRigState state;
-    state.quads = 3;
-    state.inlier_share = 0.4;
-    state.median_parallax = 40;
-    state.rotation = 0.1745;  // 9.998 degrees
-    state.frames = 9;
-    return state;
+    KeyRigFitness fitness;
+    fitness.quads = 3;
+    fitness.inlier_ratio = 0.4;
+    fitness.median_parallax = 40;
+    fitness.rotation = 0.1745;  // 9.998 degrees
+    fitness.frames = 9;
+    return fitness;
   };
-  KeyRig rig;
-  KeyRigState first = fit();
+  KeyRig rig = key_rig(0);
+  KeyRigFitness first = fit();
   first.quads = 10;  // the mark: at least 0.3 x 10 = 3 have to stay
-  CHECK_FALSE(rig.is_worn(first, config));
-  CHECK_FALSE(rig.is_worn(fit(), config));
-  KeyRigState state = fit();
-  state.quads = 2;  // under the share
-  CHECK(rig.is_worn(state, config));
+  CHECK_FALSE(rig.needs_replacement(first, config));
+  CHECK_FALSE(rig.needs_replacement(fit(), config));
+  KeyRigFitness fitness = fit();
+  fitness.quads = 2;  // under the ratio
+  CHECK(rig.needs_replacement(fitness, config));
   config.key_min_quads = 4;  // under the number
-  CHECK(rig.is_worn(fit(), config));
+  CHECK(rig.needs_replacement(fit(), config));
   config.key_min_quads = 2;
-  state = fit();
-  state.inlier_share = 0.39;
-  CHECK(rig.is_worn(state, config));
-  state = fit();
-  state.median_parallax = 40.01;
-  CHECK(rig.is_worn(state, config));
-  state = fit();
-  state.rotation = 0.1746;  // 10.004 degrees
-  CHECK(rig.is_worn(state, config));
-  state = fit();
-  state.frames = 10;
-  CHECK(rig.is_worn(state, config));
+  fitness = fit();
+  fitness.inlier_ratio = 0.39;
+  CHECK(rig.needs_replacement(fitness, config));
+  fitness = fit();
+  fitness.median_parallax = 40.01;
+  CHECK(rig.needs_replacement(fitness, config));
+  fitness = fit();
+  fitness.rotation = 0.1746;  // 10.004 degrees
+  CHECK(rig.needs_replacement(fitness, config));
+  fitness = fit();
+  fitness.frames = 10;
+  CHECK(rig.needs_replacement(fitness, config));
   // A new key rig sets a new mark.
-  rig.start(9, Eigen::Isometry3d::Identity());
-  state = fit();
-  state.quads = 2;
-  CHECK_FALSE(rig.is_worn(state, config));
+  rig = key_rig(9);
+  fitness = fit();
+  fitness.quads = 2;
+  CHECK_FALSE(rig.needs_replacement(fitness, config));
+}
+
+TEST_CASE("key rig: with a pose that was only predicted it is replaced by the first frame located",
+          "[odometry][key_rig]") {
+  OdometryConfig config;
+  KeyRigFitness fitness;
+  fitness.quads = 1000;
+  KeyRig found = key_rig(3);
+  CHECK_FALSE(found.needs_replacement(fitness, config));
+  KeyRig predicted(found.rig(), found.world_from_left(), odometry::PoseOrigin::predicted);
+  CHECK(predicted.needs_replacement(fitness, config));
 }

@@ -41,8 +41,9 @@ void check_pose(const FrameResult& result, const Eigen::Isometry3d& truth, doubl
 bool same_bytes(const FrameResult& a, const FrameResult& b) {
   return a.status == b.status && a.world_from_left.matrix() == b.world_from_left.matrix() &&
          a.current_from_reference.matrix() == b.current_from_reference.matrix() && a.covariance == b.covariance &&
-         a.reference_frame == b.reference_frame && a.new_key_rig == b.new_key_rig && a.overflow == b.overflow &&
-         a.message == b.message && a.counts.quads == b.counts.quads && a.counts.inliers == b.counts.inliers;
+         a.reference_frame == b.reference_frame && a.base_frame == b.base_frame && a.new_key_rig == b.new_key_rig &&
+         a.overflow == b.overflow && a.message == b.message && a.counts.quads == b.counts.quads &&
+         a.counts.inliers == b.counts.inliers;
 }
 
 }  // namespace
@@ -66,6 +67,7 @@ TEST_CASE("odometry: a rendered room is tracked, twice with the same bytes", "[o
       // The reference is the key rig: its pose and the motion from it make the pose.
       const auto& reference = results[static_cast<std::size_t>(result.reference_frame)];
       CHECK(reference.new_key_rig);
+      CHECK(result.base_frame >= result.reference_frame);
       CHECK(
           (reference.world_from_left * result.current_from_reference.inverse()).isApprox(result.world_from_left, 1e-9));
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(result.covariance);
@@ -135,11 +137,13 @@ TEST_CASE("odometry: a frame of another place is lost, and the next one is track
   CHECK(lost.counts.stereo_edges > 100);
   const auto result = odometry.track(room().frame(4));
   CHECK(result.status == FrameStatus::tracked);
+  CHECK(lost.base_frame == -1);
   CHECK(result.reference_frame == 2);  // the last frame that had a pose
+  CHECK(result.base_frame == 2);
   check_pose(result, room().world_from_left[4], 4e-3, 0.1);
 }
 
-TEST_CASE("odometry: in another place tracking restarts from the lost frame, and says so", "[odometry][device]") {
+TEST_CASE("odometry: in another place tracking goes on from the lost frame, and says so", "[odometry][device]") {
   const RenderedScene before("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, before.config.stereo.max_disparity);
@@ -148,14 +152,16 @@ TEST_CASE("odometry: in another place tracking restarts from the lost frame, and
   CHECK(odometry.track(before.frame(0)).status == FrameStatus::first);
   const auto lost = odometry.track(room().frame(0));
   CHECK_FALSE(is_tracked(lost.status));
-  const auto restarted = odometry.track(room().frame(1));
-  CHECK(restarted.status == FrameStatus::tracked);
-  CHECK(restarted.reference_frame == 1);
-  CHECK(restarted.message.find("restarted from frame 1") != std::string::npos);
+  const auto relocalised = odometry.track(room().frame(1));
+  CHECK(relocalised.status == FrameStatus::tracked);
+  CHECK(relocalised.reference_frame == 1);
+  CHECK(relocalised.base_frame == 1);
+  CHECK(relocalised.new_key_rig);  // the lost frame's own pose is a prediction
+  CHECK(relocalised.message.find("relocalised against frame 1") != std::string::npos);
   const auto after = odometry.track(room().frame(2));
   CHECK(after.status == FrameStatus::tracked);
   CHECK(after.message.empty());
-  for (const auto* result : {&restarted, &after}) {
+  for (const auto* result : {&relocalised, &after}) {
     const auto& truth = room().world_from_left[result == &after ? 2 : 1];
     const Eigen::Isometry3d motion = lost.world_from_left.inverse() * result->world_from_left;
     CHECK((motion.translation() - truth.translation()).norm() < 4e-3);
@@ -237,7 +243,7 @@ TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the
         CHECK(odometry.track(room().frame(i)).status != FrameStatus::lost_no_consensus);
       for (std::size_t i = last; i > 0; --i) CHECK(odometry.track(room().frame(i)).status == FrameStatus::tracked);
     };
-    for (int pass = 0; pass < 3; ++pass) track_there_and_back();  // three rigs take turns in holding the frames
+    for (int pass = 0; pass < 3; ++pass) track_there_and_back();  // rigs take turns in holding the frames
     const std::size_t bytes = odometry.device_bytes();
     CHECK(bytes > 0);
     track_there_and_back();
@@ -252,6 +258,7 @@ TEST_CASE("odometry: without a key rig every frame is tracked against the one be
   for (std::size_t i = 1; i < results.size(); ++i) {
     CHECK(results[i].status == FrameStatus::tracked);
     CHECK(results[i].reference_frame == static_cast<int>(i) - 1);
+    CHECK(results[i].base_frame == static_cast<int>(i) - 1);
     check_pose(results[i], room().world_from_left[i], 6e-3, 0.15);
   }
 }

@@ -31,7 +31,7 @@ TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std
   pose::MeasuredEdges measured;
   pose::measure_edges(rig, edges, 0.07, measured);
   TemporalSearch search;
-  odometry::predict_places(rig, edges, measured, motion, radius, step, search);
+  odometry::predict_positions(rig, edges, measured, motion, radius, step, search);
   return search;
 }
 
@@ -59,7 +59,8 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
       ++predicted;
       const Vector3d after = motion * points[i].point;
       const auto left = rig.left.project(after), right = rig.right.project(rig.right_from_left * after);
-      CHECK(search.left.x[i] == Approx(left.x()).margin(0.01));  // single precision places: about 1e-4 px of disparity
+      CHECK(search.left.x[i] ==
+            Approx(left.x()).margin(0.01));  // single precision positions: about 1e-4 px of disparity
       CHECK(search.left.y[i] == Approx(left.y()).margin(0.01));
       CHECK(search.right.x[i] == Approx(right.x()).margin(0.01));
       CHECK(search.right.y[i] == Approx(right.y()).margin(0.01));
@@ -84,7 +85,7 @@ TEST_CASE("prediction: without a motion everything is expected where it was", "[
   CHECK(search.step == 8);
 }
 
-TEST_CASE("prediction: no place for what has no depth or falls behind the camera", "[odometry][prediction]") {
+TEST_CASE("prediction: no position for what has no depth or falls behind the camera", "[odometry][prediction]") {
   const auto rig = generated::car_rig();
   auto edges = edges_of(rig, {{Vector3d(0, 0.2, 5), Vector3d::UnitY()},
                               {Vector3d(0.5, 0.2, 3), Vector3d::UnitY()},
@@ -99,7 +100,7 @@ TEST_CASE("prediction: no place for what has no depth or falls behind the camera
   }
 }
 
-TEST_CASE("prediction: what is in view is counted, and moves are measured where both places hold",
+TEST_CASE("prediction: what is in view is counted, and moves are measured where both positions hold",
           "[odometry][prediction]") {
   const float nowhere = std::numeric_limits<float>::quiet_NaN();
   const PlacedEdges a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}},

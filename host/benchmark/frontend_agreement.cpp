@@ -59,12 +59,12 @@ bool same(const TemporalMatches& a, const TemporalMatches& b) {
 
 }  // namespace
 
-TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool scout) {
+TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool coarse) {
   TemporalSearch search;
   search.left = {previous.left_x, previous.left_y, previous.left_direction};
   search.right = {previous.right_x, previous.right_y, previous.right_direction};
-  search.radius = static_cast<float>(scout ? config.coarse_radius : config.radius);
-  search.scout = scout;
+  search.radius = static_cast<float>(coarse ? config.coarse_radius : config.radius);
+  search.coarse = coarse;
   return search;
 }
 
@@ -74,7 +74,7 @@ FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher:
   output.first = frontend.process(view(first));
   const auto now = frontend.process(view(second));
   output.previous = output.first->edges;
-  output.scouted = frontend.match(*output.first, search_in_place(output.previous, config.temporal, true));
+  output.coarse = frontend.match(*output.first, search_in_place(output.previous, config.temporal, true));
   output.quads = frontend.match(*output.first, search_in_place(output.previous, config.temporal, false));
   output.anywhere = frontend.match_anywhere(*output.first);
   output.left_edges = frontend.edges(false);
@@ -85,13 +85,13 @@ FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher:
 
 bool same_bytes(const FrontendOutput& a, const FrontendOutput& b) {
   return same(a.left_edges, b.left_edges) && same(a.right_edges, b.right_edges) && same(a.previous, b.previous) &&
-         same(a.current, b.current) && same(a.scouted, b.scouted) && same(a.quads, b.quads) &&
+         same(a.current, b.current) && same(a.coarse, b.coarse) && same(a.quads, b.quads) &&
          same(a.anywhere, b.anywhere);
 }
 
 Agreement agreement(const FrontendOutput& a, const FrontendOutput& b) {
   return {std::min(both_ways(a.previous, b.previous), both_ways(a.current, b.current)),
-          std::min(both_ways(a.scouted, b.scouted), both_ways(a.quads, b.quads))};
+          std::min(both_ways(a.coarse, b.coarse), both_ways(a.quads, b.quads))};
 }
 
 }  // namespace quadedge::bench

@@ -11,13 +11,13 @@ struct FrontendOutput {
   frontend::RigHandle first;  ///< the first frame's rig
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
-  TemporalMatches scouted, quads;  ///< by a scout with its strict limits, and by a guided search
-  TemporalMatches anywhere;        ///< edges found anywhere in the left image
+  TemporalMatches coarse, quads;  ///< by a coarse search with its strict limits, and by a guided one
+  TemporalMatches anywhere;       ///< edges found anywhere in the left image
 };
 
-/// Edges of the first frame stay where they were in both later images, within the radius of a scout or of a guided
+/// Edges of the first frame stay where they were in both later images, within the radius of a coarse or of a guided
 /// search.
-TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool scout);
+TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool coarse);
 
 /// Both frames through the frontend, with the quads that both kinds of search find between them around no motion.
 FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,

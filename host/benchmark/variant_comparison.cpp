@@ -55,8 +55,8 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   context.take_profile();
   candidate.frontend->process({input.second.stamp_ns, input.second.left.view(), input.second.right.view()});
   const frontend::Rig& first = *candidate.output.first;
-  const auto match = [&](bool scout) {
-    candidate.frontend->match(first, search_in_place(first.edges, input.config.temporal, scout));
+  const auto match = [&](bool coarse) {
+    candidate.frontend->match(first, search_in_place(first.edges, input.config.temporal, coarse));
   };
   match(false);
   if (stage != kGuidedMatch) match(true);

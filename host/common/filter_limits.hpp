@@ -18,7 +18,7 @@ inline FilterLimits stereo_limits(const StereoConfig& config) {
 }
 
 inline FilterLimits temporal_limits(const TemporalConfig& config, const TemporalSearch& search) {
-  if (!search.scout) {
+  if (!search.coarse) {
     return {static_cast<float>(config.ncc_min),
             static_cast<float>(config.sift_max),
             static_cast<float>(config.ncc_nearly_best),

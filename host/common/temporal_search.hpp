@@ -14,9 +14,9 @@ struct PlacedEdges {
 /// One entry per stereo edge of the base, an earlier rig: where it is expected in the current images.
 struct TemporalSearch {
   PlacedEdges left, right;
-  float radius = 0;    ///< px around the expected place
-  int step = 1;        ///< only every step-th previous edge is looked for
-  bool scout = false;  ///< the limits of TemporalConfig::scout_* hold
+  float radius = 0;     ///< px around the expected place
+  int step = 1;         ///< only every step-th previous edge is looked for
+  bool coarse = false;  ///< the limits of TemporalConfig::coarse_* hold
 };
 
 /// Every wide_step()-th edge takes part in a search anywhere in the image: about `wanted` of `count`.

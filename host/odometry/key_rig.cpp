@@ -4,12 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "common/angles.hpp"
+
 namespace quadedge::odometry {
-namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-}  // namespace
 
 double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std::vector<double>& distances) {
   distances.clear();
@@ -23,17 +20,12 @@ double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std
   return *middle;
 }
 
-void KeyRig::start(int frame, const Eigen::Isometry3d& world_from_key) {
-  frame_ = frame;
-  world_from_key_ = world_from_key;
-  first_count_ = -1;
-}
-
-bool KeyRig::is_worn(const KeyRigState& state, const OdometryConfig& config) {
-  if (first_count_ < 0) first_count_ = state.quads;
-  return state.quads < config.key_min_quad_ratio * first_count_ || state.quads < config.key_min_quads ||
-         state.inlier_share < config.key_min_inlier_ratio || state.median_parallax > config.key_max_parallax ||
-         state.rotation > config.key_max_rotation * kDegree || state.frames >= config.key_max_frames;
+bool KeyRig::needs_replacement(const KeyRigFitness& fitness, const OdometryConfig& config) {
+  if (origin_ == PoseOrigin::predicted) return true;
+  if (first_quads_ < 0) first_quads_ = fitness.quads;
+  return fitness.quads < config.key_min_quad_ratio * first_quads_ || fitness.quads < config.key_min_quads ||
+         fitness.inlier_ratio < config.key_min_inlier_ratio || fitness.median_parallax > config.key_max_parallax ||
+         fitness.rotation > radians(config.key_max_rotation) || fitness.frames >= config.key_max_frames;
 }
 
 }  // namespace quadedge::odometry

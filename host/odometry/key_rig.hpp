@@ -1,19 +1,20 @@
 #pragma once
-/// \file key_rig.hpp  The key stereo rig that frames are located against, and when it is worn (paper section 6,
-/// doc/method.md section 7).
+/// \file key_rig.hpp  The key stereo rig that frames are located against, and when it needs replacement (paper section
+/// 6, doc/method.md section 7).
 
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "frontend/rig.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 
 namespace quadedge::odometry {
 
-/// What is known of the current frame when the key rig's fitness is judged.
-struct KeyRigState {
+/// How well the current frame was located against the key rig.
+struct KeyRigFitness {
   int quads = 0;  ///< with the key rig
-  double inlier_share = 1;
+  double inlier_ratio = 1;
   double median_parallax = 0;  ///< px, left image
   double rotation = 0;         ///< rad, from the key rig to the current one
   int frames = 0;              ///< since the key rig
@@ -23,22 +24,31 @@ struct KeyRigState {
 /// \param distances a buffer that is kept between calls
 double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std::vector<double>& distances);
 
-/// Remembers which frame is the key rig and how well it began.
+/// Whether a key rig's pose was found or only predicted.
+enum class PoseOrigin { found, predicted };
+
+/// A rig whose pose in the world is known, and how well it began as the key rig.
 class KeyRig {
  public:
-  void start(int frame, const Eigen::Isometry3d& world_from_key);
+  /// There is none yet.
+  KeyRig() = default;
+  KeyRig(frontend::RigHandle rig, const Eigen::Isometry3d& world_from_left, PoseOrigin origin = PoseOrigin::found)
+      : rig_(std::move(rig)), world_from_left_(world_from_left), origin_(origin) {}
+
+  const frontend::RigHandle& rig() const { return rig_; }
+  /// Number of its frame; -1 while there is none.
+  int frame() const { return rig_ ? rig_->frame : -1; }
+  const Eigen::Isometry3d& world_from_left() const { return world_from_left_; }
 
   /// Whether the current frame should become the key rig, doc/method.md section 7. The first frame judged sets the mark
-  /// for the quads' number.
-  bool is_worn(const KeyRigState& state, const OdometryConfig& config);
-
-  int frame() const { return frame_; }
-  const Eigen::Isometry3d& world_from_key() const { return world_from_key_; }
+  /// for the quads' number. A pose that was only predicted serves for one frame.
+  bool needs_replacement(const KeyRigFitness& fitness, const OdometryConfig& config);
 
  private:
-  int frame_ = -1;
-  Eigen::Isometry3d world_from_key_ = Eigen::Isometry3d::Identity();
-  int first_count_ = -1;  ///< quads of the first frame judged
+  frontend::RigHandle rig_;
+  Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
+  PoseOrigin origin_ = PoseOrigin::found;
+  int first_quads_ = -1;  ///< of the first frame judged
 };
 
 }  // namespace quadedge::odometry

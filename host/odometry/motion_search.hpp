@@ -1,94 +1,45 @@
 #pragma once
-/// \file motion_search.hpp  From the current stereo edges to the motion since an earlier rig: where to look, and what
-/// to believe.
+/// \file motion_search.hpp  From the current stereo edges to the motion since an earlier rig.
 
-#include <Eigen/Geometry>
-#include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "common/pool.hpp"
 #include "frontend/frontend.hpp"
+#include "odometry/acceptance.hpp"
+#include "odometry/confirmation.hpp"
 #include "odometry/disparity_offset.hpp"
-#include "pose/motion.hpp"
+#include "odometry/motion_hypothesis.hpp"
+#include "odometry/motion_step.hpp"
+#include "odometry/step_builder.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::odometry {
 
-/// Which rig the current one is matched with.
-enum class Base { previous, key };
-
-/// Quads between a base and the current frame, and the motion they agree on.
-struct MotionStep {
-  Base base = Base::previous;
-  TemporalMatches matches;
-  pose::QuadObservations quads;
-  pose::MotionEstimate motion;
-  double support = 0;  ///< inliers, share of the base's edges that the motion brings into view
-  double area = 0;     ///< the same as a mean over the cells of the image that such edges fall into
-
-  bool ok() const { return motion.status == pose::MotionStatus::ok; }
-};
-/// A step whose arrays serve again.
-using StepHandle = Pool<MotionStep>::Handle;
-
-/// What is known of the current frame's motion before its edges are matched with earlier ones.
-struct MotionPrior {
-  const frontend::Rig& rig(Base which) const { return which == Base::key ? *key : *previous; }
-
-  frontend::RigHandle current;
-  Base base = Base::previous;                                  ///< the rig to start from
-  std::optional<Eigen::Isometry3d> prediction = std::nullopt;  ///< current_from_base by constant velocity
-  std::optional<Eigen::Isometry3d> base_from_key =
-      std::nullopt;  ///< the key rig beyond the base, preferred where it is in sight
-  frontend::RigHandle key, previous;
-  std::uint64_t seed = 0;
-};
-
-/// A scout finds the motion since the base, near the prediction or else anywhere; it guides the matching of all edges
-/// with the key rig or, where that one is out of sight, with the base. That matching has to convince: by its support,
-/// or by edges found anywhere.
+/// Tries motion hypotheses in turn: what one proposes with a part of the edges is confirmed with all of them, and one
+/// acceptance test says what to believe.
 class MotionSearch {
  public:
-  /// Refers to the frontend and to the offset, which must outlive it.
-  MotionSearch(const StereoRig& rig, const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset)
-      : rig_(rig), config_(config), frontend_(frontend), offset_(offset) {}
+  /// Refers to the front end and to the offset, which must outlive it.
+  MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset);
 
-  /// The motion of the frontend's current rig; its status says whether there is one. The search must outlive the
-  /// handle.
-  StepHandle find(const MotionPrior& prior);
+  /// The motion of the query's current rig; its status says whether there is one. The search must outlive the handle.
+  StepHandle find(const MotionQuery& query);
 
  private:
-  const pose::MeasuredEdges& measured(Base base, const MotionPrior& prior);
+  /// A hypothesis, what it proposed and what the confirmation made of it.
+  struct Trial {
+    const MotionHypothesis* hypothesis = nullptr;
+    StepHandle proposed, confirmed;  ///< there is no confirmation where the proposal is not ok
 
-  StepHandle new_step(Base base);
-  StepHandle scout(const MotionPrior& prior, double radius);
-  StepHandle look_anywhere(const MotionPrior& prior);
-  StepHandle look_beside(const MotionStep& seen, const MotionPrior& prior);
-  void suggest_anywhere(const MotionPrior& prior, MotionStep& step);
-  double explained_area(const MotionStep& step, const PlacedEdges& predicted);
-  StepHandle scout_and_confirm(const MotionPrior& prior, double radius);
-  StepHandle confirm(const Eigen::Isometry3d& motion, const MotionPrior& prior);
-  bool is_seen(const MotionStep& anywhere, const MotionStep& found, const MotionPrior& prior);
-  StepHandle match(Base base, Eigen::Isometry3d motion, const MotionPrior& prior);
-  void estimate(const std::optional<Eigen::Isometry3d>& prediction, const PoseConfig& limits, const MotionPrior& prior,
-                MotionStep& step);
-
-  StereoRig rig_;
-  Config config_;
-  frontend::Frontend& frontend_;
-  const DisparityOffset& offset_;
-
-  // Buffers that are kept from frame to frame.
-  Pool<MotionStep> steps_;
-  TemporalSearch search_, settled_;
-  pose::QuadBuilder builder_;
-  pose::MotionEstimator estimator_;
-  std::vector<std::uint8_t> agrees_;
-  struct Cell {
-    double edges = 0, explained = 0;
+    StepHandle& outcome() { return confirmed ? confirmed : proposed; }
   };
-  std::vector<Cell> cells_;
+  Trial try_out(MotionHypothesis& hypothesis, const MotionQuery& query, Evidence& evidence);
+  static Trial& best(std::vector<Trial>& trials);
+
+  StepBuilder steps_;
+  Acceptance acceptance_;
+  Confirmation confirmation_;
+  std::vector<std::unique_ptr<MotionHypothesis>> hypotheses_;  ///< in the order in which they are tried
 };
 
 }  // namespace quadedge::odometry

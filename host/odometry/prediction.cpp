@@ -11,20 +11,20 @@ namespace {
 
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 
-void place(PlacedEdges& places, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
-  places.x[i] = edge ? static_cast<float>(edge->pixel.x()) : kNowhere;
-  places.y[i] = edge ? static_cast<float>(edge->pixel.y()) : kNowhere;
-  places.direction[i] = edge ? static_cast<float>(std::atan2(edge->direction.y(), edge->direction.x())) : kNowhere;
+void set(PlacedEdges& edges, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
+  edges.x[i] = edge ? static_cast<float>(edge->pixel.x()) : kNowhere;
+  edges.y[i] = edge ? static_cast<float>(edge->pixel.y()) : kNowhere;
+  edges.direction[i] = edge ? static_cast<float>(std::atan2(edge->direction.y(), edge->direction.x())) : kNowhere;
 }
 
 }  // namespace
 
-void predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
-                    const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
-                    TemporalSearch& search) {
+void predict_positions(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
+                       const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
+                       TemporalSearch& search) {
   search.radius = static_cast<float>(radius);
   search.step = step;
-  search.scout = false;
+  search.coarse = false;
   search.left.x = previous.left_x;
   search.left.y = previous.left_y;
   search.left.direction = previous.left_direction;
@@ -36,8 +36,8 @@ void predict_places(const StereoRig& rig, const StereoEdges& previous, const pos
   const auto predict = [&](std::size_t i) {
     std::optional<pose::OrientedPoint> point;
     if (measured[i]) point = measured[i]->oriented_point();
-    place(search.left, i, point ? pose::project(rig.left, *current_from_previous, *point) : std::nullopt);
-    place(search.right, i, point ? pose::project(rig.right, right_from_previous, *point) : std::nullopt);
+    set(search.left, i, point ? pose::project(rig.left, *current_from_previous, *point) : std::nullopt);
+    set(search.right, i, point ? pose::project(rig.right, right_from_previous, *point) : std::nullopt);
   };
   const auto every = static_cast<std::size_t>(step);
   for_row_blocks((previous.size() + every - 1) / every, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -45,11 +45,11 @@ void predict_places(const StereoRig& rig, const StereoEdges& previous, const pos
   });
 }
 
-int count_in_view(const PinholeCamera& camera, const PlacedEdges& places) {
+int count_in_view(const PinholeCamera& camera, const PlacedEdges& edges) {
   int count = 0;
-  for (std::size_t i = 0; i < places.x.size(); ++i) {
-    const bool inside = places.x[i] >= 0 && places.x[i] <= static_cast<float>(camera.width - 1) && places.y[i] >= 0 &&
-                        places.y[i] <= static_cast<float>(camera.height - 1);  // false for NaN
+  for (std::size_t i = 0; i < edges.x.size(); ++i) {
+    const bool inside = edges.x[i] >= 0 && edges.x[i] <= static_cast<float>(camera.width - 1) && edges.y[i] >= 0 &&
+                        edges.y[i] <= static_cast<float>(camera.height - 1);  // false for NaN
     count += inside ? 1 : 0;
   }
   return count;

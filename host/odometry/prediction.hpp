@@ -12,17 +12,17 @@
 namespace quadedge::odometry {
 
 /// Moves every stereo edge's oriented point by the predicted motion and projects it into both images; without a
-/// prediction the places and directions stay. Edges without depth, or that leave the field of view, get NaN where a
+/// prediction the positions and directions stay. Edges without depth, or that leave the field of view, get NaN where a
 /// motion is predicted. \param current_from_previous left cameras, metres \param measured the previous edges, see
 /// pose::measure_edges() \param radius px; \param step every step-th edge is looked for \param search what is replaced
-void predict_places(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
-                    const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
-                    TemporalSearch& search);
+void predict_positions(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
+                       const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
+                       TemporalSearch& search);
 
-/// Places inside a camera's image.
-int count_in_view(const PinholeCamera& camera, const PlacedEdges& places);
+/// Edges inside a camera's image.
+int count_in_view(const PinholeCamera& camera, const PlacedEdges& edges);
 
-/// Mean distance of every step-th place that both hold [px]; 0 where there is none.
+/// Mean distance of every step-th position that both hold [px]; 0 where there is none.
 double mean_distance(const PlacedEdges& a, const PlacedEdges& b, int step);
 
 }  // namespace quadedge::odometry

@@ -1,11 +1,14 @@
 /// \file stereo_odometry.cpp  The way of a frame (doc/design.md section 1), from two images to a pose.
-#include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "frontend/frontend.hpp"
+#include "odometry/constant_velocity.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "odometry/key_rig.hpp"
 #include "odometry/motion_search.hpp"
+#include "odometry/relative_pose.hpp"
+#include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
@@ -33,27 +36,8 @@ FrameStatus lost_status(pose::MotionStatus status) {
   return status == pose::MotionStatus::too_few_quads ? FrameStatus::lost_too_few_quads : FrameStatus::lost_no_consensus;
 }
 
-/// Covariance of a * b for left perturbations of both, a exact up to its own covariance.
-Eigen::Matrix<double, 6, 6> composed_covariance(const Eigen::Matrix<double, 6, 6>& of_a, const Eigen::Isometry3d& a,
-                                                const Eigen::Matrix<double, 6, 6>& of_b) {
-  Eigen::Matrix3d cross;
-  const Eigen::Vector3d t = a.translation();
-  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  Eigen::Matrix<double, 6, 6> adjoint = Eigen::Matrix<double, 6, 6>::Zero();
-  adjoint.topLeftCorner<3, 3>() = a.linear();
-  adjoint.bottomRightCorner<3, 3>() = a.linear();
-  adjoint.bottomLeftCorner<3, 3>() = cross * a.linear();
-  return of_a + adjoint * of_b * adjoint.transpose();
-}
-
-/// The motion of one of `intervals` equal frame intervals, with the translation spread evenly (a prediction, not an
-/// estimate).
-Eigen::Isometry3d one_interval(const Eigen::Isometry3d& motion, int intervals) {
-  const Eigen::AngleAxisd rotation(motion.linear());
-  Eigen::Isometry3d part = Eigen::Isometry3d::Identity();
-  part.linear() = Eigen::AngleAxisd(rotation.angle() / intervals, rotation.axis()).toRotationMatrix();
-  part.translation() = motion.translation() / intervals;
-  return part;
+void add_message(const std::string& message, FrameResult& result) {
+  result.message += (result.message.empty() ? "" : "; ") + message;
 }
 
 void check_image(const ImageView& image, const PinholeCamera& camera, bool any_size, const char* side) {
@@ -86,7 +70,7 @@ class StereoOdometry::Implementation {
         config_(config),
         frontend_(frontend::make_frontend(rig, device, config)),
         offset_(rig, config.pose),
-        search_(rig, config, *frontend_, offset_) {}
+        motion_search_(config, *frontend_, offset_) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
@@ -96,90 +80,50 @@ class StereoOdometry::Implementation {
   const Config& config() const { return config_; }
 
  private:
-  odometry::StepHandle find_motion(FrameResult& result);
+  void process(const StereoFrame& frame, FrameResult& result);
+  void start(FrameResult& result);
+  odometry::StepHandle search(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
-  void become_base(const FrameResult& result);
-  std::optional<Eigen::Isometry3d> predicted_motion() const;
 
   StereoRig rig_;
   Device& device_;
   Config config_;
   std::unique_ptr<frontend::Frontend> frontend_;
   odometry::DisparityOffset offset_;
-  odometry::MotionSearch search_;
-  odometry::KeyRig key_rig_;
+  odometry::MotionSearch motion_search_;
 
-  frontend::RigHandle current_handle_, previous_handle_, key_handle_;
-  int frame_ = -1;             ///< number of the current frame
-  bool has_base_ = false;      ///< a frame that the next one is matched with
-  bool keep_pending_ = false;  ///< the current frame is the next one's base
-  bool key_pending_ = false;   ///< and its key rig
-  int base_frame_ = 0;
-  Eigen::Isometry3d base_from_key_ = Eigen::Isometry3d::Identity();
-  Eigen::Matrix<double, 6, 6> base_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Isometry3d world_from_last_ = Eigen::Isometry3d::Identity();
-  std::optional<Eigen::Isometry3d> velocity_;  ///< current_from_previous of one frame interval
-  /// The newest frame that has edges and no pose: the frontend's previous rig while the key rig is the base.
-  struct Unplaced {
-    int frame;
-    Eigen::Isometry3d world_from_left;  ///< a guess
-  };
-  std::optional<Unplaced> unplaced_;
-  bool base_to_key_pending_ = false;  ///< the base becomes the key rig before the current frame is kept
-
-  odometry::StepHandle last_step_;  ///< of the current frame; null where none was tried
-  std::vector<double> distances_;   ///< buffer of median_parallax()
+  odometry::TrackingState state_;
+  odometry::ConstantVelocity velocity_;
+  frontend::RigHandle current_;    ///< of the frame tracked last; null before the first one
+  odometry::StepHandle step_;      ///< its motion; null where none was looked for
+  std::vector<double> distances_;  ///< buffer of median_parallax()
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   check_image(frame.left, rig_.left, !rig_.left_undistortion.empty(), "left");
   check_image(frame.right, rig_.right, !rig_.right_undistortion.empty(), "right");
   StageClock latency, clock;
-  ++frame_;
-  last_step_ = nullptr;
   FrameResult result;
   result.stamp_ns = frame.stamp_ns;
 
-  if (base_to_key_pending_) key_handle_ = previous_handle_;
-  if (keep_pending_) previous_handle_ = current_handle_;
-  if (keep_pending_ && key_pending_) key_handle_ = current_handle_;
-  base_to_key_pending_ = keep_pending_ = false;
-  current_handle_ = nullptr;
-  current_handle_ = frontend_->process(frame);
+  process(frame, result);
   result.stages.push_back({"stereo", clock.lap()});
-  result.counts.edges_left = frontend_->counts().edges_left;
-  result.counts.edges_right = frontend_->counts().edges_right;
-  result.counts.stereo_edges = static_cast<int>(current_handle_->edges.size());
-  if (frontend_->counts().dropped_edges > 0) {
-    result.overflow = true;
-    result.message = std::to_string(frontend_->counts().dropped_edges) + " edges beyond edges.max_edges were dropped";
-  }
-
   if (result.counts.stereo_edges < config_.pose.min_inliers) {
     lose(FrameStatus::lost_too_few_edges, std::to_string(result.counts.stereo_edges) + " stereo edges", result);
-  } else if (!has_base_) {
-    result.status = FrameStatus::first;
-    result.world_from_left = world_from_last_;
-    result.new_key_rig = true;
-    result.reference_frame = frame_;
-    key_rig_.start(frame_, result.world_from_left);
-    become_base(result);
+  } else if (!state_.has_started()) {
+    start(result);
   } else {
-    last_step_ = find_motion(result);
-    const odometry::MotionStep& step = *last_step_;
-    result.counts.temporal_left = frontend_->counts().temporal_left;
-    result.counts.temporal_right = frontend_->counts().temporal_right;
-    result.counts.quads = static_cast<int>(step.matches.size());
+    step_ = search(result);
     result.stages.push_back({"temporal", clock.lap()});
-    if (step.motion.status == pose::MotionStatus::ok) {
-      locate(step, result);
+    if (step_->ok()) {
+      locate(*step_, result);
     } else {
-      lose(lost_status(step.motion.status), pose::to_string(step.motion.status), result);
+      lose(lost_status(step_->motion.status), pose::to_string(step_->motion.status), result);
     }
     result.stages.push_back({"pose", clock.lap()});
   }
-  world_from_last_ = result.world_from_left;
+  state_.world_from_last = result.world_from_left;
   result.latency_ms = latency.lap();
   if (device_.context() != nullptr && device_.context()->profiling()) {
     for (const auto& [stage, ms] : device_.context()->take_profile()) result.stages.push_back({"device " + stage, ms});
@@ -187,126 +131,123 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   return result;
 }
 
-/// Constant velocity over the frames since the base; nothing where no velocity is known.
-std::optional<Eigen::Isometry3d> StereoOdometry::Implementation::predicted_motion() const {
-  if (!velocity_) return std::nullopt;
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int i = base_frame_; i < frame_; ++i) motion = *velocity_ * motion;
-  return motion;
+/// The images become the current rig. That of the frame before serves again unless the state holds it.
+void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResult& result) {
+  step_ = nullptr;
+  current_ = nullptr;
+  current_ = frontend_->process(frame);
+  const frontend::FrontendCounts& counts = frontend_->counts();
+  result.counts.edges_left = counts.edges_left;
+  result.counts.edges_right = counts.edges_right;
+  result.counts.stereo_edges = static_cast<int>(current_->edges.size());
+  if (counts.dropped_edges == 0) return;
+  result.overflow = true;
+  result.message = std::to_string(counts.dropped_edges) + " edges beyond edges.max_edges were dropped";
 }
 
-/// The motion since the base or the key rig; after a loss, else the one since the frame that was lost, from which
-/// tracking restarts.
-odometry::StepHandle StereoOdometry::Implementation::find_motion(FrameResult& result) {
-  odometry::MotionPrior prior;
-  prior.seed = config_.seed + static_cast<std::uint64_t>(frame_);
-  prior.prediction = predicted_motion();
-  prior.current = current_handle_;
-  prior.key = key_handle_;
-  prior.previous = previous_handle_;
-  if (base_frame_ == key_rig_.frame()) {
-    prior.base = odometry::Base::key;
-  } else {
-    prior.base_from_key = base_from_key_;
+/// The first frame with edges is where the trajectory begins.
+void StereoOdometry::Implementation::start(FrameResult& result) {
+  result.status = FrameStatus::first;
+  result.world_from_left = state_.world_from_last;
+  result.new_key_rig = true;
+  result.reference_frame = current_->frame;
+  state_.set_key(current_, result.world_from_left);
+}
+
+/// The motion since the base; after a loss, else the one since the lost frame, which becomes the key rig.
+odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result) {
+  odometry::MotionQuery query;
+  query.current = current_;
+  query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
+  query.base = state_.base.rig;
+  query.prediction = velocity_.predict(current_->frame - state_.base.rig->frame);
+  if (!state_.base_is_key()) {
+    query.key = state_.key.rig();
+    query.base_from_key = state_.base.from_key.transform;
   }
-  odometry::StepHandle step = search_.find(prior);
-  if (step->ok() || !unplaced_) return step;
-  prior.base = odometry::Base::previous;
-  prior.prediction = std::nullopt;
-  odometry::StepHandle restart = search_.find(prior);
-  if (!restart->ok()) return step;
-  result.message += std::string(result.message.empty() ? "" : "; ") + "restarted from frame " +
-                    std::to_string(unplaced_->frame) + ", whose place is a guess";
-  key_rig_.start(unplaced_->frame, unplaced_->world_from_left);
-  base_frame_ = unplaced_->frame;
-  return restart;
+  odometry::StepHandle step = motion_search_.find(query);
+  if (!step->ok() && state_.lost) {
+    query.base = state_.lost->rig;
+    query.prediction = std::nullopt;
+    odometry::StepHandle relocalised = motion_search_.find(query);
+    if (relocalised->ok()) {
+      step = std::move(relocalised);
+      state_.set_key(state_.lost->rig, state_.lost->world_from_left, odometry::PoseOrigin::predicted);
+      add_message(
+          "relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose is a prediction",
+          result);
+    }
+  }
+  result.counts.temporal_left = frontend_->counts().temporal_left;
+  result.counts.temporal_right = frontend_->counts().temporal_right;
+  result.counts.quads = static_cast<int>(step->matches.size());
+  return step;
 }
 
-/// Pose against the key rig, or against the previous frame where the key rig is out of sight: then this frame is the
-/// next key rig.
+/// Pose against the key rig, or against the base where the key rig is out of sight: then this frame is the next key
+/// rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
-  const bool by_key = step.base == odometry::Base::key;
-  Eigen::Isometry3d current_from_key = step.motion.current_from_previous;
-  Eigen::Matrix<double, 6, 6> covariance = step.motion.covariance;
-  if (!by_key) {
-    covariance = composed_covariance(covariance, current_from_key, base_covariance_);
-    current_from_key = current_from_key * base_from_key_;
-  }
-  odometry::KeyRigState state;
-  state.quads = static_cast<int>(step.matches.size());
-  state.inlier_share = step.motion.inlier_ratio;
-  state.median_parallax =
-      odometry::median_parallax((by_key ? key_handle_ : previous_handle_)->edges, step.matches, distances_);
-  state.rotation = Eigen::AngleAxisd(current_from_key.linear()).angle();
-  state.frames = frame_ - key_rig_.frame();
-  result.disparity_offset = offset_.value() + step.motion.offset;
+  const bool by_key = step.base == state_.key.rig();
+  odometry::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
+  if (!by_key) current_from_key = current_from_key * state_.base.from_key;
+  velocity_.observe(current_from_key.transform * state_.base.from_key.transform.inverse(),
+                    current_->frame - state_.base.rig->frame);
+
+  odometry::KeyRigFitness fitness;
+  fitness.quads = static_cast<int>(step.matches.size());
+  fitness.inlier_ratio = step.motion.inlier_ratio;
+  fitness.median_parallax = odometry::median_parallax(step.base->edges, step.matches, distances_);
+  fitness.rotation = Eigen::AngleAxisd(current_from_key.transform.linear()).angle();
+  fitness.frames = current_->frame - state_.key.frame();
+
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
+  result.disparity_offset = offset_.value() + step.motion.offset;
+  result.base_frame = step.base->frame;
   result.search = step.matches.search;
-  result.reference_frame = key_rig_.frame();
-  result.current_from_reference = current_from_key;
-  result.covariance = covariance;
-  result.world_from_left = key_rig_.world_from_key() * current_from_key.inverse();
+  result.reference_frame = state_.key.frame();
+  result.current_from_reference = current_from_key.transform;
+  result.covariance = current_from_key.covariance;
+  result.world_from_left = state_.key.world_from_left() * current_from_key.transform.inverse();
+  result.new_key_rig = !config_.odometry.key_rig || !by_key || state_.key.needs_replacement(fitness, config_.odometry);
 
-  velocity_ = one_interval(current_from_key * base_from_key_.inverse(), frame_ - base_frame_);
-  unplaced_ = std::nullopt;
-  result.new_key_rig = !config_.odometry.key_rig || !by_key || key_rig_.is_worn(state, config_.odometry);
-  base_from_key_ = current_from_key;
-  base_covariance_ = covariance;
-  // All frames of a key rig are measured against its disparities: together they tell no more than the last one, the
-  // farthest away.
-  if (result.new_key_rig) offset_.update(step.motion.offset, step.motion.offset_variance, state.frames);
-  if (result.new_key_rig) key_rig_.start(frame_, result.world_from_left);
-  become_base(result);
+  state_.lost = std::nullopt;
+  if (result.new_key_rig) {
+    // All frames of a key rig are measured against its disparities: together they tell no more than the last one, the
+    // farthest away.
+    offset_.update(step.motion.offset, step.motion.offset_variance, fitness.frames);
+    state_.set_key(current_, result.world_from_left);
+  } else {
+    state_.base = {current_, current_from_key};
+  }
 }
 
-/// Repeats the last motion. A lost frame that has edges is kept beside the last base, which becomes the key rig: the
-/// next frame may be found against either.
+/// Repeats the last motion. A lost frame that has edges is kept beside the base, which becomes the key rig: the next
+/// frame may be found against either.
 void StereoOdometry::Implementation::lose(FrameStatus status, const std::string& message, FrameResult& result) {
   result.status = status;
-  result.message += (result.message.empty() ? "" : "; ") + message;
-  if (unplaced_) velocity_ = std::nullopt;  // lost twice in a row
-  result.world_from_left = velocity_ ? world_from_last_ * velocity_->inverse() : world_from_last_;
-  result.reference_frame = key_rig_.frame();
+  add_message(message, result);
+  if (state_.lost) velocity_.forget();  // lost twice in a row
+  const auto repeated = velocity_.predict(1);
+  result.world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
+  result.reference_frame = state_.key.frame();
   if (status == FrameStatus::lost_too_few_edges) return;
-  if (base_frame_ != key_rig_.frame()) {
-    base_to_key_pending_ = true;
-    key_rig_.start(base_frame_, key_rig_.world_from_key() * base_from_key_.inverse());
-    base_from_key_ = Eigen::Isometry3d::Identity();
-    base_covariance_.setZero();
-  }
-  unplaced_ = Unplaced{frame_, result.world_from_left};
-  keep_pending_ = true;
-  key_pending_ = false;
-}
-
-/// The current frame is what the next one is matched with. The frontend keeps it when that one comes, so that details()
-/// sees both.
-void StereoOdometry::Implementation::become_base(const FrameResult& result) {
-  keep_pending_ = true;
-  key_pending_ = result.new_key_rig;
-  has_base_ = true;
-  base_frame_ = frame_;
-  if (result.new_key_rig) {
-    base_from_key_ = Eigen::Isometry3d::Identity();
-    base_covariance_.setZero();
-  }
+  if (!state_.base_is_key()) state_.set_key(state_.base.rig, state_.world_from_base());
+  state_.lost = odometry::LostRig{current_, result.world_from_left};
 }
 
 FrameDetails StereoOdometry::Implementation::details() const {
   FrameDetails details;
-  if (!current_handle_) return details;
+  if (!current_) return details;
   details.left_edges = frontend_->edges(false);
   details.right_edges = frontend_->edges(true);
-  const auto& matched = last_step_ && last_step_->base == odometry::Base::key ? key_handle_ : previous_handle_;
-  if (matched) details.previous_stereo = matched->edges;
-  details.stereo = current_handle_->edges;
-  if (!last_step_) return details;
-  const odometry::MotionStep& step = *last_step_;
-  details.quads = step.matches;
-  details.quad_inlier.assign(step.matches.size(), 0);
-  for (std::size_t q = 0; q < step.motion.inlier.size(); ++q)
-    details.quad_inlier[static_cast<std::size_t>(step.quads.match[q])] = step.motion.inlier[q];
+  details.stereo = current_->edges;
+  if (!step_) return details;
+  details.previous_stereo = step_->base->edges;
+  details.quads = step_->matches;
+  details.quad_inlier.assign(step_->matches.size(), 0);
+  for (std::size_t q = 0; q < step_->motion.inlier.size(); ++q)
+    details.quad_inlier[static_cast<std::size_t>(step_->quads.match[q])] = step_->motion.inlier[q];
   return details;
 }
 

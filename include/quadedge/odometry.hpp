@@ -61,11 +61,14 @@ struct FrameResult {
   /// left frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double disparity_offset = 0;  ///< found so far, added to every disparity [px]
-  int reference_frame = 0;      ///< number of the frame that was the key stereo rig
-  int search = -1;              ///< number of the frame's search in time that its motion was taken from; -1: no motion
-  bool new_key_rig = false;     ///< this frame becomes the key stereo rig of the following ones
-  bool overflow = false;        ///< a capacity ran out (edges or candidates); the message says which
-  std::string message;          ///< empty, or one sentence for a person
+  int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first one
+  /// Number of the frame that the pose was measured against: the key stereo rig or, where that one is out of sight, the
+  /// last frame with a pose; -1 without a pose.
+  int base_frame = -1;
+  int search = -1;           ///< number of the frame's search in time that its motion was taken from; -1: no motion
+  bool new_key_rig = false;  ///< this frame becomes the key stereo rig of the following ones
+  bool overflow = false;     ///< a capacity ran out (edges or candidates); the message says which
+  std::string message;       ///< empty, or one sentence for a person
   FrameCounts counts;
   std::vector<StageTime> stages;  ///< host-side stages always; device stages when the device profiles
   double latency_ms = 0;          ///< images in host memory to pose on the host, steady clock
@@ -74,7 +77,7 @@ struct FrameResult {
 /// What one frame was made of; for drawing and for evaluation. Copied only on request.
 struct FrameDetails {
   EdgeSet left_edges, right_edges;
-  StereoEdges previous_stereo, stereo;    ///< of the frame that this one was matched with, and of this one
+  StereoEdges previous_stereo, stereo;    ///< of the frame that this one was matched with, if any, and of this one
   TemporalMatches quads;                  ///< indices into previous_stereo and stereo
   std::vector<std::uint8_t> quad_inlier;  ///< one per quad
 };
@@ -92,7 +95,7 @@ class StereoOdometry {
   /// does not belong to the rig, DeviceError for a failing device.
   FrameResult track(const StereoFrame& frame);
 
-  /// Details of the frame tracked last (reads back from the device).
+  /// Details of the frame tracked last (reads back from the device); empty before the first one.
   FrameDetails details() const;
 
   /// Observes all filters of the following frames; null stops. The tap cannot change anything.

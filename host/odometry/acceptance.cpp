@@ -1,0 +1,67 @@
+#include "odometry/acceptance.hpp"
+
+#include <algorithm>
+
+#include "common/angles.hpp"
+#include "odometry/prediction.hpp"
+#include "pose/scoring.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+/// Of the inlier distance; in fine texture many an edge meets a wrong position by chance, the fewer the nearer it has
+/// to come.
+constexpr double kExplainedDistance = 1.0 / 3.0;
+
+}  // namespace
+
+void Acceptance::test_support(const PlacedEdges& predicted, MotionStep& step) const {
+  const int in_view = count_in_view(offset_.rig().left, predicted);
+  step.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
+  if (step.ok() && step.support < config_.temporal.min_support) step.motion.status = pose::MotionStatus::no_consensus;
+}
+
+void Acceptance::measure_area(const PlacedEdges& predicted, MotionStep& step) {
+  const PinholeCamera& camera = offset_.rig().left;
+  const double side = config_.pose.scoring_cell > 0 ? config_.pose.scoring_cell : std::max(camera.width, camera.height);
+  const int columns = static_cast<int>(camera.width / side) + 1, rows = static_cast<int>(camera.height / side) + 1;
+  cells_.assign(static_cast<std::size_t>(columns * rows), {});
+  const auto cell_of = [&](std::size_t i) -> Cell* {
+    const double x = static_cast<double>(predicted.x[i]) / side, y = static_cast<double>(predicted.y[i]) / side;
+    if (!(x >= 0 && x < columns && y >= 0 && y < rows)) return nullptr;
+    return &cells_[static_cast<std::size_t>(static_cast<int>(y) * columns + static_cast<int>(x))];
+  };
+  for (std::size_t i = 0; i < predicted.x.size(); ++i)
+    if (Cell* cell = cell_of(i)) cell->edges += 1;
+  pose::select_inliers(step.quads.scoring, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous),
+                       kExplainedDistance * config_.pose.inlier_distance, radians(config_.pose.inlier_orientation),
+                       agrees_);
+  for (std::size_t q = 0; q < step.quads.size(); ++q) {
+    if (!agrees_[q]) continue;
+    const auto edge = step.matches.previous[static_cast<std::size_t>(step.quads.match[q])];
+    if (Cell* cell = cell_of(static_cast<std::size_t>(edge))) cell->explained += 1;
+  }
+  double sum = 0, held = 0;
+  for (const Cell& cell : cells_) {
+    if (!(cell.edges > 0)) continue;
+    sum += cell.explained / cell.edges;
+    held += 1;
+  }
+  step.explained_area = held > 0 ? sum / held : 0;
+}
+
+bool Acceptance::is_confident(const MotionStep& step) const {
+  const bool can_ask_further = config_.temporal.wide_edges > 0;
+  return step.ok() && (!can_ask_further || step.support >= config_.temporal.confident_support);
+}
+
+bool Acceptance::is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step) {
+  Eigen::Isometry3d current_from_base = step.motion.current_from_previous;
+  if (step.base != query.base) current_from_base = current_from_base * query.base_from_key.inverse();
+  pose::select_inliers(found_anywhere.quads.scoring, pose::LaterCameras(offset_.rig(), current_from_base),
+                       config_.temporal.wide_inlier_distance, radians(config_.pose.inlier_orientation), agrees_);
+  return pose::count_cells(found_anywhere.quads.scoring, agrees_, config_.pose.inflation_cell) >=
+         config_.pose.min_inliers;
+}
+
+}  // namespace quadedge::odometry

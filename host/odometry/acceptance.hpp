@@ -1,0 +1,50 @@
+#pragma once
+/// \file acceptance.hpp  What to believe of a motion: every test that a hypothesis has to pass.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/temporal_search.hpp"
+#include "odometry/disparity_offset.hpp"
+#include "odometry/motion_step.hpp"
+#include "quadedge/config.hpp"
+
+namespace quadedge::odometry {
+
+/// A motion has to be supported by the edges that it brings into view. One that little more supports has to agree with
+/// edges found anywhere too. Of several, the one that explains the larger area of the image wins.
+class Acceptance {
+ public:
+  /// Refers to the offset, which must outlive it.
+  Acceptance(const Config& config, const DisparityOffset& offset) : config_(config), offset_(offset) {}
+
+  /// Sets the step's support. Where it lies under temporal.min_support the step has no consensus: within the few pixels
+  /// of a search a wrong motion finds some support too, a true one has to find more.
+  /// \param predicted where the search expected the base's edges in the left image
+  void test_support(const PlacedEdges& predicted, MotionStep& step) const;
+
+  /// Sets the step's explained area: the mean, over the image's cells, of the ratio of predicted edges whose quads
+  /// agree closely with the motion. A thing counts by the area that it covers, not by the edges that it is covered
+  /// with.
+  void measure_area(const PlacedEdges& predicted, MotionStep& step);
+
+  /// Whether a motion near the prediction is believed without asking further.
+  bool is_confident(const MotionStep& step) const;
+
+  /// Whether edges found anywhere agree with a motion: in as many places of the image as an estimate needs inliers. A
+  /// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,
+  /// count once.
+  bool is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step);
+
+ private:
+  struct Cell {
+    double edges = 0, explained = 0;
+  };
+
+  Config config_;
+  const DisparityOffset& offset_;
+  std::vector<Cell> cells_;           ///< kept for their memory, as are these
+  std::vector<std::uint8_t> agrees_;  ///< one per quad
+};
+
+}  // namespace quadedge::odometry

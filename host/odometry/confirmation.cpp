@@ -1,0 +1,43 @@
+#include "odometry/confirmation.hpp"
+
+#include "odometry/prediction.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+constexpr double kSettled = 0.3;  ///< mean distance of predicted positions that calls for no further search [px]
+constexpr int kSettledStep = 16;  ///< every so many edges tell it
+
+}  // namespace
+
+StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base) {
+  if (query.key) {
+    StepHandle step = match(query, query.key, current_from_base * query.base_from_key);
+    if (step->ok()) return step;
+  }
+  return match(query, query.base, current_from_base);
+}
+
+StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHandle& base,
+                               Eigen::Isometry3d current_from_base) {
+  const auto predict = [&](int every, TemporalSearch& search) {
+    predict_positions(steps_.calibration(), base->edges, steps_.measured(*base), current_from_base,
+                      config_.temporal.radius, every, search);
+  };
+  predict(1, search_);
+  StepHandle step = steps_.take(base);
+  for (int round = 1;; ++round) {
+    frontend_.match(*base, search_, step->matches);
+    steps_.estimate(query, config_.pose, current_from_base, *step);
+    acceptance_.test_support(search_.left, *step);
+    if (!step->ok() || round == config_.temporal.rounds) break;
+    current_from_base = step->motion.current_from_previous;
+    predict(kSettledStep, next_search_);
+    if (mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled) break;
+    predict(1, search_);
+  }
+  if (step->ok()) acceptance_.measure_area(search_.left, *step);
+  return step;
+}
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,27 @@
+#pragma once
+/// \file motion_hypothesis.hpp  A way to come to a motion that is worth confirming. The list stands in
+/// motion_search.cpp.
+
+#include "odometry/motion_step.hpp"
+
+namespace quadedge::odometry {
+
+/// What the hypotheses before this one have found of the same frame.
+struct Evidence {
+  const MotionStep* found_anywhere = nullptr;  ///< edges found anywhere in the image; null unless looked for
+};
+
+/// Looks for a motion since the query's base with a part of the edges.
+class MotionHypothesis {
+ public:
+  virtual ~MotionHypothesis() = default;
+
+  /// A step whose motion is worth confirming where its status is ok; null where there is nothing to try.
+  virtual StepHandle propose(const MotionQuery& query, Evidence& evidence) = 0;
+
+  /// Whether it only looks near the prediction: what it finds may end the search, and else gives way to an equal motion
+  /// that was found without it.
+  virtual bool trusts_prediction() const { return false; }
+};
+
+}  // namespace quadedge::odometry

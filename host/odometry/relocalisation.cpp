@@ -1,0 +1,22 @@
+#include "odometry/relocalisation.hpp"
+
+namespace quadedge::odometry {
+
+Relocalisation::Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config)
+    : frontend_(frontend), steps_(steps), limits_(limits_of_found_anywhere(config)) {}
+
+StepHandle Relocalisation::propose(const MotionQuery& query, Evidence& evidence) {
+  StepHandle step = steps_.take(query.base);
+  frontend_.match_anywhere(*query.base, step->matches);
+  steps_.estimate(query, limits_, std::nullopt, *step);
+  evidence.found_anywhere = step.get();
+  return step;
+}
+
+PoseConfig limits_of_found_anywhere(const Config& config) {
+  PoseConfig limits = limits_of_proposals(config);
+  limits.inlier_distance = config.temporal.wide_inlier_distance;
+  return limits;
+}
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,26 @@
+#include "odometry/second_motion.hpp"
+
+#include "odometry/relocalisation.hpp"
+
+namespace quadedge::odometry {
+
+SecondMotion::SecondMotion(StepBuilder& steps, const Config& config)
+    : steps_(steps), limits_(limits_of_found_anywhere(config)) {}
+
+StepHandle SecondMotion::propose(const MotionQuery& query, Evidence& evidence) {
+  if (evidence.found_anywhere == nullptr || !evidence.found_anywhere->ok()) return nullptr;
+  const MotionStep& first = *evidence.found_anywhere;
+  explained_.assign(first.matches.size(), 0);
+  for (std::size_t q = 0; q < first.quads.size(); ++q)
+    explained_[static_cast<std::size_t>(first.quads.match[q])] = first.motion.inlier[q];
+  StepHandle step = steps_.take(query.base);
+  for (std::size_t m = 0; m < first.matches.size(); ++m) {
+    if (explained_[m] != 0) continue;
+    step->matches.append(first.matches.previous[m], first.matches.current[m], query.current->edges,
+                         first.matches.ncc[m], first.matches.rivals[m]);
+  }
+  steps_.estimate(query, limits_, std::nullopt, *step);
+  return step;
+}
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,31 @@
+#include "odometry/step_builder.hpp"
+
+#include "common/angles.hpp"
+
+namespace quadedge::odometry {
+
+StepHandle StepBuilder::take(const frontend::RigHandle& base) {
+  StepHandle step = steps_.take();
+  step->base = base;
+  return step;
+}
+
+void StepBuilder::estimate(const MotionQuery& query, const PoseConfig& limits,
+                           const std::optional<Eigen::Isometry3d>& initial, MotionStep& step) {
+  quad_builder_.build(calibration(), measured(*step.base), query.current->edges, step.matches,
+                      pose::QuadLimits(config_), step.quads);
+  estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(), step.motion);
+}
+
+const pose::MeasuredEdges& StepBuilder::measured(const frontend::Rig& rig) const {
+  return rig.measured_edges(calibration(), offset_.value(), radians(config_.stereo.min_epipolar_angle));
+}
+
+PoseConfig limits_of_proposals(const Config& config) {
+  PoseConfig limits = config.pose;
+  limits.min_inlier_ratio = config.temporal.coarse_min_inlier_ratio;
+  limits.min_spread = 0;
+  return limits;
+}
+
+}  // namespace quadedge::odometry

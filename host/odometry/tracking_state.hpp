@@ -1,0 +1,45 @@
+#pragma once
+/// \file tracking_state.hpp  What is known when the next frame comes: the rigs that it may be located against.
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <utility>
+
+#include "frontend/rig.hpp"
+#include "odometry/key_rig.hpp"
+#include "odometry/relative_pose.hpp"
+
+namespace quadedge::odometry {
+
+/// The rig that the next frame is matched with: that of the last frame with a pose. It may be the key rig.
+struct BaseRig {
+  frontend::RigHandle rig;  ///< null before the first frame with edges
+  RelativePose from_key;    ///< base_from_key, left cameras
+};
+
+/// The newest frame that has edges and whose pose was not found.
+struct LostRig {
+  frontend::RigHandle rig;
+  Eigen::Isometry3d world_from_left;  ///< predicted
+};
+
+/// Holds the rigs that later frames need; letting go of one gives its memory back to the front end.
+struct TrackingState {
+  BaseRig base;
+  KeyRig key;
+  std::optional<LostRig> lost;  ///< since the last frame with a pose; then the base is the key rig
+  Eigen::Isometry3d world_from_last = Eigen::Isometry3d::Identity();  ///< last frame's pose, found or predicted
+
+  bool has_started() const { return base.rig != nullptr; }
+  bool base_is_key() const { return base.rig == key.rig(); }
+  Eigen::Isometry3d world_from_base() const { return key.world_from_left() * base.from_key.transform.inverse(); }
+
+  /// A rig becomes key rig and base.
+  void set_key(frontend::RigHandle rig, const Eigen::Isometry3d& world_from_left,
+               PoseOrigin origin = PoseOrigin::found) {
+    key = KeyRig(rig, world_from_left, origin);
+    base = {std::move(rig), {}};
+  }
+};
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,136 @@
+#include <catch2/catch.hpp>
+#include <limits>
+#include <numeric>
+
+#include "generated_quads.hpp"
+#include "odometry/acceptance.hpp"
+
+using namespace quadedge;
+using odometry::Acceptance;
+using odometry::MotionStep;
+
+namespace {
+
+/// A step whose quads were made by two motions; its base's edges are predicted where the quads ended.
+struct TwoMotions {
+  MotionStep step;
+  PlacedEdges predicted;
+
+  TwoMotions(const generated::Problem& first, const generated::Problem& second) {
+    step.quads = generated::generate(first, 1).quads;
+    generated::append(step.quads, generated::generate(second, 2).quads);
+    step.quads.match.resize(step.quads.size());
+    std::iota(step.quads.match.begin(), step.quads.match.end(), 0);
+    step.matches.previous = step.quads.match;
+    predicted.x = step.quads.scoring.left_x;
+    predicted.y = step.quads.scoring.left_y;
+    step.motion.status = pose::MotionStatus::ok;
+  }
+  double area_of(const Eigen::Isometry3d& motion) {
+    const Config config;
+    const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+    step.motion.current_from_previous = motion;
+    Acceptance(config, offset).measure_area(predicted, step);
+    return step.explained_area;
+  }
+};
+
+Eigen::Isometry3d shift(double x, double z) {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.translation() = Eigen::Vector3d(x, 0, z);
+  return motion;
+}
+
+frontend::RigHandle rig_of_frame(int frame) {
+  auto rig = std::make_shared<frontend::Rig>();
+  rig->start(frame);
+  return rig;
+}
+
+}  // namespace
+
+TEST_CASE("acceptance: a thing counts by the area that it covers, not by its edges", "[odometry]") {
+  generated::Problem thing, scene;
+  thing.quads = 600;
+  thing.width_share = 0.1;
+  thing.motion = shift(0.6, 0);
+  thing.near = thing.far = 8;
+  scene.quads = 300;
+  scene.motion = shift(0, -1);
+  TwoMotions seen(thing, scene);
+  const double thing_area = seen.area_of(thing.motion), scene_area = seen.area_of(scene.motion);
+  CHECK(thing_area > 0.05);
+  CHECK(thing_area < 0.3);
+  CHECK(scene_area > 0.7);
+  CHECK(scene_area < 1);
+  CHECK(seen.area_of(shift(3, 3)) < 0.05);
+}
+
+TEST_CASE("acceptance: without enough support among the edges in view there is no consensus", "[odometry]") {
+  Config config;
+  config.temporal.min_support = 0.06;
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const Acceptance acceptance(config, offset);
+  PlacedEdges predicted;
+  predicted.x.assign(100, 5.0f);
+  predicted.x.resize(150, std::numeric_limits<float>::quiet_NaN());
+  predicted.y.assign(150, 5.0f);
+  MotionStep step;
+  step.motion.status = pose::MotionStatus::ok;
+  step.motion.inliers = 7;
+  acceptance.test_support(predicted, step);
+  CHECK(step.support == Approx(0.07));
+  CHECK(step.ok());
+  step.motion.inliers = 5;
+  acceptance.test_support(predicted, step);
+  CHECK(step.motion.status == pose::MotionStatus::no_consensus);
+  step.motion.status = pose::MotionStatus::too_few_quads;  // stays the reason
+  acceptance.test_support(predicted, step);
+  CHECK(step.motion.status == pose::MotionStatus::too_few_quads);
+}
+
+TEST_CASE("acceptance: near the prediction support decides whether edges are looked for anywhere", "[odometry]") {
+  Config config;
+  config.temporal.confident_support = 0.35;
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  MotionStep step;
+  step.motion.status = pose::MotionStatus::ok;
+  step.support = 0.36;
+  CHECK(Acceptance(config, offset).is_confident(step));
+  step.support = 0.34;
+  CHECK_FALSE(Acceptance(config, offset).is_confident(step));
+  config.temporal.wide_edges = 0;  // nothing further to ask
+  CHECK(Acceptance(config, offset).is_confident(step));
+  step.motion.status = pose::MotionStatus::no_consensus;
+  CHECK_FALSE(Acceptance(config, offset).is_confident(step));
+}
+
+TEST_CASE("acceptance: edges found anywhere bear out the motion that brought them there", "[odometry]") {
+  const Config config;
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  Acceptance acceptance(config, offset);
+  odometry::MotionQuery query;
+  query.base = rig_of_frame(3);
+  query.key = rig_of_frame(1);
+  query.base_from_key = shift(0.2, -0.8);
+  generated::Problem problem;
+  problem.motion = shift(0.1, -0.9);
+  problem.quads = 40;
+  MotionStep anywhere, step;
+  anywhere.quads = generated::generate(problem, 3).quads;
+  step.base = query.base;
+  step.motion.current_from_previous = problem.motion;
+  CHECK(acceptance.is_seen(anywhere, query, step));
+  step.motion.current_from_previous = shift(-1, 0.9);
+  CHECK_FALSE(acceptance.is_seen(anywhere, query, step));
+  // Measured against the key rig.
+  step.base = query.key;
+  step.motion.current_from_previous = problem.motion * query.base_from_key;
+  CHECK(acceptance.is_seen(anywhere, query, step));
+  // Neighbours on one curve count once.
+  problem.quads = 1;
+  problem.copies = 40;
+  anywhere.quads = generated::generate(problem, 4).quads;
+  REQUIRE(anywhere.quads.size() == 40);
+  CHECK_FALSE(acceptance.is_seen(anywhere, query, step));
+}

@@ -1,0 +1,115 @@
+#include "frontends.hpp"
+#include "odometry/motion_search.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+/// The reference front end, counting what is asked of it.
+class CountingFrontend : public frontend::Frontend {
+ public:
+  CountingFrontend(const StereoRig& rig, const Config& config)
+      : device_("reference"), reference_(frontend::make_frontend(rig, device_, config)) {}
+
+  frontend::RigHandle process(const StereoFrame& frame) override { return reference_->process(frame); }
+  void match(const frontend::Rig& base, const TemporalSearch& search, TemporalMatches& matches) override {
+    ++(search.coarse ? coarse : guided);
+    largest_radius = std::max(largest_radius, search.radius);
+    reference_->match(base, search, matches);
+  }
+  void match_anywhere(const frontend::Rig& base, TemporalMatches& matches) override {
+    ++anywhere;
+    reference_->match_anywhere(base, matches);
+  }
+  EdgeSet edges(bool right) override { return reference_->edges(right); }
+  std::size_t device_bytes() const override { return 0; }
+
+  int coarse = 0, guided = 0, anywhere = 0;
+  float largest_radius = 0;
+
+ private:
+  Device device_;
+  std::unique_ptr<frontend::Frontend> reference_;
+};
+
+/// Two frames of the room and the search between them.
+struct TwoFrames {
+  RenderedScene scene{"room", 200, 125, 2, 3};
+  std::unique_ptr<CountingFrontend> frontend;
+  std::unique_ptr<odometry::DisparityOffset> offset;
+  std::unique_ptr<odometry::MotionSearch> search;
+  odometry::MotionQuery query;
+
+  explicit TwoFrames(int wide_edges) {
+    scene.config.temporal.wide_edges = wide_edges;
+    frontend = std::make_unique<CountingFrontend>(scene.rig, scene.config);
+    offset = std::make_unique<odometry::DisparityOffset>(scene.rig, scene.config.pose);
+    search = std::make_unique<odometry::MotionSearch>(scene.config, *frontend, *offset);
+    query.base = frontend->process(scene.frame(0));
+    query.current = frontend->process(scene.frame(1));
+  }
+  Eigen::Isometry3d truth() const { return scene.world_from_left[1].inverse() * scene.world_from_left[0]; }
+
+  /// Finds the motion and compares it with the true one.
+  void check(const std::optional<Eigen::Isometry3d>& prediction) {
+    query.prediction = prediction;
+    frontend->coarse = frontend->guided = frontend->anywhere = 0;
+    frontend->largest_radius = 0;
+    const auto step = search->find(query);
+    REQUIRE(step->ok());
+    CHECK(step->base == query.base);
+    CHECK((step->motion.current_from_previous.translation() - truth().translation()).norm() < 6e-3);
+    CHECK(Eigen::AngleAxisd((step->motion.current_from_previous * truth().inverse()).linear()).angle() <
+          0.15 * kDegree);
+  }
+};
+
+/// A motion that leads all predictions astray.
+Eigen::Isometry3d turned(const Eigen::Isometry3d& motion) {
+  return Eigen::AngleAxisd(30 * kDegree, Eigen::Vector3d::UnitY()) * motion;
+}
+
+}  // namespace
+
+TEST_CASE("motion search: a good prediction ends it, any other calls for edges found anywhere", "[odometry]") {
+  TwoFrames frames(3000);
+  frames.check(frames.truth());
+  CHECK(frames.frontend->coarse == 1);
+  CHECK(frames.frontend->guided > 0);
+  CHECK(frames.frontend->anywhere == 0);
+  frames.check(std::nullopt);
+  CHECK(frames.frontend->coarse == 0);
+  CHECK(frames.frontend->anywhere == 1);
+  frames.check(turned(frames.truth()));
+  CHECK(frames.frontend->coarse == 1);
+  CHECK(frames.frontend->anywhere == 1);
+}
+
+TEST_CASE("motion search: without edges found anywhere the coarse search widens", "[odometry]") {
+  TwoFrames frames(0);
+  const double wide = frames.scene.config.temporal.coarse_wide_radius_ratio * 200;
+  frames.check(frames.truth());
+  CHECK(frames.frontend->coarse == 1);
+  CHECK(frames.frontend->largest_radius == static_cast<float>(frames.scene.config.temporal.coarse_radius));
+  frames.check(std::nullopt);
+  CHECK(frames.frontend->coarse == 1);
+  CHECK(frames.frontend->largest_radius == static_cast<float>(wide));
+  CHECK(frames.frontend->anywhere == 0);
+}
+
+TEST_CASE("motion search: the key rig is preferred, and holding no step holds no rig", "[odometry]") {
+  TwoFrames frames(3000);
+  // The key rig shows the base's own frame, so the same motion leads there.
+  const auto key = frames.frontend->process(frames.scene.frame(0));
+  frames.query.current = frames.frontend->process(frames.scene.frame(1));
+  frames.query.key = key;
+  frames.query.prediction = frames.truth();
+  auto step = frames.search->find(frames.query);
+  REQUIRE(step->ok());
+  CHECK(step->base == key);
+  frames.query.key = nullptr;
+  CHECK(key.use_count() == 3);  // this test, the step and the front end
+  step = nullptr;
+  CHECK(key.use_count() == 2);
+}
