@@ -200,7 +200,7 @@ TEST_CASE("frontend: a rig measures its edges once per disparity offset", "[fron
   auto rig = frontend->process(scene.frame(0));
   REQUIRE(rig->edges.size() > 20);
   StereoRig nearer = scene.rig;
-  nearer.right.cx -= 0.5;
+  nearer.right.cx += 0.5;
   const auto depths = [&](const StereoRig& calibration, double offset) {
     std::vector<double> values;
     for (const auto& edge : rig->measured_edges(calibration, offset, 0.07))

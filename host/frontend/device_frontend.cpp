@@ -2,15 +2,11 @@
 
 #include <numeric>
 
+#include "common/angles.hpp"
 #include "common/layouts.hpp"
 #include "common/point_index.hpp"
 
 namespace quadedge::frontend {
-namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-}  // namespace
 
 DeviceRig::DeviceRig(const StereoRig& calibration) {
   on_device.left_image.width = calibration.left.width;
@@ -116,7 +112,7 @@ void DeviceFrontend::match_side(Side side, DeviceRig& base, const TemporalSearch
                                 stages::DeviceCandidates& candidates) {
   DeviceRig& current = rigs_.current();
   temporal_candidates_.run(predicted_[index_of(side)], search.step, index(side), search.radius,
-                           static_cast<float>(config_.temporal.orientation * kDegree), candidates);
+                           static_cast<float>(radians(config_.temporal.orientation)), candidates);
   const FilterLimits limits = temporal_limits(config_.temporal, search);
   if (limits.sift_max > 0) {
     describe_by_sift(base);

@@ -31,7 +31,7 @@ class Acceptance {
   /// Whether a motion near the prediction is believed without asking further.
   bool is_confident(const MotionStep& step) const;
 
-  /// Whether edges found anywhere agree with a motion: in as many places of the image as an estimate needs inliers. A
+  /// Whether edges found anywhere agree with a motion: in as many cells of the image as an estimate needs inliers. A
   /// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,
   /// count once.
   bool is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step);
