@@ -5,7 +5,8 @@
 
 OLD and NEW are `quadedge` programs. DIR holds recorded data (default: QUADEDGE_DATA); without it only the built-in
 scenes run. Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv every column
-but the times. Results of OLD stay in the work folder and serve again.
+but the times; of a message only whether there is one, not its words.
+Results of OLD stay in the work folder and serve again.
 Exit code 0: all the same, 1: some differ, 2: a run failed.
 """
 import argparse
@@ -47,11 +48,11 @@ def run(program, name, arguments, folder):
 
 
 def untimed_rows(path):
-    """Rows of frames.csv by position, without the columns that hold milliseconds."""
+    """Rows of frames.csv by position, without the columns that hold milliseconds and without a message's words."""
     with open(path, newline="") as file:
         header, *rows = list(csv.reader(file))
     kept = [i for i, name in enumerate(header) if not name.endswith("_ms")]
-    return [[row[i] for i in kept] for row in rows]
+    return [[bool(row[i]) if header[i] == "message" else row[i] for i in kept] for row in rows]
 
 
 def differences(old, new):

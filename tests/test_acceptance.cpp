@@ -52,7 +52,7 @@ frontend::RigHandle rig_of_frame(int frame) {
 TEST_CASE("acceptance: a thing counts by the area that it covers, not by its edges", "[odometry]") {
   generated::Problem thing, scene;
   thing.quads = 600;
-  thing.width_share = 0.1;
+  thing.width_ratio = 0.1;
   thing.motion = shift(0.6, 0);
   thing.near = thing.far = 8;
   scene.quads = 300;
