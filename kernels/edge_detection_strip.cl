@@ -26,6 +26,7 @@ inline uint lane_bits(const int16 lanes) {
 // scratch: kStripLines lines of `line` floats per work-item (2 of column sums, then for 3 rows x 2 phases gx, gy and
 // magnitude).
 // Out: winners, the cells of grid row r from 4 * r * 2 * width on, in scan order; counts[r], for all 2 * height rows.
+// LONG: one pass over a strip; its sums stay in registers from row to row.
 kernel void edges_strip_maxima(const DetectionArguments args, const int strip_rows, global const float* plane,
                                global const float* taps, global float* scratch, const int line, global float* winners,
                                global int* counts) {

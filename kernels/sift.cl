@@ -159,6 +159,7 @@ inline float8 two_bins(const float low, const float high, const int bin) {
 // Lane k of two vectors that stand behind one another.
 #define LANE(T, vectors, k) ((const T*)(vectors))[k]
 
+// LONG: the histogram stays in registers from the first sample to the last byte.
 kernel void sift_describe(const SiftArguments args, global const float* magnitude, global const float* angle,
                           global const float* positions, global uchar* descriptors) {
   const int width = args.width, height = args.height, stride = args.stride, count = args.edges.count;
@@ -244,6 +245,7 @@ kernel void sift_describe(const SiftArguments args, global const float* magnitud
 #define SIDES 2
 #define EDGES_PER_GROUP (GROUP / ITEMS_PER_EDGE)
 
+// LONG: the histogram stays in registers from the first sample to the last byte.
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(const SiftArguments args,
                                                                              global const float* magnitude,
                                                                              global const float* angle,

@@ -23,6 +23,7 @@ inline float better_side(global const uint* corners, const int width, const int 
               bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) * inverse_norms.y / bright_norm);
 }
 
+// LONG: a row from shift to similarity; its patches stay in private memory.
 kernel void stereo_refinement(const StereoRefinementArguments args, global const int* first, global const int* target,
                               global const float* ncc, global const uint* left_corners,
                               global const uint* right_corners, global const char* left_patches,

@@ -19,6 +19,7 @@ inline float side_ncc(global const uint* corners, const int width, const int hei
   return norm < 1e-10f ? 0.0f : sums.y * inverse_norm / norm;
 }
 
+// LONG: a row from shift to similarity; its patches stay in private memory.
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement(
     const StereoRefinementArguments args, global const int* first, global const int* target, global const float* ncc,
     global const uint* left_corners, global const uint* right_corners, global const char* left_patches,

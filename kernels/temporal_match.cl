@@ -63,6 +63,7 @@ inline void tap_scores(TappedSide* tap, const int slot, const int edge, const fl
 #endif
 
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
+// LONG: a row's candidates from the index to the nearly best; they stay in private memory.
 inline int alike_near(const float x, const float y, const float direction, global const float* xs,
                       global const float* ys, global const float* directions, global const int* numbers,
                       global const int* cell_first, const int columns, const int rows, const float radius,
@@ -166,6 +167,7 @@ inline int count_clusters(const int* edges, const int count, global const float*
   return clusters;
 }
 
+// LONG: a row from the index to its quad, all of it in private memory.
 kernel void temporal_match(
     const int rows, const int row_step, global const float* left_predicted_x, global const float* left_predicted_y,
     global const float* left_predicted_direction, global const float* right_predicted_x,

@@ -75,6 +75,7 @@ inline bool wide_elsewhere(const float16 products, const float limit, const bool
   return false;
 }
 
+// LONG: a block of rows against all columns, then back; sums and winners stay in registers.
 kernel void wide_match(const WideMatchingArguments args, global const uchar* row_descriptors,
                        global const uchar* row_blocks, global const float* row_edges,
                        global const uchar* column_descriptors, global const uchar* column_blocks,

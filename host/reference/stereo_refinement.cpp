@@ -28,6 +28,7 @@ double epipolar_shift(const EpipolarLine& line, double x, double y, double direc
   return std::abs(shift) < max_shift ? s + shift * along : s;
 }
 
+// LONG: a row from shift to similarity, as the kernel goes through it.
 RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image,
                                     const std::vector<std::int8_t>& left_patches, const EdgeSet& left,
                                     const EdgeSet& right, const EpipolarGeometry& geometry,
