@@ -94,18 +94,18 @@ std::optional<AliveRows> TemporalMatch::run(const DevicePlaces& left_predicted, 
     launch(kernel_);
   } else {
     prepare_tap();
-    auto& [scan, counts, first, total, seen, tap_kernel] = *tap_;
-    counts.ensure(context_, 2 * rows);
-    first.ensure(context_, 2 * rows + 1);
-    seen.ensure(context_, 1);
+    TapForm& tap = *tap_;
+    tap.counts.ensure(context_, 2 * rows);
+    tap.first.ensure(context_, 2 * rows + 1);
+    tap.seen.ensure(context_, 1);
     const auto launch_tap = [&](cl_int capacity) {
-      launch(tap_kernel, first, capacity, counts, seen, base.left_sift, base.right_sift, current.left_sift,
+      launch(tap.kernel, tap.first, capacity, tap.counts, tap.seen, base.left_sift, base.right_sift, current.left_sift,
              current.right_sift);
     };
     launch_tap(0);
-    scan.run(counts, 2 * count, std::numeric_limits<cl_int>::max(), first, total);
-    const cl_int size = total.read(2)[0];
-    seen.ensure(context_, kSeenInts * static_cast<std::size_t>(size));
+    tap.scan.run(tap.counts, 2 * count, std::numeric_limits<cl_int>::max(), tap.first, tap.total);
+    const cl_int size = tap.total.read(2)[0];
+    tap.seen.ensure(context_, kSeenInts * static_cast<std::size_t>(size));
     if (size > 0) launch_tap(size);
     read_tapped(rows, *tapped);
   }
