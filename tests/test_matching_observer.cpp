@@ -171,7 +171,7 @@ TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time 
   CHECK(second.motion->rotation_deg == Approx(0).margin(1e-9));
 }
 
-TEST_CASE("After a loss the observer judges by the frame that the pipeline restarted from, and by no other search",
+TEST_CASE("After a loss the observer judges by the frame that the pipeline relocalised against, and by no other search",
           "[matching]") {
   // Frame 0 has three stereo edges, frame 1 (lost) the same ones in another order and one more, frame 2 those of frame
   // 1. The rig moves by 0.05 m = 5 px per frame.
@@ -194,18 +194,18 @@ TEST_CASE("After a loss the observer judges by the frame that the pipeline resta
   show_search(observer, 1, 1, one, {0, 1, 2, 3}, two);  // all true: the motion comes of this one
   show_search(observer, 2, 1, one, {3, 2, 1, 0}, two);  // tried afterwards
   show_search(observer, 3, 1, one, {0, 1}, two, 2);     // a part of the edges
-  const auto restarted = observer.end(found(FrameStatus::tracked, 1, 1, 0.352));
-  REQUIRE(restarted.temporal);
-  CHECK(restarted.temporal->quads_paired.pool == 4);
-  CHECK(restarted.temporal->quads_paired.recall() == 1);
-  CHECK(restarted.temporal->quads_paired.precision() == 1);
-  for (const auto* table : {&restarted.temporal->left, &restarted.temporal->right}) {
+  const auto relocalised = observer.end(found(FrameStatus::tracked, 1, 1, 0.352));
+  REQUIRE(relocalised.temporal);
+  CHECK(relocalised.temporal->quads_paired.pool == 4);
+  CHECK(relocalised.temporal->quads_paired.recall() == 1);
+  CHECK(relocalised.temporal->quads_paired.precision() == 1);
+  for (const auto* table : {&relocalised.temporal->left, &relocalised.temporal->right}) {
     REQUIRE(table->size() == 3);
     CHECK((*table)[1].paired.precision() == 1);
     CHECK((*table)[1].paired.recall() == 1);
   }
-  REQUIRE(restarted.motion);  // since frame 1, by the poses that the pipeline gave both
-  CHECK(restarted.motion->translation_m == Approx(0.002));
+  REQUIRE(relocalised.motion);  // since frame 1, by the poses that the pipeline gave both
+  CHECK(relocalised.motion->translation_m == Approx(0.002));
 
   // What was found before the last search counts where the pipeline says so, also when that one was of an older frame.
   show(observer, 3, 0.1, two);
@@ -233,7 +233,7 @@ class Searches : public Tap {
   std::vector<TemporalMatches> found;  ///< one per search
 };
 
-/// Two frames of the cables, then four of the room: tracking is lost in between and restarts from the lost frame.
+/// Two frames of the cables, then four of the room: tracking is lost in between and goes on from the lost frame.
 std::vector<FrameResult> track_with_loss(const std::string& device_name, Tap* tap,
                                          const std::function<void(const FrameResult&, const FrameDetails&)>& visit) {
   static const matching::RenderedScene before("cables", 240, 150, 2), after("room", 240, 150, 4);
@@ -259,7 +259,7 @@ TEST_CASE(
     "[matching][odometry][device]") {
   for (const auto& device : all_devices()) {
     Searches tap;
-    int frame = 0, restarts = 0, oldest = 0;
+    int frame = 0, relocalisations = 0, oldest = 0;
     const auto seen = track_with_loss(device, &tap, [&](const FrameResult& result, const FrameDetails& details) {
       INFO("device " << device << ", frame " << frame);
       CHECK((result.status == FrameStatus::tracked) == (result.search >= 0));
@@ -273,17 +273,18 @@ TEST_CASE(
         const auto s = static_cast<std::size_t>(result.search);
         REQUIRE(s < tap.found.size());
         CHECK(tap.observed[s].step == 1);
+        CHECK(tap.observed[s].base_frame == result.base_frame);
         CHECK(tap.observed[s].left.x.size() == details.previous_stereo.size());
         CHECK(matching::same_bytes(tap.found[s], details.quads));
         CHECK(details.quads.search == result.search);
-        if (result.message.find("restarted") != std::string::npos) {
-          ++restarts;
+        if (result.message.find("relocalised") != std::string::npos) {
+          ++relocalisations;
           CHECK(tap.observed[s].base_frame == frame - 1);
         }
       }
       ++frame;
     });
-    CHECK(restarts == 1);
+    CHECK(relocalisations == 1);
     const auto unseen = track_with_loss(device, nullptr, [](const FrameResult&, const FrameDetails&) {});
     REQUIRE(seen.size() == unseen.size());
     for (std::size_t i = 0; i < seen.size(); ++i) {
