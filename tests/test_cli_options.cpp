@@ -21,22 +21,29 @@ TEST_CASE("command line: every command's help shows two examples", "[cli]") {
   CHECK_THAT(run_program({"--help"}).out, Contains("evaluate") && Contains("Exit codes"));
 }
 
-TEST_CASE("command line: constants of the method appear in the full help alone", "[cli]") {
-  CHECK_THAT(run_program({"run", "--help"}).out, !Contains("stereo.ncc_min") && Contains("--max-disparity"));
-  CHECK_THAT(run_program({"run", "--help-all"}).out, Contains("stereo.ncc_min") && Contains("odometry.key_max_frames"));
-}
-
 TEST_CASE("command line: misuse ends with code 2 and names what is wrong", "[cli]") {
   const auto unknown = run_program({"run", "x", "--no-such-option"});
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("--no-such-option"));
+  CHECK_THAT(run_program({"run", "x", "--ouptut", "y"}).err,
+             Contains("--ouptut") && Contains("did you mean '--output'?"));
   CHECK(run_program({}).code == 2);
-  CHECK(run_program({"no-such-command"}).code == 2);
+  const auto command = run_program({"rnu", "x"});
+  CHECK(command.code == 2);
+  CHECK_THAT(command.err, Contains("unknown command 'rnu'; did you mean 'run'?"));
+  CHECK_THAT(run_program({"evaluate", "trajctory"}).err, Contains("'trajctory'; did you mean 'trajectory'?"));
+  CHECK_THAT(run_program({"no-such-command"}).err, Contains("unknown command 'no-such-command'") && !Contains("mean"));
   CHECK(run_program({"run"}).code == 2);
   CHECK(run_program({"evaluate"}).code == 2);
   const auto letters = run_program({"edges", "x.png", "--edges.sigma", "wide"});
   CHECK(letters.code == 2);
   CHECK_THAT(letters.err, Contains("edges.sigma") && Contains("wide"));
+  for (const std::string seed : {"-1", "010", "0x10", "18446744073709551616", "1.5", ""}) {
+    INFO(seed);
+    const auto result = run_program({"edges", "x.png", "--seed", seed});
+    CHECK(result.code == 2);
+    CHECK_THAT(result.err, Contains("seed"));
+  }
   const auto range = run_program({"edges", "x.png", "--stereo.ncc_min", "1.5"});
   CHECK(range.code == 2);
   CHECK_THAT(range.err, Contains("stereo.ncc_min") && Contains("1.5") && Contains("0.01 to 1"));
@@ -72,7 +79,7 @@ TEST_CASE("configuration file: unknown keys, bad values and missing files end wi
   CHECK_THAT(unknown.err, Contains("stereo.ncc_minimum") && Contains("config.toml"));
   const auto top = with_file("sigma = 2\n");
   CHECK(top.code == 2);
-  CHECK_THAT(top.err, Contains("'sigma'"));
+  CHECK_THAT(top.err, Contains("\"sigma\""));
   const auto positional = with_file("IMAGE = \"other.png\"\n");
   CHECK(positional.code == 2);
   const auto text = with_file("[edges]\nsigma = \"wide\"\n");
@@ -83,20 +90,43 @@ TEST_CASE("configuration file: unknown keys, bad values and missing files end wi
   CHECK_THAT(range.err, Contains("edges.sigma") && Contains("1000"));
   const auto twice = with_file("seed = 3\n[edges]\nsigma = 2\n[stereo]\nncc_min = 0.5\n[edges]\nsigma = 3\n");
   CHECK(twice.code == 2);
-  CHECK_THAT(twice.err, Contains("edges.sigma") && Contains("twice"));
+  CHECK_THAT(twice.err, Contains("config.toml:6:") && Contains("'edges'"));
+  const auto both_names = with_file("max-disparity = 3\n[stereo]\nmax_disparity = 2\n");
+  CHECK(both_names.code == 2);
+  CHECK_THAT(both_names.err, Contains("config.toml:3: stereo.max_disparity") && Contains("max-disparity"));
+  const auto flag = with_file("force = 1\n");
+  CHECK(flag.code == 2);
+  CHECK_THAT(flag.err, Contains("config.toml:1: force: expected true or false, found 1"));
   const auto missing = run_program({"edges", "x.png", "--config", folder / "absent.toml"});
   CHECK(missing.code == 2);
   CHECK_THAT(missing.err, Contains("absent.toml"));
   CHECK(run_program({"edges", "x.png", "--config", folder.path()}).code == 2);
 }
 
-TEST_CASE("configuration file: the command line wins over it, and it over the defaults", "[cli]") {
-  // A value out of range shows which one counts.
+TEST_CASE("configuration file: the command line wins over the environment, and that over it", "[cli]") {
+  // Devices that do not exist show in the message which one counts.
   const TemporaryFolder folder;
-  std::ofstream(folder / "config.toml") << "[edges]\nsigma = 1000  # far out of range\n";
-  CHECK(run_program({"edges", folder / "absent.png", "--config", folder / "config.toml"}).code == 2);
-  const auto both =
-      run_program({"edges", folder / "absent.png", "--config", folder / "config.toml", "--edges.sigma", "2"});
-  CHECK(both.code == 3);
-  CHECK_THAT(both.err, Contains("absent.png"));
+  std::ofstream(folder / "config.toml") << "device = \"from-file\"\n";
+  const auto device = [&](std::vector<std::string> arguments, const std::string& environment) {
+    arguments.insert(arguments.begin(), {"demo", "--frames", "1", "--config", folder / "config.toml"});
+    return run_program(arguments, environment).err;
+  };
+  CHECK_THAT(device({}, ""), Contains("from-file"));
+  CHECK_THAT(device({}, "QUADEDGE_DEVICE=from-environment"), Contains("from-environment"));
+  CHECK_THAT(device({"--device", "from-command-line"}, "QUADEDGE_DEVICE=from-environment"),
+             Contains("from-command-line"));
+}
+
+TEST_CASE("configuration file: the command line wins over it, but does not excuse what it says", "[cli]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "config.toml") << "[edges]\nsigma = 3\n";
+  std::ofstream(folder / "wrong.toml") << "[edges]\nsigma = 1000  # far out of range\n";
+  const auto edges = [&](const std::string& file, const std::string& sigma) {
+    return run_program({"edges", folder / "absent.png", "--config", folder / file, "--edges.sigma", sigma});
+  };
+  CHECK(edges("config.toml", "2").code == 3);  // nothing wrong but the image
+  CHECK(edges("config.toml", "1000").code == 2);
+  const auto wrong = edges("wrong.toml", "2");
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("wrong.toml:2: edges.sigma: expected 0.5 to 8, found 1000"));
 }

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
+#include "pose/fit_limits.hpp"
 #include "pose/sample_fit.hpp"
 
 using namespace quadedge::pose;
@@ -31,15 +32,16 @@ generated::Problem drive() {
 
 TEST_CASE("A few exact quads lead back to the exact motion, two by their directions", "[pose][sample_fit]") {
   generated::Random random(71);
-  quadedge::PoseConfig config;
-  config.fit_steps = 20;
+  const quadedge::PoseConfig config;
   for (int count : {2, 3, 8}) {
     generated::Problem problem = drive();
     problem.quads = count;
     const Sample sample(problem);
     Eigen::Isometry3d pose = random.motion(1e-4, 0.002) * problem.motion;
     SampleWorkspace workspace;
-    REQUIRE(fit_sample(sample.terms, sample.rows, problem.rig, config, pose, workspace));
+    for (int fit = 0; fit < 4; ++fit) {  // exact quads converge slowly: their scale shrinks with each step
+      REQUIRE(fit_sample(sample.terms, sample.rows, problem.rig, config, pose, workspace));
+    }
     CHECK(generated::rotation_error(pose, problem.motion) < 1e-6);
     CHECK(generated::translation_error(pose, problem.motion) < 1e-4);
   }

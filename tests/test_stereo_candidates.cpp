@@ -48,10 +48,9 @@ double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& l
       config.max_disparity > 0 ? config.max_disparity : (in_right(rig, p, config.min_depth) - far).norm();
   const double turn = std::abs(
       std::remainder(static_cast<double>(left.direction[i]) - static_cast<double>(right.direction[j]), 2 * kPi));
-  return std::min(
-      {(config.epipolar_distance - distance) / kPixels, (s + kTolerance) / kPixels, (s_max + kTolerance - s) / kPixels,
-       (config.orientation * kDegree - turn) / kRadians,
-       (epipolar_sine(rig, p, left.direction[i]) - std::sin(config.min_epipolar_angle * kDegree)) / kRadians});
+  return std::min({(config.epipolar_distance - distance) / kPixels, (s + kTolerance) / kPixels,
+                   (s_max + kTolerance - s) / kPixels, (config.orientation_rad() - turn) / kRadians,
+                   (epipolar_sine(rig, p, left.direction[i]) - std::sin(config.min_epipolar_angle_rad())) / kRadians});
 }
 
 /// Counts the certain members; every list is ascending, holds all certain ones and nothing that is certainly outside.

@@ -188,7 +188,7 @@ TEST_CASE("stereo refinement: a strong prior holds the shifted position, the def
     const double y = scene.right.y[c];
     const auto line = epipolar_line(scene.geometry, scene.left.x[c], scene.left.y[c]);
     const double start = reference::epipolar_shift(line, scene.right.x[c], y, scene.right.direction[c],
-                                                   scene.config.shift_min_angle * kDegree, scene.config.shift_max);
+                                                   scene.config.shift_min_angle_rad(), scene.config.shift_max);
     CHECK(std::abs(held[c] - start) < 0.1);
     if (std::abs(free[c] - start) > 0.5 && std::abs(free[c] - Scene::kDisparity) < 0.05) {
       ++moved;

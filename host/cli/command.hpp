@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "quadedge/config.hpp"
+
 namespace quadedge::cli {
 
 /// Collects the options of one command. Names are written "-o,--output"; each variable's present value is the default.
@@ -22,8 +24,6 @@ class Options {
   virtual void number(const std::string& names, double& value, const std::string& help) = 0;
   virtual void number(const std::string& names, int& value, const std::string& help) = 0;
   virtual void number(const std::string& names, std::uint64_t& value, const std::string& help) = 0;
-  /// Takes a value, true or false.
-  virtual void boolean(const std::string& names, bool& value, const std::string& help) = 0;
   /// Takes no value.
   virtual void flag(const std::string& names, bool& value, const std::string& help) = 0;
   virtual void choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
@@ -31,11 +31,14 @@ class Options {
   /// May be repeated, one value each time.
   virtual void repeated(const std::string& names, std::vector<std::string>& values, const std::string& help,
                         const std::string& placeholder) = 0;
+  /// A constant of the method, with its help, unit and range. `names`: its own, maybe after a shorter one.
+  virtual void constant(const std::string& names, const Constant& constant, Config& config) = 0;
   /// The option declared last also reads an environment variable.
   virtual void environment(const std::string& variable) = 0;
   /// Heading of the following options in the help; `only_in_full_help`: shown by --help-all alone.
   virtual void group(const std::string& heading, bool only_in_full_help = false) = 0;
-  /// `--config FILE`: values for the options that neither command line nor environment gives.
+  /// `--config FILE.toml`: values for the options that neither command line nor environment gives. A key is the name of
+  /// an option without dashes.
   virtual void config_file() = 0;
 };
 
@@ -64,5 +67,7 @@ std::unique_ptr<Command> make_variants_command();
 std::unique_ptr<Command> make_synth_command();
 std::unique_ptr<Command> make_evaluate_trajectory_command();
 std::unique_ptr<Command> make_evaluate_matching_command();
+/// `commands`: all of the program; the list may still grow.
+std::unique_ptr<Command> make_generate_command(const std::vector<std::unique_ptr<Command>>& commands);
 
 }  // namespace quadedge::cli

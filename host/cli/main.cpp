@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     commands.push_back(cli::make_check_command());
     commands.push_back(cli::make_devices_command());
     commands.push_back(cli::make_variants_command());
+    commands.push_back(cli::make_generate_command(commands));
     const cli::Parsed parsed = cli::parse_command_line(argc, argv, commands);
     if (parsed.command == nullptr) return parsed.exit_code;
     const int code = parsed.command->run();

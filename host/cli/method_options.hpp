@@ -13,7 +13,7 @@ namespace quadedge::cli {
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {
  public:
-  /// --device, --config, --variant, --kernels, --seed, --max-disparity, and --SECTION.FIELD for every field.
+  /// --device, --config, --variant, --kernels, --max-disparity, and --KEY for every constant.
   void declare(Options& options);
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;

@@ -2,16 +2,28 @@
 #include "cli/parser.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstring>
-#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <sstream>
 
+#include "common/nearest_word.hpp"
 #include "quadedge/error.hpp"
+#include "report/config_toml.hpp"
 
 namespace quadedge::cli {
 namespace {
+
+/// Refuses "010" and "0x10", which CLI11 reads as octal and hexadecimal.
+const CLI::Validator kDecimal(
+    [](const std::string& text) -> std::string {
+      const std::size_t digits = text.find_first_not_of("+-");
+      const bool other_base = digits != std::string::npos && text[digits] == '0' && digits + 1 < text.size();
+      return other_base ? text + " is no whole number in decimal digits" : "";
+    },
+    "");
 
 /// Options of one command as options of a CLI11 application.
 class ParserOptions : public Options {
@@ -20,36 +32,57 @@ class ParserOptions : public Options {
   ParserOptions(CLI::App& app, bool short_help) : app_(app), short_help_(short_help) {}
 
   void positional(const std::string& name, std::string& value, const std::string& help, bool required) override {
-    app_.add_option(name, value, help)->required(required)->type_name("")->configurable(false);
+    app_.add_option(name, value, help)->required(required)->type_name("");
   }
   void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
-    app_.add_option(name, values, help)->required()->type_name("")->configurable(false);
+    app_.add_option(name, values, help)->required()->type_name("");
   }
   void text(const std::string& names, std::string& value, const std::string& help,
             const std::string& placeholder) override {
     add(names, value, help)->type_name(placeholder);
   }
   void number(const std::string& names, double& value, const std::string& help) override { add(names, value, help); }
-  void number(const std::string& names, int& value, const std::string& help) override { add(names, value, help); }
-  void number(const std::string& names, std::uint64_t& value, const std::string& help) override {
-    add(names, value, help);
+  void number(const std::string& names, int& value, const std::string& help) override {
+    add(names, value, help)->check(kDecimal);
   }
-  void boolean(const std::string& names, bool& value, const std::string& help) override {
-    add(names, value, help)->type_name("true|false");
+  void number(const std::string& names, std::uint64_t& value, const std::string& help) override {
+    add(names, value, help)->check(kDecimal);
   }
   void flag(const std::string& names, bool& value, const std::string& help) override {
     last_ = app_.add_flag(names, value, help)->group(group_);
+    read_from_file(value);
   }
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
               const std::string& help) override {
-    std::string type;
-    for (const auto& name : allowed) type += (type.empty() ? "" : "|") + name;
-    CLI::Validator member = CLI::IsMember(allowed);
-    add(names, value, help)->check(member.description(""))->type_name(type);  // the type says it already
+    add_choice(names, value, allowed, help);
+    set_from_file([&value, allowed](const data::TomlEntry& entry, bool keep) {
+      std::string word;
+      data::assign(entry, word);
+      if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) data::refuse(entry, joined(allowed));
+      if (!keep) value = word;
+    });
   }
   void repeated(const std::string& names, std::vector<std::string>& values, const std::string& help,
                 const std::string& placeholder) override {
     last_ = app_.add_option(names, values, help)->allow_extra_args(false)->group(group_)->type_name(placeholder);
+    read_from_file(values);
+  }
+  void constant(const std::string& names, const Constant& constant, Config& config) override {
+    const ConfigField field = constant.field(config);
+    const std::string range = constant.allowed() + (constant.unit.empty() ? "" : " " + constant.unit);
+    const std::string help = constant.help + " (" + range + ")";
+    if (auto* const* real = std::get_if<double*>(&field)) add(names, **real, help);
+    if (auto* const* whole = std::get_if<int*>(&field)) add(names, **whole, help)->check(kDecimal);
+    if (auto* const* natural = std::get_if<std::uint64_t*>(&field)) add(names, **natural, help)->check(kDecimal);
+    if (auto* const* truth = std::get_if<bool*>(&field)) add(names, **truth, constant.help)->type_name("true|false");
+    if (auto* const* word = std::get_if<std::string*>(&field)) {
+      add_choice(names, **word, constant.choices, constant.help);
+    }
+    set_from_file([&constant, &config](const data::TomlEntry& entry, bool keep) {
+      Config tried = config;
+      report::set_constant(entry, constant, tried);
+      if (!keep) config = tried;
+    });
   }
   void environment(const std::string& variable) override { last_->envname(variable); }
   void group(const std::string& heading, bool only_in_full_help) override {
@@ -58,56 +91,74 @@ class ParserOptions : public Options {
     has_full_help_ = has_full_help_ || only_in_full_help;
   }
   void config_file() override {
-    text("--config", config_file_, "options from a TOML file, same names as here; the command line wins", "FILE");
-    last_->configurable(false);
+    last_ =
+        app_.add_option("--config", config_file_, "options from a TOML file, same names as here; the command line wins")
+            ->group(group_)
+            ->type_name("FILE");
   }
 
   bool has_full_help() const { return has_full_help_; }
 
-  /// Sets the options that the configuration file names and nobody has set yet.
-  void apply_config_file() {
+  /// Sets the options that the configuration file names and nobody has set yet; checks the others.
+  void apply_config_file() const {
     if (config_file_.empty()) return;
-    std::vector<CLI::ConfigItem> items;
-    try {
-      if (std::filesystem::is_directory(config_file_)) throw CLI::FileError::Missing(config_file_);
-      items = CLI::ConfigTOML().from_file(config_file_);
-    } catch (const CLI::FileError&) {
-      throw UsageError(config_file_ + ": the configuration file cannot be read");
-    }
-    for (const auto& item : items) {
-      if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the start and the end of a section
-      apply(item);
+    std::map<const CLI::Option*, std::string> seen;
+    for (const auto& entry : data::read_toml(config_file_)) {
+      const auto setting = from_file_.find(entry.key);
+      if (setting == from_file_.end()) data::refuse_key(entry, keys());
+      const CLI::Option* option = setting->second.option;
+      const auto [first, is_new] = seen.insert({option, entry.key});
+      if (!is_new) data::refuse(entry, "it once, not as '" + first->second + "' and '" + entry.key + "'");
+      setting->second.set(entry, option->count() > 0);
     }
   }
 
  private:
+  /// Sets an option to an entry's value; `keep`: only checks it, for command line or environment have set it.
+  using SetFromFile = std::function<void(const data::TomlEntry& entry, bool keep)>;
+  struct FileSetting {
+    const CLI::Option* option;
+    SetFromFile set;
+  };
+
+  static std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& word : words) text += (text.empty() ? "" : "|") + word;
+    return text;
+  }
+
   template <class T>
   CLI::Option* add(const std::string& names, T& value, const std::string& help) {
     last_ = app_.add_option(names, value, help)->capture_default_str()->group(group_);
+    read_from_file(value);
     return last_;
   }
 
-  void apply(const CLI::ConfigItem& item) {
-    const std::string key = item.fullname();
-    CLI::Option* option = app_.get_option_no_throw("--" + key);
-    if (option == nullptr || !option->get_configurable()) {
-      throw UsageError(config_file_ + ": unknown key '" + key + "'; `quadedge " + app_.get_name() +
-                       " --help-all` lists all options");
-    }
-    if (option->count() > 0 && configured_.count(option) == 0) return;  // the command line or the environment wins
-    if (!configured_.insert({option, key}).second) {
-      throw UsageError(config_file_ + ": '" + key + "' is given twice");
-    }
-    try {
-      if (option->get_expected_max() == 0) {
-        option->add_result(option->get_flag_value(key, CLI::ConfigTOML().to_flag(item)));
-      } else {
-        option->add_result(item.inputs);
-      }
-      option->run_callback();
-    } catch (const CLI::Error& error) {
-      throw UsageError(config_file_ + ": '" + key + "': " + error.what());
-    }
+  void add_choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
+                  const std::string& help) {
+    CLI::Validator member = CLI::IsMember(allowed);
+    add(names, value, help)->check(member.description(""))->type_name(joined(allowed));  // the type says it already
+  }
+
+  /// The option declared last takes values of its type from the file.
+  template <class T>
+  void read_from_file(T& value) {
+    set_from_file([&value](const data::TomlEntry& entry, bool keep) {
+      T read{};
+      data::assign(entry, read);
+      if (!keep) value = read;
+    });
+  }
+
+  /// The option declared last is set by `set`, under each of its long names.
+  void set_from_file(const SetFromFile& set) {
+    for (const auto& name : last_->get_lnames()) from_file_[name] = {last_, set};
+  }
+
+  std::vector<std::string> keys() const {
+    std::vector<std::string> names;
+    for (const auto& setting : from_file_) names.push_back(setting.first);
+    return names;
   }
 
   CLI::App& app_;
@@ -116,7 +167,7 @@ class ParserOptions : public Options {
   std::string group_ = "Options";
   std::string config_file_;
   CLI::Option* last_ = nullptr;
-  std::map<CLI::Option*, std::string> configured_;
+  std::map<std::string, FileSetting> from_file_;
 };
 
 /// The CLI11 application of a command; makes the group's application ("evaluate") on the way.
@@ -131,6 +182,41 @@ CLI::App* add_command(CLI::App& program, std::map<std::string, CLI::App*>& group
     group->require_subcommand(1);
   }
   return group->add_subcommand(second, command.about());
+}
+
+/// The innermost command that the command line names.
+const CLI::App& named_command(const CLI::App& program) {
+  const CLI::App* app = &program;
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return *app;
+}
+
+/// What is wrong with the command line: an unknown command or option with the most similar one, else what CLI11 says.
+std::string complaint(const CLI::App& app, const CLI::Error& error) {
+  const std::vector<std::string> unknown = app.remaining();
+  if (unknown.empty()) return error.what();
+  if (app.get_require_subcommand_min() > 0 && unknown.front()[0] != '-') {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+    return "unknown command '" + unknown.front() + "'" + did_you_mean(unknown.front(), names);
+  }
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return error.what() + did_you_mean(unknown.front(), names);
+}
+
+/// Prints what is wrong and where help is.
+int refuse(const CLI::App& program, const CLI::Error& error) {
+  const CLI::App& app = named_command(program);
+  std::cerr << "quadedge: " << complaint(app, error) << "\n";
+  std::string name;
+  for (const CLI::App* part = &app; part != nullptr; part = part->get_parent()) {
+    name = part->get_name() + (name.empty() ? "" : " ") + name;
+  }
+  std::cerr << "`" << name << " --help` shows what is possible\n";
+  return static_cast<int>(ExitCode::usage);
 }
 
 }  // namespace
@@ -165,14 +251,7 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   } catch (const CLI::Success& request) {  // --help, --help-all, --version
     return {nullptr, program.exit(request)};
   } catch (const CLI::Error& error) {
-    std::cerr << "quadedge: " << error.what() << "\n";
-    std::string help = "quadedge";
-    for (const CLI::App* app = &program; !app->get_subcommands().empty();) {
-      app = app->get_subcommands().front();
-      help += " " + app->get_name();
-    }
-    std::cerr << "`" << help << " --help` shows what is possible\n";
-    return {nullptr, static_cast<int>(ExitCode::usage)};
+    return {nullptr, refuse(program, error)};
   }
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (!apps[i]->parsed()) continue;

@@ -1,5 +1,6 @@
 #include "cli/sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -69,19 +70,17 @@ Sweep parse_sweep(const std::string& text) {
 }
 
 Config with_value(Config config, const std::string& key, double value) {
-  bool found = false;
-  visit_config(config, [&](const std::string& name, ConfigField field, const std::string&, double, double) {
-    if (name != key) return;
-    if (auto** real = std::get_if<double*>(&field)) {
-      **real = value;
-      found = true;
-    } else if (auto** whole = std::get_if<int*>(&field)) {
-      **whole = static_cast<int>(std::lround(value));
-      found = true;
-    }
-  });
-  if (!found)
+  const auto& all = constants();
+  const auto constant =
+      std::find_if(all.begin(), all.end(), [&](const Constant& candidate) { return candidate.key() == key; });
+  const ConfigField field = constant == all.end() ? ConfigField(static_cast<bool*>(nullptr)) : constant->field(config);
+  if (auto* const* real = std::get_if<double*>(&field)) {
+    **real = value;
+  } else if (auto* const* whole = std::get_if<int*>(&field)) {
+    **whole = static_cast<int>(std::lround(value));
+  } else {
     throw UsageError("--sweep: no constant with a numeric value is called '" + key + "'; --help-all lists all of them");
+  }
   check_config(config);
   return config;
 }

@@ -1,11 +1,9 @@
 #pragma once
-/// \file angles.hpp  Degrees of the configuration to the radians of the code, and differences of directions.
+/// \file angles.hpp  Differences of directions.
 
 #include <cmath>
 
 namespace quadedge {
-
-constexpr double radians(double degrees) { return degrees * (3.14159265358979323846 / 180.0); }
 
 /// Smallest difference of two directions modulo a full turn [rad], both in (-pi, pi].
 inline float angle_between(float a, float b) {

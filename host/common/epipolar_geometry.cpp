@@ -7,7 +7,6 @@
 namespace quadedge {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr float kSegmentTolerance = 1.0f;  // px beyond either end of the segment, doc/method.md section 3 filter 2
 constexpr float kWholeImage = 1e5f;        // px, longer than any line
 
@@ -36,8 +35,8 @@ EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig
   geometry.max_disparity = static_cast<float>(config.max_disparity);
   geometry.tolerance = kSegmentTolerance;
   geometry.epipolar_distance = static_cast<float>(config.epipolar_distance);
-  geometry.orientation = static_cast<float>(config.orientation * kDegree);
-  geometry.min_epipolar_sine = static_cast<float>(std::sin(config.min_epipolar_angle * kDegree));
+  geometry.orientation = static_cast<float>(config.orientation_rad());
+  geometry.min_epipolar_sine = static_cast<float>(std::sin(config.min_epipolar_angle_rad()));
   return geometry;
 }
 

@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "common/angles.hpp"
 #include "common/layouts.hpp"
 #include "common/point_index.hpp"
 
@@ -112,7 +111,7 @@ void DeviceFrontend::match_side(Side side, DeviceRig& base, const TemporalSearch
                                 stages::DeviceCandidates& candidates) {
   DeviceRig& current = rigs_.current();
   temporal_candidates_.run(predicted_[index_of(side)], search.step, index(side), search.radius,
-                           static_cast<float>(radians(config_.temporal.orientation)), candidates);
+                           static_cast<float>(config_.temporal.orientation_rad()), candidates);
   const FilterLimits limits = temporal_limits(config_.temporal, search);
   if (limits.sift_max > 0) {
     describe_by_sift(base);

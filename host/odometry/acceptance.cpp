@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "common/angles.hpp"
 #include "odometry/prediction.hpp"
 #include "pose/scoring.hpp"
 
@@ -34,7 +33,7 @@ void Acceptance::measure_area(const PlacedEdges& predicted, MotionStep& step) {
   for (std::size_t i = 0; i < predicted.x.size(); ++i)
     if (Cell* cell = cell_of(i)) cell->edges += 1;
   pose::select_inliers(step.quads.scoring, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous),
-                       kExplainedDistance * config_.pose.inlier_distance, radians(config_.pose.inlier_orientation),
+                       kExplainedDistance * config_.pose.inlier_distance, config_.pose.inlier_orientation_rad(),
                        agrees_);
   for (std::size_t q = 0; q < step.quads.size(); ++q) {
     if (!agrees_[q]) continue;
@@ -59,7 +58,7 @@ bool Acceptance::is_seen(const MotionStep& found_anywhere, const MotionQuery& qu
   Eigen::Isometry3d current_from_base = step.motion.current_from_previous;
   if (step.base != query.base) current_from_base = current_from_base * query.base_from_key.inverse();
   pose::select_inliers(found_anywhere.quads.scoring, pose::LaterCameras(offset_.rig(), current_from_base),
-                       config_.temporal.wide_inlier_distance, radians(config_.pose.inlier_orientation), agrees_);
+                       config_.temporal.wide_inlier_distance, config_.pose.inlier_orientation_rad(), agrees_);
   return pose::count_cells(found_anywhere.quads.scoring, agrees_, config_.pose.inflation_cell) >=
          config_.pose.min_inliers;
 }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "common/angles.hpp"
-
 namespace quadedge::odometry {
 
 double median_parallax(const StereoEdges& key, const TemporalMatches& quads, std::vector<double>& distances) {
@@ -25,7 +23,7 @@ bool KeyRig::needs_replacement(const KeyRigFitness& fitness, const OdometryConfi
   if (first_quads_ < 0) first_quads_ = fitness.quads;
   return fitness.quads < config.key_min_quad_ratio * first_quads_ || fitness.quads < config.key_min_quads ||
          fitness.inlier_ratio < config.key_min_inlier_ratio || fitness.median_parallax > config.key_max_parallax ||
-         fitness.rotation > radians(config.key_max_rotation) || fitness.frames >= config.key_max_frames;
+         fitness.rotation > config.key_max_rotation_rad() || fitness.frames >= config.key_max_frames;
 }
 
 }  // namespace quadedge::odometry

@@ -1,8 +1,12 @@
 #include "odometry/step_builder.hpp"
 
-#include "common/angles.hpp"
-
 namespace quadedge::odometry {
+namespace {
+
+/// Smallest inlier ratio of a motion that a part of the edges suggests; the search that follows has to convince.
+constexpr double kCoarseMinInlierRatio = 0.03;
+
+}  // namespace
 
 StepHandle StepBuilder::take(const frontend::RigHandle& base) {
   StepHandle step = steps_.take();
@@ -18,12 +22,12 @@ void StepBuilder::estimate(const MotionQuery& query, const PoseConfig& limits,
 }
 
 const pose::MeasuredEdges& StepBuilder::measured(const frontend::Rig& rig) const {
-  return rig.measured_edges(calibration(), offset_.value(), radians(config_.stereo.min_epipolar_angle));
+  return rig.measured_edges(calibration(), offset_.value(), config_.stereo.min_epipolar_angle_rad());
 }
 
 PoseConfig limits_of_proposals(const Config& config) {
   PoseConfig limits = config.pose;
-  limits.min_inlier_ratio = config.temporal.coarse_min_inlier_ratio;
+  limits.min_inlier_ratio = kCoarseMinInlierRatio;
   limits.min_spread = 0;
   return limits;
 }

@@ -2,15 +2,13 @@
 
 #include <cmath>
 
-#include "common/angles.hpp"
-
 namespace quadedge::pose {
 
 ConstraintLimits::ConstraintLimits(const PoseConfig& config)
     : length(config.length_difference),
       angle(config.angle_difference),
       tangent(config.tangent_difference),
-      max_cosine(std::cos(radians(config.min_angle))),
+      max_cosine(std::cos(config.min_angle_rad())),
       determinant(config.min_determinant) {}
 
 ConstraintCheck check_constraints(const OrientedPair& previous, const OrientedPair& current,

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/angles.hpp"
-
 namespace quadedge::pose {
 
 namespace {
@@ -75,7 +73,7 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
     estimate.inliers = refined.inliers;
   } else {
     estimate.inliers = select_inliers(quads.scoring, LaterCameras(rig, pose), config.inlier_distance,
-                                      radians(config.inlier_orientation), estimate.inlier);
+                                      config.inlier_orientation_rad(), estimate.inlier);
   }
   estimate.inlier_ratio = static_cast<double>(estimate.inliers) / static_cast<double>(quads.size());
   if (estimate.inliers < config.min_inliers || estimate.inlier_ratio < config.min_inlier_ratio) return;

@@ -41,7 +41,7 @@ struct MotionEstimate {
 
 /// Finds the motion: consensus of two-quad samples, then least squares over all its inliers.
 /// With config.refine off the pose is the best of the paper's two-quad samples and their local optimisations over at
-/// most config.preview_quads, whichever costs less over all quads; there is no fit over all inliers and no covariance.
+/// most kPreviewQuads, whichever costs less over all quads; there is no fit over all inliers and no covariance.
 /// \param offset_variance of the disparities' offset [px^2], 0: taken as exact
 /// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to
 /// frame.

@@ -2,12 +2,10 @@
 
 #include <cmath>
 
-#include "common/angles.hpp"
-
 namespace quadedge::pose {
 
 NoiseModel::NoiseModel(const PoseConfig& config)
-    : across(config.sigma_across), along(config.sigma_along), direction(radians(config.sigma_direction)) {}
+    : across(config.sigma_across), along(config.sigma_along), direction(config.sigma_direction_rad()) {}
 
 double NoiseModel::on_epipolar_line(double epipolar_sine) const {
   const double by_across = epipolar_sine / across;

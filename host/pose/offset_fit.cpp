@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "pose/fit_limits.hpp"
+
 namespace quadedge::pose {
 
 bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, double variance,
@@ -12,7 +14,7 @@ bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, 
   const double weight = std::max(covariance.small_cell_inflation, 1.0);
   Eigen::Isometry3d pose = result.current_from_previous;
   double offset = result.offset;
-  for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
+  for (int iteration = 0; iteration < kFitSteps; ++iteration) {
     Normal<7> normal = normal_by_pose_and_offset(terms, pose, offset, {reprojection_scale, config.student_dof});
     normal.matrix /= weight;
     normal.gradient /= weight;
@@ -27,7 +29,7 @@ bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, 
     const Matrix7d inverse = normal.matrix.ldlt().solve(Matrix7d::Identity());
     result.covariance = inverse * spread * inverse;
     result.offset_variance = inverse(6, 6);
-    if (-normal.gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
+    if (-normal.gradient.dot(step) < kFitTolerance * kFitTolerance) break;
   }
   result.covariance = (0.5 * (result.covariance + result.covariance.transpose())).eval();
   result.current_from_previous = pose;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "common/angles.hpp"
 #include "common/row_blocks.hpp"
 
 namespace quadedge::pose {
@@ -26,9 +25,7 @@ StereoObservation observation(const StereoEdges& edges, std::size_t i) {
 }  // namespace
 
 QuadLimits::QuadLimits(const Config& config)
-    : min_epipolar_angle(radians(config.stereo.min_epipolar_angle)),
-      direction_sigma(radians(config.pose.sigma_direction)),
-      slope_prior(config.pose.slope_prior) {}
+    : min_epipolar_angle(config.stereo.min_epipolar_angle_rad()), direction_sigma(config.pose.sigma_direction_rad()) {}
 
 void ScoringArrays::reserve(std::size_t rows) {
   for (auto column : kColumns) (this->*column).reserve(rows);
@@ -60,7 +57,7 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
                            std::int32_t match_number, const QuadLimits& limits) {
   previous[i] = before;
   current[i] = after;
-  const double doubt = before.slope_per_radian * limits.direction_sigma / limits.slope_prior;
+  const double doubt = before.slope_per_radian * limits.direction_sigma / QuadLimits::kSlopePrior;
   const Eigen::Vector3d tangent = (before.direction + before.slope / (1.0 + doubt * doubt) * before.ray).normalized();
   const double values[] = {before.ray.x(),
                            before.ray.y(),

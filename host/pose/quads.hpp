@@ -17,7 +17,8 @@ struct QuadLimits {
   explicit QuadLimits(const Config& config);
   double min_epipolar_angle;  ///< see measure() [rad]
   double direction_sigma;     ///< noise of an edge's direction [rad]
-  double slope_prior;         ///< standard deviation of the depth slopes that scenes have
+  /// Standard deviation of the depth slopes that scenes have: surfaces turn away by 45 degrees, whatever the camera.
+  static constexpr double kSlopePrior = 1.0;
 };
 
 /// What scoring a hypothesis reads, one row per quad, single precision (1e-4 px).
@@ -26,7 +27,7 @@ struct ScoringArrays {
   std::vector<float> inverse_depth;  ///< previous, 1/m
   /// Previous tangent with its most plausible depth slope, previous left camera's frame, unit norm. The slope of a far
   /// edge is noise divided by a small parallax; left as measured it turns the projected tangent at the next parallax
-  /// and costs true quads the orientation test. So here the measured slope is weighed against QuadLimits::slope_prior
+  /// and costs true quads the orientation test. So here the measured slope is weighed against QuadLimits::kSlopePrior
   /// by its own uncertainty.
   std::vector<float> tangent_x, tangent_y, tangent_z;
   std::vector<float> left_x, left_y, left_cos, left_sin;      ///< current left pixel and unit direction in the image

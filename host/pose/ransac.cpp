@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/angles.hpp"
 #include "pose/constraints.hpp"
 #include "pose/random_index.hpp"
 #include "pose/scoring.hpp"
@@ -30,8 +29,7 @@ class Search {
   Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
          ConsensusWorkspace& workspace)
       : quads_(quads), rig_(rig), config_(config), noise_(config), random_(seed), limits_(config), work_(workspace) {
-    const auto scored = static_cast<std::size_t>(config.scoring_quads),
-               preview = static_cast<std::size_t>(config.preview_quads);
+    const auto scored = static_cast<std::size_t>(config.scoring_quads), preview = kPreviewQuads;
     if (config.scoring_cell > 0) {
       balanced_subset(random_, quads.scoring, config.scoring_cell, scored, work_.subset, work_.scored_rows);
     } else {
@@ -115,8 +113,7 @@ class Search {
     for (int round = 0; round < rounds; ++round) {
       const double progress = rounds > 1 ? static_cast<double>(round) / (rounds - 1) : 1.0;
       const double distance = config_.inlier_distance * std::pow(config_.local_optimisation_widening, 1.0 - progress);
-      select_inliers(work_.preview, LaterCameras(rig_, motion), distance, radians(config_.inlier_orientation),
-                     work_.mask);
+      select_inliers(work_.preview, LaterCameras(rig_, motion), distance, config_.inlier_orientation_rad(), work_.mask);
       mask_to_rows(work_.mask, work_.inlier_rows);
       if (!fit_sample(work_.preview_terms, work_.inlier_rows, rig_, config_, motion, work_.fit)) return std::nullopt;
     }
@@ -131,7 +128,7 @@ class Search {
     best_.cost = cost;
     best_.current_from_previous = motion;
     const int inliers =
-        select_inliers(work_.scored, cameras, config_.inlier_distance, radians(config_.inlier_orientation), work_.mask);
+        select_inliers(work_.scored, cameras, config_.inlier_distance, config_.inlier_orientation_rad(), work_.mask);
     const double ratio = static_cast<double>(inliers) / static_cast<double>(work_.scored.size());
     const double miss = std::log1p(-std::min(ratio * ratio, 1.0 - std::numeric_limits<double>::epsilon()));
     const double draws = std::log1p(-config_.confidence) / miss;

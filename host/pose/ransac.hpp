@@ -14,6 +14,9 @@
 
 namespace quadedge::pose {
 
+/// Quads on which all hypotheses are compared: enough to find the promising ones, which pose.scoring_quads then judge.
+constexpr std::size_t kPreviewQuads = 512;
+
 /// The best motion that sampling found.
 struct Consensus {
   bool found = false;  ///< false: no sample passed the constraints and no initial guess was given
@@ -37,7 +40,7 @@ struct ConsensusWorkspace {
 
 /// Samples pairs of quads, best first (see SamplingOrder; the pool grows with the draws as in PROSAC), solves each pair
 /// that passes the six constraints and whose quads lie apart in the image, and scores it on a fixed random subset of
-/// config.preview_quads, as many from each cell of config.scoring_cell px as it has: a motion is judged by the area
+/// kPreviewQuads, as many from each cell of config.scoring_cell px as it has: a motion is judged by the area
 /// whose quads agree with it, not by the edges that this area happens to hold (a moving thing may be covered with most
 /// of them).
 ///

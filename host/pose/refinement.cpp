@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/angles.hpp"
+#include "pose/fit_limits.hpp"
 #include "pose/offset_fit.hpp"
 
 namespace quadedge::pose {
@@ -50,13 +50,13 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
     normal_by_pose(terms, current_from_previous, 0, {1, config.student_dof});
     measure_scale(workspace);
   }
-  for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
+  for (int iteration = 0; iteration < kFitSteps; ++iteration) {
     const Normal<6> normal =
         normal_by_pose(terms, current_from_previous, 0, {workspace.reprojection_scale, config.student_dof});
     Vector6d step;
     if (!solve(normal, step)) return false;
     current_from_previous = perturb(step, current_from_previous);
-    if (-normal.gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
+    if (-normal.gradient.dot(step) < kFitTolerance * kFitTolerance) break;
     measure_scale(workspace);
   }
   return true;
@@ -98,7 +98,7 @@ class Refinement {
 
   int find_inliers() {
     return select_inliers(quads_.scoring, LaterCameras(rig_, result_.current_from_previous), config_.inlier_distance,
-                          radians(config_.inlier_orientation), inlier_);
+                          config_.inlier_orientation_rad(), inlier_);
   }
 
   void select(std::size_t every) {

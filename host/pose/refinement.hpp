@@ -32,7 +32,7 @@ struct Refined {
 
 /// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and Gauss-Newton with Student-t weights over
 /// them, config.refine_rounds times or until the selection hardly changes; of many quads a part settles the selection.
-/// A fit ends after config.fit_steps or with a step below config.fit_tolerance standard deviations of the pose; the
+/// A fit ends after kFitSteps or with a step below kFitTolerance standard deviations of the pose; the
 /// variance of the errors is measured anew in each step, by the median. Then all inliers go into fit_offset() with a
 /// prior of `offset_variance` [px^2], or into one more fit where that is 0.
 ///

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "pose/fit_limits.hpp"
+
 namespace quadedge::pose {
 
 namespace {
@@ -93,7 +95,7 @@ bool fit_sample(const std::vector<SampleTerm>& terms, const std::vector<std::int
   };
   for (std::size_t k = 0; k < rows.size(); ++k) evaluate_row(k);
   measure_scales();
-  for (int iteration = 0; iteration < config.fit_steps; ++iteration) {
+  for (int iteration = 0; iteration < kFitSteps; ++iteration) {
     Normal<6> normal;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (!evaluate_row(k)) continue;
@@ -109,7 +111,7 @@ bool fit_sample(const std::vector<SampleTerm>& terms, const std::vector<std::int
     Vector6d step;
     if (!solve(normal, step)) return false;
     current_from_previous = perturb(step, current_from_previous);
-    if (-normal.gradient.dot(step) < config.fit_tolerance * config.fit_tolerance) break;
+    if (-normal.gradient.dot(step) < kFitTolerance * kFitTolerance) break;
     measure_scales();
   }
   return true;

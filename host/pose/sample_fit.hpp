@@ -28,7 +28,7 @@ struct SampleWorkspace {
 };
 
 /// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces; ends
-/// after config.fit_steps or with a step below config.fit_tolerance standard deviations of the pose. The two blocks of
+/// after kFitSteps or with a step below kFitTolerance standard deviations of the pose. The two blocks of
 /// residuals (reprojection; direction) have their variances measured anew in each step, by the median. Each quad's true
 /// depth and slope are eliminated in closed form, which is the Schur complement of a bundle adjustment of the two rigs.
 /// Directions fix the motion of very few quads, whose positions alone hardly do; refine() goes without them.

@@ -6,13 +6,9 @@
 #include <optional>
 
 #include "common/angles.hpp"
+#include "common/stereo_constants.hpp"
 
 namespace quadedge::reference {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
 
 StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
                                const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config) {
@@ -37,10 +33,9 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
     };
     for (std::size_t from = 0, to = 0; from < members.size(); from = to) {
       to = from + 1;
-      while (to < members.size() && static_cast<int>(to - from) < config.cluster_size_max &&
+      while (to < members.size() && static_cast<int>(to - from) < kClusterSizeMax &&
              positions[members[to]] - positions[members[to - 1]] < config.cluster_gap &&
-             angle_between(direction(members[to]), direction(members[to - 1])) <=
-                 config.cluster_orientation * kPi / 180) {
+             angle_between(direction(members[to]), direction(members[to - 1])) <= config.cluster_orientation_rad()) {
         ++to;
       }
       double highest = rank(members[from]);
@@ -53,7 +48,7 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
       double cosine = 0, sine = 0;
       for (std::size_t k = from; k < to; ++k) {
         const double weight =
-            std::exp(-0.5 * std::pow((positions[members[k]] - positions[*chosen]) / config.cluster_sigma, 2));
+            std::exp(-0.5 * std::pow((positions[members[k]] - positions[*chosen]) / kClusterSigma, 2));
         cosine += weight * std::cos(static_cast<double>(direction(members[k])));
         sine += weight * std::sin(static_cast<double>(direction(members[k])));
       }

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/stereo_constants.hpp"
 #include "reference/patches.hpp"
 
 namespace quadedge::reference {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double distance_from(const EpipolarLine& line, double x, double y) {
   return -(x - line.x) * line.ey + (y - line.y) * line.ex;
@@ -36,13 +35,12 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
                                     CandidateScores& scores) {
   RefinedCandidates refined{std::vector<double>(candidates.target.size(), 0.0),
                             std::vector<double>(candidates.target.size(), 0.0)};
-  const RefinementSettings settings{config.refine_steps, config.refine_tolerance, config.refine_huber,
-                                    config.refine_clamp};
+  const RefinementSettings settings{config.refine_steps, config.refine_tolerance, kRefinementHuber, kRefinementClamp};
   for (std::size_t i = 0; i < left.size(); ++i) {
     const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
     const double cosine = std::cos(left.direction[i]), sine = std::sin(left.direction[i]);
     const double line_sine = left_epipolar_sine(geometry, left.x[i], left.y[i], left.direction[i]);
-    const double stiffness = std::pow(config.refine_noise_sigma / config.refine_prior_sigma * line_sine, 2);
+    const double stiffness = std::pow(kRefinementNoise / config.refine_prior_sigma * line_sine, 2);
     const PatchFrame left_frame = patch_frame(left.x[i], left.y[i], cosine, sine, 0, 0);
     const auto begin = static_cast<std::size_t>(candidates.first[i]),
                end = static_cast<std::size_t>(candidates.first[i + 1]);
@@ -50,7 +48,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       if (scores.state[c] != kCandidateAlive) continue;
       const auto j = static_cast<std::size_t>(candidates.target[c]);
       refined.position[c] = epipolar_shift(line, right.x[j], right.y[j], right.direction[j],
-                                           config.shift_min_angle * kPi / 180, config.shift_max);
+                                           config.shift_min_angle_rad(), config.shift_max);
       for (std::size_t k = begin; k < c; ++k) {
         if (scores.state[k] != kCandidateAlive || std::abs(refined.position[k] - refined.position[c]) >= kSamePosition)
           continue;

@@ -9,8 +9,6 @@
 namespace quadedge::reference {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
 int alive_rows(const TemporalMatchLists& lists) {
   int rows = 0;
   for (std::size_t row = 0; row + 1 < lists.candidates.first.size(); ++row) {
@@ -28,7 +26,7 @@ TemporalMatchLists match_side(const PlacedEdges& predicted, const PlacedEdges& c
   make_point_index(current.x, current.y, side.width, side.height, index);
   TemporalMatchLists lists;
   lists.candidates = temporal_candidates(predicted, current, index, search.radius,
-                                         static_cast<float>(config.orientation * kDegree), search.step);
+                                         static_cast<float>(config.orientation_rad()), search.step);
   lists.scores =
       candidate_filters(lists.candidates, side.base, side.current, temporal_limits(config, search), search.step);
   lists.alive_rows = alive_rows(lists);

@@ -8,8 +8,6 @@
 namespace quadedge::reference {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Number of groups that chain up by place and direction: single linkage, flooding from every member without a group.
 int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& edges, const TemporalConfig& config) {
   std::vector<bool> reached(members.size(), false);
@@ -27,7 +25,7 @@ int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& e
         if (reached[m] ||
             std::hypot(edges.left_x[a] - edges.left_x[b], edges.left_y[a] - edges.left_y[b]) >= config.cluster_gap)
           continue;
-        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > config.cluster_orientation * kPi / 180)
+        if (angle_between(edges.left_direction[a], edges.left_direction[b]) > config.cluster_orientation_rad())
           continue;
         reached[m] = true;
         open.push_back(b);

@@ -1,56 +1,87 @@
 #include "report/config_toml.hpp"
 
-#include <cstdio>
-#include <cstdlib>
-#include <variant>
+#include <algorithm>
+
+#include "common/nearest_word.hpp"
+#include "data/atomic_file.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge::report {
 namespace {
 
-/// Shortest decimal text that reads back as the same number.
-std::string format(double value) {
-  char text[40];
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
-  }
-  return text;
+/// "key = value  # help"; the key without its section.
+std::string line_of(const Constant& constant, Config& config) {
+  const std::string value =
+      std::visit([](const auto* field) { return data::toml_text(*field); }, constant.field(config));
+  return constant.name + " = " + value + "  # " + constant.help +
+         (constant.unit.empty() ? "" : " [" + constant.unit + "]") + "\n";
 }
-std::string format(int value) { return std::to_string(value); }
-std::string format(std::uint64_t value) { return std::to_string(value); }
-std::string format(bool value) { return value ? "true" : "false"; }
-std::string format(const std::string& value) { return "\"" + value + "\""; }
 
 }  // namespace
 
 std::string config_toml(const Config& config, const std::string& device) {
-  std::string top =
-      "# Effective configuration; `quadedge run PATH --config FILE` reads it again.\ndevice = " + format(device) + "\n";
+  std::string top = "# Effective configuration; `quadedge run PATH --config FILE` reads it again.\n";
+  if (!device.empty()) top += "device = " + data::toml_text(device) + "\n";
   std::string sections, section;
-  Config copy = config;  // visit_config hands out pointers that may write
-  visit_config(copy, [&](const std::string& name, ConfigField field, const std::string& help, double, double) {
-    const std::string value = std::visit([](const auto* pointer) { return format(*pointer); }, field);
-    const auto dot = name.find('.');
-    if (dot == std::string::npos) {
-      top += name + " = " + value + "  # " + help + "\n";
-      return;
-    }
-    if (name.substr(0, dot) != section) {
-      section = name.substr(0, dot);
-      sections += "\n[" + section + "]\n";
-    }
-    sections += name.substr(dot + 1) + " = " + value + "  # " + help + "\n";
-  });
-  if (!config.variants.empty()) {
-    top += "variant = [";
-    const char* separator = "";
-    for (const auto& [stage, variant] : config.variants) {
-      top += separator + format(stage + "=" + variant);
-      separator = ", ";
-    }
-    top += "]\n";
+  Config copy = config;  // a constant's field can be written, too
+  for (const Constant& constant : constants()) {
+    if (constant.section != section) sections += "\n[" + constant.section + "]\n";
+    section = constant.section;
+    (section.empty() ? top : sections) += line_of(constant, copy);
   }
+  std::vector<std::string> variants;
+  for (const auto& [stage, variant] : config.variants) variants.push_back(stage + "=" + variant);
+  if (!variants.empty()) top += "variant = " + data::toml_text(variants) + "\n";
   return top + sections;
 }
 
+void set_constant(const data::TomlEntry& entry, const Constant& constant, Config& config) {
+  Config tried = config;
+  std::visit([&](auto* field) { data::assign(entry, *field); }, constant.field(tried));
+  try {
+    constant.check(tried);
+  } catch (const UsageError&) {
+    data::refuse(entry, constant.allowed());
+  }
+  config = tried;
+}
+
+void add_variant(const std::string& choice, Config& config) {
+  const auto equals = choice.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError("variant " + choice + ": expected STAGE=NAME as `quadedge variants` lists them");
+  }
+  config.variants[choice.substr(0, equals)] = choice.substr(equals + 1);
+}
+
 }  // namespace quadedge::report
+
+namespace quadedge {
+
+Config read_config(const std::string& file) {
+  Config config;
+  const auto& all = constants();
+  for (const auto& entry : data::read_toml(file)) {
+    const auto named = [&](const Constant& constant) { return constant.key() == entry.key; };
+    const auto constant = std::find_if(all.begin(), all.end(), named);
+    if (constant != all.end()) {
+      report::set_constant(entry, *constant, config);
+    } else if (entry.key == "variant") {
+      std::vector<std::string> choices;
+      data::assign(entry, choices);
+      for (const auto& choice : choices) report::add_variant(choice, config);
+    } else if (entry.key != "device") {
+      std::vector<std::string> keys{"variant", "device"};
+      for (const auto& known : all) keys.push_back(known.key());
+      data::refuse_key(entry, keys);
+    }
+  }
+  return config;
+}
+
+void write_config(const std::string& file, const Config& config) {
+  check_config(config);
+  data::write_atomically(file, report::config_toml(config, ""));
+}
+
+}  // namespace quadedge

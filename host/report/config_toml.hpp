@@ -1,13 +1,20 @@
 #pragma once
-/// \file config_toml.hpp  The effective configuration as a file that `--config` reads again.
+/// \file config_toml.hpp  The parts of quadedge/config_file.hpp that the command line shares.
 
 #include <string>
 
-#include "quadedge/config.hpp"
+#include "data/toml_file.hpp"
+#include "quadedge/config_file.hpp"
 
 namespace quadedge::report {
 
-/// Text of config.toml: device, seed, variants, and every field with its help as a comment.
+/// Text of config.toml: device, seed, variants, and every constant with its help as a comment.
 std::string config_toml(const Config& config, const std::string& device);
+
+/// Sets one constant to an entry's value. \throws UsageError for a wrong type or a value out of the range.
+void set_constant(const data::TomlEntry& entry, const Constant& constant, Config& config);
+
+/// Adds "STAGE=NAME" to the variants. \throws UsageError for a text of another form.
+void add_variant(const std::string& choice, Config& config);
 
 }  // namespace quadedge::report

@@ -25,11 +25,10 @@ Json stages(const std::vector<std::vector<StageTime>>& frames) {
 
 Json configuration(Config config) {
   Json object = Json::object();
-  visit_config(config, [&](const std::string& name, ConfigField field, const std::string&, double, double) {
-    const auto dot = name.find('.');
-    Json& target = dot == std::string::npos ? object[name] : object[name.substr(0, dot)][name.substr(dot + 1)];
-    std::visit([&](const auto* value) { target = *value; }, field);
-  });
+  for (const Constant& constant : constants()) {
+    Json& target = constant.section.empty() ? object[constant.name] : object[constant.section][constant.name];
+    std::visit([&](const auto* value) { target = *value; }, constant.field(config));
+  }
   return object;
 }
 

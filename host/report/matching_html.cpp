@@ -19,25 +19,13 @@ constexpr std::size_t kPictureBytes = 3'100'000;  // of all pictures together, b
 constexpr std::size_t kMostDrawn = 8;             // pairs or sequences
 
 /// "stereo.ncc_min = 0.7" for every constant that is not the default.
-std::string changed_constants(Config config) {
-  Config defaults;
+std::string changed_constants(const Config& config) {
+  const Config defaults;
   std::string text;
-  std::vector<std::string> values;
-  const auto print = [](ConfigField field) {
-    if (auto** real = std::get_if<double*>(&field)) return axis_text(**real);
-    if (auto** whole = std::get_if<int*>(&field)) return std::to_string(**whole);
-    if (auto** seed = std::get_if<std::uint64_t*>(&field)) return std::to_string(**seed);
-    if (auto** truth = std::get_if<bool*>(&field)) return std::string(**truth ? "true" : "false");
-    return *std::get<std::string*>(field);
-  };
-  visit_config(defaults, [&](const std::string&, ConfigField field, const std::string&, double, double) {
-    values.push_back(print(field));
-  });
-  std::size_t k = 0;
-  visit_config(config, [&](const std::string& name, ConfigField field, const std::string&, double, double) {
-    const std::string value = print(field);
-    if (value != values[k++]) text += (text.empty() ? "" : ", ") + name + " = " + value;
-  });
+  for (const Constant& constant : constants()) {
+    const std::string value = constant.text(config);
+    if (value != constant.text(defaults)) text += (text.empty() ? "" : ", ") + constant.key() + " = " + value;
+  }
   return text.empty() ? "all at their defaults" : text;
 }
 

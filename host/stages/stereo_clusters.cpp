@@ -2,15 +2,10 @@
 
 #include <limits>
 
+#include "common/stereo_constants.hpp"
 #include "opencl/variants.hpp"
 
 namespace quadedge::stages {
-namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-}  // namespace
-
 StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& config,
                                const std::map<std::string, std::string>& variants)
     : context_(context), config_(config), scan_(context, variants) {
@@ -49,9 +44,9 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, Patc
   arguments.right = right.positions().at;
   arguments.capacity = candidates.capacity;
   arguments.cluster_gap = static_cast<float>(config_.cluster_gap);
-  arguments.cluster_orientation = static_cast<float>(config_.cluster_orientation * kDegree);
-  arguments.cluster_size_max = config_.cluster_size_max;
-  arguments.cluster_sigma = static_cast<float>(config_.cluster_sigma);
+  arguments.cluster_orientation = static_cast<float>(config_.cluster_orientation_rad());
+  arguments.cluster_size_max = kClusterSizeMax;
+  arguments.cluster_sigma = static_cast<float>(kClusterSigma);
   arguments.similarity_min = static_cast<float>(config_.refined_ncc_min);
   arguments.mutual_radius = static_cast<float>(config_.mutual_radius);
   arguments.geometry = geometry;

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "common/stereo_constants.hpp"
 #include "opencl/variants.hpp"
 
 namespace quadedge::stages {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr std::size_t kLanes = 8;  ///< work-items per edge; twin: LANES in kernels/photometric_lanes.cl
 
 }  // namespace
@@ -43,11 +43,11 @@ void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& r
   arguments.right_width = right_image.width();
   arguments.right_height = right_image.height();
   arguments.patch_offset = patch_offset_;
-  arguments.shift_min_sine = static_cast<float>(std::sin(config_.shift_min_angle * kDegree));
+  arguments.shift_min_sine = static_cast<float>(std::sin(config_.shift_min_angle_rad()));
   arguments.shift_max = static_cast<float>(config_.shift_max);
-  arguments.stiffness = static_cast<float>(std::pow(config_.refine_noise_sigma / config_.refine_prior_sigma, 2));
+  arguments.stiffness = static_cast<float>(std::pow(kRefinementNoise / config_.refine_prior_sigma, 2));
   arguments.alignment = {config_.refine_steps, static_cast<float>(config_.refine_tolerance),
-                         static_cast<float>(config_.refine_huber), static_cast<float>(config_.refine_clamp)};
+                         static_cast<float>(kRefinementHuber), static_cast<float>(kRefinementClamp)};
   arguments.similarity_min = static_cast<float>(config_.refined_ncc_min);
   arguments.rejected_order = order_of(StereoFilter::refinement);
   arguments.geometry = geometry;

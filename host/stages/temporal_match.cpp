@@ -9,7 +9,6 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // As in kernels/temporal_match.cl.
 constexpr std::size_t kRowInts = 4, kSeenInts = 4;
 constexpr cl_int kLeftAlive = 1, kRightAlive = 2, kOverflow = 4;
@@ -85,9 +84,9 @@ std::optional<AliveRows> TemporalMatch::run(const DevicePlaces& left_predicted, 
            left.cell_first, left.columns, left.rows, right.x, right.y, right.direction, right.number, right.cell_first,
            right.columns, right.rows, base.left_patches, base.left_index, base.right_patches, current.left_patches,
            current.left_index, current.right_patches, itself, current.packed, current.stride, search.radius,
-           static_cast<float>(config_.orientation * kDegree), limits.ncc_min, limits.ncc_nearly_best,
+           static_cast<float>(config_.orientation_rad()), limits.ncc_min, limits.ncc_nearly_best,
            static_cast<float>(config_.distance_weight) / (search.radius * search.radius),
-           static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree), result_,
+           static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation_rad()), result_,
            of_tap...);
   };
   if (tapped == nullptr) {

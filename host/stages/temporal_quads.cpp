@@ -4,12 +4,6 @@
 #include "quadedge/filters.hpp"
 
 namespace quadedge::stages {
-namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-}  // namespace
-
 TemporalQuads::TemporalQuads(opencl::Context& context, const TemporalConfig& config,
                              const std::map<std::string, std::string>& variants)
     : context_(context), config_(config) {
@@ -39,8 +33,8 @@ TemporalMatches TemporalQuads::collect(const DeviceStereoEdges& current, const S
   best_kernel_({rows, local_size_}, left.first, left.target, left.capacity, left.rows, search.step, current.packed,
                current.stride, left.state, score_, predicted.x, predicted.y,
                static_cast<float>(config_.distance_weight) / (search.radius * search.radius),
-               static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation * kDegree),
-               label_, best_, rivals_, best_score_);
+               static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation_rad()), label_,
+               best_, rivals_, best_score_);
   const auto best = best_.read(rows);
   const auto rivals = rivals_.read(rows);
   const auto scores = best_score_.read(rows);

@@ -1,0 +1,36 @@
+#pragma once
+/// \file described_command.hpp  A command and its options as data, for the manual page and the shell completion.
+
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace quadedge::cli {
+
+/// One option or positional argument.
+struct DescribedOption {
+  std::vector<std::string> names;  ///< "-o", "--output"; of a positional argument its name in capitals
+  std::string placeholder;         ///< "FILE"; empty for a flag
+  std::string help;
+  std::string default_text;          ///< empty: none worth telling
+  std::string heading;               ///< of the group that it stands in
+  std::string environment;           ///< variable that is read where the option is not given
+  std::vector<std::string> choices;  ///< the words allowed, if only some are
+  bool positional = false;
+  bool required = false;
+  bool repeated = false;
+  bool is_constant = false;  ///< a constant of the method, shared by all computing commands
+};
+
+struct DescribedCommand {
+  std::string name;  ///< "evaluate trajectory"
+  std::string about;
+  std::string examples;
+  std::vector<DescribedOption> options;
+};
+
+/// Declares the command's options anew and lists them.
+DescribedCommand describe(Command& command);
+
+}  // namespace quadedge::cli

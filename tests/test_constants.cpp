@@ -1,0 +1,97 @@
+/// \file test_constants.cpp  The declarations of quadedge/constants.inc and what is made from them.
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "program.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/error.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const Constant& constant_named(const std::string& key) {
+  for (const auto& constant : constants()) {
+    if (constant.key() == key) return constant;
+  }
+  throw std::runtime_error("no constant " + key);
+}
+
+}  // namespace
+
+TEST_CASE("constants: each is a field of its own, allowed by default, in a known section", "[config]") {
+  Config config;
+  CHECK_NOTHROW(check_config(config));
+  std::set<std::string> keys, sections;
+  std::set<const void*> fields;
+  for (const auto& section : constant_sections()) sections.insert(section.name);
+  for (const auto& constant : constants()) {
+    INFO(constant.key());
+    CHECK(keys.insert(constant.key()).second);
+    CHECK(fields.insert(std::visit([](auto* field) -> const void* { return field; }, constant.field(config))).second);
+    CHECK((constant.section.empty() || sections.count(constant.section) == 1));
+    CHECK(!constant.help.empty());
+  }
+  CHECK(constant_named("stereo.ncc_min").field(config) == ConfigField(&config.stereo.ncc_min));
+  CHECK(constant_named("seed").field(config) == ConfigField(&config.seed));
+}
+
+TEST_CASE("constants: a value beyond either end of its range is refused, the ends are not", "[config]") {
+  Config config;
+  const auto fails = [&] {
+    try {
+      check_config(config);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const double value : {0.01, 1.0}) {
+    config.stereo.ncc_min = value;
+    CHECK(fails() == "");
+  }
+  for (const double value : {0.009, 1.001, std::nan(""), HUGE_VAL}) {
+    config.stereo.ncc_min = value;
+    CHECK_THAT(fails(), Contains("stereo.ncc_min is ") && Contains("0.01 to 1"));
+  }
+  config = {};
+  config.edges.direction_at = "nowhere";
+  CHECK_THAT(fails(), Contains("edges.direction_at is nowhere") && Contains("subpixel, cell"));
+  config = {};
+  config.pose.min_inliers = 1;
+  CHECK_THAT(fails(), Contains("pose.min_inliers is 1; allowed: at least 2"));
+  config = {};
+  config.seed = std::uint64_t{1} << 53;
+  CHECK(fails() == "");
+  ++config.seed;
+  CHECK_THAT(fails(), Contains("seed is 9007199254740993; allowed: 0 to 9007199254740992"));
+}
+
+TEST_CASE("constants: angles are degrees, and radians where they are asked for", "[config]") {
+  Config config;
+  config.temporal.orientation = 180;
+  CHECK(config.temporal.orientation_rad() == Approx(std::acos(-1.0)));
+  CHECK(constant_named("temporal.orientation").unit == "deg");
+}
+
+TEST_CASE("constants: basic ones are in the short help, all are in the full one, under their section", "[cli]") {
+  const std::string brief = run_program({"run", "--help"}).out, full = run_program({"run", "--help-all"}).out;
+  for (const auto& constant : constants()) {
+    INFO(constant.key());
+    const std::string option = "--" + constant.key() + " ";
+    CHECK((brief.find(option) != std::string::npos) == constant.basic);
+    CHECK(full.find(option) != std::string::npos);
+  }
+  const auto heading = full.find("\nStereo cascade (doc/method.md section 3):");
+  REQUIRE(heading != std::string::npos);
+  CHECK(full.find("--stereo.cluster_gap") > heading);
+  CHECK(full.find("--stereo.cluster_gap") < full.find("\nTemporal cascade"));
+}
+
+TEST_CASE("constants: doc/configuration.md is what the program prints", "[cli]") {
+  const auto printed = run_program({"generate", "configuration"});
+  CHECK(printed.code == 0);
+  CHECK_THAT(printed.out, Contains("| `stereo.epipolar_distance` | 0.5 | px | 0 to 20 |"));
+  CHECK(read_text(QUADEDGE_KERNELS "/../doc/configuration.md") == printed.out);
+}

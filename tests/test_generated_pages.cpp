@@ -1,0 +1,59 @@
+/// \file test_generated_pages.cpp  `quadedge generate`: manual page and shell completion.
+#include <catch2/catch.hpp>
+
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// What a shell command prints, both streams. A tool that is missing is a failure.
+std::string shell(const std::string& command) {
+  const TemporaryFolder folder;
+  const int status = std::system(("(" + command + ") >'" + (folder / "out") + "' 2>&1").c_str());
+  const std::string out = read_text(folder / "out");
+  INFO(command << "\n" << out);
+  REQUIRE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+  return out;
+}
+
+/// Words that bash offers for the line "quadedge WORDS...", of which the last is being typed.
+std::string completions(const std::string& script, const std::vector<std::string>& words) {
+  std::string line = "COMP_WORDS=(quadedge";
+  for (const auto& word : words) line += " '" + word + "'";
+  line += "); COMP_CWORD=" + std::to_string(words.size());
+  return shell("bash -uc 'source \"" + script + "\"; " + "eval \"$0\"; _quadedge; echo \"${COMPREPLY[@]}\"' \"" + line +
+               "\"");
+}
+
+}  // namespace
+
+TEST_CASE("generate man: troff accepts it without a warning, and it tells commands, options and constants", "[cli]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "quadedge.1") << run_program({"generate", "man"}).out;
+  CHECK(shell("groff -man -ww -z -Tutf8 '" + (folder / "quadedge.1") + "'") == "");
+  const std::string page = shell("groff -man -Tascii -P-cbou '" + (folder / "quadedge.1") + "'");
+  CHECK_THAT(page, Contains("quadedge evaluate trajectory") && Contains("--stereo.ncc_min") && Contains("EXIT STATUS"));
+  CHECK_THAT(page, Contains("QUADEDGE_DEVICE") && Contains("quadedge generate man | man -l -"));
+}
+
+TEST_CASE("generate bash: completes commands, options, their words and constants", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string script = folder / "quadedge";
+  std::ofstream(script) << run_program({"generate", "bash"}).out;
+  CHECK(completions(script, {"ru"}) == "run\n");
+  CHECK(completions(script, {"--v"}) == "--version\n");
+  CHECK(completions(script, {"evaluate", "tr"}) == "trajectory\n");
+  CHECK(completions(script, {"evaluate", "trajectory", "--from"}) == "--from-frame\n");
+  CHECK(completions(script, {"run", "x", "--form"}) == "--format\n");
+  CHECK(completions(script, {"run", "x", "--format", "eur"}) == "euroc\n");
+  CHECK(completions(script, {"run", "--stereo.ncc_n"}) == "--stereo.ncc_nearly_best\n");
+  CHECK(completions(script, {"demo", "--odometry.key_rig", "t"}) == "true\n");
+  CHECK(completions(script, {"run", "x", "--output", "res"}) == "\n");  // a file: bash's own business
+}
+
+TEST_CASE("generate: something else is refused", "[cli]") {
+  const auto unknown = run_program({"generate", "cake"});
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Contains("cake") && Contains("man, bash or configuration"));
+}
