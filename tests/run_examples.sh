@@ -7,7 +7,8 @@ prefix="$build/prefix" work="$build/examples"
 rm -rf "$prefix" "$work"
 cmake --install "$build" --prefix "$prefix" >/dev/null
 documents=share/doc/quadedge
-for file in bin/quadedge include/quadedge/odometry.hpp share/quadedge/paper.toml "$documents"/{README,CHANGELOG}.md \
+for file in bin/quadedge include/quadedge/odometry.hpp share/quadedge/paper.toml share/man/man1/quadedge.1 \
+  share/bash-completion/completions/quadedge include/quadedge/constants.inc "$documents"/{README,CHANGELOG}.md \
   "$documents"/{LICENSE,examples/CMakeLists.txt} "$documents"/doc/{accuracy,design,matching,method}.md; do
   [ -f "$prefix/$file" ] || { echo "not installed: $file" >&2; exit 1; }
 done

@@ -44,6 +44,8 @@ TEST_CASE("command line: misuse ends with code 2 and names what is wrong", "[cli
     CHECK(result.code == 2);
     CHECK_THAT(result.err, Contains("seed"));
   }
+  CHECK_THAT(run_program({"edges", "x.png", "--edges.sigma", ""}).err,
+             Contains("edges.sigma") && Contains("no number"));
   const auto range = run_program({"edges", "x.png", "--stereo.ncc_min", "1.5"});
   CHECK(range.code == 2);
   CHECK_THAT(range.err, Contains("stereo.ncc_min") && Contains("1.5") && Contains("0.01 to 1"));

@@ -95,7 +95,7 @@ TEST_CASE("config file: an error names file, line, key, what was expected and wh
   CHECK(refusal("[edges]\nsigma = [2]\n") == "FILE:2: edges.sigma: expected a number, found an array");
   CHECK(refusal("[stereo]\nncc_mni = 0.5\n") ==
         "FILE:2: unknown key \"stereo.ncc_mni\"; did you mean 'stereo.ncc_min'?");
-  CHECK(refusal("variant = [\"scan\"]\n").find("STAGE=NAME") != std::string::npos);
+  CHECK_THAT(refusal("\nvariant = [\"scan\"]\n"), Contains("FILE:2: variant: expected texts of the form STAGE=NAME"));
   CHECK(refusal("\"edges.sigma\" = 2\n[edges]\nsigma = 3\n") == "FILE:3: 'edges.sigma' is given twice");
   // What TOML itself forbids.
   CHECK_THAT(refusal("seed = 1\nseed = 2\n"), Contains("FILE:2: ") && Contains("'seed'"));

@@ -15,8 +15,8 @@ quadedge \- stereo visual odometry from quadruplets of third-order edges
 .RI [ ARGUMENTS ]
 .RI [ OPTIONS ]
 .SH DESCRIPTION
-Stereo images in, camera trajectory out: third-order edges are matched between left and right and between two times, on any
-OpenCL device, GPU or CPU. Every command has
+Stereo images in, camera trajectory out: third-order edges are matched between left and right and between two times,
+on any OpenCL device, GPU or CPU. Every command has
 .B \-\-help
 with examples;
 .B \-\-help\-all

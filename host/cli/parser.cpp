@@ -16,12 +16,16 @@
 namespace quadedge::cli {
 namespace {
 
-/// Refuses "010" and "0x10", which CLI11 reads as octal and hexadecimal.
+/// Refuses an empty text, which CLI11 reads as 0.
+const CLI::Validator kNumber(
+    [](const std::string& text) -> std::string { return text.empty() ? "'' is no number" : ""; }, "");
+
+/// Refuses "010" and "0x10" as well, which CLI11 reads as octal and hexadecimal.
 const CLI::Validator kDecimal(
     [](const std::string& text) -> std::string {
       const std::size_t digits = text.find_first_not_of("+-");
       const bool other_base = digits != std::string::npos && text[digits] == '0' && digits + 1 < text.size();
-      return other_base ? text + " is no whole number in decimal digits" : "";
+      return digits == std::string::npos || other_base ? "'" + text + "' is no whole number in decimal digits" : "";
     },
     "");
 
@@ -41,7 +45,9 @@ class ParserOptions : public Options {
             const std::string& placeholder) override {
     add(names, value, help)->type_name(placeholder);
   }
-  void number(const std::string& names, double& value, const std::string& help) override { add(names, value, help); }
+  void number(const std::string& names, double& value, const std::string& help) override {
+    add(names, value, help)->check(kNumber);
+  }
   void number(const std::string& names, int& value, const std::string& help) override {
     add(names, value, help)->check(kDecimal);
   }
@@ -71,7 +77,7 @@ class ParserOptions : public Options {
     const ConfigField field = constant.field(config);
     const std::string range = constant.allowed() + (constant.unit.empty() ? "" : " " + constant.unit);
     const std::string help = constant.help + " (" + range + ")";
-    if (auto* const* real = std::get_if<double*>(&field)) add(names, **real, help);
+    if (auto* const* real = std::get_if<double*>(&field)) add(names, **real, help)->check(kNumber);
     if (auto* const* whole = std::get_if<int*>(&field)) add(names, **whole, help)->check(kDecimal);
     if (auto* const* natural = std::get_if<std::uint64_t*>(&field)) add(names, **natural, help)->check(kDecimal);
     if (auto* const* truth = std::get_if<bool*>(&field)) add(names, **truth, constant.help)->type_name("true|false");

@@ -90,7 +90,7 @@ void Constant::check(const Config& config) const {
   bool fine = true;
   if (const auto* real = std::get_if<double*>(&value)) fine = within(**real);
   if (const auto* whole = std::get_if<int*>(&value)) fine = within(**whole);
-  if (const auto* natural = std::get_if<std::uint64_t*>(&value)) fine = within(static_cast<double>(**natural));
+  if (const auto* natural = std::get_if<std::uint64_t*>(&value)) fine = **natural <= static_cast<std::uint64_t>(high);
   if (const auto* word = std::get_if<std::string*>(&value)) {
     fine = std::find(choices.begin(), choices.end(), **word) != choices.end();
   }

@@ -69,7 +69,11 @@ Config read_config(const std::string& file) {
     } else if (entry.key == "variant") {
       std::vector<std::string> choices;
       data::assign(entry, choices);
-      for (const auto& choice : choices) report::add_variant(choice, config);
+      try {
+        for (const auto& choice : choices) report::add_variant(choice, config);
+      } catch (const UsageError&) {
+        data::refuse(entry, "texts of the form STAGE=NAME");
+      }
     } else if (entry.key != "device") {
       std::vector<std::string> keys{"variant", "device"};
       for (const auto& known : all) keys.push_back(known.key());
