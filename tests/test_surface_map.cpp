@@ -137,11 +137,11 @@ TEST_CASE("A point of known depth is found again after a known motion", "[matchi
   const std::vector<float> x = {59.5F, 36.5F}, y = {49.5F, 39.5F}, direction = {1.5F, 1.5F};
   // Offsets from the principal point: X = 10 px * 2 m / 200 px = 0.1 m, minus 0.1 m; Y = 0.1 m; then the right camera
   // 0.1 m further.
-  const auto left = true_later_positions(rig, before, now, false, {x, y, direction});
+  const auto left = true_later_positions(rig, before, now, Side::left, {x, y, direction});
   CHECK(left.x[0] == Approx(49.5));
   CHECK(left.y[0] == Approx(39.5 + 200 * 0.1 / 1.6));
   CHECK(left.state[0] == Visibility::visible);
-  const auto right = true_later_positions(rig, before, now, true, {x, y, direction});
+  const auto right = true_later_positions(rig, before, now, Side::right, {x, y, direction});
   CHECK(right.x[0] == Approx(49.5 - 200 * 0.1 / 1.6));
   // X = -13 px * 2 m / 200 px - 0.1 m = -0.23 m: column 49.5 - 28.75 = 20.75 in the left view, 8.25 behind the obstacle
   // in the right.
