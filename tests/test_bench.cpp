@@ -56,7 +56,7 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
                               "/device/driver",
                               "/device/platform",
                               "/device/opencl",
-                              "/variants/edges",
+                              "/variants/edge_detection",
                               "/input/width",
                               "/frames_measured",
                               "/frames_tracked",
@@ -160,7 +160,7 @@ TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise b
   changed["variants"]["edge_detection"] = "another";
   const auto noted = compare_with(changed);
   CHECK(noted.code == 0);
-  CHECK_THAT(noted.out, Contains("variants/edges") && Contains("another"));
+  CHECK_THAT(noted.out, Contains("variants/edge_detection") && Contains("another"));
 }
 
 TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][bench][device]") {

@@ -83,9 +83,9 @@ TEST_CASE("run: the report has every documented key", "[cli][device]") {
         CHECK(report["accuracy"][alignment][error][number].is_number());
     }
   }
-  const auto& honesty = report["accuracy"]["normalised_error_squared"];
-  CHECK(honesty["poses"] == 3);
-  for (const char* part : {"pose", "rotation", "translation"}) CHECK(honesty[part].get<double>() > 0);
+  const auto& nees = report["accuracy"]["normalised_error_squared"];
+  CHECK(nees["poses"] == 3);
+  for (const char* part : {"pose", "rotation", "translation"}) CHECK(nees[part].get<double>() > 0);
   CHECK(report["stages_ms"].size() > 2);
 }
 

@@ -49,9 +49,9 @@ Matrix6d covariance() {
 
 }  // namespace
 
-TEST_CASE("consistency: honest covariances give 1, those of half the size 4", "[evaluation]") {
-  const Run honest(2000, covariance(), covariance());
-  const auto one = evaluation::judge_covariances(honest.results, honest.truth);
+TEST_CASE("consistency: consistent covariances give 1, those of half the size 4", "[evaluation]") {
+  const Run consistent(2000, covariance(), covariance());
+  const auto one = evaluation::judge_covariances(consistent.results, consistent.truth);
   CHECK(one.poses == 1999);
   CHECK(one.pose == Approx(1).margin(0.05));  // standard deviation of the mean: 0.013
   CHECK(one.rotation == Approx(1).margin(0.08));

@@ -23,7 +23,7 @@ TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig
 FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,
                             const FramePrefetcher::Frame& second, const Config& config);
 
-/// Every byte of places, directions, indices and likenesses.
+/// Every byte of positions, directions, indices and similarities.
 bool same_bytes(const FrontendOutput& a, const FrontendOutput& b);
 
 /// Shares of the stereo edges and of the quads that the other side holds too, within 0.02 px; the smaller one of both

@@ -18,7 +18,7 @@ std::vector<float> temporal_agreement(const Candidates& left_candidates, Candida
 /// counts further groups of candidates that do not chain up with the winner's (doc/method.md section 4, filter 8).
 ///
 /// The paper's photometric refinement in time is left out: positions detected in both rigs are better than refined
-/// ones, and in a search that a scouted motion guides it rejected nothing but true quads (rendered room: 70.7 % recall
+/// ones, and in a search that a coarse motion guides it rejected nothing but true quads (rendered room: 70.7 % recall
 /// at 98.2 % precision without it, 67.9 % at 98.2 % with it).
 TemporalMatches temporal_best(const Candidates& candidates, const CandidateScores& scores,
                               const std::vector<float>& agreement, const StereoEdges& current,
