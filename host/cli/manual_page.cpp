@@ -48,8 +48,8 @@ folder of the kernel variants that
 .B quadedge compare \-\-save
 keeps (~/.config)
 .SH EXIT STATUS
-0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build, 5 finished but tracked too few frames, 6
-regression found by
+0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build,
+5 finished but tracked too few frames, 6 regression found by
 .B quadedge bench \-\-compare
 )";
 
