@@ -210,8 +210,8 @@ class Split {
       append(details.stereo, static_cast<std::size_t>(details.quads.current[q]), quads.now);
     }
     quads.before_right = true_right_positions(source_.rig(), before, left_places(quads.before));
-    quads.now_left = true_later_positions(source_.rig(), before, now, false, left_places(quads.before));
-    quads.now_right = true_later_positions(source_.rig(), before, now, true, left_places(quads.before));
+    quads.now_left = true_later_positions(source_.rig(), before, now, Side::left, left_places(quads.before));
+    quads.now_right = true_later_positions(source_.rig(), before, now, Side::right, left_places(quads.before));
     quads.now_own_right = true_right_positions(source_.rig(), now, left_places(quads.now));
     return quads;
   }
