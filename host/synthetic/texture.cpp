@@ -212,9 +212,9 @@ void Texture::add_leaves(Tile& tile, double left, double top, int level) const {
 }
 
 void Texture::add_noise(Tile& tile, double left, double top) const {
-  constexpr int octaves = 4;
+  constexpr int kOctaves = 4;
   double amplitude = style_.noise, wavelength = style_.noise_size;
-  for (int octave = 0; octave < octaves; ++octave, amplitude *= 0.6, wavelength *= 0.25) {
+  for (int octave = 0; octave < kOctaves; ++octave, amplitude *= 0.6, wavelength *= 0.25) {
     const double height =
         amplitude * std::clamp(wavelength / texel_ / 3.0 - 1.0, 0.0, 1.0);  // fades at the sampling limit
     if (height == 0.0) continue;
