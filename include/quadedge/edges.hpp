@@ -33,7 +33,7 @@ struct StereoEdges {
       right_index;  ///< the right edge that was refined; neighbours on one left curve may share it
   std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge, pixels and radians
   std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
-  std::vector<float> ncc;  ///< likeness of the refined pair: mean NCC of the edges' own patches and of the better side
+  std::vector<float> ncc;  ///< similarity of the refined pair: mean NCC of the edges' own patches and the better side
 
   std::size_t size() const { return left_index.size(); }
 };
