@@ -138,48 +138,26 @@ def beside(results):
     )
 
 
+POOL_RATES = ["paired: recall", "precision", "all: recall", "precision"]
+
+
+def pool_rates(row):
+    """Cells under POOL_RATES."""
+    return [percent(row[pool][name]) for pool in ("paired", "all") for name in ("recall", "precision")]
+
+
 def matching(results):
     rows = [
-        [
-            row["title"],
-            *(percent(row[pool][name]) for pool in ("paired", "all") for name in ("recall", "precision")),
-            f"{row['disparity_median_px']:.3f} px",
-            f"{row['across_median_px']:.3f} px",
-        ]
+        [row["title"], *pool_rates(row), f"{row['disparity_median_px']:.3f} px", f"{row['across_median_px']:.3f} px"]
         for row in results["matching"]["rows"]
     ]
-    return (
-        table(
-            [
-                "pair",
-                "paired: recall",
-                "precision",
-                "all: recall",
-                "precision",
-                "disparity error, median",
-                "across the edge",
-            ],
-            rows,
-        )
-        + "\n"
-        + stamp(results["matching"])
-    )
+    head = ["pair", *POOL_RATES, "disparity error, median", "across the edge"]
+    return table(head, rows) + "\n" + stamp(results["matching"])
 
 
 def quads(results):
-    rows = [
-        [
-            row["title"],
-            *(percent(row["quads"][pool][name]) for pool in ("paired", "all") for name in ("recall", "precision")),
-        ]
-        for row in results["matching"]["rows"]
-        if "quads" in row
-    ]
-    return (
-        table(["quads", "paired: recall", "precision", "all: recall", "precision"], rows)
-        + "\n"
-        + stamp(results["matching"])
-    )
+    rows = [[row["title"], *pool_rates(row["quads"])] for row in results["matching"]["rows"] if "quads" in row]
+    return table(["quads", *POOL_RATES], rows) + "\n" + stamp(results["matching"])
 
 
 def speed(results):

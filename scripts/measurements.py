@@ -1,0 +1,231 @@
+"""What scripts/measure.py measures: accuracy, matching and speed, as rows with the commands behind them."""
+
+import json
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+RECORDED = {
+    "kitti06": "kitti_odometry/sequences/06",
+    "kitti01": "kitti_odometry/sequences/01",
+    "rest": "euroc_v1_01_easy_at_rest",
+    "flight": "euroc_mh_01_easy",
+    "keyframes": "euroc_v1_01_easy_keyframes",
+}
+SCENES = ("room", "cables")
+# Title, run, first frame that is judged
+JUDGED = (
+    ("KITTI 06", "kitti06", 0),
+    ("KITTI 06, from frame 10", "kitti06", 10),
+    ("KITTI 01", "kitti01", 0),
+    ("EuRoC MH_01, flight", "flight", 0),
+    ("EuRoC V1_01 at rest", "rest", 0),
+    ("EuRoC V1_01 key frames", "keyframes", 0),
+    ("rendered room", "room", 0),
+    ("rendered cables", "cables", 0),
+)
+SYSTEMS = ("default", "paper", "opencv")
+ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
+MATCHED = {
+    "ETH3D terrace_2s": ("eth3d_two_view/two_view_training/terrace_2s",),
+    "Middlebury Motorcycle": ("middlebury_2014/Motorcycle-perfect-quarter",),
+    "Middlebury teddy, Art, Dolls, Reindeer": (
+        "middlebury_2003/teddy",
+        "middlebury_2005/Art",
+        "middlebury_2005/Dolls",
+        "middlebury_2005/Reindeer",
+    ),
+    "Middlebury Laundry": ("middlebury_2005/Laundry",),
+    "rendered room": "room",
+    "rendered cables": "cables",
+}
+MATCHED_FRAMES = 3  # of a rendered scene
+TIMED = {"built-in room": None, "KITTI 06": RECORDED["kitti06"], "EuRoC MH_01, flight": RECORDED["flight"]}
+COMPLETE = "complete"  # empty file in the folder of a run that came to its end
+
+
+class Problem(Exception):
+    """Something that a user should read."""
+
+
+class Programs:
+    """Runs the programs; notes the commands as a reader would type them."""
+
+    def __init__(self, options):
+        self.options = options
+        self.tracked = set()  # folders of runs made now: two rows may judge one of them
+
+    def call(self, command, allowed=(0,)):
+        command = [str(part) for part in command]
+        try:
+            result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        except OSError as error:
+            raise Problem(f"{command[0]} cannot be started: {error.strerror}") from error
+        if result.returncode not in allowed:
+            raise Problem(f"{shlex.join(command)}\nended with code {result.returncode}: {result.stderr.strip()}")
+
+    def text(self, command):
+        """The command with DATA, OUT and the programs' plain names for the folders of this machine."""
+        names = {str(self.options.quadedge): "quadedge", str(self.options.baseline): "opencv_baseline"}
+        parts = [names.get(str(part), str(part)) for part in command]
+        short = {str(self.options.work): "OUT", str(self.options.data): "DATA", str(REPOSITORY): "."}
+        for index, part in enumerate(parts):
+            for folder, name in short.items():
+                if part == folder or part.startswith(folder + "/"):
+                    parts[index] = part = name + part[len(folder) :]
+        return shlex.join(part for part in parts if part not in ("--quiet", "--force"))
+
+
+def source_of(run, options):
+    """What `quadedge run` or `demo` takes."""
+    if run in RECORDED:
+        frames = ["--frames", f"0:{options.frames}"] if options.frames else []
+        return ["run", options.data / RECORDED[run], *frames]
+    return ["demo", "--scene", run, *(["--frames", options.frames] if options.frames else [])]
+
+
+def track(system, run, programs):
+    """Tracks a sequence with a system. Returns the folder of its results, the truth, and the command."""
+    options = programs.options
+    output = options.work / system / run
+    truth = options.data / RECORDED[run] if run in RECORDED and not options.frames else output / "groundtruth.txt"
+    if system == "opencv":
+        place = options.data / RECORDED[run] if run in RECORDED else run
+        command = [options.baseline, place, "-o", output, *(["--frames", options.frames] if options.frames else [])]
+    else:
+        method = ["--config", REPOSITORY / "config" / "paper.toml"] if system == "paper" else []
+        command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
+    if output not in programs.tracked and not (options.keep and (output / COMPLETE).exists()):
+        print(f"{system}: {run}", file=sys.stderr, flush=True)
+        shutil.rmtree(output, ignore_errors=True)
+        programs.call(command, allowed=(0, 5))  # 5: many frames lost, which is a result too
+        (output / COMPLETE).touch()
+        programs.tracked.add(output)
+    return output, truth, command
+
+
+def judge(system, title, run, first, programs):
+    """One row: errors and steps of a system on a sequence, origin-aligned."""
+    output, truth, command = track(system, run, programs)
+    estimate, judged = output / "trajectory.txt", output / f"evaluation_{first}.json"
+    frames = sum(1 for _ in open(output / "trajectory_kitti.txt", encoding="utf-8"))
+    tracked = sum(1 for line in open(estimate, encoding="utf-8") if not line.startswith("#"))
+    evaluate = [
+        programs.options.quadedge,
+        "evaluate",
+        "trajectory",
+        estimate,
+        truth,
+        "--steps",
+        *(["--from-frame", first] if first else []),
+    ]
+    row = {
+        "system": system,
+        "title": title,
+        "sequence": run,
+        "frames": frames,
+        "tracked": tracked,
+        "from_frame": first,
+        "commands": [programs.text(command), programs.text(evaluate)],
+    }
+    if tracked - first < 3:
+        return row  # nothing to compare
+    programs.call([*evaluate, "--force", "--json", judged])
+    evaluation = json.loads(judged.read_text(encoding="utf-8"))
+    accuracy = evaluation["accuracy"]
+    row.update({name: accuracy["origin_aligned"][name]["mean"] for name in ERRORS})
+    row["se3_ape_translation_m"] = accuracy["se3_aligned"]["ape_translation_m"]["mean"]
+    row.update(path_length_m=accuracy["path_length_m"], end_drift_percent=accuracy["end_drift_percent"])
+    row["steps"] = {name: evaluation["steps"][name] for name in ("right", "wrong", "lost")}
+    return row
+
+
+def measure_accuracy(programs):
+    options = programs.options
+    judged = [entry for entry in JUDGED if entry[1] in options.sequences]
+    return [judge(system, *entry, programs) for entry in judged for system in options.systems]
+
+
+def matching_row(title, places, programs):
+    """Both pools of the last row of Table 1, and of the quads where there are poses."""
+    options = programs.options
+    frames = ["--frames", min(MATCHED_FRAMES, options.frames or MATCHED_FRAMES)] if isinstance(places, str) else []
+    paths = [places] if isinstance(places, str) else [options.data / place for place in places]
+    command = [options.quadedge, "evaluate", "matching", *paths, *frames]
+    file = options.work / f"matching_{title.replace(' ', '_').replace(',', '')}.json"
+    if not (options.keep and file.exists()):
+        print(f"matching: {title}", file=sys.stderr, flush=True)
+        programs.call([*command, "--quiet", "--force", "--json", file])
+    pooled = json.loads(file.read_text(encoding="utf-8"))["pooled"]
+
+    def figures(table):
+        return {name: table[name] for name in ("recall", "precision")}
+
+    row = {
+        "title": title,
+        "commands": [programs.text(command)],
+        "paired": figures(pooled["stereo"][-1]),
+        "all": figures(pooled["stereo_all"][-1]),
+        "disparity_median_px": pooled["disparity_error_px"]["median"],
+        "across_median_px": pooled["across_error_px"]["median"],
+    }
+    if "quads" in pooled:
+        row["quads"] = {"paired": figures(pooled["quads"]), "all": figures(pooled["quads_all"])}
+    return row
+
+
+def measure_matching(programs):
+    wanted = {
+        title: places
+        for title, places in MATCHED.items()
+        if not isinstance(places, str) or places in programs.options.sequences
+    }
+    if not programs.options.data:
+        wanted = {title: places for title, places in wanted.items() if isinstance(places, str)}
+    return [matching_row(title, places, programs) for title, places in wanted.items()]
+
+
+def measure_speed(programs):
+    options = programs.options
+    rows = []
+    for title, place in TIMED.items():
+        if place and not options.data:
+            continue
+        print(f"speed: {title}", file=sys.stderr, flush=True)
+        file = options.work / f"speed_{title.replace(' ', '_').replace(',', '')}.json"
+        command = [
+            options.quadedge,
+            "bench",
+            *([options.data / place] if place else []),
+            "--frames",
+            options.frames or 30,
+            "--warm-up",
+            3,
+            "--baseline",
+        ]
+        programs.call([*command, "--quiet", "--force", "--json", file])
+        bench = json.loads(file.read_text(encoding="utf-8"))
+        rows.append(
+            {
+                "title": f"{title}, {bench['input']['width']}x{bench['input']['height']}",
+                "commands": [programs.text(command)],
+                "device": bench["device"]["name"],
+                "platform": bench["device"]["platform"],
+                "threads": bench["threads"],
+                "edges_per_image": bench["counts"]["edges_left"],
+                "frames": bench["frames_measured"],
+                "median_ms": bench["latency_ms"]["median"],
+                "p90_ms": bench["latency_ms"]["p90"],
+                "frame_over_sift": bench["baseline"]["frame_ratio"],
+                "edges_ms": bench["edge_detection_ms"]["median"],
+                "edges_over_filters": bench["baseline"]["edges_ratio"],
+                "host_peak_mb": bench["memory_mb"]["host_peak"],
+            }
+        )
+    return rows
+
+
+PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed}

@@ -1,0 +1,52 @@
+"""Pictures of the paths over the rendered scenes, for scripts/measure.py. Needs matplotlib."""
+
+import json
+
+import result_tables
+from measurements import SYSTEMS
+
+
+def plot(scene, rows, options):
+    """The paths from above, and how far each pose is from the true one."""
+    import matplotlib
+
+    matplotlib.use("Agg")  # no window
+    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # the same bytes each run
+    from matplotlib import pyplot
+
+    def positions(file):
+        poses = [line.split() for line in open(file, encoding="utf-8") if line.strip() and not line.startswith("#")]
+        return [float(pose[1]) for pose in poses], [float(pose[3]) for pose in poses]
+
+    figure, (above, away) = pyplot.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
+    above.plot(
+        *positions(options.work / rows[0]["system"] / scene / "groundtruth.txt"),
+        color="black",
+        linewidth=3,
+        alpha=0.3,
+        label="truth",
+    )
+    for row in rows:
+        folder, name, color = (
+            options.work / row["system"] / scene,
+            result_tables.SYSTEMS[row["system"]],
+            f"C{SYSTEMS.index(row['system'])}",
+        )
+        above.plot(*positions(folder / "trajectory.txt"), color=color, linewidth=1, label=name)
+        if "end_drift_percent" not in row:
+            continue
+        # The first pose, which the alignment makes equal, has no error.
+        poses = json.loads((folder / "evaluation_0.json").read_text(encoding="utf-8"))["per_pose"][1:]
+        away.plot(
+            [pose["stamp_ns"] * 1e-9 for pose in poses],
+            [1e3 * pose["ape_translation_m"] for pose in poses],
+            color=color,
+            label=name,
+        )
+    above.set(xlabel="x [m]", ylabel="z [m]", title=f"rendered {scene}, left camera from above", aspect="equal")
+    away.set(xlabel="time [s]", ylabel="distance from the true position [mm]", yscale="log", title="origin-aligned")
+    for axis in (above, away):
+        axis.grid(alpha=0.3)
+    above.legend()
+    figure.savefig(options.out / f"{scene}.svg", metadata={"Date": None})
+    pyplot.close(figure)
