@@ -23,6 +23,13 @@ inline std::string read_text(const std::string& path) {
   return text.str();
 }
 
+inline std::vector<std::string> read_lines(const std::string& path) {
+  std::ifstream stream(path);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(stream, line);) all.push_back(line);
+  return all;
+}
+
 /// Settings in front of a shell command: what the user has saved (device, kernel variants, rendered frames) does not
 /// reach the program, and is not changed by it; only the kernels that the driver has compiled stay where they are.
 inline std::string environment_of_tests() {

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "background_program.hpp"
+#include "program.hpp"
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -19,13 +19,6 @@ struct SharedRun {
 const SharedRun& shared_run() {
   static const SharedRun run;
   return run;
-}
-
-std::vector<std::string> lines(const std::string& path) {
-  std::ifstream stream(path);
-  std::vector<std::string> all;
-  for (std::string line; std::getline(stream, line);) all.push_back(line);
-  return all;
 }
 
 }  // namespace
@@ -45,8 +38,8 @@ TEST_CASE("run: leaves every documented file behind", "[cli][device]") {
 
 TEST_CASE("run: trajectories begin at the identity and have one row per tracked or per input frame", "[cli][device]") {
   const auto& run = shared_run();
-  const auto tum = lines(run.out("trajectory.txt"));
-  const auto kitti = lines(run.out("trajectory_kitti.txt"));
+  const auto tum = read_lines(run.out("trajectory.txt"));
+  const auto kitti = read_lines(run.out("trajectory_kitti.txt"));
   REQUIRE(tum.size() == 5);  // comment and four frames
   REQUIRE(kitti.size() == 4);
   CHECK(kitti[0] == "1 0 0 0 0 1 0 0 0 0 1 0");
@@ -91,7 +84,7 @@ TEST_CASE("run: the report has every documented key", "[cli][device]") {
 
 TEST_CASE("run: frames.csv has a row per frame whose stage times make up the latency", "[cli][device]") {
   const auto& run = shared_run();
-  const auto rows = lines(run.out("frames.csv"));
+  const auto rows = read_lines(run.out("frames.csv"));
   REQUIRE(rows.size() == 5);
   const auto fields = [](const std::string& row) {
     std::vector<std::string> values;
@@ -209,7 +202,7 @@ TEST_CASE("run: an unknown device ends with code 4 and the list, also from the e
 TEST_CASE("run: ground truth for half of the frames is used for that half, and said", "[cli][device]") {
   const TemporaryFolder folder;
   fs::copy(small_sequence(), folder / "room", fs::copy_options::recursive);
-  const auto truth = lines(folder / "room/groundtruth.txt");
+  const auto truth = read_lines(folder / "room/groundtruth.txt");
   std::ofstream half(folder / "room/groundtruth.txt");
   std::size_t data = 0;
   for (const auto& line : truth) {
@@ -238,128 +231,7 @@ TEST_CASE("run: frames finished before a broken image stay on disk", "[cli][devi
   const auto result = run_program({"run", folder / "room", "-o", folder / "out"});
   CHECK(result.code == 3);
   CHECK_THAT(result.err, Contains(images[2].filename().string()) && Contains("2 finished frames"));
-  CHECK(lines(folder / "out/trajectory_kitti.txt").size() == 2);
-  CHECK(lines(folder / "out/frames.csv").size() == 3);
+  CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() == 2);
+  CHECK(read_lines(folder / "out/frames.csv").size() == 3);
   CHECK(run_program({"check", folder / "room"}).code == 3);
-}
-
-TEST_CASE("demo: tracks and evaluates the built-in sequence", "[cli][device]") {
-  const TemporaryFolder folder;
-  const auto result = run_program({"demo", "-o", folder / "demo", "--frames", "4", "--size", "320x200"});
-  INFO(result.err);
-  REQUIRE(result.code == 0);
-  CHECK_THAT(result.out,
-             Contains("4 of 4 frames") && Contains("APE translation [m]") && Contains("RPE rotation [deg]"));
-  for (const char* name : {"pictures/trajectory.png", "pictures/edges_000002.png", "pictures/quads_000002.png"}) {
-    CHECK(fs::file_size(folder / ("demo/" + std::string(name))) > 1000);
-  }
-}
-
-TEST_CASE("demo: renders before it tracks, and only once", "[cli][device]") {
-  const TemporaryFolder folder;
-  const std::string cache = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
-  const auto demo = [&](const std::string& out, const std::string& environment) {
-    auto result = run_program({"demo", "-o", folder / out, "--frames", "3", "--size", "320x200"}, environment);
-    INFO(result.err);
-    REQUIRE(result.code == 0);
-    return result;
-  };
-  const auto first = demo("first", cache);
-  const auto kernels = first.err.find("building kernels"), rendering = first.err.find("rendering 3/3");
-  const auto tracking = first.err.find("room frame 3/3");
-  REQUIRE((kernels != std::string::npos && rendering != std::string::npos && tracking != std::string::npos));
-  CHECK((kernels < rendering && rendering < tracking));
-  CHECK_THAT(first.err.substr(tracking), Contains("frames/s"));
-
-  const auto second = demo("second", cache);
-  CHECK(second.err.find("rendering") == std::string::npos);
-  fs::path view;
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "cache/quadedge/rendered")) view = entry.path();
-  fs::resize_file(view, 100);
-  const auto third = demo("third", cache);
-  CHECK_THAT(third.err, Contains("rendering 3/3"));
-  std::ofstream(folder / "file") << "in the way";
-  const auto fourth = demo("fourth", "XDG_CACHE_HOME='" + (folder / "file/cache") + "'");
-  CHECK_THAT(fourth.err, Contains("not kept") && Contains(folder / "file/cache"));
-  for (const char* out : {"second", "third", "fourth"}) {
-    for (const char* name : {"/trajectory.txt", "/trajectory_kitti.txt"})
-      CHECK(read_text(folder / (out + std::string(name))) == read_text(folder / ("first" + std::string(name))));
-  }
-}
-
-TEST_CASE("demo: two that render the same at the same time do not disturb one another", "[cli][device]") {
-  const TemporaryFolder folder;
-  const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
-  const auto demo = [&](const std::string& out) {
-    return std::vector<std::string>{"demo", "-o", folder / out, "--frames", "4", "--size", "320x200"};
-  };
-  BackgroundProgram one(demo("one"), folder / "log_one", environment);
-  BackgroundProgram other(demo("other"), folder / "log_other", environment);
-  for (auto* program : {&one, &other}) {
-    program->wait_until([] { return false; });
-    const int status = program->end_by(0);  // it has ended by itself
-    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 0));
-  }
-  CHECK(read_text(folder / "one/trajectory.txt") == read_text(folder / "other/trajectory.txt"));
-  CHECK(lines(folder / "one/trajectory.txt").size() == 5);
-  const auto again = run_program(demo("again"), environment);
-  CHECK(again.err.find("rendering") == std::string::npos);
-  CHECK(read_text(folder / "again/trajectory.txt") == read_text(folder / "one/trajectory.txt"));
-}
-
-TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
-  const TemporaryFolder folder;
-  const std::string out = folder / "out", cache = folder / "cache", rendered = cache + "/quadedge/rendered";
-  const std::string environment = "XDG_CACHE_HOME='" + cache + "'";
-  SECTION("while it renders") {
-    BackgroundProgram program({"demo", "-o", out}, folder / "log", environment);
-    REQUIRE(program.wait_until([&] { return fs::exists(rendered); }));
-    const int status = program.end_by(SIGINT);
-    REQUIRE(WIFSIGNALED(status));
-    CHECK(WTERMSIG(status) == SIGINT);
-    CHECK_THAT(read_text(folder / "log"),
-               Contains("before the first frame") && Contains("of 60 rendered frames are kept in " + rendered));
-    CHECK_FALSE(fs::exists(out + "/config.toml"));
-    CHECK_FALSE(fs::exists(out + "/trajectory.txt"));  // the next start needs no --force
-  }
-  SECTION("while it tracks") {
-    BackgroundProgram program({"demo", "-o", out, "--size", "320x200"}, folder / "log", environment);
-    REQUIRE(program.wait_until(
-        [&] { return fs::exists(out + "/trajectory_kitti.txt") && lines(out + "/trajectory_kitti.txt").size() > 2; }));
-    const int status = program.end_by(SIGINT);
-    REQUIRE(WIFSIGNALED(status));
-    CHECK(WTERMSIG(status) == SIGINT);
-    const auto frames = lines(out + "/trajectory_kitti.txt").size();
-    CHECK(frames < 60);
-    CHECK_THAT(read_text(folder / "log"),
-               Contains(out + " hold what was tracked, " + std::to_string(frames) + " of 60 frames") &&
-                   Contains("60 of 60 rendered frames are kept"));
-    CHECK(lines(out + "/frames.csv").size() == frames + 1);
-    CHECK_FALSE(fs::exists(out + "/report.json"));
-  }
-}
-
-TEST_CASE("edges: the table has a header, six decimals and edges inside the image", "[cli][device]") {
-  const TemporaryFolder folder;
-  std::string image;
-  for (const auto& entry : fs::directory_iterator(small_sequence() + "/rgb")) image = entry.path().string();
-  const auto result = run_program({"edges", image, "--csv", folder / "e.csv", "--draw", folder / "e.png"});
-  INFO(result.err);
-  REQUIRE(result.code == 0);
-  const auto rows = lines(folder / "e.csv");
-  REQUIRE(rows.size() > 100);
-  CHECK(rows[0] == "x,y,direction_rad,strength");
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    double x, y, direction, strength;
-    int length = 0;
-    REQUIRE(std::sscanf(rows[i].c_str(), "%lf,%lf,%lf,%lf%n", &x, &y, &direction, &strength, &length) == 4);
-    REQUIRE(length == static_cast<int>(rows[i].size()));
-    REQUIRE(rows[i].size() - rows[i].rfind('.') == 7);
-    REQUIRE((x > 0 && x < 319 && y > 0 && y < 199));
-    REQUIRE(std::abs(direction) <= 3.141593);
-    REQUIRE(strength > 2);
-  }
-  CHECK(fs::file_size(folder / "e.png") > 1000);
-  CHECK(run_program({"edges", image, "--csv", folder / "e.csv"}).code == 2);
-  CHECK(run_program({"edges", image, "--csv", folder / "absent/e.csv"}).code == 3);
 }

@@ -1,0 +1,33 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "program.hpp"
+
+namespace fs = std::filesystem;
+
+TEST_CASE("edges: the table has a header, six decimals and edges inside the image", "[cli][device]") {
+  const TemporaryFolder folder;
+  std::string image;
+  for (const auto& entry : fs::directory_iterator(small_sequence() + "/rgb")) image = entry.path().string();
+  const auto result = run_program({"edges", image, "--csv", folder / "e.csv", "--draw", folder / "e.png"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const auto rows = read_lines(folder / "e.csv");
+  REQUIRE(rows.size() > 100);
+  CHECK(rows[0] == "x,y,direction_rad,strength");
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    double x, y, direction, strength;
+    int length = 0;
+    REQUIRE(std::sscanf(rows[i].c_str(), "%lf,%lf,%lf,%lf%n", &x, &y, &direction, &strength, &length) == 4);
+    REQUIRE(length == static_cast<int>(rows[i].size()));
+    REQUIRE(rows[i].size() - rows[i].rfind('.') == 7);
+    REQUIRE((x > 0 && x < 319 && y > 0 && y < 199));
+    REQUIRE(std::abs(direction) <= 3.141593);  // pi, rounded
+    REQUIRE(strength > 2);
+  }
+  CHECK(fs::file_size(folder / "e.png") > 1000);
+  CHECK(run_program({"edges", image, "--csv", folder / "e.csv"}).code == 2);
+  CHECK(run_program({"edges", image, "--csv", folder / "absent/e.csv"}).code == 3);
+}
