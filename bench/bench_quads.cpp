@@ -26,8 +26,8 @@ BenchQuads::BenchQuads(std::size_t wanted) : sequence(options()) {
   FramePrefetcher::Frame frames[2];
   for (int i = 0; i < 2; ++i) {
     frames[i].stamp_ns = sequence.stamp_ns(i);
-    frames[i].left = sequence.render(i, false).image;
-    frames[i].right = sequence.render(i, true).image;
+    frames[i].left = sequence.render(i, Side::left).image;
+    frames[i].right = sequence.render(i, Side::right).image;
   }
   Device device("reference");
   const auto seen =

@@ -30,8 +30,8 @@ struct Scene {
     config.stereo.max_disparity = sequence.max_disparity();
     for (int i = 0; i < 2; ++i) {
       frames[i].stamp_ns = sequence.stamp_ns(i);
-      frames[i].left = sequence.render(i, false).image;
-      frames[i].right = sequence.render(i, true).image;
+      frames[i].left = sequence.render(i, Side::left).image;
+      frames[i].right = sequence.render(i, Side::right).image;
     }
   }
 };
@@ -49,13 +49,13 @@ void run_stage(benchmark::State& state, const std::string& stage, const std::str
   if (!variant.empty()) config.variants[stage] = variant;
   const auto frontend = frontend::make_frontend(rig, device, config);
   const auto warm = bench::run_frontend(*frontend, scene().frames[0], scene().frames[1], config);
-  const auto search = bench::search_in_place(warm.previous, config.temporal, false);
+  const auto search = bench::search_without_motion(warm.previous, config.temporal, false);
   const auto& second = scene().frames[1];
   TemporalMatches matches;
   device.context()->take_profile();
   for (auto unused : state) {
     (void)unused;
-    frontend->process({second.stamp_ns, second.left.view(), second.right.view()});
+    frontend->process(second.view());
     frontend->match(*warm.first, search, matches);
     frontend->match_anywhere(*warm.first, matches);
     double ms = 0;

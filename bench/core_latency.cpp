@@ -81,8 +81,8 @@ struct Frames {
 Frames render(const SyntheticSequence& sequence) {
   Frames frames;
   for (int i = 0; i < sequence.frames(); ++i) {
-    frames.left.push_back(sequence.render(i, false));
-    frames.right.push_back(sequence.render(i, true));
+    frames.left.push_back(sequence.render(i, Side::left));
+    frames.right.push_back(sequence.render(i, Side::right));
     std::fprintf(stderr, "\rrendering %d / %d", i + 1, sequence.frames());
   }
   std::fprintf(stderr, "\n");

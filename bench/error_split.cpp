@@ -50,7 +50,7 @@ struct Errors {
   }
 };
 
-/// Quads with rows of their own, so that each can be changed, and the true places of their ends.
+/// Quads with rows of their own, so that each can be changed, and the true positions of their ends.
 struct Quads {
   StereoEdges before, now;
   TruePositions before_right;         ///< of the earlier left edge in the earlier right image
@@ -72,11 +72,11 @@ void append(const StereoEdges& from, std::size_t i, StereoEdges& to) {
   to.ncc.push_back(from.ncc[i]);
 }
 
-evaluation::EdgePositions left_places(const StereoEdges& edges) {
+EdgePositionsView left_positions(const StereoEdges& edges) {
   return {edges.left_x, edges.left_y, edges.left_direction};
 }
 
-/// Distance of a place from a true one, across an edge [px].
+/// Distance of a position from a true one, across an edge [px].
 double across(double x, double y, double true_x, double true_y, double direction) {
   return std::abs((x - true_x) * std::sin(direction) - (y - true_y) * std::cos(direction));
 }
@@ -96,17 +96,17 @@ bool right(const Quads& q, std::size_t i) {
 
 Quads select(const Quads& all, const std::function<bool(const Quads&, std::size_t)>& wanted) {
   Quads kept;
-  const auto place = [](const TruePositions& from, std::size_t i, TruePositions& to) {
+  const auto append_position = [](const TruePositions& from, std::size_t i, TruePositions& to) {
     to.push(from.x[i], from.y[i], from.state[i], from.contour[i] != 0);
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!wanted(all, i)) continue;
     append(all.before, i, kept.before);
     append(all.now, i, kept.now);
-    place(all.before_right, i, kept.before_right);
-    place(all.now_left, i, kept.now_left);
-    place(all.now_right, i, kept.now_right);
-    place(all.now_own_right, i, kept.now_own_right);
+    append_position(all.before_right, i, kept.before_right);
+    append_position(all.now_left, i, kept.now_left);
+    append_position(all.now_right, i, kept.now_right);
+    append_position(all.now_own_right, i, kept.now_own_right);
   }
   return kept;
 }
@@ -176,7 +176,7 @@ class Split {
     true_motion_of_edges(changed);
     estimate(6, changed, config_.pose);
     true_disparities(changed);
-    for (std::size_t i = 0; i < changed.size(); ++i) {  // of the place where the edge truly went
+    for (std::size_t i = 0; i < changed.size(); ++i) {  // of the position where the edge truly went
       changed.now.right_x[i] = changed.now_right.x[i];
       changed.now.right_y[i] = changed.now_right.y[i];
     }
@@ -209,10 +209,10 @@ class Split {
       append(details.previous_stereo, static_cast<std::size_t>(details.quads.previous[q]), quads.before);
       append(details.stereo, static_cast<std::size_t>(details.quads.current[q]), quads.now);
     }
-    quads.before_right = true_right_positions(source_.rig(), before, left_places(quads.before));
-    quads.now_left = true_later_positions(source_.rig(), before, now, Side::left, left_places(quads.before));
-    quads.now_right = true_later_positions(source_.rig(), before, now, Side::right, left_places(quads.before));
-    quads.now_own_right = true_right_positions(source_.rig(), now, left_places(quads.now));
+    quads.before_right = true_right_positions(source_.rig(), before, left_positions(quads.before));
+    quads.now_left = true_later_positions(source_.rig(), before, now, Side::left, left_positions(quads.before));
+    quads.now_right = true_later_positions(source_.rig(), before, now, Side::right, left_positions(quads.before));
+    quads.now_own_right = true_right_positions(source_.rig(), now, left_positions(quads.now));
     return quads;
   }
 
@@ -250,7 +250,7 @@ KeyRigErrors track(const evaluation::MatchingSource& source, Device& device, con
   std::vector<evaluation::FrameTruth> truths;
   for (int i = 0; i < source.frames(); ++i) {
     auto frame = source.load(i);
-    const auto result = odometry.track({frame.frame.stamp_ns, frame.frame.left.view(), frame.frame.right.view()});
+    const auto result = odometry.track(frame.frame.view());
     truths.push_back(std::move(frame.truth));
     errors.keys += result.new_key_rig ? 1 : 0;
     if (result.status != FrameStatus::tracked) continue;

@@ -39,7 +39,7 @@ void run(cli::FrameSource& source, const std::string& output, bool force) {
   bench::OpencvBaseline baseline(source.rig());
   int frames = 0, tracked = 0;
   while (const auto frame = source.next()) {
-    const auto result = baseline.track({frame->stamp_ns, frame->left.view(), frame->right.view()});
+    const auto result = baseline.track(frame->view());
     const StampedPose pose{frame->stamp_ns, result.world_from_left};
     if (result.tracked) tum.append(data::tum_row(pose));
     kitti.append(data::kitti_row(pose));

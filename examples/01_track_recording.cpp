@@ -28,7 +28,7 @@ int main(int count, char** arguments) try {
   quadedge::FramePrefetcher frames(data);
   quadedge::Trajectory trajectory;
   while (const auto frame = frames.next()) {
-    const quadedge::FrameResult result = odometry.track({frame->stamp_ns, frame->left.view(), frame->right.view()});
+    const quadedge::FrameResult result = odometry.track(frame->view());
     std::printf("frame %d: %s, %d quads, %.0f ms %s\n", frame->number, to_string(result.status), result.counts.quads,
                 result.latency_ms, result.message.c_str());
     // A lost frame has a predicted pose; the trajectory holds measured ones alone.

@@ -30,7 +30,8 @@ int main() try {
   quadedge::Device device("auto");
   quadedge::StereoOdometry odometry(rig, device, config);
   for (int i = 0; i < camera.frames(); ++i) {
-    const quadedge::Image left = camera.render(i, false).image, right = camera.render(i, true).image;
+    const quadedge::Image left = camera.render(i, quadedge::Side::left).image,
+                          right = camera.render(i, quadedge::Side::right).image;
     // A view of 8-bit grey pixels that someone else owns: pointer, width, height, bytes per row. It must stay valid
     // until track() returns.
     const quadedge::ImageView left_view{left.pixels.data(), left.width, left.height, left.width};

@@ -17,7 +17,7 @@
 enum {
   kPatchSide = 7,                                // samples along each axis
   kPatchSamples = kPatchSide * kPatchSide,       // of one patch
-  kPatchLanes = kPatchSide + 1,                  // bytes of one row of a patch
+  kPatchLanes = kPatchSide + 1,                  // bytes of one row of a patch; work-items that share a patch
   kEdgePatchBytes = 128,                         // both patches of an edge
   kInverseNorms = 2 * kPatchLanes * kPatchSide,  // where they begin
   kPatchLargest = 127                            // magnitude of the largest sample
@@ -40,6 +40,9 @@ enum {
   kWideAngles = 8,  // orientation bins
   kWideBytes = kWideCells * kWideCells * kWideAngles
 };
+
+// Wide descriptors that stand in one block, element by element (wide_matching_blocks.cl).
+enum { kBlockLanes = 16 };
 
 // Cells of a point index (point_index.cl), px.
 FLOAT_CONSTANT kCellWidth = 8.0f;
@@ -67,6 +70,12 @@ FLOAT_CONSTANT kBehindAll = 3.0f;
 typedef struct {
   int first, stride, count;
 } PackedPositions;
+
+// A point index (point_index.cl): its points in the order of the index, and its cells.
+typedef struct {
+  PackedPositions points;
+  int columns, rows;  // cells
+} PackedPointIndex;
 
 // The rig and the limits of the search in single precision, as kernels and reference use them.
 //
@@ -177,11 +186,59 @@ typedef struct {
 // temporal_candidates.cl.
 typedef struct {
   int rows;
-  int row_step;            // row r belongs to base edge r * row_step
-  int columns, cell_rows;  // cells of the point index
-  float radius;            // px
-  float orientation;       // rad
+  int row_step;  // row r belongs to base edge r * row_step
+  PackedPositions predicted;
+  PackedPointIndex index;
+  float radius;       // px
+  float orientation;  // rad
 } TemporalCandidateArguments;
+
+// What makes the quad of a row (doc/method.md section 4, filter 8).
+typedef struct {
+  float distance_weight;      // what a squared px from the predicted left position takes from the score
+  float cluster_gap;          // px
+  float cluster_orientation;  // rad
+} QuadChoice;
+
+// A row of temporal_match.cl and temporal_quads.cl, ints: current edge or -1, rivals, score as bits, flags.
+enum {
+  kQuadRowInts = 4,
+  kLeftAlive = 1,   // flag: the left list kept a candidate before the agreement
+  kRightAlive = 2,  // flag: so did the right one
+  kRowOverflow = 4  // flag: more candidates than there is room for; the row has no result
+};
+// A candidate that the tap form of temporal_match.cl shows, ints: current edge, state, NCC as bits, SIFT distance as
+// bits.
+enum { kTappedInts = 4 };
+
+// temporal_match.cl.
+typedef struct {
+  int rows;
+  int row_step;  // row r belongs to base edge r * row_step
+  PackedPositions left_predicted, right_predicted;
+  PackedPointIndex left_index, right_index;
+  PackedPositions current;  // of the left image
+  float radius;             // px
+  float orientation;        // rad
+  float ncc_min, ncc_nearly_best;
+  QuadChoice choice;
+} TemporalMatchArguments;
+
+// temporal_quads.cl: temporal_agreement().
+typedef struct {
+  int rows;
+  int left_capacity, right_capacity;  // of the candidate lists
+  int rejected_order;
+} TemporalAgreementArguments;
+
+// temporal_quads.cl: temporal_best().
+typedef struct {
+  int rows;
+  int row_step;                        // row r belongs to base edge r * row_step
+  int capacity;                        // of the candidate lists
+  PackedPositions predicted, current;  // of the left image
+  QuadChoice choice;
+} TemporalBestArguments;
 
 // wide_matching.cl and wide_matching_blocks.cl: edges packed in blocks of `stride` floats (left x, left y ...), of
 // which every step-th takes part.

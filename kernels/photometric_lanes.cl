@@ -2,14 +2,13 @@
 // column.
 // Functions only. Needs photometric.cl; every result is the same bits as there.
 //
-// Eight neighbouring work-items share a patch; a group of GROUP works on GROUP / LANES patches. The eighth lane's
+// Eight neighbouring work-items share a patch; a group of GROUP works on GROUP / kPatchLanes patches. The eighth lane's
 // samples have no meaning, it works along. All work-items of a group must call the functions that take an Exchange:
 // they contain barriers. Where a function takes `wanted`, a patch without it only attends the barriers.
 
 #ifndef GROUP
 #define GROUP 64
 #endif
-#define LANES 8
 #define EXCHANGE_FLOATS (4 * GROUP)
 
 // What work-items tell one another, two floats each, through local memory. The halves serve in turn, so that one
@@ -31,8 +30,8 @@ inline local const float* tell(Exchange* exchange, const float a, const float b)
   return told;
 }
 
-inline int lane_of_item(void) { return (int)get_local_id(0) & (LANES - 1); }
-inline int patch_in_group(void) { return (int)get_local_id(0) / LANES; }
+inline int lane_of_item(void) { return (int)get_local_id(0) & (kPatchLanes - 1); }
+inline int patch_in_group(void) { return (int)get_local_id(0) / kPatchLanes; }
 
 // The lanes of the work-item's patch.
 inline float8 patch_lanes(Exchange* exchange, const float value) {
@@ -49,7 +48,7 @@ inline float2 sum_two_lanes(Exchange* exchange, const float a, const float b) {
 // Whether any patch of the group told an `a` other than 0; its first lane speaks for it.
 inline int any_patch(local const float* told) {
   int any = 0;
-  for (int k = 0; k < GROUP; k += LANES) any |= told[k] != 0.0f;
+  for (int k = 0; k < GROUP; k += kPatchLanes) any |= told[k] != 0.0f;
   return any;
 }
 
@@ -82,7 +81,7 @@ inline void cut_column(global const uint* corners, const int width, const int he
     }
   }
   const float middle =
-      tell(exchange, wanted ? column[kPatchSide / 2] : 0.0f, 0.0f)[LANES * patch_in_group() + kPatchSide / 2];
+      tell(exchange, wanted ? column[kPatchSide / 2] : 0.0f, 0.0f)[kPatchLanes * patch_in_group() + kPatchSide / 2];
   float sum = 0.0f;
   if (wanted) {
 #pragma unroll

@@ -135,7 +135,7 @@ inline void store_descriptor(const float8* histogram, global uchar* descriptor) 
   }
 }
 
-// One side's samples of a row: shares of the two angle bins next to each, and the lower one.
+// One side's samples of a row: weights of the two angle bins next to each, and the lower one.
 inline void sample_row(global const float* magnitude, global const float* angle, const size_t first, const float turn,
                        float8* low, float8* high, int8* bin) {
 #pragma unroll
@@ -150,7 +150,7 @@ inline void sample_row(global const float* magnitude, global const float* angle,
   }
 }
 
-// The two shares in their angle bins, zeros elsewhere.
+// The two weights in their angle bins, zeros elsewhere.
 inline float8 two_bins(const float low, const float high, const int bin) {
   const int8 lower = kAngleMask[bin], upper = kAngleMask[(bin + 1) & (kSiftAngles - 1)];
   return as_float8((as_int8((float8)(low)) & lower) | (as_int8((float8)(high)) & upper));
@@ -255,7 +255,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
   local int2
       corner[EDGES_PER_GROUP][WINDOW * WINDOW];  // cells across and along, the lower ones; outside the window: -9
   local float4 shares[EDGES_PER_GROUP][WINDOW * WINDOW];
-  local float2 gradient[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];  // shares of the two angle bins
+  local float2 gradient[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];  // weights of the two angle bins
   local int lower_bin[EDGES_PER_GROUP][SIDES][WINDOW * WINDOW];
   local float histogram[EDGES_PER_GROUP][SIDES][kSiftBytes];
 

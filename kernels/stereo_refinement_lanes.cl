@@ -27,9 +27,9 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     global float* similarity) {
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
-  const int lane = lane_of_item(), first_item = LANES * patch_in_group();
+  const int lane = lane_of_item(), first_item = kPatchLanes * patch_in_group();
   // Surplus work-items work along with the last edge and an empty row for the barriers.
-  const int wanted = (int)(get_global_id(0) / LANES), left_count = args.left.count;
+  const int wanted = (int)(get_global_id(0) / kPatchLanes), left_count = args.left.count;
   const int i = min(wanted, left_count - 1);
   const int begin = wanted < left_count ? first[i] : 0,
             end = wanted < left_count ? min(first[i + 1], args.capacity) : 0;
@@ -49,7 +49,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
   const float2 inverse_norms = vload2(0, (global const float*)(side_patches + kInverseNorms));
 
-  for (int c = begin + lane; c < end; c += LANES) {
+  for (int c = begin + lane; c < end; c += kPatchLanes) {
     const int j = target[c];
     if (state[c] == kCandidateAlive)
       position[c] =
@@ -105,7 +105,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
                                 side_patches, inverse_norms.x, alike, &exchange);
     const float bright = side_ncc(right_corners, args.right_width, args.right_height,
                                   patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, args.patch_offset),
-                                  side_patches + LANES, inverse_norms.y, alike, &exchange);
+                                  side_patches + kPatchLanes, inverse_norms.y, alike, &exchange);
     if (!found) continue;
     if (aligned == ALIGN_LEFT) {
       state[c] = (uchar)args.rejected_order;

@@ -2,20 +2,17 @@
 // best NCC in both images, agreement, the best and its rivals. The same as temporal_candidates.cl, candidate_filters.cl
 // without SIFT and temporal_quads.cl one after the other, without lists in global memory.
 //
-// Needs similarity.cl and point_index.cl. In: predicted positions of the base's stereo edges in both current images
-// (NaN: none), the current stereo edges of both sides in the order of their point indices, side patches with the number
-// of each stereo edge's patch.
-// Out per row, which belongs to base edge row * row_step: {current edge or -1, rivals, score as bits, flags}.
+// Needs similarity.cl, edge_positions.cl and point_index.cl. In: predicted positions of the base's stereo edges in both
+// current images (NaN: none), the point indices of the current stereo edges of both sides, side patches, with the
+// number of each stereo edge's left patch; the right ones stand in the order of the stereo edges.
+// Out per row, which belongs to base edge row * row_step: kQuadRowInts ints (layouts.cl).
 // With LANES (16) a work-item tests as many points of the index at once, and asks for memory ahead: for CPUs.
-// With TAP it also writes down every candidate within the radius, with its scores and its state
-// (layouts.cl). The orders of the filters are defined with TAP.
+// With TAP it also writes down every candidate within the radius, with its scores and its state (layouts.cl). The
+// orders of the filters are defined with TAP.
 // Reference: host/reference/temporal_match.cpp.
 
 // Candidates of a row and side that there is room for; a row with more says so and has no result.
 #define MOST 160
-#define LEFT_ALIVE 1
-#define RIGHT_ALIVE 2
-#define OVERFLOW 4
 
 // Brings a patch's two cache lines near where the compiler targets a CPU; OpenCL's own prefetch() does nothing there
 // (PoCL).
@@ -28,9 +25,14 @@ inline void ask_for_patch(global const char* patch) {
 #endif
 }
 
+// The patches of stereo edge `edge`; patch_numbers 0: they have the numbers of the stereo edges.
+inline global const char* patch_of(global const char* patches, global const int* patch_numbers, const int edge) {
+  return patches + kEdgePatchBytes * (size_t)(patch_numbers ? patch_numbers[edge] : edge);
+}
+
 #ifdef TAP
-// What a tap sees of one side of a row: {current edge, state, NCC as bits, SIFT distance as bits}
-// per candidate. SIFT is measured for the tap alone and decides nothing here.
+// What a tap sees of one side of a row: kTappedInts ints per candidate. SIFT is measured for the tap alone and decides
+// nothing here.
 typedef struct {
   global int* seen;                // of this row
   int room;                        // candidates that fit there
@@ -45,13 +47,13 @@ inline int tap_candidate(TappedSide* tap, const int edge, const int state) {
   return tap->count++;
 }
 inline void tap_state(TappedSide* tap, const int slot, const int state) {
-  if (tap->at[slot] < tap->room) tap->seen[4 * tap->at[slot] + 1] = state;
+  if (tap->at[slot] < tap->room) tap->seen[kTappedInts * tap->at[slot] + 1] = state;
 }
 inline void tap_scores(TappedSide* tap, const int slot, const int edge, const float ncc) {
   if (tap->at[slot] >= tap->room) return;
   const int distance2 = sift_distance2(tap->descriptor, tap->descriptors + kEdgeSiftBytes * (size_t)edge);
-  tap->seen[4 * tap->at[slot] + 2] = as_int(ncc);
-  tap->seen[4 * tap->at[slot] + 3] = as_int(sqrt((float)distance2));
+  tap->seen[kTappedInts * tap->at[slot] + 2] = as_int(ncc);
+  tap->seen[kTappedInts * tap->at[slot] + 3] = as_int(sqrt((float)distance2));
 }
 #define TAPPED(statement) statement
 #define TAP_PARAMETER , TappedSide* tap
@@ -63,14 +65,17 @@ inline void tap_scores(TappedSide* tap, const int slot, const int edge, const fl
 #endif
 
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
+// patch_numbers: of the stereo edges' patches; 0: those of the edges.
 // LONG: a row's candidates from the index to the nearly best; they stay in private memory.
-inline int alike_near(const float x, const float y, const float direction, global const float* xs,
-                      global const float* ys, global const float* directions, global const int* numbers,
-                      global const int* cell_first, const int columns, const int rows, const float radius,
-                      const float orientation, global const char* patch, global const char* patches,
-                      global const int* patch_numbers, const float ncc_min, const float ncc_nearly_best, int* target,
-                      float* ncc TAP_PARAMETER) {
+inline int similar_near(const TemporalMatchArguments* args, const float3 predicted, const PointIndex* index,
+                        global const char* patch, global const char* patches, global const int* patch_numbers,
+                        int* target, float* ncc TAP_PARAMETER) {
+  const float x = predicted.x, y = predicted.y, direction = predicted.z;
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
+  global const float *xs = index->x, *ys = index->y, *directions = index->direction;
+  global const int *numbers = index->number, *cell_first = index->cell_first;
+  const int columns = index->columns, rows = index->rows;
+  const float radius = args->radius, orientation = args->orientation;
   const int first_column = cell_of(x - radius, kCellWidth, columns),
             last_column = cell_of(x + radius, kCellWidth, columns);
   const int last_row = cell_of(y + radius, kCellHeight, rows);
@@ -115,25 +120,25 @@ inline int alike_near(const float x, const float y, const float direction, globa
   }
 #ifdef LANES
   // The patches stand all over the memory: all are asked for before the first is needed.
-  for (int c = 0; c < near; ++c) ask_for_patch(patches + kEdgePatchBytes * (size_t)patch_numbers[target[c]]);
+  for (int c = 0; c < near; ++c) ask_for_patch(patch_of(patches, patch_numbers, target[c]));
 #endif
-  int alike = 0;
+  int similar = 0;
   float best = 0.0f;
   for (int c = 0; c < near; ++c) {
-    const float similarity = patch_ncc(patch, patches + kEdgePatchBytes * (size_t)patch_numbers[target[c]]);
+    const float similarity = patch_ncc(patch, patch_of(patches, patch_numbers, target[c]));
     TAPPED(tap_scores(tap, c, target[c], similarity);)
-    if (similarity < ncc_min) {
+    if (similarity < args->ncc_min) {
       TAPPED(tap_state(tap, c, NCC_ORDER);)
       continue;
     }
-    TAPPED(tap->at[alike] = tap->at[c];)
-    target[alike] = target[c];
-    ncc[alike++] = similarity;
+    TAPPED(tap->at[similar] = tap->at[c];)
+    target[similar] = target[c];
+    ncc[similar++] = similarity;
     best = fmax(best, similarity);
   }
   int kept = 0;
-  for (int c = 0; c < alike; ++c) {
-    if (ncc[c] < ncc_nearly_best * best) {
+  for (int c = 0; c < similar; ++c) {
+    if (ncc[c] < args->ncc_nearly_best * best) {
       TAPPED(tap_state(tap, c, NEARLY_BEST_NCC_ORDER);)
       continue;
     }
@@ -145,8 +150,8 @@ inline int alike_near(const float x, const float y, const float direction, globa
 }
 
 // Groups of edges that chain up by position and direction: single linkage.
-inline int count_clusters(const int* edges, const int count, global const float* x, global const float* y,
-                          global const float* direction, const float gap, const float orientation) {
+inline int count_groups(const int* edges, const int count, const PackedPositions at, global const float* current,
+                        const float gap, const float orientation) {
   int label[MOST];
   for (int c = 0; c < count; ++c) label[c] = c;
   for (int changed = 1; changed;) {
@@ -154,72 +159,64 @@ inline int count_clusters(const int* edges, const int count, global const float*
     for (int c = 1; c < count; ++c) {
       for (int d = 0; d < c; ++d) {
         if (label[d] == label[c]) continue;
-        const float dx = x[edges[c]] - x[edges[d]], dy = y[edges[c]] - y[edges[d]];
-        if (dx * dx + dy * dy >= gap * gap || angle_between(direction[edges[c]], direction[edges[d]]) > orientation)
-          continue;
+        const float3 a = edge_at(at, current, edges[c]), b = edge_at(at, current, edges[d]);
+        const float dx = a.x - b.x, dy = a.y - b.y;
+        if (dx * dx + dy * dy >= gap * gap || angle_between(a.z, b.z) > orientation) continue;
         label[c] = label[d] = min(label[c], label[d]);
         changed = 1;
       }
     }
   }
-  int clusters = 0;
-  for (int c = 0; c < count; ++c) clusters += label[c] == c;
-  return clusters;
+  int groups = 0;
+  for (int c = 0; c < count; ++c) groups += label[c] == c;
+  return groups;
 }
 
 // LONG: a row from the index to its quad, all of it in private memory.
-kernel void temporal_match(
-    const int rows, const int row_step, global const float* left_predicted_x, global const float* left_predicted_y,
-    global const float* left_predicted_direction, global const float* right_predicted_x,
-    global const float* right_predicted_y, global const float* right_predicted_direction, global const float* left_xs,
-    global const float* left_ys, global const float* left_directions, global const int* left_numbers,
-    global const int* left_cell_first, const int left_columns, const int left_cell_rows, global const float* right_xs,
-    global const float* right_ys, global const float* right_directions, global const int* right_numbers,
-    global const int* right_cell_first, const int right_columns, const int right_cell_rows,
-    global const char* base_left_patches, global const int* base_left_index, global const char* base_right_patches,
-    global const char* left_patches, global const int* left_index, global const char* right_patches,
-    global const int* itself, global const float* current, const int stride, const float radius,
-    const float orientation, const float ncc_min, const float ncc_nearly_best, const float distance_weight,
-    const float cluster_gap, const float cluster_orientation,
-    global int* result
+kernel void temporal_match(const TemporalMatchArguments args, global const float* predicted,
+                           global const float* left_points, global const int* left_cells,
+                           global const float* right_points, global const int* right_cells,
+                           global const char* base_left_patches, global const int* base_left_index,
+                           global const char* base_right_patches, global const char* left_patches,
+                           global const int* left_index, global const char* right_patches, global const float* current,
+                           global int* result
 #ifdef TAP
-    // Lists of both sides: row 2 r is the left one of row r, 2 r + 1 the right one. In the first of
-    // two launches capacity is 0, and only `seen_counts` is written.
-    ,
-    global const int* seen_first, const int seen_capacity, global int* seen_counts, global int* seen,
-    global const uchar* base_left_sift, global const uchar* base_right_sift, global const uchar* left_sift,
-    global const uchar* right_sift
+                           // Lists of both sides: row 2 r is the left one of row r, 2 r + 1 the right one. In the first
+                           // of two launches capacity is 0, and only `seen_counts` is written.
+                           ,
+                           global const int* seen_first, const int seen_capacity, global int* seen_counts,
+                           global int* seen, global const uchar* base_left_sift, global const uchar* base_right_sift,
+                           global const uchar* left_sift, global const uchar* right_sift
 #endif
 ) {
   const int row = (int)get_global_id(0);
-  if (row >= rows) return;
-  const int i = row * row_step;
+  if (row >= args.rows) return;
+  const int i = row * args.row_step;
   int left_target[MOST], right_target[MOST];
   float left_ncc[MOST], right_ncc[MOST];
 #ifdef TAP
   TappedSide tapped[2];
   for (int side = 0; side < 2; ++side) {
     const int begin = seen_capacity > 0 ? seen_first[2 * row + side] : 0;
-    tapped[side].seen = seen + 4 * (size_t)begin;
+    tapped[side].seen = seen + kTappedInts * (size_t)begin;
     tapped[side].room = seen_capacity > 0 ? min(seen_first[2 * row + side + 1], seen_capacity) - begin : 0;
     tapped[side].count = 0;
     tapped[side].descriptor = (side == 0 ? base_left_sift : base_right_sift) + kEdgeSiftBytes * (size_t)i;
     tapped[side].descriptors = side == 0 ? left_sift : right_sift;
   }
 #endif
-  const float x = left_predicted_x[i], y = left_predicted_y[i];
-  const int left = alike_near(x, y, left_predicted_direction[i], left_xs, left_ys, left_directions, left_numbers,
-                              left_cell_first, left_columns, left_cell_rows, radius, orientation,
-                              base_left_patches + kEdgePatchBytes * (size_t)base_left_index[i], left_patches,
-                              left_index, ncc_min, ncc_nearly_best, left_target, left_ncc TAP_ARGUMENT(&tapped[0]));
-  const int right =
-      alike_near(right_predicted_x[i], right_predicted_y[i], right_predicted_direction[i], right_xs, right_ys,
-                 right_directions, right_numbers, right_cell_first, right_columns, right_cell_rows, radius, orientation,
-                 base_right_patches + kEdgePatchBytes * (size_t)i, right_patches, itself, ncc_min, ncc_nearly_best,
-                 right_target, right_ncc TAP_ARGUMENT(&tapped[1]));
+  const float3 left_predicted = edge_at(args.left_predicted, predicted, i),
+               right_predicted = edge_at(args.right_predicted, predicted, i);
+  const PointIndex left_points_index = open_index(args.left_index, left_points, left_cells),
+                   right_points_index = open_index(args.right_index, right_points, right_cells);
+  const int left =
+      similar_near(&args, left_predicted, &left_points_index, patch_of(base_left_patches, base_left_index, i),
+                   left_patches, left_index, left_target, left_ncc TAP_ARGUMENT(&tapped[0]));
+  const int right = similar_near(&args, right_predicted, &right_points_index, patch_of(base_right_patches, 0, i),
+                                 right_patches, 0, right_target, right_ncc TAP_ARGUMENT(&tapped[1]));
   TAPPED(for (int side = 0; side < 2; ++side) seen_counts[2 * row + side] = tapped[side].count;)
   const int flags =
-      (left > 0 ? LEFT_ALIVE : 0) | (right > 0 ? RIGHT_ALIVE : 0) | (left < 0 || right < 0 ? OVERFLOW : 0);
+      (left > 0 ? kLeftAlive : 0) | (right > 0 ? kRightAlive : 0) | (left < 0 || right < 0 ? kRowOverflow : 0);
   int agreeing = 0, winner = -1;
   float highest = 0.0f, score = 0.0f;
   for (int c = 0; c < left; ++c) {
@@ -233,15 +230,16 @@ kernel void temporal_match(
     }
     const int j = left_target[c];
     const float mean = 0.5f * (left_ncc[c] + right_ncc[found]);
-    const float dx = current[j] - x, dy = current[stride + j] - y;
-    const float weighed = mean - distance_weight * (dx * dx + dy * dy);
+    const float3 edge = edge_at(args.current, current, j);
+    const float dx = edge.x - left_predicted.x, dy = edge.y - left_predicted.y;
+    const float weighed = mean - args.choice.distance_weight * (dx * dx + dy * dy);
     left_target[agreeing++] = j;
     if (winner >= 0 && weighed <= highest) continue;
     winner = j;
     highest = weighed;
     score = mean;
   }
-  const int clusters = count_clusters(left_target, agreeing, current, current + stride, current + 2 * stride,
-                                      cluster_gap, cluster_orientation);
-  vstore4((int4)(winner, clusters - 1, as_int(score), flags), row, result);
+  const int groups = count_groups(left_target, agreeing, args.current, current, args.choice.cluster_gap,
+                                  args.choice.cluster_orientation);
+  vstore4((int4)(winner, groups - 1, as_int(score), flags), row, result);
 }

@@ -43,8 +43,8 @@ inline float wide_sample(global const float* small, const int width, const int h
   return (1.0f - fy) * top + fy * bottom;
 }
 
-// Share that a sample `offset` small pixels from the middle has in a cell, along one axis.
-inline float wide_share(const int offset, const int cell) {
+// Weight that a sample `offset` small pixels from the middle has in a cell, along one axis.
+inline float wide_weight(const int offset, const int cell) {
   const float distance = fabs((float)offset * (1.0f / CELL_WIDTH) - ((float)cell - 0.5f * (kWideCells - 1)));
   return max(0.0f, 1.0f - distance) * kWindow[abs(offset)];
 }
@@ -85,10 +85,10 @@ kernel void wide_describe(global const float* small, const int small_width, cons
       const float square = gradient_along * gradient_along + gradient_across * gradient_across;
       const float8 part = max(gradient_along * kCosine + gradient_across * kSine, 0.0f);
       const float8 bins = square > 0.0f ? part * part * part / square : 0.0f;
-      for (int cell = 0; cell < kWideCells; ++cell) line[cell] += wide_share(u - HALF, cell) * bins;
+      for (int cell = 0; cell < kWideCells; ++cell) line[cell] += wide_weight(u - HALF, cell) * bins;
     }
     for (int cell = 0; cell < kWideCells * kWideCells; ++cell)
-      histogram[cell] += wide_share(v - HALF, cell / kWideCells) * line[cell % kWideCells];
+      histogram[cell] += wide_weight(v - HALF, cell / kWideCells) * line[cell % kWideCells];
   }
   float squares = 0.0f;
   for (int cell = 0; cell < kWideCells * kWideCells; ++cell) squares += wide_sum(histogram[cell] * histogram[cell]);

@@ -9,17 +9,16 @@
 #ifndef ROWS
 #define ROWS 8
 #endif
-#define LANES 16
 #define LISTED 64         // blocks of columns that may hold a rival, per row
 #define SQUARE 262144.0f  // 512^2
 
 kernel void wide_transpose(global const uchar* descriptors, const int count, global uchar* blocks) {
   const int block = (int)get_global_id(0);
-  if (block * LANES >= count) return;
-  for (int lane = 0; lane < LANES; ++lane) {
-    const int descriptor = block * LANES + lane;
+  if (block * kBlockLanes >= count) return;
+  for (int lane = 0; lane < kBlockLanes; ++lane) {
+    const int descriptor = block * kBlockLanes + lane;
     for (int k = 0; k < kWideBytes; ++k) {
-      blocks[(size_t)(block * kWideBytes + k) * LANES + lane] =
+      blocks[(size_t)(block * kWideBytes + k) * kBlockLanes + lane] =
           descriptor < count ? descriptors[(size_t)descriptor * kWideBytes + k] : 0;
     }
   }
@@ -64,10 +63,10 @@ inline float wide_limit(const float highest, const float ratio) {
 inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block,
                            const int count, global const float* x, global const float* y, const int step,
                            const int from, const float distance) {
-  float of_lane[LANES];
+  float of_lane[kBlockLanes];
   vstore16(products, 0, of_lane);
-  for (int lane = 0; lane < LANES; ++lane) {
-    const int other = block * LANES + lane;
+  for (int lane = 0; lane < kBlockLanes; ++lane) {
+    const int other = block * kBlockLanes + lane;
     if (other >= count || !(above ? of_lane[lane] > limit : of_lane[lane] >= limit)) continue;
     const float dx = x[other * step] - x[from], dy = y[other * step] - y[from];
     if (dx * dx + dy * dy > distance * distance) return true;
@@ -97,17 +96,17 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
     winner[r] = -1;
     listed[r] = 0;
   }
-  for (int block = 0; block * LANES < columns; ++block) {
-    wide_products(mine, column_blocks + (size_t)block * (kWideBytes * LANES), products);
+  for (int block = 0; block * kBlockLanes < columns; ++block) {
+    wide_products(mine, column_blocks + (size_t)block * (kWideBytes * kBlockLanes), products);
     for (int r = 0; r < ROWS; ++r) {
       const float here = wide_highest(products[r]);
       if (here > highest[r]) {
         highest[r] = here;
-        float of_lane[LANES];
+        float of_lane[kBlockLanes];
         vstore16(products[r], 0, of_lane);
         int lane = 0;
         while (of_lane[lane] != here) ++lane;
-        winner[r] = block * LANES + lane;
+        winner[r] = block * kBlockLanes + lane;
       }
       // The limit only rises: what it has passed is no rival. A full list is cleared of that; LISTED + 1 says it did
       // not suffice.
@@ -134,8 +133,8 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
     // Without a winner anything may stand in `found`; it has to be something that exists.
     wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * kWideBytes : row_descriptors, found + r * kWideBytes);
   }
-  for (int block = 0; block * LANES < rows; ++block) {
-    wide_products(found, row_blocks + (size_t)block * (kWideBytes * LANES), products);
+  for (int block = 0; block * kBlockLanes < rows; ++block) {
+    wide_products(found, row_blocks + (size_t)block * (kWideBytes * kBlockLanes), products);
     for (int r = 0; r < ROWS; ++r) {
       const int row = min(first + r, rows - 1);
       if (alone[r] && wide_highest(products[r]) >= highest[r]) {
@@ -147,13 +146,14 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
   for (int r = 0; r < ROWS && first + r < rows; ++r) {
     const float limit = wide_limit(highest[r], ratio);
     const bool all = listed[r] > LISTED;
-    const int blocks = all ? (columns + LANES - 1) / LANES : listed[r];
+    const int blocks = all ? (columns + kBlockLanes - 1) / kBlockLanes : listed[r];
     for (int k = 0; alone[r] && k < blocks; ++k) {
       const int block = all ? k : list[r][k];
       if (!all && listed_highest[r][k] <= limit) continue;
       alone[r] = !wide_elsewhere(
-          wide_product(mine + r * kWideBytes, column_blocks + (size_t)block * (kWideBytes * LANES)), limit, true, block,
-          columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step, neighbourhood);
+          wide_product(mine + r * kWideBytes, column_blocks + (size_t)block * (kWideBytes * kBlockLanes)), limit, true,
+          block, columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step,
+          neighbourhood);
     }
     best[first + r] = alone[r] ? winner[r] : -1;
     similarity[first + r] = alone[r] ? highest[r] / SQUARE : 0.0f;

@@ -8,36 +8,22 @@
 #include "devices.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/patches.hpp"
 #include "stages/patches.hpp"
 #include "stages/sift.hpp"
 
-struct TestEdges {
-  std::vector<float> x, y, direction;
-};
-
-/// `count` places all over the image and up to `beyond` px outside it, with all directions.
-inline TestEdges random_edges(int width, int height, int count, unsigned seed, double beyond = 0) {
-  TestEdges edges;
+/// `count` positions all over the image and up to `beyond` px outside it, with all directions.
+inline quadedge::EdgePositions random_edges(int width, int height, int count, unsigned seed, double beyond = 0) {
+  quadedge::EdgePositions edges;
   std::mt19937_64 random(seed);
   const auto uniform = [&random] { return static_cast<double>(random() >> 11) / 9007199254740992.0; };
   for (int k = 0; k < count; ++k) {
     edges.x.push_back(static_cast<float>(uniform() * (width - 1 + 2 * beyond) - beyond));
     edges.y.push_back(static_cast<float>(uniform() * (height - 1 + 2 * beyond) - beyond));
-    edges.direction.push_back(static_cast<float>((2 * uniform() - 1) * 3.14159265358979));
+    edges.direction.push_back(static_cast<float>((2 * uniform() - 1) * quadedge::kPi));
   }
   return edges;
-}
-
-/// The edges in `packed`, as a stage takes them.
-inline quadedge::stages::PositionsView upload(quadedge::opencl::Context& context, const TestEdges& edges,
-                                              quadedge::opencl::Buffer<cl_float>& packed) {
-  std::vector<float> blocks;
-  for (const auto* block : {&edges.x, &edges.y, &edges.direction})
-    blocks.insert(blocks.end(), block->begin(), block->end());
-  packed.write(context, blocks);
-  const auto count = static_cast<int>(edges.x.size());
-  return {packed, {0, count, count}};
 }
 
 struct TestDescriptions {
@@ -49,7 +35,7 @@ struct TestDescriptions {
 /// Descriptions by every variant of `stage` ("patches" or "sift"; the other one by its default) on every device, each
 /// run twice on the same object: the second run must give the same bytes.
 inline std::vector<TestDescriptions> describe_everywhere(const std::string& stage, const quadedge::Image& image,
-                                                         const TestEdges& edges) {
+                                                         const quadedge::EdgePositions& edges) {
   using namespace quadedge;
   std::vector<TestDescriptions> all;
   const std::size_t count = edges.x.size();
@@ -57,9 +43,10 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
     Device device(index);
     auto& context = *device.context();
     opencl::Buffer<cl_uchar> pixels;
-    opencl::Buffer<cl_float> packed;
+    stages::DevicePositions device_edges;
     pixels.write(context, image.pixels);
-    const auto positions = upload(context, edges, packed);
+    device_edges.write(context, {edges});
+    const auto positions = device_edges.list();
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != stage) continue;
       const std::map<std::string, std::string> chosen = {{stage, variant.name}};

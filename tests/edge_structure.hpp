@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "quadedge/config.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 
 inline void check_structure(const quadedge::reference::ReferenceEdges& edges, int width, int height,
@@ -24,7 +25,7 @@ inline void check_structure(const quadedge::reference::ReferenceEdges& edges, in
   }
   for (std::size_t i = 0; i < edges.size(); ++i) {
     REQUIRE(edges.strength[i] > config.threshold);
-    REQUIRE((edges.direction[i] > -3.14159265358979323846 && edges.direction[i] <= 3.14159265358979323846));
+    REQUIRE((edges.direction[i] > -quadedge::kPi && edges.direction[i] <= quadedge::kPi));
     REQUIRE((edges.x[i] > config.margin && edges.x[i] < width - 1 - config.margin));
     REQUIRE((edges.y[i] > config.margin && edges.y[i] < height - 1 - config.margin));
   }

@@ -31,8 +31,8 @@ struct RenderedScene {
     rig = sequence.rig();
     config.stereo.max_disparity = sequence.max_disparity();
     for (int i = 0; i < options.frames; i += step) {
-      left.push_back(sequence.render(i, false).image);
-      right.push_back(sequence.render(i, true).image);
+      left.push_back(sequence.render(i, Side::left).image);
+      right.push_back(sequence.render(i, Side::right).image);
       world_from_left.push_back(sequence.world_from_left(i));
     }
   }
@@ -66,8 +66,8 @@ inline FrontendResult run_frontend(const RenderedScene& scene, const std::string
   const auto before = frontend->process(scene.frame(0)), now = frontend->process(scene.frame(1));
   FrontendResult result;
   result.quads = frontend->match(*before, search_around(before->edges, radius, step));
-  result.left_edges = frontend->edges(false);
-  result.right_edges = frontend->edges(true);
+  result.left_edges = frontend->edges(Side::left);
+  result.right_edges = frontend->edges(Side::right);
   result.previous = before->edges;
   result.current = now->edges;
   return result;

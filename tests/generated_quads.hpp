@@ -165,6 +165,35 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
   return result;
 }
 
+/// Noisy quads near two rigs, and a pose off their true motion: where derivatives of residuals are checked. Calls
+/// `check(quads, i, rig, pose)` for every quad.
+template <class Check>
+void for_quads_off_motion(const Check& check) {
+  Random random(20);
+  for (const auto& rig : {car_rig(), crooked_rig()}) {
+    Problem problem;
+    problem.rig = rig;
+    problem.near = 2;
+    problem.far = 20;
+    problem.quads = 30;
+    problem.motion = random.motion(0.1, 0.5);
+    problem.noise = {0.3, 0.5, 0.05};
+    const auto generated = generate(problem, 21);
+    const Eigen::Isometry3d pose = random.motion(0.02, 0.1) * problem.motion;
+    for (std::size_t i = 0; i < generated.quads.size(); ++i) check(generated.quads, i, rig, pose);
+  }
+}
+
+/// A motion seen without errors, near a crooked rig.
+inline Problem near_problem() {
+  Problem problem;
+  problem.rig = crooked_rig();
+  problem.near = 2;
+  problem.far = 20;
+  problem.motion.translation() << 0.1, 0.05, -0.3;
+  return problem;
+}
+
 /// Adds the quads of another scene.
 inline void append(quadedge::pose::QuadObservations& quads, const quadedge::pose::QuadObservations& others) {
   const auto both = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };

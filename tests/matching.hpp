@@ -15,6 +15,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/candidate_filters.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
@@ -24,9 +25,6 @@
 namespace matching {
 
 using namespace quadedge;
-
-inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr double kDegree = kPi / 180;
 
 /// Uniform numbers that are the same on every platform.
 class Random {

@@ -14,7 +14,7 @@ namespace {
 /// A step whose quads were made by two motions; its base's edges are predicted where the quads ended.
 struct TwoMotions {
   MotionStep step;
-  PlacedEdges predicted;
+  EdgePositions predicted;
 
   TwoMotions(const generated::Problem& first, const generated::Problem& second) {
     step.quads = generated::generate(first, 1).quads;
@@ -71,7 +71,7 @@ TEST_CASE("acceptance: without enough support among the edges in view there is n
   config.temporal.min_support = 0.06;
   const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
   const Acceptance acceptance(config, offset);
-  PlacedEdges predicted;
+  EdgePositions predicted;
   predicted.x.assign(100, 5.0f);
   predicted.x.resize(150, std::numeric_limits<float>::quiet_NaN());
   predicted.y.assign(150, 5.0f);

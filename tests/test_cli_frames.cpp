@@ -29,8 +29,8 @@ std::vector<std::string> statuses(const std::string& path) {
   return result;
 }
 
-/// Places of the left camera in a KITTI file.
-std::vector<std::array<double, 3>> places(const std::string& path) {
+/// Positions of the left camera in a KITTI file.
+std::vector<std::array<double, 3>> positions(const std::string& path) {
   std::vector<std::array<double, 3>> result;
   std::ifstream stream(path);
   for (std::array<double, 12> row; true;) {
@@ -60,10 +60,11 @@ TEST_CASE("run: a black frame is lost, and tracking resumes behind it", "[cli][d
   CHECK(status[1] == "lost_too_few_edges");
   CHECK(status[2] == "tracked");
   CHECK(status[3] == "tracked");
-  CHECK(places(folder / "out/trajectory_kitti.txt").size() == 4);
+  CHECK(positions(folder / "out/trajectory_kitti.txt").size() == 4);
   const auto whole = run_program({"run", small_sequence(), "-o", folder / "whole"});
   REQUIRE(whole.code == 0);
-  const auto here = places(folder / "out/trajectory_kitti.txt"), there = places(folder / "whole/trajectory_kitti.txt");
+  const auto here = positions(folder / "out/trajectory_kitti.txt"),
+             there = positions(folder / "whole/trajectory_kitti.txt");
   CHECK(distance(here[3], there[3]) < 0.05 * distance(there[0], there[3]));
 }
 
@@ -89,9 +90,9 @@ TEST_CASE("run: the same frame twice gives no motion", "[cli][device]") {
   INFO(result.err);
   REQUIRE(result.code == 0);
   CHECK(statuses(folder / "out/frames.csv") == std::vector<std::string>{"first", "tracked"});
-  const auto place = places(folder / "out/trajectory_kitti.txt");
-  REQUIRE(place.size() == 2);
-  CHECK(distance(place[0], place[1]) < 1e-5);
+  const auto position = positions(folder / "out/trajectory_kitti.txt");
+  REQUIRE(position.size() == 2);
+  CHECK(distance(position[0], position[1]) < 1e-5);
 }
 
 TEST_CASE("edges: a kernel that does not build ends with code 4, its file and its line", "[cli][device]") {

@@ -2,6 +2,7 @@
 
 #include "generated_quads.hpp"
 #include "pose/constraints.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge::pose;
 
@@ -98,10 +99,10 @@ TEST_CASE("The quads swap roles where D runs along the first tangent, and fail w
           "[pose][constraints]") {
   OrientedPair pair = example();
   CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
-  pair.first.tangent = unit(1, std::tan(13.0 * 3.14159265358979323846 / 180), 0);
+  pair.first.tangent = unit(1, std::tan(13.0 * quadedge::kDegree), 0);
   CHECK(check_constraints(pair, pair, kLimits).swapped);
   CHECK(check_constraints(pair, pair, kLimits).all());
-  pair.first.tangent = unit(1, std::tan(15.0 * 3.14159265358979323846 / 180), 0);
+  pair.first.tangent = unit(1, std::tan(15.0 * quadedge::kDegree), 0);
   CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
   pair.first.tangent = Eigen::Vector3d::UnitX();
   pair.second.tangent = -Eigen::Vector3d::UnitX();

@@ -7,6 +7,7 @@
 #include "evaluation/quad_pairs.hpp"
 #include "paper_scene.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using namespace quadedge::evaluation;
@@ -66,7 +67,7 @@ TEST_CASE("Pooled cues add up and remember all thresholds", "[matching]") {
 
 TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   EdgeSet left, right;
-  add_edge(left, 30, 10);                          // true place (20, 10)
+  add_edge(left, 30, 10);                          // true position (20, 10)
   add_edge(left, 70, 40);                          // unpaired: nothing near (60, 40)
   add_edge(right, 20.4F, 10.22F, kSteep + 0.05F);  // 0: veridical for 0
   add_edge(right, 15, 10, kSteep - 0.3F);          // 1: on its line, 5 px off
@@ -103,8 +104,8 @@ TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   CHECK(in_bin(disparity.other, 15.0) == 1);
   CHECK(disparity.other.total() == 1);
   const auto& direction = *find_cue(measured.cues, CueTable::stereo, 3);
-  CHECK(in_bin(direction.veridical, 0.05 * 180 / 3.14159265) == 1);
-  CHECK(in_bin(direction.other, 0.3 * 180 / 3.14159265) == 1);
+  CHECK(in_bin(direction.veridical, 0.05 * 180 / kPi) == 1);
+  CHECK(in_bin(direction.other, 0.3 * 180 / kPi) == 1);
   const auto& sift = *find_cue(measured.cues, CueTable::stereo, 4);
   CHECK(in_bin(sift.veridical, 100) == 1);
   CHECK(in_bin(sift.other, 300) == 1);
@@ -114,7 +115,7 @@ TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   CHECK(in_bin(nearly_best.other, 0.5) == 1);
 }
 
-TEST_CASE("Shares of the best SIFT distance are turned over: the best has 1", "[matching]") {
+TEST_CASE("Ratios to the best SIFT distance are turned over: the best has 1", "[matching]") {
   CandidateLists lists;
   lists.first = {0, 2};
   lists.target = {0, 1};
@@ -210,6 +211,6 @@ TEST_CASE("The error of a motion is its angle and its length", "[matching]") {
   estimate = truth * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY());
   estimate.translation() += Eigen::Vector3d(0, 0.03, 0.04);
   const auto error = motion_error(estimate, truth);
-  CHECK(error.rotation_deg == Approx(0.01 * 180 / 3.14159265358979));
+  CHECK(error.rotation_deg == Approx(0.01 * 180 / kPi));
   CHECK(error.translation_m == Approx(0.05));
 }

@@ -7,15 +7,14 @@
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using dataset_files::real_data;
 
 namespace {
 
-double degrees(const Eigen::Matrix3d& rotation) {
-  return Eigen::AngleAxisd(rotation).angle() * 180 / 3.14159265358979323846;
-}
+double degrees(const Eigen::Matrix3d& rotation) { return Eigen::AngleAxisd(rotation).angle() * 180 / kPi; }
 
 cv::Mat grey(const std::string& file, const UndistortionTable& table) {
   const Image image = read_grey_image(file);

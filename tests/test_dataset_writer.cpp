@@ -39,7 +39,7 @@ TEST_CASE("dataset: a rendered sequence comes back from disk as it was written",
     CHECK((set.truth[static_cast<std::size_t>(i)].world_from_left.matrix() - sequence.world_from_left(i).matrix())
               .cwiseAbs()
               .maxCoeff() < 1e-14);
-    const RenderedView left = sequence.render(i, false), right = sequence.render(i, true);
+    const RenderedView left = sequence.render(i, Side::left), right = sequence.render(i, Side::right);
     CHECK(read_grey_image(files.left).pixels == left.image.pixels);
     CHECK(read_grey_image(files.right).pixels == right.image.pixels);
     std::string depth = files.right;

@@ -39,8 +39,8 @@ double sharpness(const Image& image) {
   return sum / static_cast<double>(image.pixels.size());
 }
 
-/// Share of the view nearer than anything in the scene but the board.
-double near_share(const RenderedView& view) {
+/// Fraction of the view nearer than anything in the scene but the board.
+double near_fraction(const RenderedView& view) {
   double near = 0;
   for (const float depth : view.depth) near += depth > 0 && depth < 1.25F ? 1 : 0;
   return near / static_cast<double>(view.depth.size());
@@ -61,7 +61,7 @@ Tracked track(const SyntheticOptions& options, Device& device) {
   std::vector<std::int64_t> stamps;
   Tracked tracked;
   for (int i = 0; i < options.frames; ++i) {
-    const Image left = sequence.render(i, false).image, right = sequence.render(i, true).image;
+    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
     const auto result = odometry.track({sequence.stamp_ns(i), left.view(), right.view()});
     stamps.push_back(sequence.stamp_ns(i));
     truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
@@ -83,48 +83,51 @@ TEST_CASE("disturbances: light and exposure scale the images they should", "[syn
   options.gain = 0.5;
   options.right_gain = 0.8;
   const SyntheticSequence changing(options);
-  CHECK(changing.render(0, false).image.pixels == still.render(0, false).image.pixels);
-  CHECK(mean(changing.render(1, false).image) == Approx(0.5 * mean(still.render(1, false).image)).epsilon(0.01));
-  CHECK(mean(changing.render(1, true).image) == Approx(0.4 * mean(still.render(1, true).image)).epsilon(0.01));
-  CHECK(mean(changing.render(2, true).image) == Approx(0.8 * mean(still.render(2, true).image)).epsilon(0.01));
+  CHECK(changing.render(0, Side::left).image.pixels == still.render(0, Side::left).image.pixels);
+  CHECK(mean(changing.render(1, Side::left).image) ==
+        Approx(0.5 * mean(still.render(1, Side::left).image)).epsilon(0.01));
+  CHECK(mean(changing.render(1, Side::right).image) ==
+        Approx(0.4 * mean(still.render(1, Side::right).image)).epsilon(0.01));
+  CHECK(mean(changing.render(2, Side::right).image) ==
+        Approx(0.8 * mean(still.render(2, Side::right).image)).epsilon(0.01));
 }
 
 TEST_CASE("disturbances: blur smooths along the motion and moves nothing", "[synthetic]") {
   SyntheticOptions options = small_scene("room");
   options.noise = 0;
-  const RenderedView sharp = SyntheticSequence(options).render(2, false);
+  const RenderedView sharp = SyntheticSequence(options).render(2, Side::left);
   double last = sharpness(sharp.image);
   for (const double blur : {1.0, 3.0, 5.0}) {
     options.blur = blur;
-    const RenderedView blurred = SyntheticSequence(options).render(2, false);
+    const RenderedView blurred = SyntheticSequence(options).render(2, Side::left);
     CHECK(blurred.depth == sharp.depth);
     CHECK(sharpness(blurred.image) < last);
     CHECK(mean(blurred.image) == Approx(mean(sharp.image)).epsilon(0.01));
     last = sharpness(blurred.image);
     // The image moved by a pixel to either side fits worse than the one in place.
-    double places[3] = {0, 0, 0};
+    double misfit[3] = {0, 0, 0};
     for (int y = 0; y < options.height; ++y) {
       for (int x = 1; x + 1 < options.width; ++x) {
         const auto at = [&](const Image& image, int column) {
           return static_cast<double>(image.pixels[static_cast<std::size_t>(y * options.width + column)]);
         };
-        for (int k = 0; k < 3; ++k) places[k] += std::pow(at(blurred.image, x) - at(sharp.image, x + k - 1), 2);
+        for (int k = 0; k < 3; ++k) misfit[k] += std::pow(at(blurred.image, x) - at(sharp.image, x + k - 1), 2);
       }
     }
-    CHECK(places[1] < 0.9 * places[0]);
-    CHECK(places[1] < 0.9 * places[2]);
+    CHECK(misfit[1] < 0.9 * misfit[0]);
+    CHECK(misfit[1] < 0.9 * misfit[2]);
   }
 }
 
-TEST_CASE("disturbances: a board covers its share of the view and moves against the scene", "[synthetic]") {
+TEST_CASE("disturbances: a board covers its fraction of the view and moves against the scene", "[synthetic]") {
   SyntheticOptions options = small_scene("room");
-  CHECK(near_share(SyntheticSequence(options).render(0, false)) == 0);
-  for (const double share : {0.1, 0.3}) {
-    options.mover = share;
+  CHECK(near_fraction(SyntheticSequence(options).render(0, Side::left)) == 0);
+  for (const double fraction : {0.1, 0.3}) {
+    options.mover = fraction;
     const SyntheticSequence sequence(options);
-    const RenderedView first = sequence.render(0, false), later = sequence.render(4, false);
-    CHECK(near_share(first) == Approx(share).epsilon(0.15));
-    CHECK(near_share(later) == Approx(share).epsilon(0.15));
+    const RenderedView first = sequence.render(0, Side::left), later = sequence.render(4, Side::left);
+    CHECK(near_fraction(first) == Approx(fraction).epsilon(0.15));
+    CHECK(near_fraction(later) == Approx(fraction).epsilon(0.15));
     std::size_t changed = 0, of_board = 0;
     for (std::size_t i = 0; i < first.depth.size(); ++i) {
       if (!(first.depth[i] > 0 && first.depth[i] < 1.25F)) continue;

@@ -33,10 +33,11 @@ DrawnFrame small_frame() {
   return frame;
 }
 
-/// Colour at a place of one of the views of the whole images.
-cv::Vec3b at(const cv::Mat& picture, double x, double y, bool right) {
-  return picture.at<cv::Vec3b>(kTop + static_cast<int>(std::lround((y + 0.5) * kScale - 0.5)),
-                               (right ? kRightView : 0) + static_cast<int>(std::lround((x + 0.5) * kScale - 0.5)));
+/// Colour at a position in one of the views of the whole images.
+cv::Vec3b at(const cv::Mat& picture, double x, double y, Side side) {
+  return picture.at<cv::Vec3b>(
+      kTop + static_cast<int>(std::lround((y + 0.5) * kScale - 0.5)),
+      (side == Side::right ? kRightView : 0) + static_cast<int>(std::lround((x + 0.5) * kScale - 0.5)));
 }
 
 int colourfulness(const cv::Vec3b& colour) {
@@ -53,34 +54,34 @@ int difference(const cv::Vec3b& a, const cv::Vec3b& b) {
 
 TEST_CASE("A correspondence has one colour in both views, and another one than its neighbour", "[report]") {
   const cv::Mat picture = draw_match_class(small_frame(), MatchClass::correct, "paper", 1, 10);
-  const auto first = at(picture, 60, 20, false), second = at(picture, 90, 40, false);
+  const auto first = at(picture, 60, 20, Side::left), second = at(picture, 90, 40, Side::left);
   CHECK(colourfulness(first) > 100);
   CHECK(colourfulness(second) > 100);
-  CHECK(difference(first, at(picture, 50, 20, true)) < 10);
-  CHECK(difference(second, at(picture, 80.5, 40, true)) < 10);
+  CHECK(difference(first, at(picture, 50, 20, Side::right)) < 10);
+  CHECK(difference(second, at(picture, 80.5, 40, Side::right)) < 10);
   CHECK(difference(first, second) > 60);
   // Other classes are not in this picture.
-  CHECK(colourfulness(at(picture, 120, 60, false)) == 0);
-  CHECK(colourfulness(at(picture, 100, 30, true)) == 0);
+  CHECK(colourfulness(at(picture, 120, 60, Side::left)) == 0);
+  CHECK(colourfulness(at(picture, 100, 30, Side::right)) == 0);
 }
 
-TEST_CASE("Inaccurate and wrong matches are linked to their true place in the right view", "[report]") {
+TEST_CASE("Inaccurate and wrong matches are linked to their true position in the right view", "[report]") {
   const cv::Mat picture = draw_match_class(small_frame(), MatchClass::wrong, "paper", 1, 10);
-  const auto match = at(picture, 150, 30, false);
+  const auto match = at(picture, 150, 30, Side::left);
   CHECK(colourfulness(match) > 100);
-  CHECK(difference(match, at(picture, 100, 30, true)) < 10);
-  CHECK(colourfulness(at(picture, 120, 30, true)) > 50);  // on the way from 100 to 140
-  CHECK(colourfulness(at(picture, 120, 30, false)) == 0);
-  CHECK(colourfulness(at(picture, 60, 20, false)) == 0);
+  CHECK(difference(match, at(picture, 100, 30, Side::right)) < 10);
+  CHECK(colourfulness(at(picture, 120, 30, Side::right)) > 50);  // on the way from 100 to 140
+  CHECK(colourfulness(at(picture, 120, 30, Side::left)) == 0);
+  CHECK(colourfulness(at(picture, 60, 20, Side::left)) == 0);
 }
 
 TEST_CASE("Coloured by class, every class has the same colour in both views and differs from the others", "[report]") {
   const cv::Mat picture = draw_all_matches(small_frame(), "paper", 1, 10);
-  const auto correct = at(picture, 60, 20, false), inaccurate = at(picture, 120, 60, false),
-             wrong = at(picture, 150, 30, false);
-  CHECK(difference(correct, at(picture, 90, 40, false)) < 20);
-  CHECK(difference(correct, at(picture, 80.5, 40, true)) < 20);
-  CHECK(difference(inaccurate, at(picture, 105, 60, true)) < 20);
+  const auto correct = at(picture, 60, 20, Side::left), inaccurate = at(picture, 120, 60, Side::left),
+             wrong = at(picture, 150, 30, Side::left);
+  CHECK(difference(correct, at(picture, 90, 40, Side::left)) < 20);
+  CHECK(difference(correct, at(picture, 80.5, 40, Side::right)) < 20);
+  CHECK(difference(inaccurate, at(picture, 105, 60, Side::right)) < 20);
   CHECK(difference(correct, inaccurate) > 60);
   CHECK(difference(inaccurate, wrong) > 60);
   CHECK(difference(correct, wrong) > 60);

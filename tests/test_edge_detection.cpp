@@ -9,6 +9,7 @@
 #include "edge_images.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
 
@@ -83,7 +84,7 @@ void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config
         const double distance = std::hypot(gap, truth.y[i] - static_cast<double>(found.y[j]));
         const double turn =
             std::remainder(truth.direction[i] - static_cast<double>(found.direction[j]), 6.283185307179586);
-        if (distance > 0.01 || std::abs(turn) > 0.1 * 3.14159265358979 / 180.0) ++outside;
+        if (distance > 0.01 || std::abs(turn) > 0.1 * kDegree) ++outside;
         REQUIRE(static_cast<double>(found.strength[j]) == Approx(truth.strength[i]).epsilon(1e-4));
         ++matched, ++i, ++j;
       } else if (gap < 0) {

@@ -6,15 +6,13 @@
 #include "edge_images.hpp"
 #include "edge_structure.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 
 using namespace quadedge;
 using reference::ReferenceEdges;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180.0;
 
 /// Blur of the rendered edges as the detector sees it: its Gaussian and the box of the pixel's area.
 double effective_sigma(const EdgesConfig& config) { return std::sqrt(config.sigma * config.sigma + 1.0 / 12.0); }
@@ -23,7 +21,7 @@ double angle_error(double a, double b) { return std::abs(std::remainder(a - b, 2
 
 }  // namespace
 
-TEST_CASE("edges: a straight edge of any direction lies at its true place to 0.004 px and 0.08 degrees (rms)",
+TEST_CASE("edges: a straight edge of any direction lies at its true position to 0.004 px and 0.08 degrees (rms)",
           "[edges]") {
   const EdgesConfig config;
   const double truth_strength = 120.0 / (std::sqrt(2.0 * kPi) * effective_sigma(config));
@@ -94,14 +92,14 @@ TEST_CASE("edges: a circle is found inward by the known sigma^2 / 2r and its tan
       }
       bias /= static_cast<double>(edges.size());
       const double sigma = effective_sigma(config);
-      // Smoothing a curved edge moves its steepest place towards the centre of curvature, to first order by sigma^2 /
-      // 2r.
+      // Smoothing a curved edge moves its steepest position towards the centre of curvature, to first order by sigma^2
+      // / 2r.
       CHECK(bias == Approx(-sigma * sigma / (2.0 * radius)).margin(0.003));
     }
   }
 }
 
-TEST_CASE("edges: the Newton step onto F = 0 brings straight edges nearer to their place", "[edges]") {
+TEST_CASE("edges: the Newton step onto F = 0 brings straight edges nearer to their position", "[edges]") {
   EdgesConfig with, without;
   without.newton_max = 0;
   double squares_with = 0, squares_without = 0;

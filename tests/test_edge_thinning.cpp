@@ -7,6 +7,7 @@
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "edge_structure.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/edge_thinning.hpp"
 #include "stages/edge_detection.hpp"
@@ -15,8 +16,6 @@ using namespace quadedge;
 using reference::ReferenceEdges;
 
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 struct Detection {
   EdgeSet edges;

@@ -3,16 +3,15 @@
 
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr double kRadians = 3.14159265358979323846 / 180;
-
 Eigen::Isometry3d turn(double degrees, const Eigen::Vector3d& axis) {
-  return Eigen::Isometry3d(Eigen::AngleAxisd(degrees * kRadians, axis.normalized()));
+  return Eigen::Isometry3d(Eigen::AngleAxisd(degrees * kDegree, axis.normalized()));
 }
 
 /// A curve that leaves every plane, 50 ms per pose.

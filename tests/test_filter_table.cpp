@@ -14,15 +14,16 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   EdgeSet left, right;
   add_edge(left, 30, 10);     // 0: counterpart 0 (and the near duplicate 1)
   add_edge(left, 40, 20);     // 1: counterpart 2
-  add_edge(left, 50, 30);     // 2: no right edge near the true place (40, 30)
+  add_edge(left, 50, 30);     // 2: no right edge near the true position (40, 30)
   add_edge(left, 90, 40);     // 3: unknown disparity
   add_edge(left, 60, 50, 0);  // 4: lies along its epipolar line
-  add_edge(left, 5, 50);      // 5: its true place is outside the right image
-  add_edge(left, 70, 30);  // 6: its right edge is within a pixel of the true place, but too far from the epipolar line
+  add_edge(left, 5, 50);      // 5: its true position is outside the right image
+  add_edge(left, 70,
+           30);  // 6: its right edge is within a pixel of the true position, but too far from the epipolar line
   add_edge(right, 20.4F, 10);  // 0
   add_edge(right, 20.9F, 10);  // 1
   add_edge(right, 30, 20.3F);  // 2
-  add_edge(right, 45, 30);     // 3: five pixels from the true place of edge 2
+  add_edge(right, 45, 30);     // 3: five pixels from the true position of edge 2
   add_edge(right, 60, 30.8F);  // 4
   Config config;
   MatchingObserver observer(small_rig(), config, {});
@@ -34,7 +35,7 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   lists.first = {0, 3, 4, 5, 6, 7, 8, 8};
   lists.target = {0, 1, 3, 2, 3, 0, 0, 2};
   observer.stereo_filter(StereoFilter::epipolar_distance, lists);
-  // Edge 0 keeps one true candidate, edge 1 loses its own and keeps nothing, edge 2 gets a refined place that is
+  // Edge 0 keeps one true candidate, edge 1 loses its own and keeps nothing, edge 2 gets a refined position that is
   // true, and edge 5 one that would be if it could be seen.
   CandidateLists refined;
   refined.first = {0, 1, 1, 2, 2, 2, 3, 3};
@@ -75,7 +76,7 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   CHECK(second.all.precision() == Approx(2.0 / 3));
 }
 
-TEST_CASE("The error of a final stereo edge is its distance from the true place, and the part of it across the edge",
+TEST_CASE("The error of a final stereo edge is its distance from the true position, and the part of it across the edge",
           "[matching]") {
   EdgeSet left, right;
   add_edge(left, 30, 10);

@@ -9,12 +9,12 @@ using namespace matching;
 
 namespace {
 
-/// A place in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all
+/// A position in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all
 /// numbers.
 using Key = std::pair<long, long>;
 Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
 
-/// Share of the rows of `a` that `b` holds too: left places (x, y) and right column u within 0.02 px.
+/// Fraction of the rows of `a` that `b` holds too: left positions (x, y) and right column u within 0.02 px.
 template <class Matches>
 double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const Matches& b_x, const Matches& b_y,
               const Matches& b_u) {
@@ -35,10 +35,10 @@ double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const 
   return a_x.empty() ? 1 : static_cast<double>(found) / static_cast<double>(a_x.size());
 }
 
-/// Device and reference see the same, but for what hangs on rounding: the reference works in double precision, places
-/// differ by up to 0.01 px in 99.9 % (doc/method.md section 1), and each of some twenty thresholds parts candidates
-/// that lie within that of it. Decisions between equals must not hang on rounding, so 0.5 % is ample in stereo; a quad
-/// needs two good stereo edges and their neighbours: 1 %.
+/// Device and reference see the same, but for what hangs on rounding: the reference works in double precision,
+/// positions differ by up to 0.01 px in 99.9 % (doc/method.md section 1), and each of some twenty thresholds parts
+/// candidates that lie within that of it. Decisions between equals must not hang on rounding, so 0.5 % is ample in
+/// stereo; a quad needs two good stereo edges and their neighbours: 1 %.
 void compare(const FrontendResult& a, const FrontendResult& b) {
   const auto stereo = [](const StereoEdges& p, const StereoEdges& q) {
     return shared(p.left_x, p.left_y, p.right_x, q.left_x, q.left_y, q.right_x);
@@ -145,10 +145,10 @@ TEST_CASE("frontend: found anywhere, edges are the reference's on every device, 
       const Eigen::Vector3d ray = scene.rig.left.ray({before.left_x[i], before.left_y[i]});
       const double depth =
           scene.rig.left.fx * scene.rig.baseline() / static_cast<double>(before.left_x[i] - before.right_x[i]);
-      const Eigen::Vector2d place = scene.rig.left.project(scene.world_from_left[1].inverse() *
-                                                           scene.world_from_left[0] * Eigen::Vector3d(depth * ray));
-      right += std::hypot(place.x() - static_cast<double>(matches.left_x[m]),
-                          place.y() - static_cast<double>(matches.left_y[m])) < 4
+      const Eigen::Vector2d position = scene.rig.left.project(scene.world_from_left[1].inverse() *
+                                                              scene.world_from_left[0] * Eigen::Vector3d(depth * ray));
+      right += std::hypot(position.x() - static_cast<double>(matches.left_x[m]),
+                          position.y() - static_cast<double>(matches.left_y[m])) < 4
                    ? 1
                    : 0;
     }

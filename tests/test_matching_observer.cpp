@@ -67,7 +67,7 @@ void show(MatchingObserver& observer, int frame, double x, const StereoEdges& ed
 /// Shows a search that finds `targets`, one per stereo edge of the base.
 void show_search(MatchingObserver& observer, int number, int base_frame, const StereoEdges& base,
                  const std::vector<std::int32_t>& targets, const StereoEdges& now, int step = 1) {
-  const ExpectedEdges expected{base.left_x, base.left_y, base.left_direction};
+  const EdgePositions expected{base.left_x, base.left_y, base.left_direction};
   observer.temporal_search({number, base_frame, expected, expected, 30, step});
   for (const Side side : kSides) observer.temporal_filter(TemporalFilter::displacement, side, rows_of(targets));
   TemporalMatches matches = matches_of(targets, now);
@@ -113,7 +113,7 @@ TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time 
   observer.begin(1, plane_from(0.05));
   observer.edges(images_of(now).first, images_of(now).second);
   observer.stereo(now);
-  const ExpectedEdges expected{{30, 40, 50, 60}, {10, 20, 30, 40}, {kSteep, kSteep, kSteep, kSteep}};
+  const EdgePositions expected{{30, 40, 50, 60}, {10, 20, 30, 40}, {kSteep, kSteep, kSteep, kSteep}};
   observer.temporal_search({0, 0, expected, expected, 30, 1});
   CandidateLists lists;
   lists.first = {0, 2, 3, 4, 5};

@@ -13,7 +13,7 @@ using namespace quadedge::report;
 
 namespace {
 
-/// Places of a path "M1 2L3 4" within its plot.
+/// Positions of a path "M1 2L3 4" within its plot.
 std::vector<std::pair<double, double>> points_of(std::string path) {
   for (char& c : path) {
     if (c == 'M' || c == 'L') c = ' ';

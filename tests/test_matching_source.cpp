@@ -40,7 +40,7 @@ void write_mask(const std::string& folder) {
   REQUIRE(cv::imwrite(folder + "/mask0nocc.png", mask));
 }
 
-TruePositions places(const MatchingSource& source, const std::vector<float>& x) {
+TruePositions positions(const MatchingSource& source, const std::vector<float>& x) {
   const TrueFrame frame = source.load(0);
   const std::vector<float> y(x.size(), 12), direction(x.size(), kVertical);
   return true_right_positions(source.rig(), frame.truth, {x, y, direction});
@@ -48,26 +48,26 @@ TruePositions places(const MatchingSource& source, const std::vector<float>& x) 
 
 }  // namespace
 
-TEST_CASE("Without a mask the disparities themselves tell what is hidden", "[matching][io]") {
+TEST_CASE("Without a mask the disparities themselves tell what is occluded", "[matching][io]") {
   const TemporaryFolder folder;
   const auto source = make_recorded_source(open_dataset(write_pair(folder.path())));
   // Column 25 of the wall falls on column 19 of the right view, where the board stands (30 - 12 = 18 to 27).
-  const auto found = places(*source, {20, 25, 35, 12});
+  const auto found = positions(*source, {20, 25, 35, 12});
   CHECK(found.state ==
         std::vector<Visibility>{Visibility::visible, Visibility::occluded, Visibility::visible, Visibility::visible});
   CHECK(found.x[0] == 14);
   CHECK(found.x[2] == 23);
 }
 
-TEST_CASE("A mask marks hidden and unknown pixels, and leaves the contour of a nearer surface alone",
+TEST_CASE("A mask marks occluded and unknown pixels, and leaves the contour of a nearer surface alone",
           "[matching][io]") {
   const TemporaryFolder folder;
   const std::string path = write_pair(folder.path());
   write_mask(path);
   const auto source = make_recorded_source(open_dataset(path));
-  // 12: unknown; 13: an unknown pixel lies beside it; 16: neither; 20: hidden; 29.4: the board's contour, though the
+  // 12: unknown; 13: an unknown pixel lies beside it; 16: neither; 20: occluded; 29.4: the board's contour, though the
   // pixel is marked.
-  const auto found = places(*source, {12, 13, 16, 20, 29.4F});
+  const auto found = positions(*source, {12, 13, 16, 20, 29.4F});
   CHECK(found.state == std::vector<Visibility>{Visibility::unknown, Visibility::unknown, Visibility::visible,
                                                Visibility::occluded, Visibility::visible});
   CHECK(found.contour[4] == 1);
@@ -90,6 +90,6 @@ TEST_CASE("Measured disparities of the right view decide where both views disagr
   data::write_float_map(path + "/disp1GT.pfm", {kWidth, kHeight, std::vector<float>(kWidth * kHeight, 20.0F)});
   const auto source = make_recorded_source(open_dataset(path));
   CHECK(source->load(0).truth.right_is_measured);
-  const auto found = places(*source, {16, 35});
+  const auto found = positions(*source, {16, 35});
   CHECK(found.state == std::vector<Visibility>{Visibility::occluded, Visibility::occluded});
 }

@@ -22,7 +22,7 @@ class CountingFrontend : public frontend::Frontend {
     ++anywhere;
     reference_->match_anywhere(base, matches);
   }
-  EdgeSet edges(bool right) override { return reference_->edges(right); }
+  EdgeSet edges(Side side) override { return reference_->edges(side); }
   std::size_t device_bytes() const override { return 0; }
 
   int coarse = 0, guided = 0, anywhere = 0;

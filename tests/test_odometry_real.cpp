@@ -6,6 +6,7 @@
 #include "quadedge/dataset.hpp"
 #include "quadedge/evaluation.hpp"
 #include "quadedge/odometry.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using dataset_files::real_data;
@@ -28,7 +29,7 @@ Run track(const Dataset& dataset, const std::map<std::string, std::string>& vari
   FramePrefetcher frames(dataset);
   Run run;
   while (const auto frame = frames.next()) {
-    run.results.push_back(odometry.track({frame->stamp_ns, frame->left.view(), frame->right.view()}));
+    run.results.push_back(odometry.track(frame->view()));
     ++run.frames;
     if (is_tracked(run.results.back().status))
       run.tracked.push_back({frame->stamp_ns, run.results.back().world_from_left});
@@ -87,7 +88,7 @@ TEST_CASE("Karlsruhe quad: 0.25 m and 0.61 degrees within 10 percent", "[real][d
   REQUIRE(run.tracked.size() == 2);
   const Eigen::Isometry3d motion = run.tracked[0].world_from_left.inverse() * run.tracked[1].world_from_left;
   CHECK(motion.translation().norm() == Approx(0.25).epsilon(0.1));
-  CHECK(Eigen::AngleAxisd(motion.linear()).angle() * 180 / 3.14159265358979323846 == Approx(0.61).epsilon(0.1));
+  CHECK(Eigen::AngleAxisd(motion.linear()).angle() * 180 / kPi == Approx(0.61).epsilon(0.1));
 }
 
 TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other variants", "[real][device]") {

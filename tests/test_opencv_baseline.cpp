@@ -27,7 +27,7 @@ Tracked track_room(int frames, int black = -1) {
   bench::OpencvBaseline baseline(sequence.rig());
   Tracked tracked;
   for (int i = 0; i < frames; ++i) {
-    Image left = sequence.render(i, false).image, right = sequence.render(i, true).image;
+    Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
     if (i == black) left = right = Image(options.width, options.height);
     tracked.results.push_back(baseline.track({sequence.stamp_ns(i), left.view(), right.view()}));
     tracked.truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});

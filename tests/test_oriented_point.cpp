@@ -2,6 +2,7 @@
 
 #include "generated_quads.hpp"
 #include "pose/oriented_point.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge::pose;
 using generated::Random;
@@ -30,8 +31,8 @@ TEST_CASE("Turning both image directions round turns the tangent round", "[pose]
   const OrientedPoint truth{{1.0, -0.5, 8.0}, Eigen::Vector3d(0.3, 0.9, 0.2).normalized()};
   auto edge = generated::observe(rig, truth);
   const auto straight = reconstruct(rig, edge, 0.07);
-  edge.left_direction += 3.14159265358979323846;
-  edge.right_direction += 3.14159265358979323846;
+  edge.left_direction += quadedge::kPi;
+  edge.right_direction += quadedge::kPi;
   const auto turned = reconstruct(rig, edge, 0.07);
   REQUIRE(straight);
   REQUIRE(turned);

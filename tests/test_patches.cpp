@@ -6,13 +6,14 @@
 
 #include "describing.hpp"
 #include "kernel_programs.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/patches.hpp"
 
 using namespace quadedge;
 
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
+constexpr auto kHalfTurn = static_cast<float>(kPi);
 
 Image noise_image(int width, int height, unsigned seed) {
   Image image(width, height);
@@ -26,12 +27,12 @@ std::vector<std::int8_t> cut(const Image& image, float x, float y, float directi
 }
 
 /// Sample `k` = 7 i + j of the dark (0) or bright (1) patch.
-std::size_t place(int side, int k) { return static_cast<std::size_t>(16 * (k / 7) + 8 * side + k % 7); }
+std::size_t position(int side, int k) { return static_cast<std::size_t>(16 * (k / 7) + 8 * side + k % 7); }
 
 /// The 49 samples of one side.
 std::vector<int> side_of(const std::vector<std::int8_t>& patches, int side) {
   std::vector<int> samples;
-  for (int k = 0; k < kPatchSamples; ++k) samples.push_back(patches[place(side, k)]);
+  for (int k = 0; k < kPatchSamples; ++k) samples.push_back(patches[position(side, k)]);
   return samples;
 }
 
@@ -56,7 +57,7 @@ void check_same(const std::vector<std::int8_t>& a, const std::vector<std::int8_t
 
 /// The largest distance of a sample from the value that it rounds, cut in double precision and scaled to a largest one
 /// of 127.
-double farthest_from_exact(const Image& image, const TestEdges& edges, const std::vector<std::int8_t>& patches) {
+double farthest_from_exact(const Image& image, const EdgePositions& edges, const std::vector<std::int8_t>& patches) {
   double farthest = 0;
   for (std::size_t e = 0; e < edges.x.size(); ++e) {
     const double cosine = std::cos(static_cast<double>(edges.direction[e])),
@@ -94,7 +95,7 @@ TEST_CASE("patches: a linear ramp shows the sample layout", "[patches]") {
       image.pixels[static_cast<std::size_t>(y * 40 + x)] = static_cast<std::uint8_t>(2 * x + 3 * y);
     }
   }
-  for (float direction : {0.0f, 0.4f, -1.9f, kPi}) {
+  for (float direction : {0.0f, 0.4f, -1.9f, kHalfTurn}) {
     const auto patches = cut(image, 20.25f, 19.5f, direction);
     const double c = std::cos(direction), s = std::sin(direction);
     const double per_i = 2 * c + 3 * s, per_j = -2 * s + 3 * c;
@@ -103,7 +104,7 @@ TEST_CASE("patches: a linear ramp shows the sample layout", "[patches]") {
       for (int i = 0; i < 7; ++i) {
         for (int j = 0; j < 7; ++j) {
           const double expected = scale * ((i - 3) * per_i + (j - 3) * per_j);
-          CHECK(patches[place(side, 7 * i + j)] == Approx(expected).margin(0.5 + 1e-4));
+          CHECK(patches[position(side, 7 * i + j)] == Approx(expected).margin(0.5 + 1e-4));
         }
       }
     }
@@ -115,14 +116,14 @@ TEST_CASE("patches: the dark side lies 5 px along (sin, -cos) and comes first", 
   Image image(41, 41);
   image.pixels[20 * 41 + 25] = 255;
   // Tangent upwards (direction -90 degrees): dark side at (-1, 0), bright side at (1, 0).
-  const auto patches = cut(image, 20, 20, -kPi / 2);
+  const auto patches = cut(image, 20, 20, -kHalfTurn / 2);
   for (const int sample : side_of(patches, 0)) CHECK(sample == 0);
   CHECK(stored_inverse(patches, 0) == 0.0f);
   CHECK(brightest(side_of(patches, 1)) == 24);  // the middle sample
   // The pixel one step along the tangent (0, -1) and two steps along the bright normal (1, 0): i = 4, j = 5.
   std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{0});
   image.pixels[19 * 41 + 27] = 255;
-  const auto moved = cut(image, 20, 20, -kPi / 2);
+  const auto moved = cut(image, 20, 20, -kHalfTurn / 2);
   CHECK(brightest(side_of(moved, 1)) == 7 * 4 + 5);
 }
 
@@ -133,16 +134,16 @@ TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches"
     for (int x = 0; x < 50; ++x) turned.pixels[static_cast<std::size_t>(x * 40 + 39 - y)] = image.view().at(x, y);
   }
   const float x = 24.25f, y = 18.625f, direction = 0.3f;
-  const auto before = cut(image, x, y, direction), after = cut(turned, 39 - y, x, direction + kPi / 2);
+  const auto before = cut(image, x, y, direction), after = cut(turned, 39 - y, x, direction + kHalfTurn / 2);
   check_same(before, after);
 }
 
 TEST_CASE("patches: the opposite direction swaps the sides and turns both patches by 180 degrees", "[patches]") {
   const Image image = noise_image(50, 40, 2);
-  const auto before = cut(image, 25.5f, 20.125f, 0.9f), after = cut(image, 25.5f, 20.125f, 0.9f - kPi);
+  const auto before = cut(image, 25.5f, 20.125f, 0.9f), after = cut(image, 25.5f, 20.125f, 0.9f - kHalfTurn);
   auto back = after;
   for (const int side : {0, 1}) {
-    for (int k = 0; k < kPatchSamples; ++k) back[place(side, k)] = after[place(1 - side, 48 - k)];
+    for (int k = 0; k < kPatchSamples; ++k) back[position(side, k)] = after[position(1 - side, 48 - k)];
   }
   check_same(before, back);
 }
@@ -212,12 +213,12 @@ TEST_CASE("patches: every device and variant equals the reference", "[patches][d
   // Sizes that no group or vector divides; edges on the border and beyond it; a count that fills no group.
   for (const auto& [width, height, count] : {std::tuple{1, 1, 3}, {5, 3, 7}, {17, 31, 37}, {64, 48, 101}}) {
     const Image image = noise_image(width, height, 5);
-    const TestEdges edges = random_edges(width, height, count, 6, 4);
+    const EdgePositions edges = random_edges(width, height, count, 6, 4);
     const auto expected = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
     CHECK(farthest_from_exact(image, edges, expected) < 0.5 + 1e-9);
     for (const auto& found : describe_everywhere("patches", image, edges)) {
       CAPTURE(found.name, width, height);
-      // Single precision: places good to 1e-6 px, contrasts of up to 255 per px, 127 steps for a largest sample of
+      // Single precision: positions good to 1e-6 px, contrasts of up to 255 per px, 127 steps for a largest sample of
       // about 100. A sample as near to the middle of a step may be rounded other than the reference's.
       CHECK(farthest_from_exact(image, edges, found.patches) < 0.5 + 1e-3);
       for (std::size_t edge = 0; edge < expected.size(); edge += kEdgePatchBytes) {
@@ -240,14 +241,15 @@ TEST_CASE("patches: every device and variant equals the reference", "[patches][d
 
 TEST_CASE("patches: all variants give the same bits, and none writes beyond its edges", "[patches][device]") {
   const Image image = noise_image(131, 77, 7);
-  const TestEdges edges = random_edges(131, 77, 1003, 8);
+  const EdgePositions edges = random_edges(131, 77, 1003, 8);
   for (const auto& index : all_devices()) {
     Device device(index);
     auto& context = *device.context();
     opencl::Buffer<cl_uchar> pixels;
-    opencl::Buffer<cl_float> packed;
+    stages::DevicePositions device_edges;
     pixels.write(context, image.pixels);
-    const auto positions = upload(context, edges, packed);
+    device_edges.write(context, {edges});
+    const auto positions = device_edges.list();
     std::vector<cl_char> first;
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "patches") continue;
@@ -267,7 +269,7 @@ TEST_CASE("patches: all variants give the same bits, and none writes beyond its 
 
 TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", "[patches][device][oclgrind]") {
   const Image image = noise_image(90, 70, 9);
-  const TestEdges edges = random_edges(90, 70, 60, 10);
+  const EdgePositions edges = random_edges(90, 70, 60, 10);
   auto patches = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
   std::fill_n(patches.begin(), kEdgePatchBytes, std::int8_t{0});  // a flat edge
   for (const int side : {0, 1}) {  // a tie: both sides of edge 2 are the dark side of edge 1

@@ -140,9 +140,9 @@ TEST_CASE("photometric: devices cut the same patches, also across the border",
           context, program, "probe");
       stages::PixelCorners corners(context);
       corners.prepare(upload(context, image).pixels, width, height);
-      opencl::Buffer<cl_float> places, grey(context, 56 * count);
-      places.write(context, at);
-      kernel({count, 1}, corners.values(), width, height, places, static_cast<cl_int>(count), grey);
+      opencl::Buffer<cl_float> positions, grey(context, 56 * count);
+      positions.write(context, at);
+      kernel({count, 1}, corners.values(), width, height, positions, static_cast<cl_int>(count), grey);
       const auto found = grey.read(56 * count);
       for (std::size_t i = 0; i < count; ++i) {
         const auto frame =

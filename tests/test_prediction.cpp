@@ -3,6 +3,7 @@
 
 #include "generated_quads.hpp"
 #include "odometry/prediction.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using Eigen::Vector3d;
@@ -67,8 +68,7 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
       // The tangent: a second point a little further along it.
       const auto ahead = rig.left.project(motion * (points[i].point + 1e-6 * points[i].tangent));
       const double direction = std::atan2(ahead.y() - left.y(), ahead.x() - left.x());
-      CHECK(std::abs(std::remainder(static_cast<double>(search.left.direction[i]) - direction, 2 * 3.14159265358979)) <
-            0.02);
+      CHECK(std::abs(std::remainder(static_cast<double>(search.left.direction[i]) - direction, 2 * kPi)) < 0.02);
     }
     CHECK(predicted > 45);
   }
@@ -103,7 +103,7 @@ TEST_CASE("prediction: no position for what has no depth or falls behind the cam
 TEST_CASE("prediction: what is in view is counted, and moves are measured where both positions hold",
           "[odometry][prediction]") {
   const float nowhere = std::numeric_limits<float>::quiet_NaN();
-  const PlacedEdges a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}},
+  const EdgePositions a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}},
       b{{3, 10, 4, nowhere, 50}, {4, 11, 5, 49, 20}, {}};
   CHECK(odometry::count_in_view({80, 80, 50, 25, 100, 50}, a) == 4);
   CHECK(odometry::count_in_view({80, 80, 50, 25, 60, 50}, a) == 3);

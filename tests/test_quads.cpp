@@ -21,7 +21,8 @@ void add_edge(quadedge::StereoEdges& edges, const StereoObservation& o) {
 
 }  // namespace
 
-TEST_CASE("Quads take the detected places, keep their match's row and leave out what has no depth", "[pose][quads]") {
+TEST_CASE("Quads take the detected positions, keep their match's row and leave out what has no depth",
+          "[pose][quads]") {
   const quadedge::StereoRig rig = generated::car_rig();
   generated::Random random(10);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
@@ -40,7 +41,8 @@ TEST_CASE("Quads take the detected places, keep their match's row and leave out 
     add_edge(current, after);
     matches.previous.push_back(i);
     matches.current.push_back(i);
-    matches.left_x.push_back(static_cast<float>(after.left.x()) + 0.7f);  // the match's own refined place is not used
+    matches.left_x.push_back(static_cast<float>(after.left.x()) +
+                             0.7f);  // the match's own refined position is not used
     matches.left_y.push_back(static_cast<float>(after.left.y()));
     matches.right_x.push_back(static_cast<float>(after.right.x()) + 0.9f);
     matches.right_y.push_back(static_cast<float>(after.right.y()));

@@ -31,8 +31,8 @@ int rendered_frames(const SyntheticOptions& options, const std::string& folder,
     REQUIRE(frame);
     CHECK(frame->number == i);
     CHECK(frame->stamp_ns == sequence.stamp_ns(i));
-    CHECK(frame->left.pixels == sequence.render(i, false).image.pixels);
-    CHECK(frame->right.pixels == sequence.render(i, true).image.pixels);
+    CHECK(frame->left.pixels == sequence.render(i, Side::left).image.pixels);
+    CHECK(frame->right.pixels == sequence.render(i, Side::right).image.pixels);
   }
   CHECK_FALSE(frames.next());
   return frames.progress().rendered;

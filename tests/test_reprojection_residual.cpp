@@ -3,51 +3,41 @@
 #include "generated_quads.hpp"
 #include "pose/least_squares.hpp"
 #include "pose/reprojection_residual.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge::pose;
 
 TEST_CASE("The analytic Jacobian of the reprojection residual is its derivative", "[pose][reprojection_residual]") {
-  generated::Random random(20);
   const NoiseModel noise{quadedge::PoseConfig{}};
-  for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
-    generated::Problem problem;
-    problem.rig = rig;
-    problem.near = 2;
-    problem.far = 20;
-    problem.quads = 30;
-    problem.motion = random.motion(0.1, 0.5);
-    problem.noise = {0.3, 0.5, 0.05};
-    const auto g = generated::generate(problem, 21);
-    const Eigen::Isometry3d pose = random.motion(0.02, 0.1) * problem.motion;
-    for (std::size_t i = 0; i < g.quads.size(); ++i) {
-      const ReprojectionTerm term = make_reprojection_term(g.quads, i, noise);
-      const auto at = [&](const ReprojectionTerm& quad, const Eigen::Isometry3d& motion, double depth) {
-        ReprojectionJacobian result;
-        REQUIRE(reprojection_jacobian(quad, rig.left, motion, depth, result));
-        return result;
-      };
-      const ReprojectionJacobian analytic = at(term, pose, 0.7);
-      const double h = 1e-5;
-      const auto check = [&](const Eigen::Vector3d& plus, const Eigen::Vector3d& minus, const Eigen::Vector3d& column) {
-        const Eigen::Vector3d numeric = (plus - minus) / (2 * h);
-        CHECK((numeric - column).norm() < 1e-5 * (1 + numeric.norm()));
-      };
-      for (int k = 0; k < 6; ++k) {
-        Vector6d step = Vector6d::Zero();
-        step(k) = h;
-        check(at(term, perturb(step, pose), 0.7).value, at(term, perturb(-step, pose), 0.7).value,
-              analytic.by_pose.col(k));
-      }
-      check(at(term, pose, 0.7 + h).value, at(term, pose, 0.7 - h).value, analytic.by_depth);
-      const auto with_offset = [&](double offset) {
-        ReprojectionTerm moved = term;
-        moved.inverse_depth += offset * term.inverse_depth_per_pixel;
-        moved.current_inverse_depth += offset * term.current_inverse_depth_per_pixel;
-        return at(moved, pose, 0.7).value;
-      };
-      check(with_offset(h), with_offset(-h), analytic.by_offset);
+  generated::for_quads_off_motion([&](const QuadObservations& quads, std::size_t i, const quadedge::StereoRig& rig,
+                                      const Eigen::Isometry3d& pose) {
+    const ReprojectionTerm term = make_reprojection_term(quads, i, noise);
+    const auto at = [&](const ReprojectionTerm& quad, const Eigen::Isometry3d& motion, double depth) {
+      ReprojectionJacobian result;
+      REQUIRE(reprojection_jacobian(quad, rig.left, motion, depth, result));
+      return result;
+    };
+    const ReprojectionJacobian analytic = at(term, pose, 0.7);
+    const double h = 1e-5;
+    const auto check = [&](const Eigen::Vector3d& plus, const Eigen::Vector3d& minus, const Eigen::Vector3d& column) {
+      const Eigen::Vector3d numeric = (plus - minus) / (2 * h);
+      CHECK((numeric - column).norm() < 1e-5 * (1 + numeric.norm()));
+    };
+    for (int k = 0; k < 6; ++k) {
+      Vector6d step = Vector6d::Zero();
+      step(k) = h;
+      check(at(term, perturb(step, pose), 0.7).value, at(term, perturb(-step, pose), 0.7).value,
+            analytic.by_pose.col(k));
     }
-  }
+    check(at(term, pose, 0.7 + h).value, at(term, pose, 0.7 - h).value, analytic.by_depth);
+    const auto with_offset = [&](double offset) {
+      ReprojectionTerm moved = term;
+      moved.inverse_depth += offset * term.inverse_depth_per_pixel;
+      moved.current_inverse_depth += offset * term.current_inverse_depth_per_pixel;
+      return at(moved, pose, 0.7).value;
+    };
+    check(with_offset(h), with_offset(-h), analytic.by_offset);
+  });
 }
 
 TEST_CASE("Per unit of a ray the reprojection residual is the same as per pixel", "[pose][reprojection_residual]") {
@@ -77,11 +67,7 @@ TEST_CASE("Reprojection residuals vanish at the true motion and count in standar
   CHECK(noise.on_epipolar_line(1.0) == Approx(config.sigma_across));
   CHECK(noise.on_epipolar_line(0.0) == Approx(config.sigma_along));
 
-  generated::Problem problem;
-  problem.rig = generated::crooked_rig();
-  problem.near = 2;
-  problem.far = 20;
-  problem.motion.translation() << 0.1, 0.05, -0.3;
+  generated::Problem problem = generated::near_problem();
   const auto exact = generated::generate(problem, 22);
   ReprojectionJacobian linear;
   for (std::size_t i = 0; i < exact.quads.size(); ++i) {
@@ -92,7 +78,7 @@ TEST_CASE("Reprojection residuals vanish at the true motion and count in standar
 
   // Without noise before, reprojection residuals at the truth are standard normal.
   problem.quads = 4000;
-  problem.noise = {config.sigma_across, config.sigma_along, 2.0 * 3.14159265358979323846 / 180};
+  problem.noise = {config.sigma_across, config.sigma_along, 2.0 * quadedge::kDegree};
   const auto noisy = generated::generate(problem, 23);
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < noisy.quads.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include "generated_quads.hpp"
 #include "pose/scoring.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge::pose;
 
@@ -86,18 +87,18 @@ TEST_CASE("Inliers are the quads near in both images and alike in direction, mod
   std::size_t i = 0;
   while (!g.correct[i]) ++i;
   const auto accepted = [&] {
-    select_inliers(s, cameras, 1.5, 10 * 3.14159265358979323846 / 180, mask);
+    select_inliers(s, cameras, 1.5, 10 * quadedge::kDegree, mask);
     return mask[i] == 1;
   };
-  turn(s.left_cos[i], s.left_sin[i], 9.9 * 3.14159265358979323846 / 180);
+  turn(s.left_cos[i], s.left_sin[i], 9.9 * quadedge::kDegree);
   CHECK(accepted());
-  turn(s.left_cos[i], s.left_sin[i], 0.2 * 3.14159265358979323846 / 180);
+  turn(s.left_cos[i], s.left_sin[i], 0.2 * quadedge::kDegree);
   CHECK_FALSE(accepted());
-  turn(s.left_cos[i], s.left_sin[i], (180 - 10.1) * 3.14159265358979323846 / 180);
+  turn(s.left_cos[i], s.left_sin[i], (180 - 10.1) * quadedge::kDegree);
   CHECK(accepted());
-  turn(s.right_cos[i], s.right_sin[i], -10.1 * 3.14159265358979323846 / 180);
+  turn(s.right_cos[i], s.right_sin[i], -10.1 * quadedge::kDegree);
   CHECK_FALSE(accepted());
-  turn(s.right_cos[i], s.right_sin[i], 10.1 * 3.14159265358979323846 / 180);
+  turn(s.right_cos[i], s.right_sin[i], 10.1 * quadedge::kDegree);
   s.right_y[i] += 1.49f;
   CHECK(accepted());
   s.right_y[i] += 0.02f;

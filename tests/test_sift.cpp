@@ -7,13 +7,12 @@
 
 #include "describing.hpp"
 #include "kernel_programs.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/sift.hpp"
 
 using namespace quadedge;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Smoothed noise: structure at the scale that a recorded image has.
 Image textured_image(int width, int height, unsigned seed) {
@@ -41,7 +40,7 @@ bool on_the_fence(float x, float y, float direction) {
 TEST_CASE("sift: descriptors equal OpenCV's at the same key points", "[sift]") {
   const int width = 200, height = 140, count = 2000;
   const Image image = textured_image(width, height, 1);
-  const TestEdges points = random_edges(width, height, count, 2);
+  const EdgePositions points = random_edges(width, height, count, 2);
   const auto map = reference::sift_gradients(image.view());
   std::vector<cv::KeyPoint> key_points;
   for (int k = 0; k < count; ++k) {
@@ -143,7 +142,7 @@ TEST_CASE("sift: every device and variant equals the reference to the last unit"
   // Sizes that no group or vector divides; key points on the border and beyond it; a count that fills no group.
   for (const auto& [width, height, count] : {std::tuple{1, 1, 3}, {5, 3, 7}, {17, 31, 37}, {64, 48, 61}}) {
     const Image image = textured_image(width, height, 5);
-    const TestEdges edges = random_edges(width, height, count, 6, 12);
+    const EdgePositions edges = random_edges(width, height, count, 6, 12);
     const auto expected = reference::sift_descriptors(image.view(), edges.x, edges.y, edges.direction, SiftConfig{});
     for (const auto& found : describe_everywhere("sift", image, edges)) {
       int worst = 0;

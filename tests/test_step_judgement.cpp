@@ -1,13 +1,12 @@
 #include <catch2/catch.hpp>
 
 #include "evaluation/step_judgement.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using evaluation::judge_steps;
 
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// Frames 50 ms apart that go 1 m along x each.
 struct Walk {

@@ -3,13 +3,13 @@
 #include <limits>
 
 #include "evaluation/edge_truth.hpp"
+#include "quadedge/pi.hpp"
 
 using namespace quadedge;
 using namespace quadedge::evaluation;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kVertical = kPi / 2, kHorizontal = 0;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -86,7 +86,7 @@ TEST_CASE("Infinite and missing values of disparity and depth files are unknown"
   CHECK(depth.nearness[1] == 7.5F);
 }
 
-TEST_CASE("A point is visible, hidden by something nearer, or contradicted", "[matching]") {
+TEST_CASE("A point is visible, occluded by something nearer, or contradicted", "[matching]") {
   const auto map = board();
   CHECK(visibility(map, 10, 10, 20.6) == Visibility::visible);
   CHECK(visibility(map, 10, 10, 5) == Visibility::occluded);
@@ -115,11 +115,11 @@ TEST_CASE("Seen from the right, a board hides the part of the wall beside it", "
   truth.left = left;
   truth.right = right;
   const std::vector<float> x = {16, 10, 35}, y = {4, 4, 4}, direction = {0, 0, 0};
-  const auto places = true_right_positions({}, truth, {x, y, direction});
-  CHECK(places.state[0] == Visibility::occluded);
-  CHECK(places.state[1] == Visibility::visible);
-  CHECK(places.state[2] == Visibility::visible);
-  CHECK(places.x[1] == 8.0F);
+  const auto positions = true_right_positions({}, truth, {x, y, direction});
+  CHECK(positions.state[0] == Visibility::occluded);
+  CHECK(positions.state[1] == Visibility::visible);
+  CHECK(positions.state[2] == Visibility::visible);
+  CHECK(positions.x[1] == 8.0F);
 }
 
 TEST_CASE("A point of known depth is found again after a known motion", "[matching]") {

@@ -47,7 +47,7 @@ double smooth_depth(const RenderedView& view, const Vector2d& p) {
 struct Agreement {
   int visible = 0;     // pixels that land inside the other view and on a smooth part of it
   int agreeing = 0;    // ... on the same surface
-  int hidden = 0;      // ... behind something nearer
+  int occluded = 0;    // ... behind something nearer
   int impossible = 0;  // ... in front of what the other view sees
 };
 
@@ -65,7 +65,7 @@ Agreement compare(const RenderedView& from, const RenderedView& to, const Pinhol
       if (std::abs(difference) < 0.004)
         ++result.agreeing;
       else if (difference > 0.0)
-        ++result.hidden;
+        ++result.occluded;
       else
         ++result.impossible;
     }
@@ -73,7 +73,7 @@ Agreement compare(const RenderedView& from, const RenderedView& to, const Pinhol
   return result;
 }
 
-/// Shift [px] of `to` against `from` carried over with its exact depth, by least squares over smooth places (one
+/// Shift [px] of `to` against `from` carried over with its exact depth, by least squares over smooth positions (one
 /// Lucas-Kanade step), and the median absolute grey difference there.
 struct Photometry {
   Vector2d shift = Vector2d::Zero();
@@ -125,15 +125,15 @@ TEST_CASE("a synthetic sequence gives the same bytes again, on any number of thr
   for (const char* scene : {"room", "cables"}) {
     SyntheticOptions options = small_options(scene);
     options.threads = 1;
-    const RenderedView one = SyntheticSequence(options).render(3, true);
+    const RenderedView one = SyntheticSequence(options).render(3, Side::right);
     options.threads = 5;
     const SyntheticSequence again(options);
-    again.render(0, false);  // paints texture tiles in another order
-    const RenderedView five = again.render(3, true);
+    again.render(0, Side::left);  // paints texture tiles in another order
+    const RenderedView five = again.render(3, Side::right);
     CHECK(one.image.pixels == five.image.pixels);
     CHECK(one.depth == five.depth);
     options.seed = 8;
-    CHECK(one.image.pixels != SyntheticSequence(options).render(3, true).image.pixels);
+    CHECK(one.image.pixels != SyntheticSequence(options).render(3, Side::right).image.pixels);
   }
 }
 
@@ -185,12 +185,12 @@ TEST_CASE("the synthetic rig is rectified with the asked baseline and focal leng
 TEST_CASE("synthetic depth agrees between the views wherever it is visible in both", "[synthetic]") {
   const SyntheticSequence sequence(small_options("room"));
   const PinholeCamera& camera = sequence.rig().left;
-  const RenderedView left = sequence.render(0, false), right = sequence.render(0, true),
-                     later = sequence.render(6, false);
+  const RenderedView left = sequence.render(0, Side::left), right = sequence.render(0, Side::right),
+                     later = sequence.render(6, Side::left);
   for (const auto& [view, pose] :
        {std::pair(&right, sequence.rig().right_from_left), std::pair(&later, sequence.world_from_left(6).inverse())}) {
     const Agreement result = compare(left, *view, camera, pose);
-    CAPTURE(result.visible, result.agreeing, result.hidden, result.impossible);
+    CAPTURE(result.visible, result.agreeing, result.occluded, result.impossible);
     CHECK(result.visible > 0.75 * camera.width * camera.height);
     CHECK(result.agreeing > 0.93 * result.visible);
     CHECK(result.impossible < 0.01 * result.visible);  // creases between two planes, where depth is interpolated
@@ -200,7 +200,7 @@ TEST_CASE("synthetic depth agrees between the views wherever it is visible in bo
 TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]") {
   const SyntheticSequence sequence(small_options("room"));
   const StereoRig& rig = sequence.rig();
-  const RenderedView left = sequence.render(0, false);
+  const RenderedView left = sequence.render(0, Side::left);
   int steps = 0;
   for (int y = 0; y < rig.left.height; ++y)
     for (int x = 0; x + 1 < rig.left.width; ++x)
@@ -215,7 +215,7 @@ TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]
   clean.focal = 180.0;
   const SyntheticSequence quiet(clean);
   const PinholeCamera& camera = quiet.rig().left;
-  const RenderedView a = quiet.render(0, false), b = quiet.render(0, true), c = quiet.render(2, false);
+  const RenderedView a = quiet.render(0, Side::left), b = quiet.render(0, Side::right), c = quiet.render(2, Side::left);
   const Isometry3d next = quiet.world_from_left(2).inverse();
   CHECK(photometry(a, b, camera, quiet.rig().right_from_left).shift.norm() < 0.02);
   CHECK(photometry(a, c, camera, next).shift.norm() < 0.02);
@@ -233,7 +233,7 @@ TEST_CASE("nothing in view is nearer than the synthetic sequence's largest dispa
     const SyntheticSequence sequence(options);
     double nearest = 1e9;
     for (int frame = 0; frame < options.frames; frame += 29)
-      for (float depth : sequence.render(frame, frame % 2 == 1).depth) nearest = std::min<double>(nearest, depth);
+      for (float depth : sequence.render(frame, kSides[frame % 2]).depth) nearest = std::min<double>(nearest, depth);
     REQUIRE(nearest > 0.0);  // every ray hits something
     const double largest = options.focal * options.baseline / nearest;
     CAPTURE(scene, largest);
@@ -249,15 +249,15 @@ TEST_CASE("synthetic camera noise has the asked standard deviation and is indepe
   const SyntheticSequence clean(options);
   options.noise = 3.0;
   const SyntheticSequence noisy(options);
-  const auto noise = [&](int frame, bool right) {
-    const std::vector<std::uint8_t> a = noisy.render(frame, right).image.pixels,
-                                    b = clean.render(frame, right).image.pixels;
+  const auto noise = [&](int frame, Side side) {
+    const std::vector<std::uint8_t> a = noisy.render(frame, side).image.pixels,
+                                    b = clean.render(frame, side).image.pixels;
     Eigen::VectorXd difference(static_cast<Eigen::Index>(a.size()));
     for (std::size_t i = 0; i < a.size(); ++i)
       difference[static_cast<Eigen::Index>(i)] = static_cast<double>(a[i]) - b[i];
     return difference;
   };
-  const Eigen::VectorXd first = noise(0, false), right = noise(0, true), second = noise(1, false);
+  const Eigen::VectorXd first = noise(0, Side::left), right = noise(0, Side::right), second = noise(1, Side::left);
   const auto count = static_cast<double>(first.size());
   const double expected = std::sqrt(9.0 + 2.0 / 12.0);  // both images are rounded
   CHECK(std::sqrt(first.squaredNorm() / count) == Approx(expected).epsilon(0.025));
@@ -284,6 +284,6 @@ TEST_CASE("synthetic options that make no sense are refused", "[synthetic]") {
   refuses([](SyntheticOptions& o) { o.supersampling = 0; });
   refuses([](SyntheticOptions& o) { o.threads = -1; });
   const SyntheticSequence sequence(small_options("room"));
-  CHECK_THROWS_AS(sequence.render(8, false), UsageError);
-  CHECK_THROWS_AS(sequence.render(-1, false), UsageError);
+  CHECK_THROWS_AS(sequence.render(8, Side::left), UsageError);
+  CHECK_THROWS_AS(sequence.render(-1, Side::left), UsageError);
 }

@@ -51,9 +51,9 @@ std::shared_ptr<const synthetic::Texture> plain(double grey) {
   return std::make_shared<synthetic::Texture>(style, 1, 5.0, 5.0, 0.1);
 }
 
-Isometry3d at(const Vector3d& place, double yaw = 0.0, double pitch = 0.0, double roll = 0.0) {
+Isometry3d at(const Vector3d& position, double yaw = 0.0, double pitch = 0.0, double roll = 0.0) {
   Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = place;
+  pose.translation() = position;
   pose.linear() = (Eigen::AngleAxisd(yaw, Vector3d::UnitY()) * Eigen::AngleAxisd(pitch, Vector3d::UnitX()) *
                    Eigen::AngleAxisd(roll, Vector3d::UnitZ()))
                       .toRotationMatrix();
@@ -176,8 +176,8 @@ TEST_CASE("a texture lies on its plane where geometry says", "[long][synthetic]"
       for (int j = 0; j < 24; ++j)
         for (int i = 0; i < 24; ++i) {
           const Vector3d ray = camera.ray(Vector2d(x + (i + 0.5) / 24 - 0.5, y + (j + 0.5) / 24 - 0.5));
-          const Vector3d place = pose.inverse() * Vector3d(ray * (normal.dot(pose.translation()) / normal.dot(ray)));
-          sum += texture->sample(place.x(), place.y());
+          const Vector3d position = pose.inverse() * Vector3d(ray * (normal.dot(pose.translation()) / normal.dot(ray)));
+          sum += texture->sample(position.x(), position.y());
         }
       const double grey = view.grey[static_cast<std::size_t>(y * camera.width + x)];
       worst = std::max(worst, std::abs(grey - shaded(sum / 576.0, -normal)));

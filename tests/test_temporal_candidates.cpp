@@ -9,18 +9,18 @@ namespace {
 
 constexpr int kWidth = 90;  // px
 
-PlacedEdges places_of(const std::vector<Edge>& edges) {
-  PlacedEdges places;
+EdgePositions positions_of(const std::vector<Edge>& edges) {
+  EdgePositions positions;
   for (const Edge& edge : edges) {
-    places.x.push_back(static_cast<float>(edge.x));
-    places.y.push_back(static_cast<float>(edge.y));
-    places.direction.push_back(static_cast<float>(edge.direction));
+    positions.x.push_back(static_cast<float>(edge.x));
+    positions.y.push_back(static_cast<float>(edge.y));
+    positions.direction.push_back(static_cast<float>(edge.direction));
   }
-  return places;
+  return positions;
 }
 
 /// In units of what single precision may get wrong (1e-4 px, 1e-6 rad); positive: inside.
-double margin(const PlacedEdges& predicted, std::size_t i, const PlacedEdges& current, std::size_t j, double radius,
+double margin(const EdgePositions& predicted, std::size_t i, const EdgePositions& current, std::size_t j, double radius,
               double orientation) {
   if (!std::isfinite(predicted.x[i]) || !std::isfinite(predicted.y[i]) || !std::isfinite(predicted.direction[i]))
     return -1e9;
@@ -33,7 +33,7 @@ double margin(const PlacedEdges& predicted, std::size_t i, const PlacedEdges& cu
 
 /// Lists against the definition over all pairs.
 std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
-                        const PlacedEdges& predicted, const PlacedEdges& current, double radius, double orientation,
+                        const EdgePositions& predicted, const EdgePositions& current, double radius, double orientation,
                         int step) {
   std::size_t certain = 0, missing = 0, extra = 0;
   const auto rows = (predicted.x.size() + static_cast<std::size_t>(step) - 1) / static_cast<std::size_t>(step);
@@ -56,26 +56,27 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
 
 std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std::vector<Edge>& current_edges,
                              int height, double radius, double orientation, int step) {
-  const auto predicted = places_of(predicted_edges), current = places_of(current_edges);
+  const auto predicted = positions_of(predicted_edges), current = positions_of(current_edges);
   PointIndex index;
   make_point_index(current.x, current.y, kWidth, height, index);
   const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius),
                                                     static_cast<float>(orientation), step);
   const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
-  for_each_variant("temporal_candidates", [&](opencl::Context& context, const Variants& variants,
-                                              const std::string& name) {
-    INFO(name);
-    stages::DevicePointIndex device_index;
-    device_index.build(context, current.x, current.y, current.direction, kWidth, height);
-    stages::DevicePlaces device_places;
-    device_places.write(context, predicted);
-    stages::TemporalCandidates stage(context, variants);
-    stages::DeviceCandidates lists;
-    stage.run(device_places, step, device_index, static_cast<float>(radius), static_cast<float>(orientation), lists);
-    check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
-                lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current, radius, orientation,
-                step);
-  });
+  for_each_variant("temporal_candidates",
+                   [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+                     INFO(name);
+                     stages::DevicePointIndex device_index;
+                     device_index.build(context, current, kWidth, height);
+                     stages::DevicePositions device_predicted;
+                     device_predicted.write(context, {predicted});
+                     stages::TemporalCandidates stage(context, variants);
+                     stages::DeviceCandidates lists;
+                     stage.run(device_predicted.list(), step, device_index, static_cast<float>(radius),
+                               static_cast<float>(orientation), lists);
+                     check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
+                                 lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current,
+                                 radius, orientation, step);
+                   });
   return certain;
 }
 
@@ -89,18 +90,18 @@ std::vector<Edge> random_edges(int count, double width, double height, std::uint
 
 }  // namespace
 
-TEST_CASE("temporal candidates: a circle around the predicted place and a full turn of directions",
+TEST_CASE("temporal candidates: a circle around the predicted position and a full turn of directions",
           "[temporal][matching][device][oclgrind]") {
   const double nan = std::nan("");
   const std::vector<Edge> predicted = {{20, 15, 3.1}, {nan, 15, 0}, {20, 15, 3.1 - kPi}};
-  // At 5 px, beside the corner of the square, at the right place with the other contrast, across the wrap of the
+  // At 5 px, beside the corner of the square, at the right position with the other contrast, across the wrap of the
   // direction.
   const std::vector<Edge> current = {
       {24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
-  const auto places = places_of(current);
+  const auto positions = positions_of(current);
   PointIndex index;
-  make_point_index(places.x, places.y, kWidth, 30, index);
-  const auto lists = reference::temporal_candidates(places_of(predicted), places, index, 5.0f, 0.15f);
+  make_point_index(positions.x, positions.y, kWidth, 30, index);
+  const auto lists = reference::temporal_candidates(positions_of(predicted), positions, index, 5.0f, 0.15f);
   CHECK(lists.first == std::vector<std::int32_t>{0, 2, 2, 3});
   CHECK(lists.target == std::vector<std::int32_t>{3, 0, 2});
   CHECK(check_everywhere(predicted, current, 30, 5, 0.15, 1) == 3);

@@ -1,5 +1,3 @@
-#include <numeric>
-
 #include "common/filter_limits.hpp"
 #include "matching.hpp"
 #include "reference/patches.hpp"
@@ -36,7 +34,7 @@ void add_patches(Random& random, std::vector<std::int8_t>& patches) {
   }
 }
 
-/// A base rig and a current one whose edges lie about the predicted places; `shuffled` numbers of the left edges.
+/// A base rig and a current one whose edges lie about the predicted positions; `shuffled` numbers of the left edges.
 struct Scene {
   StereoEdges base, current;
   std::vector<std::int8_t> base_left, base_right, left,
@@ -100,10 +98,6 @@ struct Scene {
     set.sift = sift;
     return set;
   }
-  PlacedEdges image_edges(Side side) const {
-    if (side == Side::left) return {current.left_x, current.left_y, current.left_direction};
-    return {current.right_x, current.right_y, current.right_direction};
-  }
   reference::TemporalMatchResult expected() const {
     const auto of_base_left = described(base_left, base.left_index, base_left_sift),
                of_left = described(left, current.left_index, left_sift),
@@ -114,10 +108,10 @@ struct Scene {
   }
   /// Edges within the radius alone, as the reference finds them.
   reference::Candidates displaced(Side side) const {
-    const PlacedEdges places = image_edges(side);
+    const EdgePositionsView edges = current.positions(side);
     PointIndex index;
-    make_point_index(places.x, places.y, kWidth, kHeight, index);
-    return reference::temporal_candidates(side == Side::left ? search.left : search.right, places, index, search.radius,
+    make_point_index(edges.x, edges.y, kWidth, kHeight, index);
+    return reference::temporal_candidates(side == Side::left ? search.left : search.right, edges, index, search.radius,
                                           4, search.step);
   }
   static void upload_rig(opencl::Context& context, const StereoEdges& edges, const std::vector<std::int8_t>& of_left,
@@ -136,36 +130,31 @@ struct Scene {
   }
   /// What both forms of every variant but the lists find on every device: the production one, and that of a tap.
   void on_devices(const std::function<void(const std::optional<MatchedRows>&, bool tapped)>& check) const {
-    for_each_variant("temporal_match", [&](opencl::Context& context, const Variants& variants,
-                                           const std::string& name) {
-      stages::TemporalMatch stage(context, config, variants);
-      if (!stage.serves(search)) return;
-      INFO(name);
-      stages::DeviceStereoEdges device_base, device_current;
-      upload_rig(context, base, base_left, base_right, base_left_sift, base_right_sift, device_base);
-      upload_rig(context, current, left, right, left_sift, right_sift, device_current);
-      stages::DevicePointIndex left_index, right_index;
-      left_index.build(context, current.left_x, current.left_y, current.left_direction, kWidth, kHeight);
-      right_index.build(context, current.right_x, current.right_y, current.right_direction, kWidth, kHeight);
-      stages::DevicePlaces left_places, right_places;
-      left_places.write(context, search.left);
-      right_places.write(context, search.right);
-      std::vector<cl_int> numbers(current.size());
-      std::iota(numbers.begin(), numbers.end(), 0);
-      opencl::Buffer<cl_int> itself;
-      itself.write(context, numbers);
-      for (const bool tapped : {false, true}) {
-        INFO((tapped ? "tap form" : "production form"));
-        MatchedRows matched;
-        const auto alive = stage.run(left_places, right_places, search, device_base, device_current, left_index,
-                                     right_index, itself, current, matched.quads, tapped ? &matched.tapped : nullptr);
-        if (alive) {
-          matched.left_alive = alive->left;
-          matched.right_alive = alive->right;
-        }
-        check(alive ? std::optional(matched) : std::nullopt, tapped);
-      }
-    });
+    for_each_variant(
+        "temporal_match", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+          stages::TemporalMatch stage(context, config, variants);
+          if (!stage.serves(search)) return;
+          INFO(name);
+          stages::DeviceStereoEdges device_base, device_current;
+          upload_rig(context, base, base_left, base_right, base_left_sift, base_right_sift, device_base);
+          upload_rig(context, current, left, right, left_sift, right_sift, device_current);
+          stages::DevicePointIndex left_index, right_index;
+          left_index.build(context, current.positions(Side::left), kWidth, kHeight);
+          right_index.build(context, current.positions(Side::right), kWidth, kHeight);
+          stages::DevicePositions predicted;
+          predicted.write(context, {search.left, search.right});
+          for (const bool tapped : {false, true}) {
+            INFO((tapped ? "tap form" : "production form"));
+            MatchedRows matched;
+            const auto alive = stage.run(predicted, search, device_base, device_current, left_index, right_index,
+                                         current, matched.quads, tapped ? &matched.tapped : nullptr);
+            if (alive) {
+              matched.left_alive = alive->left;
+              matched.right_alive = alive->right;
+            }
+            check(alive ? std::optional(matched) : std::nullopt, tapped);
+          }
+        });
   }
   /// A tap sees the candidates within the radius, and of each what the reference's filters say.
   void check_tapped(const stages::JudgedCandidates& seen, Side side, const reference::TemporalMatchLists& lists) const {

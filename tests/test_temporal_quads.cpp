@@ -76,16 +76,14 @@ struct Scene {
                          packed.insert(packed.end(), block->begin(), block->end());
                        }
                        device_edges.packed.write(context, packed);
-                       stages::DevicePlaces predicted;
-                       predicted.x.write(context, search.left.x);
-                       predicted.y.write(context, search.left.y);
-                       predicted.count = static_cast<int>(search.left.x.size());
+                       stages::DevicePositions predicted;
+                       predicted.write(context, {search.left});
                        auto device_left = upload(context, left), device_right = upload(context, right);
                        upload(context, left_scores, device_left);
                        upload(context, right_scores, device_right);
                        stages::TemporalQuads stage(context, config, variants);
                        stage.agree(device_left, device_right);
-                       const auto found = stage.collect(device_edges, current, search, predicted, device_left);
+                       const auto found = stage.collect(device_edges, current, search, predicted.list(), device_left);
                        CHECK(found.previous == truth.previous);
                        CHECK(found.current == truth.current);
                        CHECK(found.rivals == truth.rivals);
@@ -112,7 +110,7 @@ TEST_CASE("temporal agreement: a candidate needs its counterpart alive in the ot
   CHECK(agreement[0] == Approx(0.8));
 }
 
-TEST_CASE("temporal best: chained places are one group, others are rivals, ties go to the first",
+TEST_CASE("temporal best: chained positions are one group, others are rivals, ties go to the first",
           "[temporal][matching]") {
   StereoEdges current;
   add(current, 5, 5, 10);
@@ -139,7 +137,7 @@ TEST_CASE("temporal best: chained places are one group, others are rivals, ties 
   CHECK(reference::temporal_best(lists, scores, agreement, current, config, search).rivals[0] == 3);
 }
 
-TEST_CASE("temporal best: among equals the predicted place decides, as far as its weight goes",
+TEST_CASE("temporal best: among equals the predicted position decides, as far as its weight goes",
           "[temporal][matching]") {
   StereoEdges current;
   add(current, 20, 20, 0);

@@ -24,12 +24,12 @@ Image waves(int width, int height) {
   return image;
 }
 
-StereoEdges stereo_edges(const TestEdges& places) {
+StereoEdges stereo_edges(const EdgePositions& positions) {
   StereoEdges edges;
-  edges.left_x = places.x;
-  edges.left_y = places.y;
-  edges.left_direction = places.direction;
-  edges.left_index.assign(places.x.size(), 0);
+  edges.left_x = positions.x;
+  edges.left_y = positions.y;
+  edges.left_direction = positions.direction;
+  edges.left_index.assign(positions.x.size(), 0);
   return edges;
 }
 

@@ -8,16 +8,12 @@
 namespace quadedge::bench {
 namespace {
 
-StereoFrame view(const FramePrefetcher::Frame& frame) {
-  return {frame.stamp_ns, frame.left.view(), frame.right.view()};
-}
-
-/// A place in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all
+/// A position in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all
 /// numbers.
 using Key = std::pair<long, long>;
 Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
 
-/// Share of the rows of `a` that `b` holds too: left places and right column.
+/// Fraction of the rows of `a` that `b` holds too: left positions and right column.
 template <class Rows>
 double shared(const Rows& a, const Rows& b) {
   if (a.size() == 0) return 1;
@@ -59,7 +55,7 @@ bool same(const TemporalMatches& a, const TemporalMatches& b) {
 
 }  // namespace
 
-TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool coarse) {
+TemporalSearch search_without_motion(const StereoEdges& previous, const TemporalConfig& config, bool coarse) {
   TemporalSearch search;
   search.left = {previous.left_x, previous.left_y, previous.left_direction};
   search.right = {previous.right_x, previous.right_y, previous.right_direction};
@@ -71,14 +67,14 @@ TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig
 FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,
                             const FramePrefetcher::Frame& second, const Config& config) {
   FrontendOutput output;
-  output.first = frontend.process(view(first));
-  const auto now = frontend.process(view(second));
+  output.first = frontend.process(first.view());
+  const auto now = frontend.process(second.view());
   output.previous = output.first->edges;
-  output.coarse = frontend.match(*output.first, search_in_place(output.previous, config.temporal, true));
-  output.quads = frontend.match(*output.first, search_in_place(output.previous, config.temporal, false));
+  output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
+  output.quads = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, false));
   output.anywhere = frontend.match_anywhere(*output.first);
-  output.left_edges = frontend.edges(false);
-  output.right_edges = frontend.edges(true);
+  output.left_edges = frontend.edges(Side::left);
+  output.right_edges = frontend.edges(Side::right);
   output.current = now->edges;
   return output;
 }

@@ -17,7 +17,7 @@ struct FrontendOutput {
 
 /// Edges of the first frame stay where they were in both later images, within the radius of a coarse or of a guided
 /// search.
-TemporalSearch search_in_place(const StereoEdges& previous, const TemporalConfig& config, bool coarse);
+TemporalSearch search_without_motion(const StereoEdges& previous, const TemporalConfig& config, bool coarse);
 
 /// Both frames through the frontend, with the quads that both kinds of search find between them around no motion.
 FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,
@@ -26,8 +26,8 @@ FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher:
 /// Every byte of positions, directions, indices and similarities.
 bool same_bytes(const FrontendOutput& a, const FrontendOutput& b);
 
-/// Shares of the stereo edges and of the quads that the other side holds too, within 0.02 px; the smaller one of both
-/// ways. A device and the reference round differently, so that candidates at a threshold may differ.
+/// Fractions of the stereo edges and of the quads that the other side holds too, within 0.02 px; the smaller one of
+/// both ways. A device and the reference round differently, so that candidates at a threshold may differ.
 struct Agreement {
   double stereo = 0, quads = 0;
   bool good() const { return stereo > 0.995 && quads > 0.99; }

@@ -1,11 +1,10 @@
 #include "benchmark/latency.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <sys/resource.h>
 #include <thread>
 
+#include "common/run_cost.hpp"
 #include "opencl/context.hpp"
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
@@ -15,23 +14,7 @@
 namespace quadedge::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr double kMegabyte = 1024.0 * 1024.0;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// Largest resident size of this process so far.
-double host_peak_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts KiB
-}
-
-StereoFrame view(const FramePrefetcher::Frame& frame) {
-  return {frame.stamp_ns, frame.left.view(), frame.right.view()};
-}
 
 bool is_warm_up(std::size_t frame, const BenchRecord& record) {
   return frame >= 1 && frame <= static_cast<std::size_t>(record.warm_up);
@@ -93,7 +76,7 @@ void measure_latency(const Subject& subject, BenchRecord& record) {
       before = device.context()->moved();
     report::FrameRecord frame;
     frame.start_ms = milliseconds_since(start);
-    frame.result = odometry.track(view(subject.frames[i]));
+    frame.result = odometry.track(subject.frames[i].view());
     if (!is_warm_up(i, record)) record.run.frames.push_back(std::move(frame));
     subject.progress("latency", static_cast<int>(i) + 1, total);
   }
@@ -128,7 +111,7 @@ void measure_kernels(const Subject& subject, BenchRecord& record) {
   if (device.is_reference()) return;
   StereoOdometry odometry(subject.rig, device, subject.config);
   for (std::size_t i = 0; i < subject.frames.size(); ++i) {
-    const auto result = odometry.track(view(subject.frames[i]));
+    const auto result = odometry.track(subject.frames[i].view());
     std::vector<StageTime> kernels;
     for (const auto& stage : result.stages) {
       if (stage.stage.rfind(prefix, 0) == 0) kernels.push_back({stage.stage.substr(prefix.size()), stage.ms});

@@ -27,7 +27,7 @@ StageWork edges_work(const FrameSize& frame, const EdgesConfig& config) {
 
 /// doc/method.md section 2: bilinear samples, mean-free, scaled to 8 bits, with their norm.
 StageWork patches_work(const FrameSize& frame) {
-  const double sample = 4 + 8 + 2 + 2 + 2 + 2;  // place, bilinear, mean, largest, scale and round, norm
+  const double sample = 4 + 8 + 2 + 2 + 2 + 2;  // position, bilinear, mean, largest, scale and round, norm
   return {frame.pixels + frame.edges * (kPlaceBytes + kEdgePatchBytes), frame.edges * 2 * kPatchSamples * sample};
 }
 
@@ -35,7 +35,7 @@ StageWork patches_work(const FrameSize& frame) {
 /// into 4 x 4 x 8 bins.
 StageWork sift_work(const FrameSize& frame) {
   const double blur = 2 * (6 * 3 + 1), gradient = 10, samples = 2 * 11 * 11;
-  const double sample = 4 + 8 + 8 * 2;  // turned place, weights, eight bins
+  const double sample = 4 + 8 + 8 * 2;  // turned position, weights, eight bins
   const double bin = 2 + 1 + 2 + 1;     // norm, clip, norm, scale
   return {frame.pixels + frame.edges * (kPlaceBytes + kEdgeSiftBytes),
           frame.pixels * (blur + gradient) + frame.edges * (samples * sample + kEdgeSiftBytes * bin)};

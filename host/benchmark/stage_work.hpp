@@ -13,7 +13,7 @@ struct FrameSize {
 };
 
 /// Every input read once and every output written once, and the arithmetic of the definition (an addition, a
-/// multiplication, a comparison each count as one). What a variant does beyond that lowers its share of the device's
+/// multiplication, a comparison each count as one). What a variant does beyond that lowers its fraction of the device's
 /// ceilings.
 struct StageWork {
   double bytes = 0, operations = 0;

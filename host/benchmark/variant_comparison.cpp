@@ -53,10 +53,10 @@ Config with_variant(Config config, const std::string& stage, const std::string& 
 double measure_once(const std::string& stage, const VariantInput& input, Candidate& candidate) {
   auto& context = *candidate.device->context();
   context.take_profile();
-  candidate.frontend->process({input.second.stamp_ns, input.second.left.view(), input.second.right.view()});
+  candidate.frontend->process(input.second.view());
   const frontend::Rig& first = *candidate.output.first;
   const auto match = [&](bool coarse) {
-    candidate.frontend->match(first, search_in_place(first.edges, input.config.temporal, coarse));
+    candidate.frontend->match(first, search_without_motion(first.edges, input.config.temporal, coarse));
   };
   match(false);
   if (stage != kGuidedMatch) match(true);
@@ -93,8 +93,8 @@ struct ReferenceCheck::Small {
     if (config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;  // every stage shall run
     for (int i = 0; i < 2; ++i) {
       frames[i].stamp_ns = sequence.stamp_ns(i);
-      frames[i].left = sequence.render(i, false).image;
-      frames[i].right = sequence.render(i, true).image;
+      frames[i].left = sequence.render(i, Side::left).image;
+      frames[i].right = sequence.render(i, Side::right).image;
     }
     Device reference("reference");
     expected = run_frontend(*frontend::make_frontend(sequence.rig(), reference, config), frames[0], frames[1], config);
@@ -108,12 +108,13 @@ std::string ReferenceCheck::difference(Device& device, const std::map<std::strin
   Config config = small_->config;
   config.variants = variants;
   const auto frontend = frontend::make_frontend(small_->sequence.rig(), device, config);
-  const auto share = agreement(run_frontend(*frontend, small_->frames[0], small_->frames[1], config), small_->expected);
-  if (share.good()) return {};
+  const auto agreeing =
+      agreement(run_frontend(*frontend, small_->frames[0], small_->frames[1], config), small_->expected);
+  if (agreeing.good()) return {};
   char text[128];
   std::snprintf(text, sizeof text,
                 "differs from the reference: %.1f %% of the stereo edges and %.1f %% of the quads are the same",
-                100 * share.stereo, 100 * share.quads);
+                100 * agreeing.stereo, 100 * agreeing.quads);
   return text;
 }
 

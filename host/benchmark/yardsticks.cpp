@@ -1,8 +1,9 @@
 #include "benchmark/yardsticks.hpp"
 
-#include <chrono>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "common/run_cost.hpp"
 
 namespace quadedge::bench {
 namespace {
@@ -18,9 +19,9 @@ cv::Mat view(const Image& image) {
 
 template <class Function>
 double milliseconds(const Function& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return milliseconds_since(start);
 }
 
 }  // namespace

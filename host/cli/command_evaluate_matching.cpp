@@ -37,7 +37,7 @@ class EvaluateMatchingCommand : public Command {
         "cables");
     options.number("--frames", frames_, "only the first N frames of each sequence; 0: all, of a built-in scene 10");
     options.text("--size", size_, "size of the images of built-in scenes [px]; default 942x489", "WxH");
-    options.number("--tolerance", tolerance_.position, "a match this near to the true place is veridical [px]");
+    options.number("--tolerance", tolerance_.position, "a match this near to the true position is veridical [px]");
     options.text("--sweep", sweep_, "only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
     options.text("--json", json_, "also write the tables to a file", "FILE");
     options.text("--html", html_, "also write a report with tables, plots and drawings to one file", "FILE");

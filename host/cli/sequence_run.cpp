@@ -1,13 +1,12 @@
 #include "cli/sequence_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <sys/resource.h>
 
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/saved_variants.hpp"
+#include "common/run_cost.hpp"
 #include "data/atomic_file.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencl/context.hpp"
@@ -23,23 +22,6 @@
 
 namespace quadedge::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// Largest resident size of this process so far.
-double host_peak_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts KiB
-}
-
-StereoFrame view(const FramePrefetcher::Frame& frame) {
-  return {frame.stamp_ns, frame.left.view(), frame.right.view()};
-}
 
 /// The files that grow with every frame.
 class GrowingFiles {
@@ -157,7 +139,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   while (const auto frame = source.next()) {
     report::FrameRecord record;
     record.start_ms = milliseconds_since(start);
-    record.result = odometry.track(view(*frame));
+    record.result = odometry.track(frame->view());
     files.add(record.result);
     draw_frame(*frame, run.input.frames, source.rig(), odometry, options);
     lost += is_tracked(record.result.status) ? 0 : 1;
@@ -182,7 +164,7 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
   source.prepare();
   Progress progress(options.quiet, "frames");
   while (const auto frame = source.next()) {
-    run.kernel_times.push_back(kernel_stages(odometry.track(view(*frame)).stages));
+    run.kernel_times.push_back(kernel_stages(odometry.track(frame->view()).stages));
     progress.update(run.input.name + " profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
     if (interruption.signal() != 0) return;
   }
@@ -261,8 +243,8 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
 }
 
 int exit_code(const report::RunRecord& run, double min_tracked) {
-  const double share = run.frames.empty() ? 0 : 100.0 * run.tracked() / static_cast<double>(run.frames.size());
-  if (share >= min_tracked) return static_cast<int>(ExitCode::done);
+  const double tracked = run.frames.empty() ? 0 : 100.0 * run.tracked() / static_cast<double>(run.frames.size());
+  if (tracked >= min_tracked) return static_cast<int>(ExitCode::done);
   std::fprintf(stderr, "quadedge: tracked %d of %zu frames, fewer than --min-tracked %g %%\n", run.tracked(),
                run.frames.size(), min_tracked);
   return static_cast<int>(ExitCode::too_few_tracked);

@@ -1,5 +1,6 @@
 #pragma once
-/// \file filter_limits.hpp  Thresholds of the similarity filters, for stereo and for each kind of search in time.
+/// \file filter_limits.hpp  Thresholds of the similarity filters, for stereo and for each kind of search in time, and
+/// how a search in time chooses its quads.
 
 #include "common/layouts.hpp"
 #include "common/temporal_search.hpp"
@@ -33,6 +34,11 @@ inline FilterLimits temporal_limits(const TemporalConfig& config, const Temporal
           static_cast<float>(config.coarse_sift_nearly_best),
           order_of(TemporalFilter::ncc),
           order_of(TemporalFilter::sift)};
+}
+
+inline QuadChoice quad_choice(const TemporalConfig& config, const TemporalSearch& search) {
+  return {static_cast<float>(config.distance_weight) / (search.radius * search.radius),
+          static_cast<float>(config.cluster_gap), static_cast<float>(config.cluster_orientation_rad())};
 }
 
 }  // namespace quadedge

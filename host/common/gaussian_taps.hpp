@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "quadedge/pi.hpp"
+
 namespace quadedge {
 
 /// The Gaussian and its first three derivatives at offset `u` [px] for scale `sigma` [px]; analytic, not renormalised.
@@ -11,7 +13,7 @@ namespace quadedge {
 /// k).
 inline std::array<double, 4> gaussian_derivatives(double u, double sigma) {
   const double s2 = sigma * sigma;
-  const double g = std::exp(-u * u / (2.0 * s2)) / (std::sqrt(2.0 * 3.14159265358979323846) * sigma);
+  const double g = std::exp(-u * u / (2.0 * s2)) / (std::sqrt(2.0 * kPi) * sigma);
   return {g, -u / s2 * g, (u * u - s2) / (s2 * s2) * g, u * (3.0 * s2 - u * u) / (s2 * s2 * s2) * g};
 }
 

@@ -10,7 +10,7 @@ void make_point_index(const std::vector<float>& xs, const std::vector<float>& ys
     return static_cast<std::size_t>(index.row(ys[i]) * index.columns + index.column(xs[i]));
   };
   const auto cells = static_cast<std::size_t>(index.columns * index.rows);
-  // Two places ahead, so that filling moves every start to where the cell's own entry has to be.
+  // Two positions ahead, so that filling moves every start to where the cell's own entry has to be.
   auto& first = index.cell_first;
   first.assign(cells + 2, 0);
   for (std::size_t i = 0; i < xs.size(); ++i) ++first[cell(i) + 2];

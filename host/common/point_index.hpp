@@ -1,5 +1,6 @@
 #pragma once
-/// \file point_index.hpp  Points ordered by cells of the image, so that "points near this place" costs what it returns.
+/// \file point_index.hpp  Points ordered by cells of the image, so that "points near this position" costs what it
+/// returns.
 
 #include <algorithm>
 #include <cstdint>

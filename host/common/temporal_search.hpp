@@ -2,19 +2,15 @@
 /// \file temporal_search.hpp  Where the matching in time looks.
 
 #include <cstddef>
-#include <vector>
+
+#include "quadedge/edges.hpp"
 
 namespace quadedge {
 
-/// Places and directions of stereo edges in one image [px, rad]; NaN where there is none.
-struct PlacedEdges {
-  std::vector<float> x, y, direction;
-};
-
 /// One entry per stereo edge of the base, an earlier rig: where it is expected in the current images.
 struct TemporalSearch {
-  PlacedEdges left, right;
-  float radius = 0;     ///< px around the expected place
+  EdgePositions left, right;
+  float radius = 0;     ///< px around the expected position
   int step = 1;         ///< only every step-th previous edge is looked for
   bool coarse = false;  ///< the limits of TemporalConfig::coarse_* hold
 };

@@ -55,8 +55,9 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
   Trajectory truth;
   for (int frame = 0; frame < sequence.frames(); ++frame) {
     const std::string stamp = data::format_seconds(sequence.stamp_ns(frame));
-    for (const bool right : {false, true}) {
-      const RenderedView view = sequence.render(frame, right);
+    for (const Side side : kSides) {
+      const bool right = side == Side::right;
+      const RenderedView view = sequence.render(frame, side);
       write_png(root / (right ? "rgb2" : "rgb") / (stamp + ".png"), view.image);
       data::write_float_map((root / (right ? "depth2" : "depth") / (stamp + ".pfm")).string(),
                             {view.image.width, view.image.height, view.depth});

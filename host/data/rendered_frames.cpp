@@ -35,9 +35,9 @@ std::string key_of(const SyntheticOptions& options) {
   return hash.hex();
 }
 
-std::string view_file(const std::string& folder, int frame, bool right) {
+std::string view_file(const std::string& folder, int frame, Side side) {
   char name[32];
-  std::snprintf(name, sizeof name, "/%06d_%s.pgm", frame, right ? "right" : "left");
+  std::snprintf(name, sizeof name, "/%06d_%s.pgm", frame, side == Side::right ? "right" : "left");
   return folder + name;
 }
 
@@ -146,12 +146,12 @@ void RenderedFrames::make_folder() {
 }
 
 /// Returns true where the view had to be rendered.
-bool RenderedFrames::make_view(int frame, bool right, Image& image) {
+bool RenderedFrames::make_view(int frame, Side side, Image& image) {
   const auto& camera = sequence_.rig().left;
   image = Image(camera.width, camera.height);
-  const std::string file = view_file(folder_, frame, right);
+  const std::string file = view_file(folder_, frame, side);
   if (!folder_.empty() && read_view(file, image)) return false;
-  image = sequence_.render(frame, right).image;
+  image = sequence_.render(frame, side).image;
   if (!keeps_ || static_cast<std::uintmax_t>(frame) >= frames_within_bound()) return true;
   try {
     write_atomically(file, pgm(image));
@@ -181,8 +181,8 @@ bool RenderedFrames::prepare() {
   const auto work = [&] {
     for (int view = claimed++; view < views && !stop; view = claimed++) {
       auto& frame = block_[static_cast<std::size_t>(view / 2)];
-      const bool right = view % 2 == 1;
-      if (make_view(first_ + view / 2, right, right ? frame.right : frame.left)) ++rendered;
+      const Side side = kSides[view % 2];
+      if (make_view(first_ + view / 2, side, side == Side::right ? frame.right : frame.left)) ++rendered;
       ++made;
     }
   };

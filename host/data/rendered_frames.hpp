@@ -55,7 +55,7 @@ class RenderedFrames {
   const std::string& why_not_kept() const { return why_not_kept_; }
 
  private:
-  bool make_view(int frame, bool right, Image& image);
+  bool make_view(int frame, Side side, Image& image);
   std::uintmax_t frames_within_bound() const;
   void make_folder();
   bool tell(int ready, int rendered_views);

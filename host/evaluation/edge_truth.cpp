@@ -50,7 +50,7 @@ void TruePositions::push(double at_x, double at_y, Visibility visible, bool on_c
   contour.push_back(on_contour ? 1 : 0);
 }
 
-TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth, const EdgePositions& edges) {
+TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth, const EdgePositionsView& edges) {
   TruePositions positions;
   positions.reserve(edges.x.size());
   for (std::size_t i = 0; i < edges.x.size(); ++i) {
@@ -75,7 +75,7 @@ TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth
 }
 
 TruePositions true_later_positions(const StereoRig& rig, const FrameTruth& before, const FrameTruth& now, Side side,
-                                   const EdgePositions& edges) {
+                                   const EdgePositionsView& edges) {
   Eigen::Isometry3d camera_from_before = now.world_from_left.value().inverse() * before.world_from_left.value();
   const bool right = side == Side::right;
   if (right) camera_from_before = rig.right_from_left * camera_from_before;

@@ -8,6 +8,7 @@
 
 #include "evaluation/surface_map.hpp"
 #include "quadedge/camera.hpp"
+#include "quadedge/edges.hpp"
 #include "quadedge/side.hpp"
 
 namespace quadedge::evaluation {
@@ -26,13 +27,6 @@ struct FrameTruth {
   std::optional<Eigen::Isometry3d> world_from_left;
 };
 
-/// Edges of one image [px, rad].
-struct EdgePositions {
-  const std::vector<float>& x;
-  const std::vector<float>& y;
-  const std::vector<float>& direction;
-};
-
 /// One entry per edge: the position in the other view [px], and whether it can be seen there. An occluded edge has a
 /// position too.
 struct TruePositions {
@@ -45,10 +39,10 @@ struct TruePositions {
 };
 
 /// True positions of left edges in the right image of the same frame.
-TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth, const EdgePositions& left_edges);
+TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth, const EdgePositionsView& left_edges);
 
 /// True positions of the left edges of `before` in one image of `now`; both frames with poses and depths.
 TruePositions true_later_positions(const StereoRig& rig, const FrameTruth& before, const FrameTruth& now, Side side,
-                                   const EdgePositions& left_edges);
+                                   const EdgePositionsView& left_edges);
 
 }  // namespace quadedge::evaluation

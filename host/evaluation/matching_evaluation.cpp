@@ -24,8 +24,7 @@ MatchingResult evaluate_matching(const MatchingSource& source, Device& device, C
   for (int number = 0; number < count; ++number) {
     TrueFrame frame = source.load(number);
     observer.begin(number, std::move(frame.truth));
-    FrameMatching measured =
-        observer.end(odometry.track({frame.frame.stamp_ns, frame.frame.left.view(), frame.frame.right.view()}));
+    FrameMatching measured = observer.end(odometry.track(frame.frame.view()));
     add(result.cues, measured.cues);
     measured.cues = {};
     result.frames.push_back(std::move(measured));

@@ -81,7 +81,7 @@ FrameMatching MatchingObserver::end(const FrameResult& result) {
 void MatchingObserver::edges(const EdgeSet& left, const EdgeSet& right) {
   left_ = left;
   right_ = right;
-  stereo_truth_ = true_right_positions(rig_, current().truth, {left.x, left.y, left.direction});
+  stereo_truth_ = true_right_positions(rig_, current().truth, left.positions());
   stereo_pools_ = stereo_pools(rig_, left, right, stereo_truth_, config_.stereo.min_epipolar_angle, tolerance_);
   EdgeCensus& census = measured_.census;
   census.edges = static_cast<std::int64_t>(left.size());
@@ -125,11 +125,6 @@ void MatchingObserver::stereo(const StereoEdges& edges) {
   }
 }
 
-EdgePositions MatchingObserver::image_edges(const StereoEdges& edges, Side side) {
-  if (side == Side::left) return {edges.left_x, edges.left_y, edges.left_direction};
-  return {edges.right_x, edges.right_y, edges.right_direction};
-}
-
 void MatchingObserver::temporal_search(const ObservedSearch& search) {
   search_ = &searches_[search.number];
   search_->base_frame = search.base_frame;
@@ -147,11 +142,10 @@ void MatchingObserver::start_temporal(const Rig& base, Search& search) {
   const StereoEdges& now = current().edges;
   for (const Side side : kSides) {
     const auto s = static_cast<std::size_t>(index_of(side));
-    const EdgePositions targets = image_edges(now, side);
-    search.later[s] =
-        true_later_positions(rig_, base.truth, current().truth, side, image_edges(base.edges, Side::left));
-    search.pools[s] = temporal_pools(image_edges(base.edges, side).direction, base.veridical, targets,
-                                     camera(side).height, search.later[s], tolerance_);
+    const EdgePositionsView targets = now.positions(side);
+    search.later[s] = true_later_positions(rig_, base.truth, current().truth, side, base.edges.positions(Side::left));
+    search.pools[s] = temporal_pools(base.edges.positions(side).direction, base.veridical, targets, camera(side).height,
+                                     search.later[s], tolerance_);
     search.measured->table(side).push_back(judge_baseline(to_string(TemporalFilter::baseline), targets.x, targets.y,
                                                           camera(side).height, search.later[s], search.pools[s],
                                                           tolerance_));
@@ -163,7 +157,7 @@ void MatchingObserver::start_temporal(const Rig& base, Search& search) {
 
 void MatchingObserver::judge_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates) {
   const auto s = static_cast<std::size_t>(index_of(side));
-  const EdgePositions targets = image_edges(current().edges, side);
+  const EdgePositionsView targets = current().edges.positions(side);
   search_->measured->table(side).push_back(judge(order_of(filter), to_string(filter), candidates, targets.x, targets.y,
                                                  search_->later[s], search_->pools[s], tolerance_));
 }

@@ -46,7 +46,7 @@ class MatchingObserver : public Tap {
   /// One search of the current frame: the truth of what it looks for, and what it leaves.
   struct Search {
     int base_frame = 0;
-    ExpectedEdges expected[2];  ///< these and the next two: left, right
+    EdgePositions expected[2];  ///< these and the next two: left, right
     TruePositions later[2];
     Pools pools[2], quad_pools;
     /// Nothing where the motion is unknown, or only a part of the edges is looked for: that makes a prediction, never a
@@ -54,8 +54,6 @@ class MatchingObserver : public Tap {
     std::optional<TemporalMatching> measured;
     std::vector<CueDistribution> cues;
   };
-  /// Edges of a rig in one image.
-  static EdgePositions image_edges(const StereoEdges& edges, Side side);
   Rig& current() { return rigs_.at(frame_); }
   bool is_known_motion(const Rig& base) { return base.truth.world_from_left && current().truth.world_from_left; }
   const PinholeCamera& camera(Side side) const { return side == Side::left ? rig_.left : rig_.right; }

@@ -6,11 +6,10 @@
 #include "evaluation/cue_collector.hpp"
 #include "evaluation/matching_observer.hpp"
 #include "evaluation/pools.hpp"
+#include "quadedge/pi.hpp"
 
 namespace quadedge::evaluation {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Adds the NCC or SIFT distance that lists carry, as `filter` judges it.
 template <class Filter>
@@ -68,8 +67,8 @@ void MatchingObserver::collect_temporal(TemporalFilter filter, Side side, const 
   CueDistribution* found = find_cue(search_->cues, table, order_of(next(filter)));
   if (found == nullptr) return;
   const auto s = static_cast<std::size_t>(index_of(side));
-  const EdgePositions now = image_edges(current().edges, side);
-  const ExpectedEdges& expected = search_->expected[s];
+  const EdgePositionsView now = current().edges.positions(side);
+  const EdgePositions& expected = search_->expected[s];
   const CandidateTruth judge{search_->later[s], search_->pools[s], tolerance_, now.x, now.y};
   if (filter == TemporalFilter::baseline) {
     collect_unfiltered(

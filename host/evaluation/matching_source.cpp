@@ -110,7 +110,7 @@ class RenderedSource : public MatchingSource {
   double max_disparity() const override { return sequence_.max_disparity(); }
   int frames() const override { return sequence_.frames(); }
   TrueFrame load(int number) const override {
-    RenderedView left = sequence_.render(number, false), right = sequence_.render(number, true);
+    RenderedView left = sequence_.render(number, Side::left), right = sequence_.render(number, Side::right);
     TrueFrame frame;
     frame.truth.depth_scale = rig().left.fx * rig().baseline();
     frame.truth.right_is_measured = true;

@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 
+#include "quadedge/pi.hpp"
+
 namespace quadedge::evaluation {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Fundamental matrix: the epipolar line of a left pixel p is F p.
 Eigen::Matrix3d fundamental_matrix(const StereoRig& rig) {
@@ -49,7 +49,7 @@ Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& rig
 }
 
 Pools temporal_pools(const std::vector<float>& previous_direction,
-                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePositions& current,
+                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePositionsView& current,
                      int image_height, const TruePositions& truth, const MatchingTolerance& tolerance) {
   const NearbyTargets nearby(current.x, current.y, image_height);
   Pools pools = empty_pools(previous_direction.size());

@@ -51,7 +51,7 @@ Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& rig
 /// and a current stereo edge lies within the tolerance of its true position and of its previous direction. \param
 /// previous_is_veridical one entry per previous stereo edge
 Pools temporal_pools(const std::vector<float>& previous_direction,
-                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePositions& current,
+                     const std::vector<std::uint8_t>& previous_is_veridical, const EdgePositionsView& current,
                      int image_height, const TruePositions& truth, const MatchingTolerance& tolerance);
 
 /// Pools of quads: paired when ONE current stereo edge is the counterpart in both images.

@@ -56,7 +56,7 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   counts_.edges_left = left_.edges.host_count;
   counts_.edges_right = right_.edges.host_count;
   counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
-  if (tap_ != nullptr) tap_->edges(edges(false), edges(true));
+  if (tap_ != nullptr) tap_->edges(edges(Side::left), edges(Side::right));
 
   left_.patches.prepare(rig.left_image.pixels);
   right_.patches.prepare(rig.right_image.pixels);
@@ -85,10 +85,8 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
 void DeviceFrontend::index_current() {
   if (indexed_) return;
   const StereoEdges& edges = rigs_.current().edges;
-  left_index_.build(context_, edges.left_x, edges.left_y, edges.left_direction, calibration_.left.width,
-                    calibration_.left.height);
-  right_index_.build(context_, edges.right_x, edges.right_y, edges.right_direction, calibration_.right.width,
-                     calibration_.right.height);
+  left_index_.build(context_, edges.positions(Side::left), calibration_.left.width, calibration_.left.height);
+  right_index_.build(context_, edges.positions(Side::right), calibration_.right.width, calibration_.right.height);
   indexed_ = true;
 }
 
@@ -101,16 +99,16 @@ void DeviceFrontend::describe_by_sift(DeviceRig& rig) {
   if (rig.on_device.has_sift) return;
   stages::DeviceStereoEdges& edges = rig.on_device;
   left_.sift.prepare(edges.left_image.pixels);
-  left_.sift.describe(edges.left(), edges.left_sift);
+  left_.sift.describe(edges.positions(Side::left), edges.left_sift);
   right_.sift.prepare(edges.right_image.pixels);
-  right_.sift.describe(edges.right(), edges.right_sift);
+  right_.sift.describe(edges.positions(Side::right), edges.right_sift);
   edges.has_sift = true;
 }
 
 void DeviceFrontend::match_side(Side side, DeviceRig& base, const TemporalSearch& search,
                                 stages::DeviceCandidates& candidates) {
   DeviceRig& current = rigs_.current();
-  temporal_candidates_.run(predicted_[index_of(side)], search.step, index(side), search.radius,
+  temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius,
                            static_cast<float>(config_.temporal.orientation_rad()), candidates);
   const FilterLimits limits = temporal_limits(config_.temporal, search);
   if (limits.sift_max > 0) {
@@ -128,7 +126,8 @@ void DeviceFrontend::match_by_lists(DeviceRig& base, const TemporalSearch& searc
   counts_.temporal_right = temporal_right_.living_rows();
   temporal_quads_.agree(temporal_left_, temporal_right_);
   const DeviceRig& current = rigs_.current();
-  matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_[0], temporal_left_);
+  matches = temporal_quads_.collect(current.on_device, current.edges, search, predicted_.list(index_of(Side::left)),
+                                    temporal_left_);
   if (tap_ == nullptr) return;
   tap_displaced(search);
   tap_temporal(TemporalFilter::orientation, temporal_left_.read_judged(), temporal_right_.read_judged());
@@ -137,9 +136,8 @@ void DeviceFrontend::match_by_lists(DeviceRig& base, const TemporalSearch& searc
 bool DeviceFrontend::match_fused(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches) {
   DeviceRig& current = rigs_.current();
   stages::TappedMatch tapped;
-  const auto alive =
-      temporal_match_.run(predicted_[0], predicted_[1], search, base.on_device, current.on_device, left_index_,
-                          right_index_, itself_, current.edges, matches, tap_ != nullptr ? &tapped : nullptr);
+  const auto alive = temporal_match_.run(predicted_, search, base.on_device, current.on_device, left_index_,
+                                         right_index_, current.edges, matches, tap_ != nullptr ? &tapped : nullptr);
   if (!alive) return false;
   counts_.temporal_left = alive->left;
   counts_.temporal_right = alive->right;
@@ -150,8 +148,7 @@ bool DeviceFrontend::match_fused(DeviceRig& base, const TemporalSearch& search, 
 void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
   DeviceRig& base = rigs_.own(base_rig);
   index_current();
-  predicted_[0].write(context_, search.left);
-  predicted_[1].write(context_, search.right);
+  predicted_.write(context_, {search.left, search.right});
   if (tap_ != nullptr) {
     tap_search(base, search);
     describe_by_sift(base);
@@ -175,8 +172,9 @@ void DeviceFrontend::match_anywhere(const Rig& base, TemporalMatches& matches) {
                                rigs_.current().edges);
 }
 
-EdgeSet DeviceFrontend::edges(bool right) {
-  return right ? right_.edges.read(calibration_.right.height) : left_.edges.read(calibration_.left.height);
+EdgeSet DeviceFrontend::edges(Side side) {
+  if (side == Side::right) return right_.edges.read(calibration_.right.height);
+  return left_.edges.read(calibration_.left.height);
 }
 
 }  // namespace quadedge::frontend

@@ -33,7 +33,7 @@ class DeviceFrontend : public Frontend {
   RigHandle process(const StereoFrame& frame) override;
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
   void match_anywhere(const Rig& base, TemporalMatches& matches) override;
-  EdgeSet edges(bool right) override;
+  EdgeSet edges(Side side) override;
   void set_tap(Tap* tap) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
 
@@ -85,7 +85,7 @@ class DeviceFrontend : public Frontend {
   opencl::Buffer<cl_uchar> wide_before_, wide_now_;
   stages::DeviceRefined refined_;
   stages::DeviceClusters clusters_;
-  stages::DevicePlaces predicted_[2];  ///< left, right
+  stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
   bool indexed_ = false;                   ///< of the current frame
   opencl::Buffer<cl_char> right_patches_;  ///< of every edge of the right image

@@ -73,12 +73,7 @@ void DeviceFrontend::tap_stereo() {
 }
 
 void DeviceFrontend::tap_search(const Rig& base, const TemporalSearch& search) {
-  tap_->temporal_search({counts_.searches,
-                         base.frame,
-                         {search.left.x, search.left.y, search.left.direction},
-                         {search.right.x, search.right.y, search.right.direction},
-                         search.radius,
-                         search.step});
+  tap_->temporal_search({counts_.searches, base.frame, search.left, search.right, search.radius, search.step});
 }
 
 /// Filter 1 of a search by lists, whose kernel applies it together with filter 2: the kernel itself, with the limit of
@@ -86,7 +81,7 @@ void DeviceFrontend::tap_search(const Rig& base, const TemporalSearch& search) {
 void DeviceFrontend::tap_displaced(const TemporalSearch& search) {
   stages::DeviceCandidates lists;
   for (const Side side : kSides) {
-    temporal_candidates_.run(predicted_[index_of(side)], search.step, index(side), search.radius, kAllDirections,
+    temporal_candidates_.run(predicted_.list(index_of(side)), search.step, index(side), search.radius, kAllDirections,
                              lists);
     tap_->temporal_filter(TemporalFilter::displacement, side, lists.read());
   }

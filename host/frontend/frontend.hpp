@@ -51,8 +51,8 @@ class Frontend {
 
   const FrontendCounts& counts() const { return counts_; }
 
-  /// Edges of the current left or right image.
-  virtual EdgeSet edges(bool right) = 0;
+  /// Edges of one of the current images.
+  virtual EdgeSet edges(Side side) = 0;
   virtual std::size_t device_bytes() const = 0;
 
   /// Observes every filter from now on; null stops.

@@ -14,13 +14,13 @@ constexpr double kExplainedDistance = 1.0 / 3.0;
 
 }  // namespace
 
-void Acceptance::test_support(const PlacedEdges& predicted, MotionStep& step) const {
+void Acceptance::test_support(const EdgePositions& predicted, MotionStep& step) const {
   const int in_view = count_in_view(offset_.rig().left, predicted);
   step.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
   if (step.ok() && step.support < config_.temporal.min_support) step.motion.status = pose::MotionStatus::no_consensus;
 }
 
-void Acceptance::measure_area(const PlacedEdges& predicted, MotionStep& step) {
+void Acceptance::measure_area(const EdgePositions& predicted, MotionStep& step) {
   const PinholeCamera& camera = offset_.rig().left;
   const double side = config_.pose.scoring_cell > 0 ? config_.pose.scoring_cell : std::max(camera.width, camera.height);
   const int columns = static_cast<int>(camera.width / side) + 1, rows = static_cast<int>(camera.height / side) + 1;

@@ -21,12 +21,12 @@ class Acceptance {
   /// Sets the step's support. Where it lies under temporal.min_support the step has no consensus: within the few pixels
   /// of a search a wrong motion finds some support too, a true one has to find more.
   /// \param predicted where the search expected the base's edges in the left image
-  void test_support(const PlacedEdges& predicted, MotionStep& step) const;
+  void test_support(const EdgePositions& predicted, MotionStep& step) const;
 
   /// Sets the step's explained area: the mean, over the image's cells, of the ratio of predicted edges whose quads
   /// agree closely with the motion. A thing counts by the area that it covers, not by the edges that it is covered
   /// with.
-  void measure_area(const PlacedEdges& predicted, MotionStep& step);
+  void measure_area(const EdgePositions& predicted, MotionStep& step);
 
   /// Whether a motion near the prediction is believed without asking further.
   bool is_confident(const MotionStep& step) const;

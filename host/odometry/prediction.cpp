@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 
-void set(PlacedEdges& edges, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
+void set(EdgePositions& edges, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
   edges.x[i] = edge ? static_cast<float>(edge->pixel.x()) : kNowhere;
   edges.y[i] = edge ? static_cast<float>(edge->pixel.y()) : kNowhere;
   edges.direction[i] = edge ? static_cast<float>(std::atan2(edge->direction.y(), edge->direction.x())) : kNowhere;
@@ -45,7 +45,7 @@ void predict_positions(const StereoRig& rig, const StereoEdges& previous, const 
   });
 }
 
-int count_in_view(const PinholeCamera& camera, const PlacedEdges& edges) {
+int count_in_view(const PinholeCamera& camera, const EdgePositions& edges) {
   int count = 0;
   for (std::size_t i = 0; i < edges.x.size(); ++i) {
     const bool inside = edges.x[i] >= 0 && edges.x[i] <= static_cast<float>(camera.width - 1) && edges.y[i] >= 0 &&
@@ -55,7 +55,7 @@ int count_in_view(const PinholeCamera& camera, const PlacedEdges& edges) {
   return count;
 }
 
-double mean_distance(const PlacedEdges& a, const PlacedEdges& b, int step) {
+double mean_distance(const EdgePositions& a, const EdgePositions& b, int step) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.x.size(); i += static_cast<std::size_t>(step)) {

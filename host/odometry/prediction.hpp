@@ -20,9 +20,9 @@ void predict_positions(const StereoRig& rig, const StereoEdges& previous, const 
                        TemporalSearch& search);
 
 /// Edges inside a camera's image.
-int count_in_view(const PinholeCamera& camera, const PlacedEdges& edges);
+int count_in_view(const PinholeCamera& camera, const EdgePositions& edges);
 
 /// Mean distance of every step-th position that both hold [px]; 0 where there is none.
-double mean_distance(const PlacedEdges& a, const PlacedEdges& b, int step);
+double mean_distance(const EdgePositions& a, const EdgePositions& b, int step);
 
 }  // namespace quadedge::odometry

@@ -239,8 +239,8 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
 FrameDetails StereoOdometry::Implementation::details() const {
   FrameDetails details;
   if (!current_) return details;
-  details.left_edges = frontend_->edges(false);
-  details.right_edges = frontend_->edges(true);
+  details.left_edges = frontend_->edges(Side::left);
+  details.right_edges = frontend_->edges(Side::right);
   details.stereo = current_->edges;
   if (!step_) return details;
   details.previous_stereo = step_->base->edges;

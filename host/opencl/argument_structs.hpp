@@ -9,6 +9,7 @@
 /// Every structure of kernels/layouts.cl; tests/test_layouts.cpp holds the list complete.
 #define QUADEDGE_KERNEL_STRUCTS(VISIT) \
   VISIT(PackedPositions)               \
+  VISIT(PackedPointIndex)              \
   VISIT(EpipolarGeometry)              \
   VISIT(AlignmentSettings)             \
   VISIT(DetectionArguments)            \
@@ -20,6 +21,10 @@
   VISIT(StereoRefinementArguments)     \
   VISIT(StereoClusterArguments)        \
   VISIT(TemporalCandidateArguments)    \
+  VISIT(QuadChoice)                    \
+  VISIT(TemporalMatchArguments)        \
+  VISIT(TemporalAgreementArguments)    \
+  VISIT(TemporalBestArguments)         \
   VISIT(WideSelection)                 \
   VISIT(WideMatchingArguments)
 

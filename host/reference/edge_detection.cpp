@@ -5,12 +5,11 @@
 
 #include "common/gaussian_taps.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
 #include "reference/edge_thinning.hpp"
 
 namespace quadedge::reference {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// One derivative order at one phase: taps for the pixels i + first .. i + first + size - 1 around pixel i.
 struct Kernel {

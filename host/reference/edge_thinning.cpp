@@ -4,18 +4,15 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/angles.hpp"
+
 namespace quadedge::reference {
 namespace {
 
-// Single precision and these very operations on purpose: the device decides alike.
-constexpr float kPi = 3.14159265F;
-constexpr float kSameCurve = 0.25F * kPi;
+// Single precision on purpose: the device decides alike.
+constexpr float kSameCurve = 0.25F * static_cast<float>(kPi);
 
-bool same_direction(float a, float b) {
-  float difference = std::abs(a - b);
-  if (difference > kPi) difference = 2.0F * kPi - difference;
-  return difference <= kSameCurve;
-}
+bool same_direction(float a, float b) { return angle_between(a, b) <= kSameCurve; }
 
 }  // namespace
 

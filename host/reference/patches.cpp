@@ -19,8 +19,8 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (bottom - top);
 }
 
-/// Place of sample k = 7 i + j.
-int place(int side, int k) { return kPatchLanes * (2 * (k / kPatchSide) + side) + k % kPatchSide; }
+/// Position of sample k = 7 i + j.
+int position(int side, int k) { return kPatchLanes * (2 * (k / kPatchSide) + side) + k % kPatchSide; }
 
 /// One mean-free patch around (x, y) with its unit tangent (c, s).
 PatchValues sample_patch(const ImageView& image, double x, double y, double c, double s) {
@@ -43,7 +43,7 @@ PatchValues sample_patch(const ImageView& image, double x, double y, double c, d
 
 float side_ncc(const std::int8_t* a, int side_a, const std::int8_t* b, int side_b) {
   int products = 0;
-  for (int k = 0; k < kPatchSamples; ++k) products += a[place(side_a, k)] * b[place(side_b, k)];
+  for (int k = 0; k < kPatchSamples; ++k) products += a[position(side_a, k)] * b[position(side_b, k)];
   return static_cast<float>(products) * inverse_norm(a, side_a) * inverse_norm(b, side_b);
 }
 
@@ -56,7 +56,7 @@ void store_side(const PatchValues& values, int side, std::int8_t* edge) {
   int squares = 0;
   for (int k = 0; k < kPatchSamples; ++k) {
     const int sample = static_cast<int>(std::nearbyint(values[k] * scale));
-    edge[place(side, k)] = static_cast<std::int8_t>(sample);
+    edge[position(side, k)] = static_cast<std::int8_t>(sample);
     squares += sample * sample;
   }
   const float inverse = squares == 0 ? 0.0f : 1.0f / std::sqrt(static_cast<float>(squares));
@@ -65,7 +65,7 @@ void store_side(const PatchValues& values, int side, std::int8_t* edge) {
 
 PatchValues stored_side(const std::int8_t* edge, int side) {
   PatchValues values;
-  for (int k = 0; k < kPatchSamples; ++k) values[k] = edge[place(side, k)];
+  for (int k = 0; k < kPatchSamples; ++k) values[k] = edge[position(side, k)];
   return values;
 }
 

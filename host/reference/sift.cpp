@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "quadedge/pi.hpp"
+
 namespace quadedge::reference {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Index inside [0, size) after reflection about the outermost pixels (edge pixel not repeated).
 int reflect(int i, int size) {

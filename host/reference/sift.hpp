@@ -16,7 +16,7 @@ inline constexpr double kSiftBaseSigma = 1.6;     ///< blur in which gradients a
 inline constexpr int kSiftBlurRadius = 6;         ///< taps on either side: 4 sigma of the blur that is added, rounded
 inline constexpr double kSiftCellWidth = 1.5;     ///< px
 inline constexpr int kSiftRadius = 5;       ///< half the sampling window [px]: cell width * (4 + 1) / sqrt(2), rounded
-inline constexpr double kSiftClip = 0.2;    ///< largest share of the norm in one bin
+inline constexpr double kSiftClip = 0.2;    ///< largest fraction of the norm in one bin
 inline constexpr double kSiftNorm = 512.0;  ///< norm of the stored bytes
 
 /// Length and angle of the central difference of the blurred image, height x width; zero length on the outermost

@@ -6,8 +6,8 @@
 
 namespace quadedge::reference {
 
-Candidates temporal_candidates(const PlacedEdges& predicted, const PlacedEdges& current, const PointIndex& index,
-                               float radius, float orientation, int row_step) {
+Candidates temporal_candidates(const EdgePositionsView& predicted, const EdgePositionsView& current,
+                               const PointIndex& index, float radius, float orientation, int row_step) {
   Candidates candidates;
   candidates.first.assign(1, 0);
   for (std::size_t i = 0; i < predicted.x.size(); i += static_cast<std::size_t>(row_step)) {

@@ -20,8 +20,9 @@ int alive_rows(const TemporalMatchLists& lists) {
 }
 
 /// Filters 1 to 6 in one image.
-TemporalMatchLists match_side(const PlacedEdges& predicted, const PlacedEdges& current, const TemporalMatchSide& side,
-                              const TemporalSearch& search, const TemporalConfig& config) {
+TemporalMatchLists match_side(const EdgePositionsView& predicted, const EdgePositionsView& current,
+                              const TemporalMatchSide& side, const TemporalSearch& search,
+                              const TemporalConfig& config) {
   PointIndex index;
   make_point_index(current.x, current.y, side.width, side.height, index);
   TemporalMatchLists lists;
@@ -39,9 +40,8 @@ TemporalMatchResult temporal_match(const TemporalSearch& search, const StereoEdg
                                    const TemporalMatchSide& left, const TemporalMatchSide& right,
                                    const TemporalConfig& config) {
   TemporalMatchResult result;
-  result.left = match_side(search.left, {current.left_x, current.left_y, current.left_direction}, left, search, config);
-  result.right =
-      match_side(search.right, {current.right_x, current.right_y, current.right_direction}, right, search, config);
+  result.left = match_side(search.left, current.positions(Side::left), left, search, config);
+  result.right = match_side(search.right, current.positions(Side::right), right, search, config);
   const auto agreement =
       temporal_agreement(result.left.candidates, result.left.scores, result.right.candidates, result.right.scores);
   result.matches = temporal_best(result.left.candidates, result.left.scores, agreement, current, config, search);

@@ -8,7 +8,8 @@
 namespace quadedge::reference {
 namespace {
 
-/// Number of groups that chain up by place and direction: single linkage, flooding from every member without a group.
+/// Number of groups that chain up by position and direction: single linkage, flooding from every member without a
+/// group.
 int count_clusters(const std::vector<std::size_t>& members, const StereoEdges& edges, const TemporalConfig& config) {
   std::vector<bool> reached(members.size(), false);
   int clusters = 0;

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "quadedge/pi.hpp"
+
 namespace quadedge::reference {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double sample(const SmallImage& small, double x, double y) {
   x = std::clamp(x, 0.0, small.width - 1.0);
@@ -22,11 +22,11 @@ double sample(const SmallImage& small, double x, double y) {
   return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x1, y0)) + fy * ((1 - fx) * at(x0, y1) + fx * at(x1, y1));
 }
 
-/// Share that a sample `offset` small pixels from the middle has in a cell, along one axis; the Gaussian window
+/// Weight that a sample `offset` small pixels from the middle has in a cell, along one axis; the Gaussian window
 /// included.
-double share(int offset, int cell) {
-  const double place = offset / kWideCellWidth;
-  return std::max(0.0, 1 - std::abs(place - (cell - 0.5 * (kWideCells - 1)))) * std::exp(-place * place / 8);
+double cell_weight(int offset, int cell) {
+  const double at = offset / kWideCellWidth;
+  return std::max(0.0, 1 - std::abs(at - (cell - 0.5 * (kWideCells - 1)))) * std::exp(-at * at / 8);
 }
 
 void describe(const SmallImage& small, double x, double y, double direction, std::uint8_t* descriptor) {
@@ -41,7 +41,7 @@ void describe(const SmallImage& small, double x, double y, double direction, std
       const double length = std::hypot(along, across);
       if (!(length > 0)) continue;
       for (int cell = 0; cell < kWideCells * kWideCells; ++cell) {
-        const double weight = length * share(v, cell / kWideCells) * share(u, cell % kWideCells);
+        const double weight = length * cell_weight(v, cell / kWideCells) * cell_weight(u, cell % kWideCells);
         for (int bin = 0; bin < kWideAngles; ++bin) {
           const double angle = 2 * kPi * bin / kWideAngles;
           const double cosine = std::max(0.0, (along * std::cos(angle) + across * std::sin(angle)) / length);

@@ -12,7 +12,7 @@ namespace quadedge::reference {
 
 inline constexpr int kWideHalf = 7;            ///< samples on either side of the middle one
 inline constexpr double kWideCellWidth = 3.0;  ///< small pixels: 9 px of the image
-inline constexpr double kWideClip = 0.2;       ///< largest share of the norm in one bin
+inline constexpr double kWideClip = 0.2;       ///< largest fraction of the norm in one bin
 inline constexpr double kWideNorm = 512.0;
 
 /// Means of blocks of kWideShrink x kWideShrink pixels; what is left over at the right and below is not used.

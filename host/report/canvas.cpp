@@ -43,10 +43,10 @@ Canvas::Canvas(const ImageView& image, double brightness, int legend_lines)
   cv::cvtColor(large, target, cv::COLOR_GRAY2BGR);
 }
 
-cv::Point Canvas::place(double x, double y) const {
+cv::Point Canvas::position(double x, double y) const {
   // Pixel centres are whole numbers on both sides of the enlargement.
   const auto fixed_point = [this](double value) {
-    return static_cast<int>(std::lround(((value + 0.5) * scale_ - 0.5) * (1 << kPlaceShift)));
+    return static_cast<int>(std::lround(((value + 0.5) * scale_ - 0.5) * (1 << kPositionShift)));
   };
   return {fixed_point(x), fixed_point(y)};
 }

@@ -18,8 +18,8 @@ class Canvas {
   Canvas(const ImageView& image, double brightness, int legend_lines);
 
   cv::Mat& picture() { return picture_; }
-  /// Place in the picture of image coordinates, in units of 1/16 px as OpenCV's `shift` of 4 wants it.
-  cv::Point place(double x, double y) const;
+  /// Position in the picture of image coordinates, in units of 1/16 px as OpenCV's `shift` of 4 wants it.
+  cv::Point position(double x, double y) const;
   /// Picture pixels per image pixel.
   int scale() const { return scale_; }
   /// Baseline of legend line `line` from 0 on [px].
@@ -30,8 +30,8 @@ class Canvas {
   int image_height_;  ///< of the enlarged image [px]
   cv::Mat picture_;
 };
-/// Fractional bits of Canvas::place.
-constexpr int kPlaceShift = 4;
+/// Fractional bits of Canvas::position.
+constexpr int kPositionShift = 4;
 
 /// Writes text with its baseline at (x, y); returns the x after its end.
 int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size = 0.5);

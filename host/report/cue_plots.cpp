@@ -17,17 +17,17 @@ using evaluation::Histogram;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostPoints = 130;  // of a curve; finer bins are joined
 
-double place_of(const Histogram& histogram, std::size_t bin) {
+double value_at(const Histogram& histogram, std::size_t bin) {
   return histogram.low + static_cast<double>(bin) * histogram.width();
 }
 
-/// Value below which a share of all values lies, to within a bin.
-double quantile(const Histogram& histogram, double share) {
-  const double wanted = share * static_cast<double>(histogram.total());
+/// Value below which a fraction of all values lies, to within a bin.
+double quantile(const Histogram& histogram, double fraction) {
+  const double wanted = fraction * static_cast<double>(histogram.total());
   double sum = static_cast<double>(histogram.below);
   for (std::size_t bin = 0; bin < histogram.bins.size(); ++bin) {
     sum += static_cast<double>(histogram.bins[bin]);
-    if (sum >= wanted) return place_of(histogram, bin + 1);
+    if (sum >= wanted) return value_at(histogram, bin + 1);
   }
   return histogram.high;
 }
@@ -54,10 +54,10 @@ std::pair<double, double> shown_range(const CueDistribution& cue) {
 }
 
 struct Curves {
-  std::vector<double> places, density, cumulative_places, cumulative;
+  std::vector<double> values, density, cumulative_values, cumulative;
 };
 
-/// Density over the bins within the range, and the cumulative share of all values at the ends of bins.
+/// Density over the bins within the range, and the cumulative fraction of all values at the ends of bins.
 Curves curves_of(const Histogram& histogram, double low, double high) {
   Curves curves;
   const auto bin_of = [&](double value) {
@@ -75,7 +75,7 @@ Curves curves_of(const Histogram& histogram, double low, double high) {
     }
   }
   const double total = static_cast<double>(histogram.total());
-  curves.cumulative_places.push_back(place_of(histogram, first));
+  curves.cumulative_values.push_back(value_at(histogram, first));
   curves.cumulative.push_back(total > 0 ? 100 * sum / total : kNan);
   for (std::size_t bin = first; bin < last; bin += join) {
     const std::size_t end = std::min(bin + join, last);
@@ -83,10 +83,10 @@ Curves curves_of(const Histogram& histogram, double low, double high) {
                                                              histogram.bins.begin() + static_cast<std::ptrdiff_t>(end),
                                                              std::int64_t{0}));
     sum += count;
-    curves.places.push_back(0.5 * (place_of(histogram, bin) + place_of(histogram, end)));
-    curves.density.push_back(inside > 0 ? count / inside / (place_of(histogram, end) - place_of(histogram, bin))
+    curves.values.push_back(0.5 * (value_at(histogram, bin) + value_at(histogram, end)));
+    curves.density.push_back(inside > 0 ? count / inside / (value_at(histogram, end) - value_at(histogram, bin))
                                         : kNan);
-    curves.cumulative_places.push_back(place_of(histogram, end));
+    curves.cumulative_values.push_back(value_at(histogram, end));
     curves.cumulative.push_back(total > 0 ? 100 * sum / total : kNan);
   }
   return curves;
@@ -116,13 +116,13 @@ std::vector<std::string> cue_plots(const CueDistribution& cue) {
   const std::string axis = cue.cue + (cue.unit.empty() ? "" : " [" + cue.unit + "]");
   const std::string density_unit = cue.unit.empty() ? "" : " [1/" + cue.unit + "]";
   Plot density = small_plot(std::to_string(cue.order) + "  " + cue.cue, axis, "density" + density_unit);
-  Plot cumulative = small_plot("cumulative", axis, "share of pairs [%]");
+  Plot cumulative = small_plot("cumulative", axis, "fraction of pairs [%]");
   for (auto* plot : {&density, &cumulative}) plot->x_low = low, plot->x_high = high;
   cumulative.y_low = 0, cumulative.y_high = 102;
   const auto add = [&](const std::string& name, const Histogram& histogram) {
     const Curves curves = curves_of(histogram, low, high);
-    density.add_area(name + " (" + short_count(histogram.total()) + ")", curves.places, curves.density);
-    cumulative.add_line(name, curves.cumulative_places, curves.cumulative);
+    density.add_area(name + " (" + short_count(histogram.total()) + ")", curves.values, curves.density);
+    cumulative.add_line(name, curves.cumulative_values, curves.cumulative);
   };
   add("veridical", cue.veridical);
   add("other", cue.other);
@@ -154,11 +154,11 @@ std::vector<std::string> disparity_error_plots(const std::vector<evaluation::Mat
     }
   }
   Plot density = small_plot("Error of the disparity", "error [px]", "density [1/px]");
-  Plot cumulative = small_plot("Error within a limit", "largest absolute error [px]", "share of edges [%]");
+  Plot cumulative = small_plot("Error within a limit", "largest absolute error [px]", "fraction of edges [%]");
   const Curves curves = curves_of(signed_error, -kRange, kRange);
-  density.add_area("final stereo edges (" + short_count(signed_error.total()) + ")", curves.places, curves.density);
+  density.add_area("final stereo edges (" + short_count(signed_error.total()) + ")", curves.values, curves.density);
   const Curves within = curves_of(absolute, 0, kRange);
-  cumulative.add_line("final stereo edges", within.cumulative_places, within.cumulative);
+  cumulative.add_line("final stereo edges", within.cumulative_values, within.cumulative);
   cumulative.y_low = 0, cumulative.y_high = 102;
   return {density.svg(), cumulative.svg()};
 }

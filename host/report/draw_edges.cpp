@@ -2,13 +2,13 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "quadedge/pi.hpp"
 #include "report/canvas.hpp"
 #include "report/drawing.hpp"
 
 namespace quadedge::report {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kBrightness = 0.35;
 constexpr double kHalfStroke = 0.6;  // px of the image to either side of the edge
 
@@ -38,9 +38,9 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
   const auto wheel = colour_wheel();
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const double dx = kHalfStroke * std::cos(edges.direction[i]), dy = kHalfStroke * std::sin(edges.direction[i]);
-    cv::line(canvas.picture(), canvas.place(edges.x[i] - dx, edges.y[i] - dy),
-             canvas.place(edges.x[i] + dx, edges.y[i] + dy), direction_colour(wheel, edges.direction[i]), 1,
-             cv::LINE_AA, kPlaceShift);
+    cv::line(canvas.picture(), canvas.position(edges.x[i] - dx, edges.y[i] - dy),
+             canvas.position(edges.x[i] + dx, edges.y[i] + dy), direction_colour(wheel, edges.direction[i]), 1,
+             cv::LINE_AA, kPositionShift);
   }
   const cv::Scalar white(255, 255, 255);
   put_text(canvas.picture(),

@@ -24,9 +24,9 @@ std::string limit(double px) { return fixed(px, px == std::round(px) ? 0 : 2) + 
 
 std::string meaning(MatchClass kind, double tolerance, double wrong) {
   switch (kind) {
-    case MatchClass::correct: return "within " + limit(tolerance) + " of the true place";
-    case MatchClass::inaccurate: return limit(tolerance) + " to " + limit(wrong) + " from the true place";
-    case MatchClass::wrong: return "more than " + limit(wrong) + " from the true place";
+    case MatchClass::correct: return "within " + limit(tolerance) + " of the true position";
+    case MatchClass::inaccurate: return limit(tolerance) + " to " + limit(wrong) + " from the true position";
+    case MatchClass::wrong: return "more than " + limit(wrong) + " from the true position";
     case MatchClass::occluded: return "matched although the edge is occluded in the right view";
   }
   return {};
@@ -47,7 +47,7 @@ cv::Scalar own_colour(std::size_t index) {
 struct Strokes {
   std::vector<std::size_t> chosen;  ///< indices into the frame's matches
   std::vector<cv::Scalar> colours;  ///< one per chosen match
-  bool with_truth = false;          ///< link the true place
+  bool with_truth = false;          ///< link the true position
   bool by_class = false;            ///< neighbours have one colour, so that thin strokes do
   double half_length = 0.6;         ///< px of the image
   int dot = 0;                      ///< radius of a dot in both views [px of the picture]; 0: none
@@ -76,15 +76,16 @@ cv::Mat compose(const DrawnFrame& frame, Strokes strokes, const std::vector<std:
   // Few matches must be found by the eye: they get dots.
   const std::size_t count = strokes.chosen.size();
   strokes.dot = strokes.by_class || count > 20000 ? 0 : count > 2000 ? 1 : count > 300 ? 2 : 3;
-  MatchView left = layout.whole(picture, frame.left, false), right = layout.whole(picture, frame.right, true);
+  MatchView left = layout.whole(picture, frame.left, Side::left),
+            right = layout.whole(picture, frame.right, Side::right);
   draw_strokes(frame, strokes, left, right);
   strokes.dot = 0;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const std::string number = std::to_string(r + 1);
     left.frame(regions[r].left, number, kFrame);
     right.frame(regions[r].right, number, kFrame);
-    MatchView detail_left = layout.detail(picture, frame.left, regions[r].left, r, false);
-    MatchView detail_right = layout.detail(picture, frame.right, regions[r].right, r, true);
+    MatchView detail_left = layout.detail(picture, frame.left, regions[r].left, r, Side::left);
+    MatchView detail_right = layout.detail(picture, frame.right, regions[r].right, r, Side::right);
     draw_strokes(frame, strokes, detail_left, detail_right);
     detail_left.label(number, kFrame);
   }
@@ -108,7 +109,7 @@ cv::Mat draw_match_class(const DrawnFrame& frame, MatchClass kind, const std::st
   return compose(
       frame, strokes,
       {what, strokes.with_truth ? "One colour per correspondence in both views; in the right view a line leads "
-                                  "from the match to a ring at the true place."
+                                  "from the match to a ring at the true position."
                                 : "One colour per correspondence, the same in both views."});
 }
 

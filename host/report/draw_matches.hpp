@@ -10,10 +10,10 @@
 
 namespace quadedge::report {
 
-/// The correspondences of one class over both images side by side, with up to three zoomed details below, whose places
-/// the images show as numbered frames. Every correspondence has a colour of its own, the same in both views; inaccurate
-/// and wrong ones are linked, in the right view, with a ring at their true place. `tolerance` and `wrong`: limits of
-/// the classes [px].
+/// The correspondences of one class over both images side by side, with up to three zoomed details below, whose
+/// positions the images show as numbered frames. Every correspondence has a colour of its own, the same in both views;
+/// inaccurate and wrong ones are linked, in the right view, with a ring at their true position. `tolerance` and
+/// `wrong`: limits of the classes [px].
 cv::Mat draw_match_class(const evaluation::DrawnFrame& frame, evaluation::MatchClass kind, const std::string& name,
                          double tolerance, double wrong);
 

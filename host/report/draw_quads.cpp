@@ -29,12 +29,12 @@ std::vector<cv::Scalar> colour_scale() {
   return colours;
 }
 
-/// Length of the way between the two places of a stereo edge, which is the disparity for a rectified rig [px].
+/// Length of the way between the two positions of a stereo edge, which is the disparity for a rectified rig [px].
 double disparity(const StereoEdges& stereo, std::size_t i) {
   return std::hypot(stereo.left_x[i] - stereo.right_x[i], stereo.left_y[i] - stereo.right_y[i]);
 }
 
-/// The first quad of every cell of the image: all of them would cover the picture, and this keeps the share of the
+/// The first quad of every cell of the image: all of them would cover the picture, and this keeps the ratio of the
 /// kinds.
 std::vector<std::size_t> one_per_cell(const TemporalMatches& quads) {
   std::set<std::pair<int, int>> taken;
@@ -56,20 +56,20 @@ double colour_range(const FrameDetails& details) {
 
 /// Stereo edges and quads into the image part of the canvas.
 void paint(Canvas& canvas, const FrameDetails& details, const std::vector<cv::Scalar>& colours, double largest) {
-  const int radius = std::max(1, canvas.scale() / 2) << kPlaceShift;
+  const int radius = std::max(1, canvas.scale() / 2) << kPositionShift;
   for (std::size_t i = 0; i < details.stereo.size(); ++i) {
     const auto level = static_cast<std::size_t>(std::clamp(disparity(details.stereo, i) / largest, 0.0, 1.0) * 255);
-    cv::circle(canvas.picture(), canvas.place(details.stereo.left_x[i], details.stereo.left_y[i]), radius,
-               colours[level], cv::FILLED, cv::LINE_AA, kPlaceShift);
+    cv::circle(canvas.picture(), canvas.position(details.stereo.left_x[i], details.stereo.left_y[i]), radius,
+               colours[level], cv::FILLED, cv::LINE_AA, kPositionShift);
   }
   for (const std::size_t i : one_per_cell(details.quads)) {
     const auto previous = static_cast<std::size_t>(details.quads.previous[i]);
     const cv::Scalar& colour = details.quad_inlier.at(i) != 0 ? kInlier : kOutlier;
     const cv::Point start =
-        canvas.place(details.previous_stereo.left_x.at(previous), details.previous_stereo.left_y.at(previous));
-    const cv::Point end = canvas.place(details.quads.left_x[i], details.quads.left_y[i]);
-    cv::line(canvas.picture(), start, end, colour, 1, cv::LINE_AA, kPlaceShift);
-    cv::circle(canvas.picture(), end, 5 << (kPlaceShift - 1), colour, cv::FILLED, cv::LINE_AA, kPlaceShift);
+        canvas.position(details.previous_stereo.left_x.at(previous), details.previous_stereo.left_y.at(previous));
+    const cv::Point end = canvas.position(details.quads.left_x[i], details.quads.left_y[i]);
+    cv::line(canvas.picture(), start, end, colour, 1, cv::LINE_AA, kPositionShift);
+    cv::circle(canvas.picture(), end, 5 << (kPositionShift - 1), colour, cv::FILLED, cv::LINE_AA, kPositionShift);
   }
 }
 

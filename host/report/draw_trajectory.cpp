@@ -58,7 +58,7 @@ double tick_step(double extent) {
 /// Metres to picture pixels with one scale for both axes.
 struct Plot {
   double centre_x, centre_z, pixels_per_metre;
-  cv::Point2d place(const cv::Point2d& point) const {
+  cv::Point2d position(const cv::Point2d& point) const {
     return {kLeft + 0.5 * (kWidth - kLeft - kRight) + (point.x - centre_x) * pixels_per_metre,
             kTop + 0.5 * (kHeight - kTop - kBottom) - (point.y - centre_z) * pixels_per_metre};
   }
@@ -83,13 +83,13 @@ void draw_axes(cv::Mat& picture, const Plot& plot) {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   const int left = kLeft, right = kWidth - kRight, top = kTop, bottom = kHeight - kBottom;
   for (double k = std::ceil((plot.centre_x - half_x) / step); k * step <= plot.centre_x + half_x; ++k) {
-    const int x = static_cast<int>(std::lround(plot.place({k * step, 0}).x));
+    const int x = static_cast<int>(std::lround(plot.position({k * step, 0}).x));
     cv::line(picture, {x, top}, {x, bottom}, kGrid);
     const std::string label = fixed(k == 0 ? 0.0 : k * step, decimals);
     put_text(picture, label, x - text_width(label, 0.45) / 2, bottom + 20, kInk, 0.45);
   }
   for (double k = std::ceil((plot.centre_z - half_z) / step); k * step <= plot.centre_z + half_z; ++k) {
-    const int y = static_cast<int>(std::lround(plot.place({0, k * step}).y));
+    const int y = static_cast<int>(std::lround(plot.position({0, k * step}).y));
     cv::line(picture, {left, y}, {right, y}, kGrid);
     const std::string label = fixed(k == 0 ? 0.0 : k * step, decimals);
     put_text(picture, label, left - 8 - text_width(label, 0.45), y + 5, kInk, 0.45);
@@ -103,8 +103,8 @@ void draw_path(cv::Mat& picture, const Plot& plot, const std::vector<cv::Point2d
                int width) {
   constexpr int kShift = 4;
   const auto fine = [&](const cv::Point2d& point) {
-    const cv::Point2d place = plot.place(point) * (1 << kShift);
-    return cv::Point(static_cast<int>(std::lround(place.x)), static_cast<int>(std::lround(place.y)));
+    const cv::Point2d position = plot.position(point) * (1 << kShift);
+    return cv::Point(static_cast<int>(std::lround(position.x)), static_cast<int>(std::lround(position.y)));
   };
   for (std::size_t i = 1; i < points.size(); ++i) {
     cv::line(picture, fine(points[i - 1]), fine(points[i]), colour, width, cv::LINE_AA, kShift);
@@ -145,7 +145,7 @@ void draw_trajectory(const std::string& path, const Trajectory& estimate, const 
   }
   draw_path(picture, plot, estimate_points, kEstimate, 2);
   if (!estimate_points.empty()) {
-    const auto start = plot.place(estimate_points.front());
+    const auto start = plot.position(estimate_points.front());
     cv::circle(picture, {static_cast<int>(std::lround(start.x)), static_cast<int>(std::lround(start.y))}, 6, kStart, 2,
                cv::LINE_AA);
     legend.emplace_back("start", kStart);

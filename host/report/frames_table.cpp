@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kExpected = "a frames.csv of `quadedge run`";
 
-/// Place of a column. \throws DataError when there is none.
+/// Position of a column. \throws DataError when there is none.
 std::size_t column(const std::vector<std::string>& names, const std::string& name, const std::string& file) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) data::fail(file, "no column " + name, kExpected);

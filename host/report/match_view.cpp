@@ -16,9 +16,9 @@ constexpr double kRegionWidth = 72, kRegionHeight = 54;  // px of the image
 constexpr double kWholeBrightness = 0.5, kDetailBrightness = 0.7;
 
 double middle(std::vector<double>& values) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace
@@ -35,29 +35,31 @@ MatchView::MatchView(cv::Mat& picture, const cv::Rect& rectangle, const Image& i
   cv::cvtColor(part, view_, cv::COLOR_GRAY2BGR);
 }
 
-cv::Point MatchView::place(double x, double y) const {
+cv::Point MatchView::position(double x, double y) const {
   const auto fixed_point = [this](double value, double from) {
-    return static_cast<int>(std::lround(((value - from + 0.5) * scale_ - 0.5) * (1 << kPlaceShift)));
+    return static_cast<int>(std::lround(((value - from + 0.5) * scale_ - 0.5) * (1 << kPositionShift)));
   };
   return {fixed_point(x, region_.x), fixed_point(y, region_.y)};
 }
 
 void MatchView::stroke(double x, double y, double direction, double half_length, int dot, const cv::Scalar& colour) {
   if (dot > 0) {
-    cv::circle(view_, place(x, y), dot << kPlaceShift, colour, cv::FILLED, cv::LINE_AA, kPlaceShift);
+    cv::circle(view_, position(x, y), dot << kPositionShift, colour, cv::FILLED, cv::LINE_AA, kPositionShift);
     return;
   }
   const double dx = half_length * std::cos(direction), dy = half_length * std::sin(direction);
-  cv::line(view_, place(x - dx, y - dy), place(x + dx, y + dy), colour, scale_ > 3 ? 2 : 1, cv::LINE_AA, kPlaceShift);
+  cv::line(view_, position(x - dx, y - dy), position(x + dx, y + dy), colour, scale_ > 3 ? 2 : 1, cv::LINE_AA,
+           kPositionShift);
 }
 
 void MatchView::link(double x, double y, double true_x, double true_y, const cv::Scalar& colour) {
-  cv::line(view_, place(x, y), place(true_x, true_y), colour, 1, cv::LINE_AA, kPlaceShift);
-  cv::circle(view_, place(true_x, true_y), (scale_ > 3 ? 4 : 3) << kPlaceShift, colour, 1, cv::LINE_AA, kPlaceShift);
+  cv::line(view_, position(x, y), position(true_x, true_y), colour, 1, cv::LINE_AA, kPositionShift);
+  cv::circle(view_, position(true_x, true_y), (scale_ > 3 ? 4 : 3) << kPositionShift, colour, 1, cv::LINE_AA,
+             kPositionShift);
 }
 
 void MatchView::frame(const cv::Rect2d& region, const std::string& number, const cv::Scalar& colour) {
-  const auto whole = [&](double x, double y) { return place(x, y) / (1 << kPlaceShift); };
+  const auto whole = [&](double x, double y) { return position(x, y) / (1 << kPositionShift); };
   const cv::Point low = whole(region.x, region.y),
                   high = whole(region.x + region.width - 1, region.y + region.height - 1);
   cv::rectangle(view_, low, high, colour, 1);
@@ -137,16 +139,17 @@ cv::Mat PairLayout::blank(bool with_details) const {
   return cv::Mat::zeros(with_details ? detail_top_ + detail_.height : pair_bottom_, width_, CV_8UC3);
 }
 
-MatchView PairLayout::whole(cv::Mat& picture, const Image& image, bool right) const {
+MatchView PairLayout::whole(cv::Mat& picture, const Image& image, Side side) const {
+  const bool right = side == Side::right;
   const int width = right ? right_width_ : left_width_, height = right ? right_height_ : left_height_;
-  const cv::Rect place(right ? left_width_ * scale_ + kGap : 0, top_, width * scale_, height * scale_);
-  return {picture, place, image, cv::Rect2d(0, 0, width, height), kWholeBrightness};
+  const cv::Rect area(right ? left_width_ * scale_ + kGap : 0, top_, width * scale_, height * scale_);
+  return {picture, area, image, cv::Rect2d(0, 0, width, height), kWholeBrightness};
 }
 
 MatchView PairLayout::detail(cv::Mat& picture, const Image& image, const cv::Rect2d& region, std::size_t number,
-                             bool right) const {
-  const int left =
-      static_cast<int>(number) * (2 * detail_.width + kGap + 3 * kGap) + (right ? detail_.width + kGap : 0);
+                             Side side) const {
+  const int left = static_cast<int>(number) * (2 * detail_.width + kGap + 3 * kGap) +
+                   (side == Side::right ? detail_.width + kGap : 0);
   return {picture, cv::Rect({left, detail_top_}, detail_), image, region, kDetailBrightness};
 }
 

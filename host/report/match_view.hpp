@@ -8,19 +8,20 @@
 
 #include "evaluation/final_match.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/side.hpp"
 
 namespace quadedge::report {
 
-/// A region of an image, enlarged and darkened, within a picture. Places are those of the whole image [px].
+/// A region of an image, enlarged and darkened, within a picture. Positions are those of the whole image [px].
 class MatchView {
  public:
-  /// Draws the part `region` of the image into the rectangle `place` of the picture.
-  MatchView(cv::Mat& picture, const cv::Rect& place, const Image& image, const cv::Rect2d& region, double brightness);
+  /// Draws the part `region` of the image into the rectangle `area` of the picture.
+  MatchView(cv::Mat& picture, const cv::Rect& area, const Image& image, const cv::Rect2d& region, double brightness);
 
   /// An edge: a stroke along its direction [rad], `half_length` px of the image to either side, or a dot of `dot` px
   /// where the view is too small for strokes.
   void stroke(double x, double y, double direction, double half_length, int dot, const cv::Scalar& colour);
-  /// From a match to a ring at its true place.
+  /// From a match to a ring at its true position.
   void link(double x, double y, double true_x, double true_y, const cv::Scalar& colour);
   /// The outline of a region of the image, with a number beside it.
   void frame(const cv::Rect2d& region, const std::string& number, const cv::Scalar& colour);
@@ -28,7 +29,7 @@ class MatchView {
   void label(const std::string& text, const cv::Scalar& colour);
 
  private:
-  cv::Point place(double x, double y) const;  ///< units of 1/16 px of the view
+  cv::Point position(double x, double y) const;  ///< units of 1/16 px of the view
   cv::Mat view_;
   cv::Rect2d region_;
   double scale_;
@@ -46,9 +47,8 @@ class PairLayout {
   /// The regions (at most three, apart from one another) that hold most of the chosen matches.
   std::vector<Region> choose_regions(const evaluation::DrawnFrame& frame, const std::vector<std::size_t>& chosen) const;
   cv::Mat blank(bool with_details) const;
-  MatchView whole(cv::Mat& picture, const Image& image, bool right) const;
-  MatchView detail(cv::Mat& picture, const Image& image, const cv::Rect2d& region, std::size_t number,
-                   bool right) const;
+  MatchView whole(cv::Mat& picture, const Image& image, Side side) const;
+  MatchView detail(cv::Mat& picture, const Image& image, const cv::Rect2d& region, std::size_t number, Side side) const;
 
  private:
   int left_width_, left_height_, right_width_, right_height_;  ///< of the images [px]

@@ -35,11 +35,11 @@ void add_facts(HtmlPage& page, const MatchingReportFacts& facts) {
        {"device", facts.device.name + ", " + facts.device.opencl + ", driver " + facts.device.driver},
        {"constants", changed_constants(facts.config)},
        {"veridical",
-        "within " + axis_text(facts.tolerance.position) + " px of the true place, in a view that shows it"},
+        "within " + axis_text(facts.tolerance.position) + " px of the true position, in a view that shows it"},
        {"pool: paired",
         "edges whose counterpart was detected (the paper's pool): recall starts at 100 % by construction"},
        {"pool: all", "all edges of known truth, also those whose counterpart is occluded or was not detected"},
-       {"recall", "share of the pool's edges that still have a veridical candidate"},
+       {"recall", "fraction of the pool's edges that still have a veridical candidate"},
        {"precision", "veridical candidates / all candidates"},
        {"ambiguity", "candidates beyond the first, per edge that has any"},
        {"\u00b1", "standard deviation over frames; every pair is one"}});
@@ -177,7 +177,7 @@ std::string matching_html(const std::vector<MatchingResult>& results, const Matc
   }
   page.plots(plots, "");
   page.plots(disparity_error_plots(results),
-             "Final stereo edges whose true place is visible: found minus true disparity.");
+             "Final stereo edges whose true position is visible: found minus true disparity.");
   if (results.size() > 1) {
     for (const auto& result : results) {
       page.begin_fold("Tables of " + result.name, false);

@@ -26,9 +26,9 @@ double ratio(std::int64_t part, std::int64_t whole) { return static_cast<double>
 /// 48299 as "48 299".
 std::string count(std::int64_t value) {
   std::string digits = std::to_string(value);
-  for (std::size_t place = digits.size(); place > 3 + (value < 0 ? 1U : 0U);) {
-    place -= 3;
-    digits.insert(place, "\u202f");
+  for (std::size_t position = digits.size(); position > 3 + (value < 0 ? 1U : 0U);) {
+    position -= 3;
+    digits.insert(position, "\u202f");
   }
   return digits;
 }

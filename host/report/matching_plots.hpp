@@ -22,7 +22,7 @@ std::string filter_plot(const std::string& title, const std::vector<evaluation::
 /// the thresholds drawn in.
 std::vector<std::string> cue_plots(const evaluation::CueDistribution& cue);
 
-/// Signed disparity errors of the final stereo edges: density, and share of edges within an absolute error.
+/// Signed disparity errors of the final stereo edges: density, and fraction of edges within an absolute error.
 std::vector<std::string> disparity_error_plots(const std::vector<evaluation::MatchingResult>& results);
 
 /// Edges, stereo edges, pairs in time and quads of every frame: one bar per frame, or how many frames have how many

@@ -7,7 +7,7 @@
 
 namespace quadedge::report {
 
-/// A labelled place on an axis.
+/// A labelled position on an axis.
 struct Tick {
   double value;
   std::string label;

@@ -77,9 +77,9 @@ Curve every_kth(const Curve& curve, int limit) {
 Curve projected(const Trajectory& poses, bool above) {
   Curve curve;
   for (const auto& pose : poses) {
-    const Eigen::Vector3d place = pose.world_from_left.translation();
-    curve.xs.push_back(above ? place.x() : place.z());
-    curve.ys.push_back(above ? place.z() : -place.y());
+    const Eigen::Vector3d position = pose.world_from_left.translation();
+    curve.xs.push_back(above ? position.x() : position.z());
+    curve.ys.push_back(above ? position.z() : -position.y());
   }
   return curve;
 }

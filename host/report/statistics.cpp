@@ -8,7 +8,7 @@
 namespace quadedge::report {
 namespace {
 
-/// Ranks from 1; equal values share their mean rank.
+/// Ranks from 1; equal values have their mean rank.
 std::vector<double> ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -25,13 +25,13 @@ std::vector<double> ranks(const std::vector<double>& values) {
 
 }  // namespace
 
-double percentile(std::vector<double> values, double share) {
+double percentile(std::vector<double> values, double fraction) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(place));
+  const double position = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(position));
   const auto above = std::min(below + 1, values.size() - 1);
-  const double part = place - std::floor(place);
+  const double part = position - std::floor(position);
   return values[below] + part * (values[above] - values[below]);
 }
 

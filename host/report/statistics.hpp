@@ -5,13 +5,13 @@
 
 namespace quadedge::report {
 
-/// Value below which `share` (0 to 1) of the values lie, linear between neighbours; NaN for no values.
-double percentile(std::vector<double> values, double share);
+/// Value below which `fraction` (0 to 1) of the values lie, linear between neighbours; NaN for no values.
+double percentile(std::vector<double> values, double fraction);
 
 /// Middle value; NaN for no values.
 inline double median(const std::vector<double>& values) { return percentile(values, 0.5); }
 
-/// Spearman's rank correlation, from -1 to 1; equal values share their mean rank. NaN for fewer than three pairs, or
+/// Spearman's rank correlation, from -1 to 1; equal values have their mean rank. NaN for fewer than three pairs, or
 /// where all values of one kind are equal.
 double rank_correlation(const std::vector<double>& xs, const std::vector<double>& ys);
 

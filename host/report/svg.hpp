@@ -8,7 +8,7 @@ namespace quadedge::report::svg {
 /// Text with the five characters that XML reserves written as entities, and control characters left out.
 std::string escape(const std::string& text);
 
-/// At most two decimals, without trailing zeros: places in a picture [px].
+/// At most two decimals, without trailing zeros: positions in a picture [px].
 std::string number(double value);
 
 /// About how wide a text is drawn [px]; the font is the reader's, so only layout with some air may rely on it.

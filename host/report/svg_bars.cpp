@@ -11,7 +11,7 @@ namespace quadedge::report {
 namespace {
 
 constexpr std::size_t kLongestName = 22;                            // characters
-constexpr double kGroup = 0.78;                                     // share of a category's width that its bars take
+constexpr double kGroup = 0.78;                                     // fraction of a category's width that its bars take
 constexpr double kWidestBar = 56;                                   // px
 constexpr double kSlantSine = 0.5735764, kSlantCosine = 0.8191520;  // of 35 degrees
 

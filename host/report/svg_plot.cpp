@@ -9,7 +9,7 @@
 
 namespace quadedge::report {
 
-/// From values to places within the rectangle of the data [px]. What lies far outside is held back, so that numbers
+/// From values to positions within the rectangle of the data [px]. What lies far outside is held back, so that numbers
 /// stay short.
 struct PlotScale {
   const PlotAxis &x, &y;

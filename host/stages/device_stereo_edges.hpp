@@ -27,8 +27,7 @@ struct DeviceStereoEdges {
   int stride = 0;
   int count = 0;
 
-  PositionsView left() const { return {packed, {0, stride, count}}; }
-  PositionsView right() const { return {packed, {3 * stride, stride, count}}; }
+  PositionsView positions(Side side) const { return {packed, {3 * index_of(side) * stride, stride, count}}; }
 
   /// Copies the rows to the host; waits for the device once.
   void read(StereoEdges& edges) const {

@@ -67,7 +67,7 @@ void StereoClusters::run(const DeviceEdges& left, const DeviceEdges& right, Patc
   cl_int total[2];
   clusters.total.read(total, 2);
   result.count = total[0];
-  right_patches.cut(result.right(), result.right_patches);
+  right_patches.cut(result.positions(Side::right), result.right_patches);
 }
 
 }  // namespace quadedge::stages

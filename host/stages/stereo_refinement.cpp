@@ -6,19 +6,13 @@
 #include "opencl/variants.hpp"
 
 namespace quadedge::stages {
-namespace {
-
-constexpr std::size_t kLanes = 8;  ///< work-items per edge; twin: LANES in kernels/photometric_lanes.cl
-
-}  // namespace
-
 StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
                                    const std::map<std::string, std::string>& variants)
     : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const bool lanes = variant.defines.count("GROUP") != 0;
-  items_per_edge_ = lanes ? kLanes : 1;
+  items_per_edge_ = lanes ? kPatchLanes : 1;
   const auto program = lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl",
                                                 "candidate_positions.cl", "stereo_refinement_lanes.cl"},
                                                variant.defines)

@@ -13,25 +13,25 @@ TemporalCandidates::TemporalCandidates(opencl::Context& context, const std::map<
     : context_(context), scan_(context, variants) {
   const auto& variant = opencl::choose_variant("temporal_candidates", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"point_index.cl", "temporal_candidates.cl"}, variant.defines);
+  const auto program =
+      context.program({"edge_positions.cl", "point_index.cl", "temporal_candidates.cl"}, variant.defines);
   count_ = {context, program, "temporal_candidates_count"};
   fill_ = {context, program, "temporal_candidates_fill"};
 }
 
-void TemporalCandidates::run(const DevicePlaces& predicted, int row_step, const DevicePointIndex& current, float radius,
-                             float orientation, DeviceCandidates& candidates) {
+void TemporalCandidates::run(const PositionsView& predicted, int row_step, const DevicePointIndex& current,
+                             float radius, float orientation, DeviceCandidates& candidates) {
   context_.begin_stage("temporal_candidates");
-  candidates.rows = (predicted.count + row_step - 1) / row_step;
+  candidates.rows = (predicted.at.count + row_step - 1) / row_step;
   candidates.counts.ensure(context_, static_cast<std::size_t>(candidates.rows));
   candidates.reserve(context_, kFirstCapacityPerRow * candidates.rows);
   const opencl::Range range(static_cast<std::size_t>(candidates.rows), local_size_);
-  const TemporalCandidateArguments arguments{candidates.rows, row_step, current.columns,
-                                             current.rows,    radius,   orientation};
-  count_(range, arguments, predicted.x, predicted.y, predicted.direction, current.x, current.y, current.direction,
-         current.number, current.cell_first, candidates.counts);
+  const TemporalCandidateArguments arguments{candidates.rows,  row_step, predicted.at,
+                                             current.layout(), radius,   orientation};
+  count_(range, arguments, predicted.packed, current.points(), current.cells(), candidates.counts);
   candidates.build(context_, scan_, [&] {
-    fill_(range, arguments, predicted.x, predicted.y, predicted.direction, current.x, current.y, current.direction,
-          current.number, current.cell_first, candidates.first, candidates.capacity, candidates.target);
+    fill_(range, arguments, predicted.packed, current.points(), current.cells(), candidates.first, candidates.capacity,
+          candidates.target);
   });
 }
 

@@ -5,25 +5,11 @@
 #include <map>
 #include <string>
 
-#include "common/temporal_search.hpp"
 #include "opencl/argument_structs.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_point_index.hpp"
 
 namespace quadedge::stages {
-
-/// Predicted positions of one side on the device.
-struct DevicePlaces {
-  opencl::Buffer<cl_float> x, y, direction;
-  int count = 0;
-
-  void write(opencl::Context& context, const PlacedEdges& positions) {
-    x.write(context, positions.x);
-    y.write(context, positions.y);
-    direction.write(context, positions.direction);
-    count = static_cast<int>(positions.x.size());
-  }
-};
 
 /// Filters 1 and 2 of doc/method.md section 4. Variants of the stage "temporal_candidates".
 class TemporalCandidates {
@@ -32,7 +18,7 @@ class TemporalCandidates {
 
   /// `radius` [px], `orientation` [rad]. Every row_step-th predicted position has a row. `current`: the stereo edges of
   /// one side.
-  void run(const DevicePlaces& predicted, int row_step, const DevicePointIndex& current, float radius,
+  void run(const PositionsView& predicted, int row_step, const DevicePointIndex& current, float radius,
            float orientation, DeviceCandidates& candidates);
 
  private:
@@ -44,11 +30,8 @@ class TemporalCandidates {
   opencl::Context& context_;
   std::size_t local_size_;
   Scan scan_;
-  opencl::Kernel<TemporalCandidateArguments, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_float>, In<cl_int>, In<cl_int>, Out<cl_int>>
-      count_;
-  opencl::Kernel<TemporalCandidateArguments, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
-                 In<cl_float>, In<cl_int>, In<cl_int>, In<cl_int>, cl_int, Out<cl_int>>
+  opencl::Kernel<TemporalCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>> count_;
+  opencl::Kernel<TemporalCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, Out<cl_int>>
       fill_;
 };
 

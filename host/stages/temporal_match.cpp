@@ -1,26 +1,16 @@
 #include "stages/temporal_match.hpp"
 
-#include <cstring>
 #include <limits>
 
 #include "opencl/variants.hpp"
 #include "quadedge/filters.hpp"
+#include "stages/quad_rows.hpp"
 
 namespace quadedge::stages {
 namespace {
 
-// As in kernels/temporal_match.cl.
-constexpr std::size_t kRowInts = 4, kSeenInts = 4;
-constexpr cl_int kLeftAlive = 1, kRightAlive = 2, kOverflow = 4;
-
-float from_bits(cl_int bits) {
-  float value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
 cl::Program match_program(opencl::Context& context, const opencl::Defines& defines) {
-  return context.program({"similarity.cl", "point_index.cl", "temporal_match.cl"}, defines);
+  return context.program({"similarity.cl", "edge_positions.cl", "point_index.cl", "temporal_match.cl"}, defines);
 }
 
 }  // namespace
@@ -52,13 +42,13 @@ void TemporalMatch::prepare_tap() {
 /// Sorts what the kernel wrote of both sides into lists of their own.
 void TemporalMatch::read_tapped(std::size_t rows, TappedMatch& tapped) const {
   const auto first = tap_->first.read(2 * rows + 1);
-  const auto seen = tap_->seen.read(kSeenInts * static_cast<std::size_t>(first.back()));
+  const auto seen = tap_->seen.read(kTappedInts * static_cast<std::size_t>(first.back()));
   tapped = {};
   for (auto* side : {&tapped.left, &tapped.right}) side->first.assign(1, 0);
   for (std::size_t list = 0; list < 2 * rows; ++list) {
     JudgedCandidates& side = list % 2 == 0 ? tapped.left : tapped.right;
     for (auto c = static_cast<std::size_t>(first[list]); c < static_cast<std::size_t>(first[list + 1]); ++c) {
-      const cl_int* values = seen.data() + kSeenInts * c;
+      const cl_int* values = seen.data() + kTappedInts * c;
       side.target.push_back(values[0]);
       side.state.push_back(static_cast<std::uint8_t>(values[1]));
       side.ncc.push_back(from_bits(values[2]));
@@ -68,26 +58,32 @@ void TemporalMatch::read_tapped(std::size_t rows, TappedMatch& tapped) const {
   }
 }
 
-std::optional<AliveRows> TemporalMatch::run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted,
-                                            const TemporalSearch& search, const DeviceStereoEdges& base,
-                                            const DeviceStereoEdges& current, const DevicePointIndex& left,
-                                            const DevicePointIndex& right, const opencl::Buffer<cl_int>& itself,
+std::optional<AliveRows> TemporalMatch::run(const DevicePositions& predicted, const TemporalSearch& search,
+                                            const DeviceStereoEdges& base, const DeviceStereoEdges& current,
+                                            const DevicePointIndex& left, const DevicePointIndex& right,
                                             const StereoEdges& edges, TemporalMatches& matches, TappedMatch* tapped) {
   context_.begin_stage("temporal_match");
-  const int count = (left_predicted.count + search.step - 1) / search.step;
+  const PositionsView left_predicted = predicted.list(0), right_predicted = predicted.list(1);
+  const int count = (left_predicted.at.count + search.step - 1) / search.step;
   const auto rows = static_cast<std::size_t>(count);
-  result_.ensure(context_, kRowInts * rows);
+  result_.ensure(context_, kQuadRowInts * rows);
   const FilterLimits limits = temporal_limits(config_, search);
+  const TemporalMatchArguments arguments{count,
+                                         search.step,
+                                         left_predicted.at,
+                                         right_predicted.at,
+                                         left.layout(),
+                                         right.layout(),
+                                         current.positions(Side::left).at,
+                                         search.radius,
+                                         static_cast<float>(config_.orientation_rad()),
+                                         limits.ncc_min,
+                                         limits.ncc_nearly_best,
+                                         quad_choice(config_, search)};
   const auto launch = [&](const auto& kernel, auto&&... of_tap) {
-    kernel({rows, local_size_}, count, search.step, left_predicted.x, left_predicted.y, left_predicted.direction,
-           right_predicted.x, right_predicted.y, right_predicted.direction, left.x, left.y, left.direction, left.number,
-           left.cell_first, left.columns, left.rows, right.x, right.y, right.direction, right.number, right.cell_first,
-           right.columns, right.rows, base.left_patches, base.left_index, base.right_patches, current.left_patches,
-           current.left_index, current.right_patches, itself, current.packed, current.stride, search.radius,
-           static_cast<float>(config_.orientation_rad()), limits.ncc_min, limits.ncc_nearly_best,
-           static_cast<float>(config_.distance_weight) / (search.radius * search.radius),
-           static_cast<float>(config_.cluster_gap), static_cast<float>(config_.cluster_orientation_rad()), result_,
-           of_tap...);
+    kernel({rows, local_size_}, arguments, left_predicted.packed, left.points(), left.cells(), right.points(),
+           right.cells(), base.left_patches, base.left_index, base.right_patches, current.left_patches,
+           current.left_index, current.right_patches, current.packed, result_, of_tap...);
   };
   if (tapped == nullptr) {
     launch(kernel_);
@@ -104,21 +100,20 @@ std::optional<AliveRows> TemporalMatch::run(const DevicePlaces& left_predicted, 
     launch_tap(0);
     tap.scan.run(tap.counts, 2 * count, std::numeric_limits<cl_int>::max(), tap.first, tap.total);
     const cl_int size = tap.total.read(2)[0];
-    tap.seen.ensure(context_, kSeenInts * static_cast<std::size_t>(size));
+    tap.seen.ensure(context_, kTappedInts * static_cast<std::size_t>(size));
     if (size > 0) launch_tap(size);
     read_tapped(rows, *tapped);
   }
-  rows_.resize(kRowInts * rows);
+  rows_.resize(kQuadRowInts * rows);
   result_.read(rows_.data(), rows_.size());
   matches.clear();
   AliveRows alive;
   for (std::size_t row = 0; row < rows; ++row) {
-    const cl_int* values = rows_.data() + kRowInts * row;
-    if ((values[3] & kOverflow) != 0) return std::nullopt;
+    const cl_int* values = rows_.data() + kQuadRowInts * row;
+    if ((values[3] & kRowOverflow) != 0) return std::nullopt;
     alive.left += (values[3] & kLeftAlive) != 0 ? 1 : 0;
     alive.right += (values[3] & kRightAlive) != 0 ? 1 : 0;
-    if (values[0] < 0) continue;
-    matches.append(static_cast<std::int32_t>(row) * search.step, values[0], edges, from_bits(values[2]), values[1]);
+    append_row(values, static_cast<std::int32_t>(row) * search.step, edges, matches);
   }
   return alive;
 }

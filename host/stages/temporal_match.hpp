@@ -7,14 +7,13 @@
 
 #include "common/filter_limits.hpp"
 #include "common/temporal_search.hpp"
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/device_point_index.hpp"
 #include "stages/device_stereo_edges.hpp"
 #include "stages/judged_candidates.hpp"
 #include "stages/scan.hpp"
-#include "stages/temporal_candidates.hpp"
 
 namespace quadedge::stages {
 
@@ -41,15 +40,15 @@ class TemporalMatch {
   /// Builds the tap form, which is the same source, unless it is there.
   void prepare_tap();
 
-  /// Matches and reads the rows back into `matches`; `edges` holds the current stereo edges on the host. `itself`: 0,
-  /// 1, 2 ... \param tapped where given, the kernel's tap form runs and shows its candidates; both
-  /// rigs then need their SIFT descriptors. \returns nothing where a row has more candidates than the kernel has room
-  /// for: then lists have to be used
-  std::optional<AliveRows> run(const DevicePlaces& left_predicted, const DevicePlaces& right_predicted,
-                               const TemporalSearch& search, const DeviceStereoEdges& base,
-                               const DeviceStereoEdges& current, const DevicePointIndex& left,
-                               const DevicePointIndex& right, const opencl::Buffer<cl_int>& itself,
-                               const StereoEdges& edges, TemporalMatches& matches, TappedMatch* tapped = nullptr);
+  /// Matches and reads the rows back into `matches`; `edges` holds the current stereo edges on the host. `predicted`:
+  /// the lists of the left and of the right image; `left` and `right`: the point indices of the current stereo edges.
+  /// \param tapped where given, the kernel's tap form runs and shows its candidates; both rigs then need their SIFT
+  /// descriptors. \returns nothing where a row has more candidates than the kernel has room for: then lists have to be
+  /// used
+  std::optional<AliveRows> run(const DevicePositions& predicted, const TemporalSearch& search,
+                               const DeviceStereoEdges& base, const DeviceStereoEdges& current,
+                               const DevicePointIndex& left, const DevicePointIndex& right, const StereoEdges& edges,
+                               TemporalMatches& matches, TappedMatch* tapped = nullptr);
 
  private:
   template <class T>
@@ -59,12 +58,9 @@ class TemporalMatch {
 
   /// The arguments of the production form, then those of the tap form.
   template <class... Tapped>
-  using MatchKernel =
-      opencl::Kernel<cl_int, cl_int, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>, In<cl_float>,
-                     In<cl_float>, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_float>,
-                     In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, cl_int, In<cl_char>, In<cl_int>,
-                     In<cl_char>, In<cl_char>, In<cl_int>, In<cl_char>, In<cl_int>, In<cl_float>, cl_int, cl_float,
-                     cl_float, cl_float, cl_float, cl_float, cl_float, cl_float, Out<cl_int>, Tapped...>;
+  using MatchKernel = opencl::Kernel<TemporalMatchArguments, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_float>,
+                                     In<cl_int>, In<cl_char>, In<cl_int>, In<cl_char>, In<cl_char>, In<cl_int>,
+                                     In<cl_char>, In<cl_float>, Out<cl_int>, Tapped...>;
 
   void read_tapped(std::size_t rows, TappedMatch& tapped) const;
 

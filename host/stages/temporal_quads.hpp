@@ -5,12 +5,11 @@
 #include <string>
 
 #include "common/temporal_search.hpp"
-#include "opencl/kernel.hpp"
+#include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_stereo_edges.hpp"
-#include "stages/temporal_candidates.hpp"
 
 namespace quadedge::stages {
 
@@ -26,7 +25,7 @@ class TemporalQuads {
   /// Chooses, reads the rows back and returns the quads of the stereo edges `current`, which `edges` holds on the host.
   /// \param predicted in the left image
   TemporalMatches collect(const DeviceStereoEdges& current, const StereoEdges& edges, const TemporalSearch& search,
-                          const DevicePlaces& predicted, const DeviceCandidates& left);
+                          const PositionsView& predicted, const DeviceCandidates& left);
 
  private:
   template <class T>
@@ -37,15 +36,14 @@ class TemporalQuads {
   opencl::Context& context_;
   TemporalConfig config_;
   std::size_t local_size_;
-  opencl::Buffer<cl_float> score_, best_score_;
-  opencl::Buffer<cl_int> label_, best_, rivals_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, In<cl_float>, Out<cl_uchar>, In<cl_int>, In<cl_int>, cl_int,
-                 In<cl_float>, In<cl_uchar>, cl_int, cl_int, Out<cl_float>>
+  opencl::Buffer<cl_float> score_;
+  opencl::Buffer<cl_int> label_, result_;
+  opencl::Kernel<TemporalAgreementArguments, In<cl_int>, In<cl_int>, In<cl_float>, Out<cl_uchar>, In<cl_int>,
+                 In<cl_int>, In<cl_float>, In<cl_uchar>, Out<cl_float>>
       agree_;
-  opencl::Kernel<In<cl_int>, In<cl_int>, cl_int, cl_int, cl_int, In<cl_float>, cl_int, In<cl_uchar>, In<cl_float>,
-                 In<cl_float>, In<cl_float>, cl_float, cl_float, cl_float, Out<cl_int>, Out<cl_int>, Out<cl_int>,
-                 Out<cl_float>>
-      best_kernel_;
+  opencl::Kernel<TemporalBestArguments, In<cl_int>, In<cl_int>, In<cl_uchar>, In<cl_float>, In<cl_float>, In<cl_float>,
+                 Out<cl_int>, Out<cl_int>>
+      best_;
 };
 
 }  // namespace quadedge::stages

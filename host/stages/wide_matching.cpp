@@ -6,8 +6,6 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr int kBlockLanes = 16;  ///< descriptors per block; twin: LANES in kernels/wide_matching_blocks.cl
-
 int count_blocks(int descriptors) { return (descriptors + kBlockLanes - 1) / kBlockLanes; }
 
 }  // namespace

@@ -27,8 +27,8 @@ double image_speed(const PinholeCamera& camera, int frame) {
 
 }  // namespace
 
-MovingBoard::MovingBoard(const PinholeCamera& left, double share, std::uint64_t seed) {
-  const double side = std::sqrt(share);  // of the image's sides
+MovingBoard::MovingBoard(const PinholeCamera& left, double fraction, std::uint64_t seed) {
+  const double side = std::sqrt(fraction);  // of the image's sides
   half_width_ = 0.5 * side * left.width / left.fx * kBoardDepth;
   half_height_ = 0.5 * side * left.height / left.fy * kBoardDepth;
   // Half of what would bring it to the border.
@@ -52,12 +52,12 @@ PlaneSurface MovingBoard::surface(double phase) const {
   return PlaneSurface(world_from_left(phase) * left_from_board, half_width_, half_height_, texture_);
 }
 
-Radiance expose(const Scene& scene, const MovingBoard* board, const StereoRig& rig, bool right, int frame, double blur,
+Radiance expose(const Scene& scene, const MovingBoard* board, const StereoRig& rig, Side side, int frame, double blur,
                 int supersampling, int threads) {
-  const PinholeCamera& camera = right ? rig.right : rig.left;
+  const PinholeCamera& camera = side == Side::right ? rig.right : rig.left;
   const auto at = [&](double phase, int rays) {
     Eigen::Isometry3d camera_from_world = world_from_left(phase).inverse();
-    if (right) camera_from_world = rig.right_from_left * camera_from_world;
+    if (side == Side::right) camera_from_world = rig.right_from_left * camera_from_world;
     if (board == nullptr) return render(scene, camera, camera_from_world, rays, threads);
     const PlaneSurface surface = board->surface(phase);
     return render(scene, camera, camera_from_world, rays, threads, &surface);

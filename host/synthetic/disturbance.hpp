@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "quadedge/camera.hpp"
+#include "quadedge/side.hpp"
 #include "synthetic/render.hpp"
 #include "synthetic/shapes.hpp"
 
@@ -14,8 +15,8 @@ namespace quadedge::synthetic {
 /// A textured board that sways before the camera on a path of its own, always in view.
 class MovingBoard {
  public:
-  /// \param share of the left image that it covers
-  MovingBoard(const PinholeCamera& left, double share, std::uint64_t seed);
+  /// \param fraction of the left image that it covers
+  MovingBoard(const PinholeCamera& left, double fraction, std::uint64_t seed);
   /// Its surface after `phase` frames.
   PlaneSurface surface(double phase) const;
 
@@ -29,7 +30,7 @@ class MovingBoard {
 /// depth is the one at the frame's own time. \param board null without \param blur  way of the image's middle, at 2.5
 /// m, while the shutter is open [px]; the camera's motion sets how long that takes, at
 ///              most two frame periods
-Radiance expose(const Scene& scene, const MovingBoard* board, const StereoRig& rig, bool right, int frame, double blur,
+Radiance expose(const Scene& scene, const MovingBoard* board, const StereoRig& rig, Side side, int frame, double blur,
                 int supersampling, int threads);
 
 }  // namespace quadedge::synthetic

@@ -40,7 +40,7 @@ Hit cast(const Candidates& candidates, const Vector3d& ray) {
   return hit;
 }
 
-/// count * count places in the pixel square [-0.5, 0.5)^2.
+/// count * count positions in the pixel square [-0.5, 0.5)^2.
 std::vector<Vector2d> regular_grid(int count) {
   std::vector<Vector2d> offsets;
   for (int j = 0; j < count; ++j)
@@ -148,9 +148,9 @@ class TileRenderer {
     const Vector2d shift(uniform(mix(key)), uniform(mix(~key)));
     double sum = 0.0;
     for (const Vector2d& offset : fine_) {
-      Vector2d place = offset + shift;
-      place -= Vector2d(std::floor(place.x()) + 0.5, std::floor(place.y()) + 0.5);
-      const Vector3d ray = camera_.ray(Vector2d(x, y) + place);
+      Vector2d position = offset + shift;
+      position -= Vector2d(std::floor(position.x()) + 0.5, std::floor(position.y()) + 0.5);
+      const Vector3d ray = camera_.ray(Vector2d(x, y) + position);
       sum += radiance(cast(candidates, ray), ray);
     }
     return sum / static_cast<double>(fine_.size());

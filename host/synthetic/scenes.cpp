@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "quadedge/pi.hpp"
 #include "synthetic/hash.hpp"
 
 namespace quadedge::synthetic {
@@ -11,8 +12,6 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.141592653589793;
 
 /// Turned around y, then x, then z of its own frame [rad], placed at `centre`.
 Isometry3d pose(const Vector3d& centre, double yaw, double pitch, double roll) {

@@ -46,7 +46,7 @@ struct Scene {
 
 /// Direction towards the scenes' distant light, world frame.
 Eigen::Vector3d light_direction();
-/// Share of the reflectance that a diffuse surface returns, from `ambient` (facing away) to 1 (facing the light);
+/// Fraction of the reflectance that a diffuse surface returns, from `ambient` (facing away) to 1 (facing the light);
 /// smooth in between. Both directions have unit length and the same frame.
 inline double shade(const Eigen::Vector3d& normal, const Eigen::Vector3d& light, double ambient) {
   return ambient + (1.0 - ambient) * (0.5 + 0.5 * normal.dot(light));

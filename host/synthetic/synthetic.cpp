@@ -84,18 +84,18 @@ std::int64_t SyntheticSequence::stamp_ns(int frame) const { return frame * kFram
 
 Eigen::Isometry3d SyntheticSequence::world_from_left(int frame) const { return synthetic::world_from_left(frame); }
 
-RenderedView SyntheticSequence::render(int frame, bool right) const {
+RenderedView SyntheticSequence::render(int frame, Side side) const {
   const SyntheticOptions& options = implementation_->options;
   require(frame >= 0 && frame < options.frames, "frame", frame, "0 to frames - 1");
   const synthetic::MovingBoard* board = implementation_->board ? &*implementation_->board : nullptr;
-  synthetic::Radiance radiance = synthetic::expose(implementation_->scene, board, rig(), right, frame, options.blur,
+  synthetic::Radiance radiance = synthetic::expose(implementation_->scene, board, rig(), side, frame, options.blur,
                                                    options.supersampling, options.threads);
-  const double gain = (frame % 2 == 1 ? options.gain : 1.0) * (right ? options.right_gain : 1.0);
+  const double gain = (frame % 2 == 1 ? options.gain : 1.0) * (side == Side::right ? options.right_gain : 1.0);
 
   RenderedView view;
   view.image = Image(options.width, options.height);
   view.depth = std::move(radiance.depth);
-  const std::uint64_t key = synthetic::combine(synthetic::combine(options.seed, frame), right ? 1 : 0);
+  const std::uint64_t key = synthetic::combine(synthetic::combine(options.seed, frame), index_of(side));
   for (std::size_t i = 0; i < radiance.grey.size(); ++i) {
     double grey = gain * radiance.grey[i];
     if (options.noise > 0.0)

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "quadedge/pi.hpp"
 #include "synthetic/hash.hpp"
 
 namespace quadedge::synthetic {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kRamp = 1.5;  // width of a reflectance step [texels]
 
 /// Gradient noise of unit wavelength, about -1..1. Neighbouring calls share the lattice cell, which is kept.
@@ -177,7 +177,7 @@ void Texture::add_leaves(Tile& tile, double left, double top, int level) const {
   const double cell = style_.feature / (1 << level);
   const double visible = std::clamp(cell / texel_ / 3.0 - 1.0, 0.0, 1.0);  // fades leaves of a few texels
   if (visible == 0.0) return;
-  const double share = level == 0 ? 0.9 : style_.cover;
+  const double fraction = level == 0 ? 0.9 : style_.cover;
   const double extent = (kStride - 1) * texel_, margin = cell + kRamp * texel_;
   const auto first = [&](double start) { return static_cast<std::int64_t>(std::floor((start - margin) / cell)); };
   const auto last = [&](double start) {
@@ -187,7 +187,7 @@ void Texture::add_leaves(Tile& tile, double left, double top, int level) const {
   for (std::int64_t cy = first(top); cy <= last(top); ++cy) {
     for (std::int64_t cx = first(left); cx <= last(left); ++cx) {
       Random random(combine(combine(key, cx), cy));
-      if (random(0.0, 1.0) > share) continue;
+      if (random(0.0, 1.0) > fraction) continue;
       const Leaf leaf = make_leaf(random, style_, cell, static_cast<double>(cx), static_cast<double>(cy));
       const double reach = leaf.radius + kRamp * texel_;
       const auto texel_range = [&](double centre, double start) {

@@ -13,7 +13,7 @@ struct TextureStyle {
   double feature = 0.0;      ///< size of the largest leaves [m]; 0: no leaves, noise alone
   int levels = 4;            ///< generations of leaves, each half as large as the one before
   double cover = 0.4;        ///< leaves per cell of their size in the generations after the first, 0 to 1
-  double alignment = 0.0;    ///< share of the leaves that are upright rectangles, 0 to 1
+  double alignment = 0.0;    ///< fraction of the leaves that are upright rectangles, 0 to 1
   double noise = 10.0;       ///< amplitude of the fractal noise [grey levels]
   double noise_size = 0.25;  ///< largest noise wavelength [m]
   double mean = 130.0;       ///< grey level of the ground

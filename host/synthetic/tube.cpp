@@ -54,9 +54,9 @@ class VisibleLink : public VisibleSurface {
 
   double radiance(const Vector3d& ray, double depth) const override {
     const Vector3d hit = depth * ray - start_;
-    const double place = std::clamp(hit.dot(axis_), 0.0, length_), share = place / length_;
-    const Vector3d tangent = ((1.0 - share) * start_tangent_ + share * end_tangent_).normalized();
-    Vector3d normal = hit - place * axis_;
+    const double along = std::clamp(hit.dot(axis_), 0.0, length_), fraction = along / length_;
+    const Vector3d tangent = ((1.0 - fraction) * start_tangent_ + fraction * end_tangent_).normalized();
+    Vector3d normal = hit - along * axis_;
     normal -= normal.dot(tangent) * tangent;
     return reflectance_ * shade(normal.normalized(), light_, kAmbient);
   }

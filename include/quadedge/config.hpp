@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "quadedge/pi.hpp"
+
 namespace quadedge {
 
 // EdgesConfig, PatchesConfig, SiftConfig, StereoConfig, TemporalConfig, PoseConfig and OdometryConfig:
@@ -18,7 +20,7 @@ namespace quadedge {
 #define QUADEDGE_CONSTANT(type, name, value, low, high, unit, level, help, paper) type name = value;
 #define QUADEDGE_ANGLE(name, value, low, high, level, help, paper) \
   double name = value;                                             \
-  double name##_rad() const { return name * (3.14159265358979323846 / 180.0); }
+  double name##_rad() const { return name * kDegree; }
 #define QUADEDGE_SWITCH(name, value, level, help, paper) bool name = value;
 #define QUADEDGE_CHOICE(name, value, choices, level, help, paper) std::string name = value;
 #define QUADEDGE_END_SECTION \

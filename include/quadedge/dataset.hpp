@@ -73,6 +73,7 @@ class FramePrefetcher {
     int number = 0;  ///< index into Dataset::frames
     std::int64_t stamp_ns = 0;
     Image left, right;
+    StereoFrame view() const { return {stamp_ns, left.view(), right.view()}; }
   };
   /// `ahead`: frames kept decoded in advance.
   explicit FramePrefetcher(const Dataset& dataset, int ahead = 2);

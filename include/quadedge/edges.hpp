@@ -5,7 +5,31 @@
 #include <cstdint>
 #include <vector>
 
+#include "quadedge/side.hpp"
+
 namespace quadedge {
+
+/// Positions [px] and directions [rad] of edges in one image; NaN: nowhere. Of the same size.
+struct EdgePositions {
+  std::vector<float> x, y, direction;
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// The same where another object owns the values and outlives the view.
+struct EdgePositionsView {
+  const std::vector<float>& x;
+  const std::vector<float>& y;
+  const std::vector<float>& direction;
+
+  EdgePositionsView(const std::vector<float>& of_x, const std::vector<float>& of_y,
+                    const std::vector<float>& of_direction)
+      : x(of_x), y(of_y), direction(of_direction) {}
+  EdgePositionsView(const EdgePositions& edges)  // NOLINT: implicit on purpose
+      : EdgePositionsView(edges.x, edges.y, edges.direction) {}
+
+  std::size_t size() const { return x.size(); }
+};
 
 /// How far an edge may lie from the grid row that holds it [px]: 0.354 by the parabola and the longest Newton step
 /// allowed.
@@ -23,6 +47,7 @@ struct EdgeSet {
   /// + 1. The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
   std::vector<std::int32_t> row_first;
 
+  EdgePositionsView positions() const { return {x, y, direction}; }
   std::size_t size() const { return x.size(); }
 };
 
@@ -35,6 +60,10 @@ struct StereoEdges {
   std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
   std::vector<float> ncc;  ///< similarity of the refined pair: mean NCC of the edges' own patches and the better side
 
+  EdgePositionsView positions(Side side) const {
+    if (side == Side::left) return {left_x, left_y, left_direction};
+    return {right_x, right_y, right_direction};
+  }
   std::size_t size() const { return left_index.size(); }
 };
 
@@ -42,7 +71,7 @@ struct StereoEdges {
 struct TemporalMatches {
   std::vector<std::int32_t> previous;   ///< index into the previous rig's stereo edges
   std::vector<std::int32_t> current;    ///< index into the current rig's stereo edges
-  std::vector<float> left_x, left_y;    ///< detected place in the current left image, pixels
+  std::vector<float> left_x, left_y;    ///< detected position in the current left image, pixels
   std::vector<float> right_x, right_y;  ///< its refined right point
   std::vector<float> ncc;               ///< mean of the left and the right similarity
   std::vector<std::int32_t> rivals;     ///< how many other clusters the previous edge has (0: unambiguous)
@@ -55,7 +84,7 @@ struct TemporalMatches {
     for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
     search = -1;
   }
-  /// Adds a match with stereo edge `current_edge` of `edges`, at its places.
+  /// Adds a match with stereo edge `current_edge` of `edges`, at its positions.
   void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity,
               std::int32_t rival_count) {
     const auto j = static_cast<std::size_t>(current_edge);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file image.hpp  8-bit grey images: an owner and a view.
+/// \file image.hpp  8-bit grey images: an owner, a view, and the two views of a stereo frame.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +30,12 @@ struct Image {
       : width(width_), height(height_), pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
 
   ImageView view() const { return {pixels.data(), width, height, width}; }
+};
+
+/// Two recorded grey images of one time. The views must stay valid during track().
+struct StereoFrame {
+  std::int64_t stamp_ns = 0;
+  ImageView left, right;
 };
 
 }  // namespace quadedge

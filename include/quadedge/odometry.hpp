@@ -16,12 +16,6 @@
 
 namespace quadedge {
 
-/// Two recorded grey images of one time. The views must stay valid during track().
-struct StereoFrame {
-  std::int64_t stamp_ns = 0;
-  ImageView left, right;
-};
-
 /// What happened to a frame.
 enum class FrameStatus {
   first,               ///< the origin of the trajectory

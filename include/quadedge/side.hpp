@@ -7,7 +7,7 @@ enum class Side { left, right };
 
 inline constexpr Side kSides[] = {Side::left, Side::right};
 
-/// Place of a side in arrays of two: left 0, right 1.
+/// Index of a side in arrays of two: left 0, right 1.
 constexpr int index_of(Side side) { return side == Side::left ? 0 : 1; }
 
 }  // namespace quadedge

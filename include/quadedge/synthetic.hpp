@@ -8,6 +8,7 @@
 
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/side.hpp"
 #include "quadedge/trajectory.hpp"
 
 namespace quadedge {
@@ -24,7 +25,7 @@ struct SyntheticOptions {
   double gain = 1.0;  ///< of the light in every second frame: it changes by this factor, and back, from frame to frame
   double right_gain = 1.0;  ///< of the right camera's exposure
   double blur = 0.0;        ///< motion blur: way of the image's middle, at 2.5 m, while the shutter is open [px]
-  double mover = 0.0;       ///< share of the left image that a board moving on its own covers
+  double mover = 0.0;       ///< fraction of the left image that a board moving on its own covers
   int supersampling = 4;    ///< rays per pixel and axis
   std::uint64_t seed = 7;   ///< of textures, cable shapes and camera noise; the path and the room's objects stay
   int threads = 0;          ///< that render a view, 0: one per processor; the result does not depend on it
@@ -51,8 +52,8 @@ class SyntheticSequence {
   std::int64_t stamp_ns(int frame) const;  ///< 20 frames per second
   Eigen::Isometry3d world_from_left(
       int frame) const;  ///< exact, in the middle of the exposure; the first one is the identity
-  RenderedView render(int frame, bool right) const;  ///< safe to call from several threads
-  double max_disparity() const;                      ///< px, no surface in view is nearer at any time
+  RenderedView render(int frame, Side side) const;  ///< safe to call from several threads
+  double max_disparity() const;                     ///< px, no surface in view is nearer at any time
 
  private:
   class Implementation;

@@ -20,16 +20,11 @@ struct CandidateLists {
   std::vector<float> cue;
 };
 
-/// Where a search in time expects every stereo edge of its base in one of the current images [px, rad]; NaN: nowhere.
-struct ExpectedEdges {
-  std::vector<float> x, y, direction;
-};
-
 /// A search for the stereo edges of an earlier frame, its base, in the current one.
 struct ObservedSearch {
   int number = 0;      ///< of the searches of one frame, from 0; see TemporalMatches::search and FrameResult::search
   int base_frame = 0;  ///< number of the base; the frames that StereoOdometry takes count from 0
-  ExpectedEdges left, right;  ///< one entry per stereo edge of the base
+  EdgePositions left, right;  ///< where every stereo edge of the base is expected in the current images
   double radius = 0;          ///< px around the expected positions
   int step = 1;               ///< only every step-th stereo edge of the base is looked for; each has a row
 };
