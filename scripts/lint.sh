@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Format, structure, kernels and clang-tidy of all code, as the tests hold them.
 #   scripts/lint.sh           format and structure: seconds
-#   scripts/lint.sh --all     clang-tidy and the kernels too: minutes; needs a configured build/
+#   scripts/lint.sh --all     clang-tidy and the kernels too: minutes; needs what scripts/test.sh builds
 #   scripts/lint.sh --fix     formats all code; with --all, clang-tidy mends what it can
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -15,8 +15,13 @@ for option in "$@"; do
 done
 
 status=0
+python=build/venv/bin/python  # scripts/test.sh makes it
+if [ ! -x "$python" ]; then
+  python=python3
+  python3 -c 'import lizard' 2>/dev/null || checks="includes lines twins references"
+fi
 if [ -n "$all" ] && [ -n "$fix" ]; then
-  python3 tests/lint_tidy.py . build --fix || status=1
+  "$python" tests/lint_tidy.py . build --fix || status=1
 fi
 if [ -n "$fix" ]; then
   git ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' '*.cl' | xargs -0 clang-format -i
@@ -24,16 +29,11 @@ else
   tests/lint_format.sh . || status=1
 fi
 
-python=build/venv/bin/python  # scripts/test.sh makes it
-if [ ! -x "$python" ]; then
-  python=python3
-  python3 -c 'import lizard' 2>/dev/null || checks="includes lines twins references"
-fi
 # shellcheck disable=SC2086  # a list of words
 "$python" tests/lint_structure.py . ${checks:-} || status=1
 
 if [ -n "$all" ]; then
   tests/lint_kernels.sh . build/tests/list_programs || status=1
-  [ -n "$fix" ] || python3 tests/lint_tidy.py . build || status=1
+  [ -n "$fix" ] || "$python" tests/lint_tidy.py . build || status=1
 fi
 exit $status

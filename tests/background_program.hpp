@@ -18,7 +18,7 @@ class BackgroundProgram {
  public:
   BackgroundProgram(const std::vector<std::string>& arguments, const std::string& log,
                     const std::string& environment = "") {
-    std::string command = "exec " + environment_of_tests() + " " + environment + " '" QUADEDGE_PROGRAM "'";
+    std::string command = "exec " + environment_of_tests() + " " + environment + " '" + program_path() + "'";
     for (const auto& argument : arguments) command += " '" + argument + "'";
     process_ = fork();
     if (process_ != 0) return;

@@ -39,12 +39,18 @@ inline std::string environment_of_tests() {
          (folder / "configuration") + "' XDG_CACHE_HOME='" + (folder / "cache") + "'";
 }
 
+/// The program under test; QUADEDGE_TEST_PROGRAM names another one (run_sanitizers.sh).
+inline std::string program_path() {
+  const char* other = std::getenv("QUADEDGE_TEST_PROGRAM");
+  return other ? other : QUADEDGE_PROGRAM;
+}
+
 /// Runs `quadedge ARGUMENTS` through the shell; `environment` is put in front, for example "QUADEDGE_DEVICE=gpu".
 /// Arguments are quoted here.
 inline ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
   const TemporaryFolder folder;
   std::string command =
-      "cd '" + folder.path() + "' && " + environment_of_tests() + " " + environment + " '" QUADEDGE_PROGRAM "'";
+      "cd '" + folder.path() + "' && " + environment_of_tests() + " " + environment + " '" + program_path() + "'";
   for (const auto& argument : arguments) command += " '" + argument + "'";
   command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
   const int status = std::system(command.c_str());

@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Builds tests and program with AddressSanitizer and UndefinedBehaviorSanitizer, and runs the tests that need no OpenCL
-# device (a driver is not ours to check), are not about the OpenCV baseline of bench/, and neither render for minutes
-# when instrumented nor repeat for statistics what other tests run too ([long]).
-#   run_sanitizers.sh REPOSITORY BUILD_FOLDER
+# Builds libraries and program with AddressSanitizer and UndefinedBehaviorSanitizer, and runs the tests that need no
+# OpenCL device (a driver is not ours to check), are not about the OpenCV baseline of bench/, and neither render for
+# minutes when instrumented nor repeat for statistics what other tests run too ([long]).
+#   run_sanitizers.sh REPOSITORY BUILD_FOLDER    (with the tests built)
 set -euo pipefail
 repository="$1" build="$2/sanitize"
 cmake -S "$repository" -B "$build" -G Ninja -DQUADEDGE_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug \
-  -DCMAKE_CXX_FLAGS_DEBUG="-O1"
+  -DCMAKE_CXX_FLAGS_DEBUG="-O1" -DQUADEDGE_TEST_OBJECTS="$2/tests/CMakeFiles/quadedge_tests.dir"
 cmake --build "$build" --target quadedge_tests
 printf 'leak:libpocl\nleak:libLLVM\nleak:libOpenCL\n' >"$build/leaks_of_drivers"
 export ASAN_OPTIONS=detect_leaks=1:abort_on_error=0:exitcode=99 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$build/leaks_of_drivers"
+export QUADEDGE_TEST_PROGRAM="$build/quadedge"
 exec "$build/tests/quadedge_tests" "~[device]~[baseline]~[long]~disturbances*"

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "common/nearest_word.hpp"
 #include "quadedge/error.hpp"
@@ -87,7 +88,7 @@ class ParserOptions : public Options {
     set_from_file([&constant, &config](const data::TomlEntry& entry, bool keep) {
       Config tried = config;
       report::set_constant(entry, constant, tried);
-      if (!keep) config = tried;
+      if (!keep) config = std::move(tried);
     });
   }
   void environment(const std::string& variable) override { last_->envname(variable); }
@@ -152,7 +153,7 @@ class ParserOptions : public Options {
     set_from_file([&value](const data::TomlEntry& entry, bool keep) {
       T read{};
       data::assign(entry, read);
-      if (!keep) value = read;
+      if (!keep) value = std::move(read);
     });
   }
 

@@ -83,7 +83,7 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
   }
   estimate.status = MotionStatus::ok;
   estimate.current_from_previous = pose;
-  estimate.covariance = covariance;
+  estimate.covariance = std::move(covariance);
 }
 
 }  // namespace quadedge::pose

@@ -1,6 +1,7 @@
 #include "report/config_toml.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/nearest_word.hpp"
 #include "data/atomic_file.hpp"
@@ -43,7 +44,7 @@ void set_constant(const data::TomlEntry& entry, const Constant& constant, Config
   } catch (const UsageError&) {
     data::refuse(entry, constant.allowed());
   }
-  config = tried;
+  config = std::move(tried);
 }
 
 void add_variant(const std::string& choice, Config& config) {
