@@ -20,7 +20,8 @@ using namespace quadedge;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kUsage =
-    "usage: core_latency [--device D] [--frames N] [--warm-up N] [--scene room|cables] [--size WxH] [--threshold T]\n"
+    "usage: core_latency [--device D] [--frames N] [--warm-up N] [--scene room|cables|facade]\n"
+    "                    [--path ellipse|handheld|drive|loop] [--size WxH] [--threshold T]\n"
     "  --device     auto, cpu, gpu, a number or a part of the name; default auto\n"
     "  --frames     frames measured, default 30; --warm-up: frames between the first one and them, default 5\n"
     "  --size       px, default 942x489\n"
@@ -48,6 +49,8 @@ Settings parse(int count, char** values) {
       settings.warm_up = std::atoi(value.c_str());
     else if (name == "--scene")
       settings.scene.scene = value;
+    else if (name == "--path")
+      settings.scene.path = value;
     else if (name == "--threshold")
       settings.threshold = std::atof(value.c_str());
     else if (name == "--size") {

@@ -281,7 +281,8 @@ int main(int argc, char** argv) {
   CLI::App program("Splits the error of the poses on a rendered scene into its causes", "error_split");
   SyntheticOptions scene;
   std::string size;
-  program.add_option("SCENE", scene.scene, "room or cables")->required();
+  program.add_option("SCENE", scene.scene, "room, cables or facade")->required();
+  program.add_option("--path", scene.path, "ellipse, handheld, drive or loop");
   program.add_option("--frames", scene.frames, "length of the sequence");
   program.add_option("--size", size, "of the images, WxH; default 942x489");
   program.add_option("--scene-seed", scene.seed, "of textures, cable shapes and camera noise");

@@ -2,14 +2,14 @@
 /// scene, and writes trajectories that `quadedge evaluate trajectory` judges.
 ///
 ///   opencv_baseline PATH -o OUT         a recorded sequence
-///   opencv_baseline cables -o OUT       a rendered scene: room, cables
+///   opencv_baseline cables -o OUT       a rendered scene: room, cables, facade
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 
 #include "cli/frame_source.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/scene_options.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencv_baseline.hpp"
 #include "quadedge/error.hpp"
@@ -19,9 +19,8 @@ namespace {
 
 using namespace quadedge;
 
-std::unique_ptr<cli::FrameSource> open_source(const std::string& path, int frames) {
-  if ((path == "room" || path == "cables") && !std::filesystem::exists(path)) {
-    SyntheticOptions scene;
+std::unique_ptr<cli::FrameSource> open_source(const std::string& path, int frames, SyntheticOptions scene) {
+  if (cli::is_scene(path)) {
     scene.scene = path;
     if (frames > 0) scene.frames = frames;
     return cli::make_synthetic_source(scene);
@@ -55,16 +54,18 @@ void run(cli::FrameSource& source, const std::string& output, bool force) {
 int main(int argc, char** argv) {
   CLI::App program("Stereo visual odometry with OpenCV's SIFT and PnP, to compare with", "opencv_baseline");
   std::string path, output;
+  SyntheticOptions scene;
   int frames = 0;
   bool force = false;
-  program.add_option("PATH", path, "folder of a sequence, or a rendered scene: room, cables")->required();
+  program.add_option("PATH", path, "folder of a sequence, or a rendered scene: room, cables, facade")->required();
   program.add_option("-o,--output", output, "folder for the results")->required();
   program.add_option("--frames", frames, "only the first N frames; 0: all, of a rendered scene 60");
+  program.add_option("--path", scene.path, "of a rendered scene: ellipse, handheld, drive, loop");
   program.add_flag("--force", force, "replace the results in OUT");
   CLI11_PARSE(program, argc, argv);
   try {
     if (frames < 0) throw UsageError("--frames " + std::to_string(frames) + ": expected 0 or more");
-    run(*open_source(path, frames), output, force);
+    run(*open_source(path, frames, scene), output, force);
     return static_cast<int>(ExitCode::done);
   } catch (const Error& error) {
     std::fprintf(stderr, "opencv_baseline: %s\n", error.what());

@@ -4,7 +4,7 @@
   scripts/compare_results.py OLD NEW [--data DIR] [--quick] [--work DIR]
 
 OLD and NEW are `quadedge` programs. DIR holds recorded data (default: QUADEDGE_DATA); without it only the built-in
-scenes run. Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv every column
+scenes run that both know. Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv every column
 but the times; of a message only whether there is one, not its words.
 Results of OLD stay in the work folder and serve again.
 Exit code 0: all the same, 1: some differ, 2: a run failed.
@@ -24,17 +24,24 @@ RECORDED = {
     "euroc_keyframes": ["euroc_v1_01_easy_keyframes"],
     "euroc_flight": ["euroc_mh_01_easy"],
 }
+SCENES = ("room", "cables", "facade")
 IMAGE = "kitti_odometry/sequences/06/image_0/000000.png"
 
 
-def jobs(data, quick):
+def scenes_of(program):
+    """The built-in scenes that a program can render."""
+    told = subprocess.run([program, "demo", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return {scene for scene in SCENES if scene in told}
+
+
+def jobs(data, quick, scenes):
     """Name and arguments of every run; each leaves a folder, or a CSV file of edges."""
     frames = ["--frames", "0:6"] if quick else []
     if data:
         for name, (folder, *options) in RECORDED.items():
             yield name, ["run", str(data / folder), *options, *frames, "--quiet", "--force", "--output"]
         yield "edges.csv", ["edges", str(data / IMAGE), "--force", "--csv"]
-    for scene in ("room", "cables"):
+    for scene in scenes:
         yield scene, ["demo", "--scene", scene, "--frames", "4" if quick else "60", "--quiet", "--force", "--output"]
 
 
@@ -79,7 +86,8 @@ def main():
     old.mkdir(parents=True, exist_ok=True)
     new.mkdir(parents=True, exist_ok=True)
     different = 0
-    for name, arguments in jobs(data, options.quick):
+    scenes = sorted(scenes_of(options.old) & scenes_of(options.new))
+    for name, arguments in jobs(data, options.quick, scenes):
         if not (old / name).exists():
             run(options.old, name, arguments, old)
         run(options.new, name, arguments, new)

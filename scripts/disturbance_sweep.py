@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Sweeps what disturbs a camera over rendered sequences, and plots the error as a function of it.
 
-    disturbance_sweep.py OUT                                 both scenes, everything
+    disturbance_sweep.py OUT                                 all scenes, everything
     disturbance_sweep.py OUT --scenes room --kinds blur noise --frames 10 --size 640x332
+    disturbance_sweep.py OUT --kinds mover --values 0.3 --scene-seed 11
 
 Swept are the light of every second frame (half to twice), the right camera's exposure (half to twice), motion blur (to
-5 px), camera noise (to 8 grey levels) and the ratio of the image that a board moving on its own covers (to 40 %).
+5 px, with the camera in the hand: on the ellipse the image does not move that far in a frame), camera noise (to 8 grey levels) and the ratio of the image that a board moving on its own covers (to 40 %).
 OUT/disturbances.csv and .json hold one row per run, OUT/disturbances.svg the plots. A step is wrong where it is
 reported as tracked and is off by more than 5 mm + 10 % of the motion or by 0.25 degrees (`quadedge evaluate trajectory
 --steps`). Needs matplotlib and the program `quadedge`.
@@ -20,13 +21,14 @@ import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parent.parent
-# Option of `quadedge demo` -> (label, values)
+SCENES = ("room", "cables", "facade")
+# Option of `quadedge demo` -> (label, values, further options)
 KINDS = {
-    "gain": ("light of every second frame, factor", (0.5, 0.7, 1, 1.4, 2)),
-    "right-gain": ("exposure of the right camera, factor", (0.5, 0.7, 1, 1.4, 2)),
-    "blur": ("motion blur [px]", (0, 1, 2, 3, 4, 5)),
-    "noise": ("camera noise [grey levels]", (0, 1.5, 3, 5, 8)),
-    "mover": ("ratio of the image covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4)),
+    "gain": ("light of every second frame, factor", (0.5, 0.7, 1, 1.4, 2), ()),
+    "right-gain": ("exposure of the right camera, factor", (0.5, 0.7, 1, 1.4, 2), ()),
+    "blur": ("motion blur, camera in the hand [px]", (0, 1, 2, 3, 4, 5), ("--path", "handheld")),
+    "noise": ("camera noise [grey levels]", (0, 1.5, 3, 5, 8), ()),
+    "mover": ("ratio of the image covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4), ()),
 }
 COLUMNS = ("scene", "kind", "value", "frames", "tracked", "right", "wrong", "lost", "rpe_translation_m",
            "rpe_rotation_deg", "end_drift_percent")
@@ -49,10 +51,11 @@ def measure(scene, kind, value, options):
     output = options.out / "runs" / f"{scene}_{kind}_{value}"
     size = ["--size", options.size] if options.size else []
     device = ["--device", options.device] if options.device else []
+    seed = ["--scene-seed", options.scene_seed] if options.scene_seed is not None else []
     # Code 5, many frames lost, is a result too.
     call([options.quadedge, "demo", "--scene", scene, "--frames", options.frames, f"--{kind}", value, "-o", output,
           "--force", "--quiet",
-          *size, *device], allowed=(0, 5))
+          *KINDS[kind][2], *size, *device, *seed], allowed=(0, 5))
     tracked = sum(1 for line in open(output / "trajectory.txt", encoding="utf-8") if not line.startswith("#"))
     row = dict.fromkeys(COLUMNS)
     row.update(scene=scene, kind=kind, value=value, frames=options.frames, tracked=tracked, right=0, wrong=0,
@@ -108,9 +111,11 @@ def plot(rows, options):
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path, metavar="OUT")
-    parser.add_argument("--scenes", nargs="+", choices=("room", "cables"), default=["room", "cables"])
+    parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))
+    parser.add_argument("--values", nargs="+", type=float, help="instead of each kind's own")
     parser.add_argument("--frames", type=int, default=12)
+    parser.add_argument("--scene-seed", type=int, help="as in `quadedge demo`")
     parser.add_argument("--size", help="of the images, WxH; default 942x489")
     parser.add_argument("--device", help="as in `quadedge run`")
     parser.add_argument("--quadedge", type=Path, default=REPOSITORY / "build" / "quadedge")
@@ -124,7 +129,7 @@ def main():
     try:
         for scene in options.scenes:
             for kind in options.kinds:
-                for value in KINDS[kind][1]:
+                for value in options.values or KINDS[kind][1]:
                     rows.append(measure(scene, kind, value, options))
                     row = rows[-1]
                     print(f"{scene} {kind} {value}: {row['right']} right, {row['wrong']} wrong, {row['lost']} lost",

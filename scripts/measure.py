@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures everything that README and doc/ tell in figures: accuracy, matching and speed, into doc/results.
+"""Measures what README and doc/ tell in figures: accuracy, matching, speed and disturbances, into doc/results.
 
     scripts/measure.py                         all parts, some minutes; --data or QUADEDGE_DATA is the recorded data
     scripts/measure.py --only speed            one part; the others stay as they are
@@ -22,7 +22,7 @@ import sys
 from pathlib import Path
 
 import result_tables
-from measurements import PARTS, RECORDED, REPOSITORY, SCENES, SYSTEMS, Problem, Programs
+from measurements import PARTS, RECORDED, RENDERED, REPOSITORY, SCENES, SYSTEMS, Problem, Programs
 from plot_paths import plot
 
 
@@ -48,7 +48,7 @@ def parse():
         default=os.environ.get("QUADEDGE_DATA"),
         help="folder with the recorded sequences; without: rendered ones alone",
     )
-    parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *SCENES), default=None)
+    parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *RENDERED), default=None)
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
     parser.add_argument(
         "--frames",
@@ -67,7 +67,7 @@ def parse():
     if options.frames and options.out == result_tables.RESULTS:
         parser.error("--frames needs --out: the documentation is about whole sequences")
     if options.sequences is None:
-        options.sequences = [*(RECORDED if options.data else ()), *SCENES]
+        options.sequences = [*(RECORDED if options.data else ()), *RENDERED]
     elif not options.data and any(name in RECORDED for name in options.sequences):
         parser.error("recorded sequences need --data or QUADEDGE_DATA")
     options.work = options.work.resolve()

@@ -1,11 +1,14 @@
-"""What scripts/measure.py measures: accuracy, matching and speed, as rows with the commands behind them."""
+"""What scripts/measure.py measures: accuracy, matching, speed and disturbances, as rows with the commands behind them."""
 
+import argparse
 import json
 import shlex
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+import disturbance_sweep
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 RECORDED = {
@@ -15,7 +18,13 @@ RECORDED = {
     "flight": "euroc_mh_01_easy",
     "keyframes": "euroc_v1_01_easy_keyframes",
 }
-SCENES = ("room", "cables")
+SCENES = disturbance_sweep.SCENES
+PATHS = ("handheld", "drive", "loop")  # besides the ellipse
+# Run -> scene and path; a run on the ellipse is called by its scene.
+RENDERED = {
+    **{scene: (scene, "ellipse") for scene in SCENES},
+    **{f"{scene}-{path}": (scene, path) for path in PATHS for scene in SCENES},
+}
 # Title, run, first frame that is judged
 JUDGED = (
     ("KITTI 06", "kitti06", 0),
@@ -24,9 +33,12 @@ JUDGED = (
     ("EuRoC MH_01, flight", "flight", 0),
     ("EuRoC V1_01 at rest", "rest", 0),
     ("EuRoC V1_01 key frames", "keyframes", 0),
-    ("rendered room", "room", 0),
-    ("rendered cables", "cables", 0),
+    *(
+        (f"rendered {scene}" + (f", {path}" if path != "ellipse" else ""), run, 0)
+        for run, (scene, path) in RENDERED.items()
+    ),
 )
+STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)  # steps of some cm: 5 cm would hide any error
 SYSTEMS = ("default", "paper", "opencv")
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 MATCHED = {
@@ -41,9 +53,15 @@ MATCHED = {
     "Middlebury Laundry": ("middlebury_2005/Laundry",),
     "rendered room": "room",
     "rendered cables": "cables",
+    "rendered facade": "facade",
 }
 MATCHED_FRAMES = 3  # of a rendered scene
-TIMED = {"built-in room": None, "KITTI 06": RECORDED["kitti06"], "EuRoC MH_01, flight": RECORDED["flight"]}
+TIMED = {
+    "built-in room": "room",
+    "built-in facade": "facade",
+    "KITTI 06": RECORDED["kitti06"],
+    "EuRoC MH_01, flight": RECORDED["flight"],
+}
 COMPLETE = "complete"  # empty file in the folder of a run that came to its end
 
 
@@ -84,7 +102,14 @@ def source_of(run, options):
     if run in RECORDED:
         frames = ["--frames", f"0:{options.frames}"] if options.frames else []
         return ["run", options.data / RECORDED[run], *frames]
-    return ["demo", "--scene", run, *(["--frames", options.frames] if options.frames else [])]
+    scene, path = RENDERED[run]
+    return [
+        "demo",
+        "--scene",
+        scene,
+        *(["--path", path] if path != "ellipse" else []),
+        *(["--frames", options.frames] if options.frames else []),
+    ]
 
 
 def track(system, run, programs):
@@ -93,8 +118,12 @@ def track(system, run, programs):
     output = options.work / system / run
     truth = options.data / RECORDED[run] if run in RECORDED and not options.frames else output / "groundtruth.txt"
     if system == "opencv":
-        place = options.data / RECORDED[run] if run in RECORDED else run
-        command = [options.baseline, place, "-o", output, *(["--frames", options.frames] if options.frames else [])]
+        if run in RECORDED:
+            place = [options.data / RECORDED[run]]
+        else:
+            scene, path = RENDERED[run]
+            place = [scene, *(["--path", path] if path != "ellipse" else [])]
+        command = [options.baseline, *place, "-o", output, *(["--frames", options.frames] if options.frames else [])]
     else:
         method = ["--config", REPOSITORY / "config" / "paper.toml"] if system == "paper" else []
         command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
@@ -120,6 +149,7 @@ def judge(system, title, run, first, programs):
         estimate,
         truth,
         "--steps",
+        *(STEP_OF_RENDERED if run in RENDERED else ()),
         *(["--from-frame", first] if first else []),
     ]
     row = {
@@ -146,7 +176,12 @@ def judge(system, title, run, first, programs):
 def measure_accuracy(programs):
     options = programs.options
     judged = [entry for entry in JUDGED if entry[1] in options.sequences]
-    return [judge(system, *entry, programs) for entry in judged for system in options.systems]
+    return [
+        judge(system, *entry, programs)
+        for entry in judged
+        for system in options.systems
+        if system != "paper" or entry[1] in RECORDED or entry[1] in SCENES
+    ]
 
 
 def matching_row(title, places, programs):
@@ -192,14 +227,14 @@ def measure_speed(programs):
     options = programs.options
     rows = []
     for title, place in TIMED.items():
-        if place and not options.data:
+        if place not in SCENES and not options.data:
             continue
         print(f"speed: {title}", file=sys.stderr, flush=True)
         file = options.work / f"speed_{title.replace(' ', '_').replace(',', '')}.json"
         command = [
             options.quadedge,
             "bench",
-            *([options.data / place] if place else []),
+            *(["--scene", place] if place in SCENES else [options.data / place]),
             "--frames",
             options.frames or 30,
             "--warm-up",
@@ -228,4 +263,37 @@ def measure_speed(programs):
     return rows
 
 
-PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed}
+def measure_disturbances(programs):
+    """Every disturbance in every scene; the plot too, where there is matplotlib."""
+    options = programs.options
+    sweep = argparse.Namespace(
+        out=options.work / "disturbances",
+        scenes=[scene for scene in SCENES if scene in options.sequences],
+        frames=options.frames or 5,
+        size="640x332",
+        device=None,
+        scene_seed=None,
+        quadedge=options.quadedge,
+    )
+    rows = []
+    try:
+        for scene in sweep.scenes:
+            for kind, (_, values, _) in disturbance_sweep.KINDS.items():
+                print(f"disturbances: {scene}, {kind}", file=sys.stderr, flush=True)
+                rows += [disturbance_sweep.measure(scene, kind, value, sweep) for value in values]
+    except disturbance_sweep.Problem as problem:
+        raise Problem(str(problem)) from problem
+    try:
+        sweep.out = options.out
+        disturbance_sweep.plot(rows, sweep)
+    except ImportError:
+        print("measure: matplotlib is missing, so the plot of the disturbances stays as it was", file=sys.stderr)
+    return rows
+
+
+PARTS = {
+    "accuracy": measure_accuracy,
+    "matching": measure_matching,
+    "speed": measure_speed,
+    "disturbances": measure_disturbances,
+}

@@ -14,6 +14,8 @@ import re
 import sys
 from pathlib import Path
 
+import disturbance_sweep
+
 REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 SYSTEMS = {"default": "QuadEdge", "paper": "QuadEdge, paper.toml", "opencv": "OpenCV SIFT + PnP"}
@@ -60,11 +62,16 @@ def command_list(rows):
     return "\n".join(["| what | commands |", "|---|---|", *lines]) + "\n"
 
 
+def on_other_path(row):
+    """A rendered scene on another path than the ellipse: these have a table of their own."""
+    return "-" in row["sequence"]
+
+
 def errors(results, systems):
     """One row per sequence and system."""
     rows, shown = [], None
     for row in results["accuracy"]["rows"]:
-        if row["system"] not in systems or row["sequence"] == STEPS:
+        if row["system"] not in systems or row["sequence"] == STEPS or on_other_path(row):
             continue
         cells = ["" if row["title"] == shown else row["title"]]
         if len(systems) > 1:
@@ -116,11 +123,61 @@ def steps(results):
     )
 
 
+def paths(results):
+    """One row per rendered scene and path."""
+    rows = []
+    for row in results["accuracy"]["rows"]:
+        if row["sequence"] == STEPS or not row["title"].startswith("rendered"):
+            continue
+        steps_of = row.get("steps", {})
+        rows.append(
+            [
+                row["title"].removeprefix("rendered "),
+                SYSTEMS[row["system"]],
+                f"{row['tracked']} / {row['frames']}",
+                *(steps_of.get(name, "-") for name in ("right", "wrong", "lost")),
+                number(row.get("rpe_rotation_deg")),
+                length(row.get("rpe_translation_m")),
+                length(row.get("path_length_m")),
+                drift(row) if "end_drift_percent" in row else "-",
+            ]
+        )
+    head = ["scene, path", "system", "tracked", "steps right", "wrong", "lost"]
+    return (
+        table([*head, "RPE rotation [deg]", "RPE translation", "path", "end drift"], rows)
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+def disturbances(results):
+    """Mean error of a step, a block of rows per disturbance."""
+    rows, kept = [], results["disturbances"]["rows"]
+    width = max(len(values) for _, values, _ in disturbance_sweep.KINDS.values())
+    for kind, (label, values, _) in disturbance_sweep.KINDS.items():
+        if not any(row["kind"] == kind for row in kept):
+            continue
+        rows.append([label, "", *values, *[""] * (width - len(values))])
+        for scene in dict.fromkeys(row["scene"] for row in kept):
+            cells = []
+            for row in (row for row in kept if row["kind"] == kind and row["scene"] == scene):
+                error = row["rpe_translation_m"]
+                notes = [f"{row[what]} {what}" for what in ("wrong", "lost") if row[what]]
+                cells.append(("-" if error is None else f"{1e3 * error:.2f}") + "".join(f", {note}" for note in notes))
+            rows.append(["", scene, *cells, *[""] * (width - len(cells))])
+    frames = kept[0]["frames"]
+    return (
+        table(["mm", f"{frames - 1} steps each", *[""] * width], rows)
+        + "\n"
+        + stamp(results["disturbances"])
+    )
+
+
 def beside(results):
     """QuadEdge and the OpenCV baseline side by side, for the README."""
     by_title = {}
     for row in results["accuracy"]["rows"]:
-        if row["sequence"] != STEPS:
+        if row["sequence"] != STEPS and not on_other_path(row):
             by_title.setdefault(row["title"], {})[row["system"]] = row
     rows = []
     for title, found in by_title.items():
@@ -212,19 +269,21 @@ TABLES = {
     "systems": systems,
     "steps": steps,
     "beside": beside,
+    "paths": paths,
+    "disturbances": disturbances,
     "matching": matching,
     "quads": quads,
     "speed": speed,
     "peers": peers,
 }
-PART_OF = {"beside": "accuracy", "systems": "accuracy", "steps": "accuracy", "quads": "matching"}
+PART_OF = {"beside": "accuracy", "paths": "accuracy", "systems": "accuracy", "steps": "accuracy", "quads": "matching"}
 # Part -> (title, what to know, tables)
 PAGES = {
     "accuracy": (
         "Accuracy",
         "Origin-aligned means: absolute (APE) and from frame to frame (RPE)."
         " What they mean: [accuracy.md](../accuracy.md).",
-        ("systems", "steps"),
+        ("systems", "steps", "paths"),
     ),
     "matching": (
         "Matching",

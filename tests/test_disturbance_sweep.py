@@ -14,8 +14,8 @@ from pathlib import Path
 script, quadedge = sys.argv[1:]
 with tempfile.TemporaryDirectory() as folder:
     out = Path(folder) / "sweep"
-    subprocess.run([sys.executable, script, out, "--quadedge", quadedge, "--scenes", "room", "--kinds", "noise",
-                    "--frames", "3", "--size", "320x200"],
+    small = ("--quadedge", quadedge, "--frames", "3", "--size", "320x200")
+    subprocess.run([sys.executable, script, out, *small, "--scenes", "room", "--kinds", "noise"],
                    check=True, stdout=subprocess.DEVNULL)
     rows = json.loads((out / "disturbances.json").read_text())
     assert [row["value"] for row in rows] == [0, 1.5, 3, 5, 8], rows
@@ -25,3 +25,12 @@ with tempfile.TemporaryDirectory() as folder:
         table = list(csv.DictReader(file))
     assert [float(row["rpe_rotation_deg"]) for row in table] == [row["rpe_rotation_deg"] for row in rows], table
     assert "<svg" in (out / "disturbances.svg").read_text()
+
+    # Chosen values and seeds; blur that cannot be rendered ends the sweep with the program's own words.
+    subprocess.run([sys.executable, script, out, *small, "--scenes", "facade", "--kinds", "blur", "--values", "2",
+                    "--scene-seed", "11"], check=True, stdout=subprocess.DEVNULL)
+    (row,) = json.loads((out / "disturbances.json").read_text())
+    assert (row["scene"], row["kind"], row["value"], row["frames"]) == ("facade", "blur", 2, 3), row
+    failed = subprocess.run([sys.executable, script, out, *small, "--scenes", "room", "--kinds", "blur", "--values",
+                             "40"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    assert failed.returncode == 1 and "blur = 40, allowed: 0 to " in failed.stderr, failed

@@ -117,8 +117,8 @@ std::size_t check_subset(const CandidateLists& before, const CandidateLists& aft
 }  // namespace
 
 TEST_CASE("frontend: every device finds the reference's stereo edges and quads", "[frontend][matching][device]") {
-  for (const auto& scene :
-       {RenderedScene("room", 320, 200, 2), RenderedScene("room", 161, 97, 2), RenderedScene("cables", 200, 125, 2)}) {
+  for (const auto& scene : {RenderedScene("room", 320, 200, 2), RenderedScene("room", 161, 97, 2),
+                            RenderedScene("cables", 200, 125, 2), RenderedScene("facade", 161, 97, 2)}) {
     const auto truth = run_frontend(scene, "reference");
     CHECK(truth.current.size() > 100);
     CHECK(truth.quads.size() > 50);

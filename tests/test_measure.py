@@ -82,6 +82,20 @@ with tempfile.TemporaryDirectory() as folder:
     assert "old" not in filled and "| rendered cables | 3 / 3 |" in filled and "Not measured yet" in filled, filled
     assert filled.startswith("before\n") and "<!-- end of table -->\nafter\n" in filled, filled
 
+    # Other paths have a table of their own; of a disturbance every value has its column, with what was lost.
+    handheld = {**row, "title": "rendered cables, handheld", "sequence": "cables-handheld"}
+    results["accuracy"] = {**result, "rows": [row, handheld]}
+    assert "handheld" not in result_tables.render("systems", results)
+    shown = result_tables.render("paths", results)
+    assert "| cables | QuadEdge | 3 / 3 | 2 | 0 | 0 |" in shown and "| cables, handheld | QuadEdge |" in shown, shown
+    swept = [
+        {"scene": "facade", "kind": "noise", "value": value, "frames": 5, "wrong": 0, "lost": value, **error}
+        for value, error in ((0, {"rpe_translation_m": 0.00123}), (4, {"rpe_translation_m": None}))
+    ]
+    results["disturbances"] = {**result, "rows": swept}
+    shown = result_tables.render("disturbances", results)
+    assert "|  | facade | 1.23 | -, 4 lost |" in shown and "4 steps each" in shown, shown
+
     # A program that fails is said, with its complaint; figures of a few frames do not get into the documentation.
     failed = run(
         "measure.py",

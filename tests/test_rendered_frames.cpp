@@ -64,7 +64,7 @@ TEST_CASE("rendered frames: the second start reads what the first has rendered")
 
 TEST_CASE("rendered frames: every option that decides a pixel has images of its own") {
   const TemporaryFolder folder;
-  std::vector<SyntheticOptions> scenes(11, small_scene(1));
+  std::vector<SyntheticOptions> scenes(13, small_scene(1));
   scenes[1].scene = "cables";
   scenes[2].width = 66;
   scenes[3].height = 42;
@@ -75,11 +75,16 @@ TEST_CASE("rendered frames: every option that decides a pixel has images of its 
   scenes[8].seed = 8;
   scenes[9].mover = 0.2;
   scenes[10].supersampling = 3;
+  scenes[11].path = "handheld";
+  scenes[12].path = "loop";
   for (const auto& scene : scenes) CHECK(rendered_frames(scene, folder / "cache") == 1);
-  CHECK(folders_in(folder / "cache") == 11);
+  CHECK(folders_in(folder / "cache") == 13);
   auto threads = small_scene(1);
   threads.threads = 3;
   CHECK(rendered_frames(threads, folder / "cache") == 0);
+  auto longer_loop = small_scene(2);
+  longer_loop.path = "loop";
+  CHECK(rendered_frames(longer_loop, folder / "cache") == 2);  // its first frame comes from another loop
 }
 
 TEST_CASE("rendered frames: an entry that is damaged in any way is rendered anew, and sound again") {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "synthetic/cladding.hpp"
+#include "synthetic/dead_leaves.hpp"
 #include "synthetic/render.hpp"
 
 using namespace quadedge;
@@ -48,7 +50,7 @@ std::shared_ptr<const synthetic::Texture> plain(double grey) {
   synthetic::TextureStyle style;
   style.noise = 0.0;
   style.mean = grey;
-  return std::make_shared<synthetic::Texture>(style, 1, 5.0, 5.0, 0.1);
+  return std::make_shared<synthetic::Texture>(synthetic::dead_leaves(style, 1), 5.0, 5.0, 0.1);
 }
 
 Isometry3d at(const Vector3d& position, double yaw = 0.0, double pitch = 0.0, double roll = 0.0) {
@@ -162,7 +164,7 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
 TEST_CASE("a texture lies on its plane where geometry says", "[long][synthetic]") {
   synthetic::TextureStyle style;
   style.feature = 0.2;
-  const auto texture = std::make_shared<synthetic::Texture>(style, 5, 1.0, 1.0, 0.002);
+  const auto texture = std::make_shared<synthetic::Texture>(synthetic::dead_leaves(style, 5), 1.0, 1.0, 0.002);
   const Isometry3d pose = at({0.05, 0.02, 1.5}, 0.4, -0.3, 0.2);
   synthetic::Scene scene;
   scene.surfaces.push_back(std::make_unique<synthetic::PlaneSurface>(pose, 1.0, 1.0, texture));
@@ -194,7 +196,7 @@ TEST_CASE("a texture has no seams between its tiles and never repeats", "[synthe
   style.feature = 0.3;
   style.alignment = 0.5;
   const double texel = 0.004, half = 0.8;
-  const synthetic::Texture texture(style, 11, half, half, texel);
+  const synthetic::Texture texture(synthetic::dead_leaves(style, 11), half, half, texel);
   double jump = 0.0;
   for (int tile = 1; tile < 6; ++tile) {
     const double seam = 64 * tile * texel - half;
@@ -218,4 +220,35 @@ TEST_CASE("a texture has no seams between its tiles and never repeats", "[synthe
     for (double u = -0.35; u < 0.35; u += 0.02) highest = std::max(highest, (here * patch(u, v)).sum());
   CHECK(highest < 0.6);
   CHECK((here * patch(-0.745, -0.755)).sum() > 0.75);  // and it would notice a copy half a step off
+}
+
+TEST_CASE("cladding repeats with its pitch, and a texture's coarser levels are its means", "[synthetic]") {
+  synthetic::CladdingStyle style;
+  style.unit_width = 0.24;
+  style.unit_height = 0.08;
+  style.joint = 0.012;
+  style.bond = 0.5;
+  style.spread = 0.0;
+  style.noise = 0.0;
+  style.joint_grey = 200.0;
+  const double texel = 0.002, half = 1.0;
+  const synthetic::Texture texture(synthetic::cladding(style, 3), half, half, texel, 7);
+  // A brick's middle, the joints beside and below it, and the next course, half a brick further.
+  CHECK(texture.sample(0.12, 0.04) == Approx(130.0).margin(0.01));
+  CHECK(texture.sample(0.24, 0.04) == Approx(200.0).margin(0.01));
+  CHECK(texture.sample(0.12, 0.08) == Approx(200.0).margin(0.01));
+  CHECK(texture.sample(0.12, 0.12) == Approx(200.0).margin(0.01));
+  for (double u = -0.7; u < 0.5; u += 0.0137)
+    CHECK(texture.sample(u, 0.03) == Approx(texture.sample(u + style.unit_width, 0.03)).margin(1e-3));
+  double mean = 0.0, worst = 0.0;
+  for (int i = 0; i < 120; ++i)
+    for (int j = 0; j < 80; ++j) mean += texture.sample(-0.24 + 0.004 * (i + 0.5), -0.16 + 0.004 * (j + 0.5)) / 9600.0;
+  const double joints = 1.0 - (0.228 / 0.24) * (0.068 / 0.08);
+  CHECK(mean == Approx(130.0 + 70.0 * joints).margin(0.5));
+  for (double u = -0.6; u < 0.6; u += 0.05)
+    worst = std::max(worst, std::abs(texture.sample(u, 0.3 * u, 64 * texel) - mean));
+  CAPTURE(worst);
+  CHECK(worst < 4.0);  // texels of 13 cm, means over 19 cm: hardly a brick is left
+  for (const double footprint : {texel, 1.5 * texel, 4.0 * texel, 6.0 * texel})
+    CHECK(texture.sample(0.12, 0.04, footprint) == Approx(130.0).margin(0.01));  // inside the brick nothing is mixed in
 }

@@ -13,6 +13,7 @@
 #include "cli/output_folder.hpp"
 #include "cli/rendering_status.hpp"
 #include "cli/saved_variants.hpp"
+#include "cli/scene_options.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 #include "report/json.hpp"
@@ -37,7 +38,9 @@ class BenchCommand : public Command {
     options.positional("PATH", path_,
                        "recorded sequence; without it the built-in one. With --compare also a result to compare",
                        false);
-    options.text("--size", size_, "images of the built-in sequence [px]; default 942x489", "WxH");
+    options.choice("--scene", scene_.scene, synthetic_scenes(), "of the built-in sequence");
+    declare_view(options, scene_, size_);
+    options.number("--scene-seed", scene_.seed, "of the built-in sequence");
     options.number("--edges", edges_,
                    "choose edges.threshold for so many edges per image; 0: as configured; -1: 50000 for the built-in "
                    "sequence, as configured for a recorded one");
@@ -77,8 +80,11 @@ class BenchCommand : public Command {
     if (warm_up_ < 0) throw UsageError("--warm-up " + std::to_string(warm_up_) + ": expected 0 or more");
     if (edges_ < -1) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more, or -1");
     if (!(noise_ >= 0)) throw UsageError("--noise: expected 0 percent or more");
-    if (!path_.empty() && !size_.empty())
-      throw UsageError("--size is for the built-in sequence; a recorded one has its own");
+    const SyntheticOptions usual;
+    if (!path_.empty() &&
+        (!size_.empty() || scene_.scene != usual.scene || scene_.path != usual.path || scene_.seed != usual.seed))
+      throw UsageError(
+          "--size, --scene, --path and --scene-seed are for the built-in sequence; a recorded one has its own");
     if (!compare_.empty() && !std::filesystem::is_regular_file(path_) && json_.empty()) {
       throw UsageError("--compare: name a second result, or --json FILE for what is measured now");
     }
@@ -93,7 +99,7 @@ class BenchCommand : public Command {
 
   std::unique_ptr<FrameSource> open_source(RenderingStatus& rendering) const {
     if (!path_.empty()) return make_recorded_source(open_dataset(path_));
-    SyntheticOptions scene;
+    SyntheticOptions scene = scene_;
     scene.frames = 1 + warm_up_ + frames_;
     set_size(scene, size_);
     return make_synthetic_source(scene, [&](const data::RenderingProgress& frames) { return rendering.show(frames); });
@@ -147,6 +153,7 @@ class BenchCommand : public Command {
     return record;
   }
 
+  SyntheticOptions scene_;
   std::string path_, size_, json_, trace_, compare_;
   int edges_ = -1, frames_ = 30, warm_up_ = 3;
   double noise_ = 10;

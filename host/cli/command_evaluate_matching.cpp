@@ -1,6 +1,5 @@
 /// \file command_evaluate_matching.cpp  quadedge evaluate matching: what every filter keeps and loses.
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 
 #include "cli/command.hpp"
@@ -9,6 +8,7 @@
 #include "cli/matching_tables.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/scene_options.hpp"
 #include "cli/sweep.hpp"
 #include "data/atomic_file.hpp"
 #include "evaluation/matching_evaluation.hpp"
@@ -34,9 +34,10 @@ class EvaluateMatchingCommand : public Command {
     options.positionals(
         "PATH", paths_,
         "pairs with disparities, sequences with depth (`quadedge synth`), folders of those, or a built-in scene: room, "
-        "cables");
+        "cables, facade");
     options.number("--frames", frames_, "only the first N frames of each sequence; 0: all, of a built-in scene 10");
-    options.text("--size", size_, "size of the images of built-in scenes [px]; default 942x489", "WxH");
+    declare_view(options, scene_, size_);
+    options.number("--scene-seed", scene_.seed, "of the built-in scenes");
     options.number("--tolerance", tolerance_.position, "a match this near to the true position is veridical [px]");
     options.text("--sweep", sweep_, "only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
     options.text("--json", json_, "also write the tables to a file", "FILE");
@@ -77,8 +78,8 @@ class EvaluateMatchingCommand : public Command {
  private:
   void open_sources() {
     for (const auto& path : paths_) {
-      if ((path == "room" || path == "cables") && !std::filesystem::exists(path)) {
-        SyntheticOptions scene;
+      if (is_scene(path)) {
+        SyntheticOptions scene = scene_;
         scene.scene = path;
         scene.frames = frames_ > 0 ? frames_ : kRenderedFrames;
         set_size(scene, size_);
@@ -125,6 +126,7 @@ class EvaluateMatchingCommand : public Command {
   }
 
   std::vector<std::string> paths_;
+  SyntheticOptions scene_;
   std::string size_, sweep_, json_, html_, draw_;
   int frames_ = 0;
   bool force_ = false, quiet_ = false;

@@ -30,13 +30,14 @@ class RecordedSource : public FrameSource {
 class SyntheticSource : public FrameSource {
  public:
   SyntheticSource(const SyntheticOptions& options, data::RenderedFrames::Watch watch)
-      : scene_(options.scene), frames_(options, rendered_folder(), std::move(watch)) {
+      : frames_(options, rendered_folder(), std::move(watch)) {
     const auto& sequence = frames_.sequence();
     for (int i = 0; i < sequence.frames(); ++i) truth_.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
   }
   const StereoRig& rig() const override { return frames_.sequence().rig(); }
   report::InputFacts facts() const override {
-    return {"built-in", "synthetic", scene_, frames_.sequence().frames(), rig().left.width, rig().left.height};
+    return {"built-in",       "synthetic",      frames_.sequence().name(), frames_.sequence().frames(),
+            rig().left.width, rig().left.height};
   }
   double max_disparity() const override { return frames_.sequence().max_disparity(); }
   std::string prepare() override {
@@ -59,7 +60,6 @@ class SyntheticSource : public FrameSource {
     return cache.empty() ? cache : cache + "/rendered";
   }
 
-  std::string scene_;
   data::RenderedFrames frames_;
   Trajectory truth_;
 };

@@ -1,17 +1,34 @@
 #include "cli/scene_options.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
 namespace quadedge::cli {
 
 void declare_scene(Options& options, SyntheticOptions& scene, std::string& size) {
-  options.choice("--scene", scene.scene, {"room", "cables"}, "room, or cables: thin curves before a plain wall");
+  options.choice("--scene", scene.scene, synthetic_scenes(),
+                 "room; cables: thin curves before a plain wall; facade: siding, brick, a fence and shrubs");
   options.number("--frames", scene.frames, "length of the sequence");
-  options.text("--size", size, "size of the images [px]; default 942x489", "WxH");
+  declare_view(options, scene, size);
   options.group("What disturbs the rendered camera");
   options.number("--noise", scene.noise, "standard deviation of the camera noise [grey levels]");
   options.number("--gain", scene.gain, "factor on the light of every second frame");
   options.number("--right-gain", scene.right_gain, "factor on the right camera's exposure");
-  options.number("--blur", scene.blur, "length of the motion blur [px]");
+  options.number("--blur", scene.blur,
+                 "length of the motion blur, on average over the path [px]; what the path moves per frame at most");
   options.number("--mover", scene.mover, "ratio of the image that a board moving on its own covers, 0 to 0.6");
+}
+
+void declare_view(Options& options, SyntheticOptions& scene, std::string& size) {
+  options.choice("--path", scene.path, synthetic_paths(),
+                 "how the camera of a built-in scene moves; drive: as far as the scene goes, 61 frames, facade 103; "
+                 "loop: the last frame is back at the first one's pose");
+  options.text("--size", size, "size of the images of built-in scenes [px]; default 942x489", "WxH");
+}
+
+bool is_scene(const std::string& path) {
+  const auto& scenes = synthetic_scenes();
+  return std::find(scenes.begin(), scenes.end(), path) != scenes.end() && !std::filesystem::exists(path);
 }
 
 }  // namespace quadedge::cli

@@ -1,5 +1,5 @@
 #pragma once
-/// \file scene_options.hpp  The options of commands that render: the scene and what disturbs the camera.
+/// \file scene_options.hpp  The options of commands that render: the scene, the path and what disturbs the camera.
 
 #include <string>
 
@@ -8,7 +8,13 @@
 
 namespace quadedge::cli {
 
-/// Declares --scene, --frames, --size (read into `size`, see set_size()), and the disturbances.
+/// Declares --scene, --frames, those of declare_view(), and the disturbances.
 void declare_scene(Options& options, SyntheticOptions& scene, std::string& size);
+
+/// Declares --path and --size (read into `size`, see set_size()).
+void declare_view(Options& options, SyntheticOptions& scene, std::string& size);
+
+/// Whether a command's PATH is the name of a built-in scene; a file or folder of that name goes first.
+bool is_scene(const std::string& path);
 
 }  // namespace quadedge::cli

@@ -21,14 +21,16 @@ constexpr std::chrono::milliseconds kPoll{50};
 
 /// Stands for the pixels of all frames with these options.
 std::string key_of(const SyntheticOptions& options) {
-  // Naming every member makes this fail to compile when one is added. Length and threads do not change a pixel.
-  const auto& [scene, frames, width, height, focal, baseline, noise, gain, right_gain, blur, mover, supersampling, seed,
-               threads] = options;
-  static_cast<void>(frames);
+  // Naming every member makes this fail to compile when one is added. Threads do not change a pixel, nor does the
+  // length, but of the loop, which closes with the last frame.
+  const auto& [scene, path, frames, width, height, focal, baseline, noise, gain, right_gain, blur, mover, supersampling,
+               seed, threads] = options;
   static_cast<void>(threads);
   ContentHash hash;
   hash.add(renderer_version());
   hash.add(scene);
+  hash.add(path);
+  hash.add(std::to_string(path == "loop" ? frames : 0));
   hash.add({static_cast<double>(width), static_cast<double>(height), focal, baseline, noise, gain, right_gain, blur,
             mover, static_cast<double>(supersampling)});
   hash.add(std::to_string(seed));

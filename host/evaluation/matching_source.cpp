@@ -104,8 +104,8 @@ class RecordedSource : public MatchingSource {
 
 class RenderedSource : public MatchingSource {
  public:
-  explicit RenderedSource(const SyntheticOptions& options) : name_(options.scene), sequence_(options) {}
-  std::string name() const override { return name_; }
+  explicit RenderedSource(const SyntheticOptions& options) : sequence_(options) {}
+  std::string name() const override { return sequence_.name(); }
   const StereoRig& rig() const override { return sequence_.rig(); }
   double max_disparity() const override { return sequence_.max_disparity(); }
   int frames() const override { return sequence_.frames(); }
@@ -125,7 +125,6 @@ class RenderedSource : public MatchingSource {
   }
 
  private:
-  std::string name_;
   SyntheticSequence sequence_;
 };
 

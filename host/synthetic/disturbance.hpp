@@ -7,6 +7,7 @@
 
 #include "quadedge/camera.hpp"
 #include "quadedge/side.hpp"
+#include "synthetic/path.hpp"
 #include "synthetic/render.hpp"
 #include "synthetic/shapes.hpp"
 
@@ -17,8 +18,8 @@ class MovingBoard {
  public:
   /// \param fraction of the left image that it covers
   MovingBoard(const PinholeCamera& left, double fraction, std::uint64_t seed);
-  /// Its surface after `phase` frames.
-  PlaneSurface surface(double phase) const;
+  /// Its surface after `phase` frames before the left camera at `scene_from_left`.
+  PlaneSurface surface(double phase, const Eigen::Isometry3d& scene_from_left) const;
 
  private:
   double half_width_, half_height_;  // [m]
@@ -26,11 +27,18 @@ class MovingBoard {
   std::shared_ptr<const Texture> texture_;
 };
 
-/// One view with the shutter open around the time of `frame`: the mean over as many moments as `blur` asks for. The
-/// depth is the one at the frame's own time. \param board null without \param blur  way of the image's middle, at 2.5
-/// m, while the shutter is open [px]; the camera's motion sets how long that takes, at
-///              most two frame periods
-Radiance expose(const Scene& scene, const MovingBoard* board, const StereoRig& rig, Side side, int frame, double blur,
-                int supersampling, int threads);
+/// What is seen, from where, and for how long the shutter is open.
+struct Exposure {
+  const Scene& scene;
+  const MovingBoard* board;  ///< or null
+  const StereoRig& rig;
+  const CameraPath& path;
+  double duration;  ///< [frame periods]; 0: an instant
+  int supersampling, threads;
+};
+
+/// One view with the shutter open around the time of `frame`: the mean over two moments per pixel of the image's
+/// motion. The depth is the one at the frame's own time.
+Radiance expose(const Exposure& exposure, int frame, Side side);
 
 }  // namespace quadedge::synthetic

@@ -83,6 +83,7 @@ class TileRenderer {
       : camera_(camera),
         grid_(regular_grid(supersampling)),
         fine_(hammersley(4 * supersampling * supersampling)),
+        spread_(1.0 / (supersampling * camera.fx)),
         view_(view) {}
 
   void render(const std::vector<BoxedSurface>& surfaces, int left, int top) const {
@@ -124,8 +125,8 @@ class TileRenderer {
   }
 
  private:
-  static double radiance(const Hit& hit, const Vector3d& ray) {
-    return hit.surface ? hit.surface->radiance(ray, 1.0 / hit.inverse_depth) : 0.0;
+  double radiance(const Hit& hit, const Vector3d& ray) const {
+    return hit.surface ? hit.surface->radiance(ray, 1.0 / hit.inverse_depth, spread_) : 0.0;
   }
 
   /// Mean over the grid; stops at a ray that meets another object.
@@ -158,6 +159,7 @@ class TileRenderer {
 
   const PinholeCamera& camera_;
   std::vector<Vector2d> grid_, fine_;
+  double spread_;  // distance between neighbouring rays of the grid at unit depth
   Radiance& view_;
 };
 

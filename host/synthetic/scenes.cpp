@@ -1,113 +1,33 @@
 #include "synthetic/scenes.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "quadedge/pi.hpp"
 #include "synthetic/hash.hpp"
+#include "synthetic/scene_builder.hpp"
 
 namespace quadedge::synthetic {
 namespace {
 
-using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Turned around y, then x, then z of its own frame [rad], placed at `centre`.
-Isometry3d pose(const Vector3d& centre, double yaw, double pitch, double roll) {
-  Isometry3d result = Isometry3d::Identity();
-  result.translation() = centre;
-  result.linear() =
-      (AngleAxisd(yaw, Vector3d::UnitY()) * AngleAxisd(pitch, Vector3d::UnitX()) * AngleAxisd(roll, Vector3d::UnitZ()))
-          .toRotationMatrix();
-  return result;
-}
-
-/// One side of a box: its frame, whose -z faces outwards (or into the box), and its half sizes.
-struct Side {
-  Isometry3d box_from_side;
-  double half_width, half_height;
-};
-std::vector<Side> box_sides(const Vector3d& half, bool inwards) {
-  std::vector<Side> sides;
-  const double sign = inwards ? -1.0 : 1.0;
-  const auto add = [&](const Vector3d& outwards, double distance, double yaw, double pitch, double half_width,
-                       double half_height) {
-    sides.push_back({pose(sign * distance * outwards, yaw, pitch, 0.0), half_width, half_height});
-  };
-  add(-Vector3d::UnitZ(), half.z(), 0.0, 0.0, half.x(), half.y());
-  add(Vector3d::UnitZ(), half.z(), kPi, 0.0, half.x(), half.y());
-  add(-Vector3d::UnitX(), half.x(), 0.5 * kPi, 0.0, half.z(), half.y());
-  add(Vector3d::UnitX(), half.x(), -0.5 * kPi, 0.0, half.z(), half.y());
-  add(-Vector3d::UnitY(), half.y(), 0.0, -0.5 * kPi, half.x(), half.z());
-  add(Vector3d::UnitY(), half.y(), 0.0, 0.5 * kPi, half.x(), half.z());
-  return sides;
-}
-
-/// Puts solids together; every face gets a texture of its own.
-class Builder {
- public:
-  Builder(std::uint64_t seed, double focal, const Isometry3d& world_from_room)
-      : seed_(seed), focal_(focal), world_from_room_(world_from_room) {}
-
-  /// `nearest`: distance [m] at which a texel covers half a pixel.
-  void box(const Isometry3d& room_from_box, const Vector3d& half, const TextureStyle& style, double nearest,
-           bool inwards = false) {
-    for (const Side& side : box_sides(half, inwards))
-      add<PlaneSurface>(room_from_box * side.box_from_side, side.half_width, side.half_height,
-                        texture(style, side.half_width, side.half_height, nearest));
-  }
-
-  void sphere(const Isometry3d& room_from_sphere, double radius, const TextureStyle& style, double nearest) {
-    add<SphereSurface>(room_from_sphere, radius, texture(style, kPi * radius, kPi * radius, nearest));
-  }
-
-  void cylinder(const Isometry3d& room_from_cylinder, double radius, double half_height, const TextureStyle& style,
-                double nearest) {
-    add<CylinderSurface>(room_from_cylinder, radius, half_height, texture(style, kPi * radius, half_height, nearest));
-    for (const double side : {-1.0, 1.0})
-      add<PlaneSurface>(room_from_cylinder * pose(side * half_height * Vector3d::UnitY(), 0.0, side * 0.5 * kPi, 0.0),
-                        radius, radius, texture(style, radius, radius, nearest), true);
-  }
-
-  Scene take(double nearest) {
-    scene_.nearest = nearest;
-    return std::move(scene_);
-  }
-
- private:
-  /// No two faces have quite the same tone.
-  std::shared_ptr<const Texture> texture(TextureStyle style, double half_width, double half_height, double nearest) {
-    if (style.feature > 0.0) style.mean += 25.0 * (2.0 * uniform(combine(~seed_, count_)) - 1.0);
-    return std::make_shared<Texture>(style, combine(seed_, count_++), half_width, half_height, 0.5 * nearest / focal_);
-  }
-  template <typename Kind, typename... Arguments>
-  void add(const Isometry3d& room_from_surface, Arguments&&... arguments) {
-    scene_.surfaces.push_back(
-        std::make_unique<Kind>(world_from_room_ * room_from_surface, std::forward<Arguments>(arguments)...));
-  }
-
-  std::uint64_t seed_;
-  double focal_;
-  Isometry3d world_from_room_;
-  std::int64_t count_ = 0;
-  Scene scene_;
-};
-
-TextureStyle leaves(double feature, int levels, double alignment, double mean) {
-  TextureStyle style;
-  style.feature = feature;
-  style.levels = levels;
-  style.alignment = alignment;
-  style.mean = mean;
-  return style;
+/// A lane straight ahead.
+Lane lane_ahead(double start, double length, double step) {
+  return {Isometry3d(Eigen::Translation3d(0.0, 0.0, start)), length, step};
 }
 
 }  // namespace
 
+Scene make_scene(const std::string& name, std::uint64_t seed, double focal) {
+  if (name == "room") return make_room(seed, focal);
+  if (name == "cables") return make_cables(seed, focal);
+  return make_facade(seed, focal);
+}
+
 Scene make_room(std::uint64_t seed, double focal) {
   // Room: x right, y down, z into the depth; turned so that no wall is parallel to the first image.
-  Builder build(combine(seed, 1), focal, pose(Vector3d::Zero(), 0.2, 0.05, 0.03));
+  SceneBuilder build(combine(seed, 1), focal, pose(Vector3d::Zero(), 0.2, 0.05, 0.03));
   TextureStyle walls = leaves(0.8, 4, 0.75, 150.0);
   walls.cover = 0.3;
   build.box(pose({0.2, -0.15, 1.3}, 0.0, 0.0, 0.0), {3.0, 1.45, 4.0}, walls, 3.2, true);
@@ -131,17 +51,17 @@ Scene make_room(std::uint64_t seed, double focal) {
   build.box(pose({-1.25, 0.05, 2.2}, -0.6, 0.15, 0.2), {0.2, 0.28, 0.02}, leaves(0.18, 3, 0.1, 175.0), 1.3);
   build.sphere(pose({-1.1, -0.75, 2.8}, 0.2, 0.1, 0.0), 0.21, leaves(0.18, 2, 0.0, 95.0), 1.8);
   build.sphere(pose({0.75, -0.75, 2.7}, 0.0, 0.0, 0.0), 0.16, leaves(0.16, 2, 0.0, 75.0), 1.7);
-  return build.take(1.0);
+  return build.take(1.0, lane_ahead(-2.1, 2.8, 0.045));
 }
 
 Scene make_cables(std::uint64_t seed, double focal) {
-  Builder build(combine(seed, 2), focal, pose(Vector3d::Zero(), 0.06, 0.03, 0.0));
+  SceneBuilder build(combine(seed, 2), focal, pose(Vector3d::Zero(), 0.06, 0.03, 0.0));
   TextureStyle plain;
   plain.noise = 5.0;
   plain.noise_size = 0.8;
   plain.mean = 150.0;
   build.box(pose({0.0, 0.0, 0.0}, 0.0, 0.0, 0.0), {9.0, 9.0, 3.1}, plain, 8.0, true);
-  Scene scene = build.take(0.9);
+  Scene scene = build.take(0.9, lane_ahead(-2.6, 3.1, 0.05));
 
   // Every cable keeps to its own layer of depth, so that cables cross but never run through one another.
   Random random(combine(seed, 3));

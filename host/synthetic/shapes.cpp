@@ -49,8 +49,10 @@ class VisiblePlane : public VisibleSurface {
     return inverse;
   }
 
-  double radiance(const Vector3d& ray, double depth) const override {
-    return shade_ * texture_.sample(u_.dot(ray) * depth - u_offset_, v_.dot(ray) * depth - v_offset_);
+  double radiance(const Vector3d& ray, double depth, double spread) const override {
+    // Rays meet a slanted plane further apart: depth^2 |ray| / distance of the plane, times their spread.
+    const double footprint = spread * depth * depth * ray.norm() * inverse_.norm();
+    return shade_ * texture_.sample(u_.dot(ray) * depth - u_offset_, v_.dot(ray) * depth - v_offset_, footprint);
   }
 
   PixelBox pixels(const PinholeCamera& camera) const override {
@@ -93,11 +95,11 @@ class VisibleSphere : public VisibleSurface {
     return (half_b + std::sqrt(root)) / constant_;  // 1 / smaller root, without cancellation
   }
 
-  double radiance(const Vector3d& ray, double depth) const override {
+  double radiance(const Vector3d& ray, double depth, double spread) const override {
     const Vector3d normal = (depth * ray - centre_) / radius_, place = surface_from_camera_ * normal;
     const double side = std::hypot(place.x(), place.y());
     const double stretch = side > 1e-12 ? radius_ * std::atan2(side, -place.z()) / side : radius_;
-    return shade(normal, light_, kAmbient) * texture_.sample(stretch * place.x(), stretch * place.y());
+    return shade(normal, light_, kAmbient) * texture_.sample(stretch * place.x(), stretch * place.y(), spread * depth);
   }
 
   PixelBox pixels(const PinholeCamera& camera) const override {
@@ -133,11 +135,11 @@ class VisibleCylinder : public VisibleSurface {
     return std::abs(o.y() * inverse + d.y()) <= half_height_ * inverse ? inverse : 0.0;
   }
 
-  double radiance(const Vector3d& ray, double depth) const override {
+  double radiance(const Vector3d& ray, double depth, double spread) const override {
     const Vector3d place = surface_from_camera_ * (depth * ray);
     const double angle = std::atan2(place.x(), -place.z());
     const Vector3d normal = Vector3d(place.x(), 0.0, place.z()) / radius_;
-    return shade(normal, light_, kAmbient) * texture_.sample(radius_ * angle, place.y());
+    return shade(normal, light_, kAmbient) * texture_.sample(radius_ * angle, place.y(), spread * depth);
   }
 
   PixelBox pixels(const PinholeCamera& camera) const override {

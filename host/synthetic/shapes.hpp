@@ -21,8 +21,9 @@ class VisibleSurface {
   virtual ~VisibleSurface() = default;
   /// 1 / depth [1/m] of the first hit in front of the camera; 0 where the ray misses.
   virtual double inverse_depth(const Eigen::Vector3d& ray) const = 0;
-  /// Radiance [grey levels] at a hit that inverse_depth found.
-  virtual double radiance(const Eigen::Vector3d& ray, double depth) const = 0;
+  /// Radiance [grey levels] at a hit that inverse_depth found. `spread`: distance between neighbouring rays at unit
+  /// depth.
+  virtual double radiance(const Eigen::Vector3d& ray, double depth, double spread) const = 0;
   /// Contains every pixel whose square shows the surface.
   virtual PixelBox pixels(const PinholeCamera& camera) const = 0;
   /// The same for parts that join without a step.
@@ -38,9 +39,17 @@ class Surface {
   virtual void view(const Eigen::Isometry3d& camera_from_world, VisibleSurfaces& parts) const = 0;
 };
 
+/// Where a car can drive: straight along z of its start.
+struct Lane {
+  Eigen::Isometry3d world_from_start = Eigen::Isometry3d::Identity();
+  double length = 0.0;  ///< [m] of free way
+  double step = 0.0;    ///< usual speed [m per frame]
+};
+
 /// A scene with diffuse surfaces and one distant light.
 struct Scene {
   std::vector<std::unique_ptr<Surface>> surfaces;
+  Lane lane;
   double nearest = 0.0;  ///< no surface in view is nearer to the camera along its path [m]
 };
 

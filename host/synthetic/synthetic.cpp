@@ -23,9 +23,16 @@ void require(bool allowed, const char* name, double value, const char* range) {
   throw UsageError(message.str());
 }
 
+void require_known(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  std::string allowed;
+  for (const std::string& word : known) allowed += (allowed.empty() ? "" : ", ") + word;
+  throw UsageError("synthetic sequence: unknown " + what + " '" + name + "', allowed: " + allowed);
+}
+
 void check(const SyntheticOptions& options) {
-  if (options.scene != "room" && options.scene != "cables")
-    throw UsageError("synthetic sequence: unknown scene '" + options.scene + "', allowed: room, cables");
+  require_known("scene", options.scene, synthetic_scenes());
+  require_known("path", options.path, synthetic_paths());
   require(options.frames >= 1, "frames", options.frames, "at least 1");
   require(options.width >= 8 && options.width <= 8192, "width", options.width, "8 to 8192 px");
   require(options.height >= 8 && options.height <= 8192, "height", options.height, "8 to 8192 px");
@@ -54,27 +61,68 @@ StereoRig make_rig(const SyntheticOptions& options) {
   return rig;
 }
 
+/// How long the shutter is open for the blur that is asked for [frame periods].
+double exposure_of(const SyntheticOptions& options, const synthetic::CameraPath& path, const PinholeCamera& camera) {
+  if (options.blur == 0.0) return 0.0;
+  const double motion = path.mean_image_motion(camera);
+  if (options.blur > motion) {
+    std::ostringstream message;
+    message << "synthetic sequence: blur = " << options.blur << ", allowed: 0 to " << std::floor(100.0 * motion) / 100.0
+            << " px: so far the image moves per frame on path " << options.path << " in " << options.width << " x "
+            << options.height << " px, and a shutter cannot be open for longer than a frame";
+    throw UsageError(message.str());
+  }
+  return options.blur / motion;
+}
+
 }  // namespace
+
+const std::vector<std::string>& synthetic_scenes() {
+  static const std::vector<std::string> scenes = {"room", "cables", "facade"};
+  return scenes;
+}
+
+const std::vector<std::string>& synthetic_paths() {
+  static const std::vector<std::string> paths = {"ellipse", "handheld", "drive", "loop"};
+  return paths;
+}
 
 class SyntheticSequence::Implementation {
  public:
+  explicit Implementation(const SyntheticOptions& asked)
+      : options(asked),
+        rig(make_rig(asked)),
+        scene(synthetic::make_scene(asked.scene, asked.seed, asked.focal)),
+        path(asked.path, asked.seed, asked.frames, scene.lane),
+        exposure(exposure_of(asked, path, rig.left)) {
+    if (options.mover > 0.0) board.emplace(rig.left, options.mover, options.seed);
+  }
+
   SyntheticOptions options;
   StereoRig rig;
   synthetic::Scene scene;
+  synthetic::CameraPath path;
+  double exposure;  // [frame periods]
   std::optional<synthetic::MovingBoard> board;
 };
 
-SyntheticSequence::SyntheticSequence(const SyntheticOptions& options)
-    : implementation_(std::make_unique<Implementation>()) {
+SyntheticSequence::SyntheticSequence(const SyntheticOptions& options) {
   check(options);
-  implementation_->options = options;
-  implementation_->rig = make_rig(options);
-  implementation_->scene = options.scene == "room" ? synthetic::make_room(options.seed, options.focal)
-                                                   : synthetic::make_cables(options.seed, options.focal);
-  if (options.mover > 0.0) implementation_->board.emplace(implementation_->rig.left, options.mover, options.seed);
+  implementation_ = std::make_unique<Implementation>(options);
+  if (const int longest = implementation_->path.longest(); options.frames > longest) {
+    std::ostringstream range;
+    range << "1 to " << longest << " on path " << options.path << " in the scene " << options.scene
+          << ", whose lane is " << implementation_->scene.lane.length << " m long";
+    require(false, "frames", options.frames, range.str().c_str());
+  }
 }
 
 SyntheticSequence::~SyntheticSequence() = default;
+
+std::string SyntheticSequence::name() const {
+  const SyntheticOptions& options = implementation_->options;
+  return options.path == "ellipse" ? options.scene : options.scene + "-" + options.path;
+}
 
 const StereoRig& SyntheticSequence::rig() const { return implementation_->rig; }
 
@@ -82,14 +130,17 @@ int SyntheticSequence::frames() const { return implementation_->options.frames; 
 
 std::int64_t SyntheticSequence::stamp_ns(int frame) const { return frame * kFramePeriod; }
 
-Eigen::Isometry3d SyntheticSequence::world_from_left(int frame) const { return synthetic::world_from_left(frame); }
+Eigen::Isometry3d SyntheticSequence::world_from_left(int frame) const {
+  return implementation_->path.world_from_left(frame);
+}
 
 RenderedView SyntheticSequence::render(int frame, Side side) const {
   const SyntheticOptions& options = implementation_->options;
   require(frame >= 0 && frame < options.frames, "frame", frame, "0 to frames - 1");
   const synthetic::MovingBoard* board = implementation_->board ? &*implementation_->board : nullptr;
-  synthetic::Radiance radiance = synthetic::expose(implementation_->scene, board, rig(), side, frame, options.blur,
-                                                   options.supersampling, options.threads);
+  synthetic::Radiance radiance = synthetic::expose({implementation_->scene, board, rig(), implementation_->path,
+                                                    implementation_->exposure, options.supersampling, options.threads},
+                                                   frame, side);
   const double gain = (frame % 2 == 1 ? options.gain : 1.0) * (side == Side::right ? options.right_gain : 1.0);
 
   RenderedView view;

@@ -1,41 +1,39 @@
 #pragma once
-/// \file texture.hpp  Band-limited reflectance maps that never repeat.
+/// \file texture.hpp  Flat reflectance maps: painted in tiles when somebody looks, each at the resolution of the look.
 
 #include <atomic>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace quadedge::synthetic {
 
-/// What a surface looks like.
-struct TextureStyle {
-  double feature = 0.0;      ///< size of the largest leaves [m]; 0: no leaves, noise alone
-  int levels = 4;            ///< generations of leaves, each half as large as the one before
-  double cover = 0.4;        ///< leaves per cell of their size in the generations after the first, 0 to 1
-  double alignment = 0.0;    ///< fraction of the leaves that are upright rectangles, 0 to 1
-  double noise = 10.0;       ///< amplitude of the fractal noise [grey levels]
-  double noise_size = 0.25;  ///< largest noise wavelength [m]
-  double mean = 130.0;       ///< grey level of the ground
-  double spread = 70.0;      ///< leaves are mean +- spread [grey levels], kept in 25..235
+/// A square of texels to paint.
+struct TexelSquare {
+  double left, top;  ///< place of the first texel on the surface [m]
+  double texel;      ///< from texel to texel [m]
+  int side;          ///< texels per side
+  float* texels;     ///< side x side, row-major [grey levels]
 };
 
-/// A flat reflectance map in grey levels: opaque leaves of all sizes lying on one another ("dead leaves": sharp
-/// reflectance steps, corners and occlusions at several scales) plus multi-octave gradient noise.
-///
-/// The map is a function of the plane that is sampled at `texel` and interpolated bilinearly. Steps are ramps 1.5
-/// texels wide and noise or leaves below the sampling limit are faded, so that a texel of half a pixel does not alias.
-/// Tiles are made when somebody looks at them; what they hold depends on the seed alone. Safe for several threads.
+/// What a surface looks like: a function of the place on it, band-limited to the texels that are asked for.
+class Painter {
+ public:
+  virtual ~Painter() = default;
+  /// Fills the square. The same place gets the same value in every square of the same texel size.
+  virtual void paint(const TexelSquare& square) const = 0;
+};
+
+/// A flat reflectance map in grey levels, sampled at `texel` and interpolated bilinearly; with several levels also at
+/// 2, 4, 8 ... times that, for surfaces that are seen from near and far. Tiles are painted when somebody looks at
+/// them; what they hold depends on the painter alone. Safe for several threads.
 class Texture {
  public:
   /// Covers |u| <= half_width, |v| <= half_height [m].
-  Texture(const TextureStyle& style, std::uint64_t seed, double half_width, double half_height, double texel);
-  ~Texture();
-  Texture(const Texture&) = delete;
-  Texture& operator=(const Texture&) = delete;
+  Texture(std::unique_ptr<const Painter> painter, double half_width, double half_height, double texel, int levels = 1);
 
-  /// Reflectance [grey levels] at (u, v) [m]; places outside the map take the value of its border.
-  double sample(double u, double v) const;
+  /// Reflectance [grey levels] at (u, v) [m]; places outside the map take the value of its border. `footprint`:
+  /// distance between neighbouring rays on the surface [m]; the levels around it are blended linearly in its logarithm.
+  double sample(double u, double v, double footprint = 0.0) const;
 
  private:
   static constexpr int kTile = 64;           // texels per tile side
@@ -43,17 +41,21 @@ class Texture {
   struct Tile {
     float texels[kStride * kStride];
   };
+  /// The whole map at one texel size.
+  struct Level {
+    Level(double half_width, double half_height, double texel_size);
+    ~Level();
+    double texel;
+    int width, height, tiles_x, tiles_y;
+    mutable std::vector<std::atomic<Tile*>> tiles;
+  };
 
-  const Tile& tile(int index) const;
-  void paint(Tile& tile, int tile_x, int tile_y) const;
-  void add_leaves(Tile& tile, double left, double top, int level) const;
-  void add_noise(Tile& tile, double left, double top) const;
+  double sample(const Level& level, double u, double v) const;
+  const Tile& tile(const Level& level, int index) const;
 
-  TextureStyle style_;
-  std::uint64_t seed_;
-  double half_width_, half_height_, texel_;
-  int width_, height_, tiles_x_, tiles_y_;
-  mutable std::vector<std::atomic<Tile*>> tiles_;
+  std::unique_ptr<const Painter> painter_;
+  double half_width_, half_height_;
+  std::vector<std::unique_ptr<const Level>> levels_;
 };
 
 }  // namespace quadedge::synthetic

@@ -52,7 +52,7 @@ class VisibleLink : public VisibleSurface {
     return place >= 0.0 && place <= length_ * inverse ? std::max(inverse, nearest) : nearest;
   }
 
-  double radiance(const Vector3d& ray, double depth) const override {
+  double radiance(const Vector3d& ray, double depth, double /*spread*/) const override {
     const Vector3d hit = depth * ray - start_;
     const double along = std::clamp(hit.dot(axis_), 0.0, length_), fraction = along / length_;
     const Vector3d tangent = ((1.0 - fraction) * start_tangent_ + fraction * end_tangent_).normalized();

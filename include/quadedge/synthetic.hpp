@@ -13,10 +13,20 @@
 
 namespace quadedge {
 
+/// The built-in scenes. room: textured walls with objects in front of one another; cables: curved cables before a plain
+/// wall; facade: a street of houses with siding and brick, a fence and shrubs before them.
+const std::vector<std::string>& synthetic_scenes();
+
+/// How the camera can move. ellipse: around 1 m by 0.5 m, seen again every 114 frames, whatever the seed; handheld: in
+/// the hand of somebody walking, turning by up to 5 degrees and the image's middle by up to 20 px per frame (at 942
+/// px); drive: a car on a lane of 2.8 m (room, 61 frames), 3.1 m (cables, 61) or 26 m (facade, 103); loop: a closed
+/// round, the last frame has the first one's pose exactly.
+const std::vector<std::string>& synthetic_paths();
+
 /// What to render.
 struct SyntheticOptions {
-  std::string scene =
-      "room";  ///< room: textured walls with objects in front of one another; cables: curved cables before a plain wall
+  std::string scene = "room";    ///< one of synthetic_scenes()
+  std::string path = "ellipse";  ///< one of synthetic_paths()
   int frames = 60;
   int width = 942, height = 489;
   double focal = 541.764;       ///< px
@@ -24,11 +34,14 @@ struct SyntheticOptions {
   double noise = 1.5;           ///< standard deviation of the camera noise [grey levels]
   double gain = 1.0;  ///< of the light in every second frame: it changes by this factor, and back, from frame to frame
   double right_gain = 1.0;  ///< of the right camera's exposure
-  double blur = 0.0;        ///< motion blur: way of the image's middle, at 2.5 m, while the shutter is open [px]
-  double mover = 0.0;       ///< fraction of the left image that a board moving on its own covers
-  int supersampling = 4;    ///< rays per pixel and axis
-  std::uint64_t seed = 7;   ///< of textures, cable shapes and camera noise; the path and the room's objects stay
-  int threads = 0;          ///< that render a view, 0: one per processor; the result does not depend on it
+  /// Motion blur: way of the image's middle, at 2.5 m, while the shutter is open, on average over the path [px]. The
+  /// shutter is open equally long in all frames, a frame period at most: more than the path's mean motion per frame is
+  /// refused.
+  double blur = 0.0;
+  double mover = 0.0;      ///< fraction of the left image that a board moving on its own covers
+  int supersampling = 4;   ///< rays per pixel and axis
+  std::uint64_t seed = 7;  ///< of textures, camera noise, swaying paths, the shapes of cables and facade
+  int threads = 0;         ///< that render a view, 0: one per processor; the result does not depend on it
 };
 
 /// One rendered view.
@@ -47,6 +60,8 @@ class SyntheticSequence {
   explicit SyntheticSequence(const SyntheticOptions& options);
   ~SyntheticSequence();
 
+  /// Scene and path, "facade-drive"; of the ellipse the scene alone.
+  std::string name() const;
   const StereoRig& rig() const;
   int frames() const;
   std::int64_t stamp_ns(int frame) const;  ///< 20 frames per second

@@ -1,0 +1,77 @@
+// The built-in scenes and paths as a user asks for them.
+#include <catch2/catch.hpp>
+
+#include "program.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/synthetic.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+TEST_CASE("command line: every scene and path can be written to disk, with its exact poses", "[cli][synthetic]") {
+  const TemporaryFolder folder;
+  for (const std::string& scene : synthetic_scenes()) {
+    for (const std::string& path : synthetic_paths()) {
+      if (scene != "facade" && path != "handheld") continue;  // the others differ in nothing
+      CAPTURE(scene, path);
+      const auto result = run_program({"synth", folder / "s", "--scene", scene, "--path", path, "--frames", "3",
+                                       "--size", "64x33", "--seed", "9", "--force", "--quiet"});
+      REQUIRE(result.code == 0);
+      SyntheticOptions options;
+      options.scene = scene;
+      options.path = path;
+      options.frames = 3;
+      options.seed = 9;
+      options.focal *= 64.0 / options.width;
+      options.width = 64;
+      options.height = 33;
+      const SyntheticSequence sequence(options);
+      const Dataset set = open_dataset(folder / "s");
+      REQUIRE(set.truth.size() == 3);
+      for (int i = 0; i < 3; ++i) {
+        const auto& pose = set.truth[static_cast<std::size_t>(i)].world_from_left.matrix();
+        CHECK((pose - sequence.world_from_left(i).matrix()).cwiseAbs().maxCoeff() < 1e-14);
+        CHECK(read_grey_image(set.frames[static_cast<std::size_t>(i)].left).pixels ==
+              sequence.render(i, Side::left).image.pixels);
+      }
+    }
+  }
+}
+
+TEST_CASE("command line: what cannot be rendered is refused with code 2, and the most that can is named",
+          "[cli][synthetic]") {
+  const TemporaryFolder folder;
+  for (const std::string command : {"synth", "demo"}) {
+    const std::vector<std::string> output =
+        command == "synth" ? std::vector<std::string>{folder / "s"} : std::vector<std::string>{"-o", folder / "s"};
+    const auto refused = [&](std::vector<std::string> options) {
+      options.insert(options.begin(), output.begin(), output.end());
+      options.insert(options.begin(), command);
+      const auto result = run_program(options);
+      CHECK(result.code == 2);
+      return result.err;
+    };
+    CHECK_THAT(refused({"--blur", "5"}), Contains("blur = 5, allowed: 0 to 1.7") && Contains("path ellipse"));
+    CHECK_THAT(refused({"--blur", "49", "--path", "handheld"}), Contains("blur = 49") && Contains("path handheld"));
+    CHECK_THAT(refused({"--path", "drive", "--frames", "62"}), Contains("1 to 61") && Contains("2.8 m"));
+    CHECK_THAT(refused({"--path", "spiral"}), Contains("handheld") && Contains("loop"));
+    CHECK_THAT(refused({"--scene", "garden"}), Contains("facade"));
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "s"));
+}
+
+TEST_CASE("command line: scenes and paths are listed and can be named wherever something is rendered",
+          "[cli][synthetic]") {
+  for (const std::string command : {"synth", "demo", "bench"}) {
+    INFO(command);
+    CHECK_THAT(run_program({command, "--help"}).out, Contains("facade") && Contains("handheld"));
+  }
+  CHECK_THAT(run_program({"evaluate", "matching", "--help"}).out, Contains("facade") && Contains("handheld"));
+  for (const std::string page : {"man", "bash"})
+    CHECK_THAT(run_program({"generate", page}).out, Contains("facade") && Contains("handheld"));
+  const TemporaryFolder folder;
+  const auto matching = run_program({"evaluate", "matching", "facade", "--path", "handheld", "--scene-seed", "3",
+                                     "--frames", "1", "--size", "200x104", "--quiet", "--json", folder / "m.json"});
+  CHECK(matching.code == 0);
+  CHECK_THAT(matching.out, Contains("facade-handheld: 1 stereo frames"));
+}
