@@ -4,8 +4,8 @@
   scripts/compare_results.py OLD NEW [--data DIR] [--quick] [--work DIR]
 
 OLD and NEW are `quadedge` programs. DIR holds recorded data (default: QUADEDGE_DATA); without it only the built-in
-scenes run that both know. Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv every column
-but the times; of a message only whether there is one, not its words.
+scenes run that both know. Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv
+every column but the times; of a message only whether there is one, not its words.
 Results of OLD stay in the work folder and serve again.
 Exit code 0: all the same, 1: some differ, 2: a run failed.
 """

@@ -6,7 +6,8 @@
     disturbance_sweep.py OUT --kinds mover --values 0.3 --scene-seed 11
 
 Swept are the light of every second frame (half to twice), the right camera's exposure (half to twice), motion blur (to
-5 px, with the camera in the hand: on the ellipse the image does not move that far in a frame), camera noise (to 8 grey levels) and the ratio of the image that a board moving on its own covers (to 40 %).
+5 px, with the camera in the hand: on the ellipse the image does not move that far in a frame), camera noise (to 8 grey
+levels) and the ratio of the image that a board moving on its own covers (to 40 %).
 OUT/disturbances.csv and .json hold one row per run, OUT/disturbances.svg the plots. A step is wrong where it is
 reported as tracked and is off by more than 5 mm + 10 % of the motion or by 0.25 degrees (`quadedge evaluate trajectory
 --steps`). Needs matplotlib and the program `quadedge`.

@@ -1,4 +1,4 @@
-"""What scripts/measure.py measures: accuracy, matching, speed and disturbances, as rows with the commands behind them."""
+"""What scripts/measure.py measures: accuracy, matching, speed and disturbances, in rows with their commands."""
 
 import argparse
 import json
