@@ -73,5 +73,5 @@ TEST_CASE("command line: scenes and paths are listed and can be named wherever s
   const auto matching = run_program({"evaluate", "matching", "facade", "--path", "handheld", "--scene-seed", "3",
                                      "--frames", "1", "--size", "200x104", "--quiet", "--json", folder / "m.json"});
   CHECK(matching.code == 0);
-  CHECK_THAT(matching.out, Contains("facade-handheld: 1 stereo frames"));
+  CHECK_THAT(matching.out, Contains("facade-handheld: 1 stereo frame ==="));
 }
