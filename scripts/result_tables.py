@@ -150,6 +150,15 @@ def paths(results):
     )
 
 
+def step_error(row):
+    """Mean error in mm and what went wrong; nothing where a value was not measured."""
+    if row is None:
+        return ""
+    error = row["rpe_translation_m"]
+    notes = [f", {row[what]} {what}" for what in ("wrong", "lost") if row[what]]
+    return ("-" if error is None else f"{1e3 * error:.2f}") + "".join(notes)
+
+
 def disturbances(results):
     """Mean error of a step, a block of rows per disturbance."""
     rows, kept = [], results["disturbances"]["rows"]
@@ -159,11 +168,8 @@ def disturbances(results):
             continue
         rows.append([label, "", *values, *[""] * (width - len(values))])
         for scene in dict.fromkeys(row["scene"] for row in kept):
-            cells = []
-            for row in (row for row in kept if row["kind"] == kind and row["scene"] == scene):
-                error = row["rpe_translation_m"]
-                notes = [f"{row[what]} {what}" for what in ("wrong", "lost") if row[what]]
-                cells.append(("-" if error is None else f"{1e3 * error:.2f}") + "".join(f", {note}" for note in notes))
+            found = {row["value"]: row for row in kept if row["kind"] == kind and row["scene"] == scene}
+            cells = [step_error(found.get(value)) for value in values]
             rows.append(["", scene, *cells, *[""] * (width - len(cells))])
     frames = kept[0]["frames"]
     return (
