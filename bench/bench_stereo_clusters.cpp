@@ -1,4 +1,4 @@
-/// \file bench_stereo_clusters.cpp  Clusters of refined candidates to stereo edges.
+/// \file bench_stereo_clusters.cpp  Refined candidates to clusters.
 #include "stage_bench.hpp"
 
 namespace {

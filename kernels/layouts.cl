@@ -178,10 +178,44 @@ typedef struct {
   float cluster_orientation;  // rad
   int cluster_size_max;
   float cluster_sigma;
-  float similarity_min;
+} StereoClusterArguments;
+
+// stereo_relaxation.cl. Neighbours are found by cells of this size [px], of which each shows one edge: about the
+// distance of the points of a ring from one another, so that they find different edges.
+FLOAT_CONSTANT kRelaxationCell = 4.0f;
+// Eight points on each of two rings around an edge, px: what lies nearer than the first one shares the edge's patches
+// and their mistake; the second one carries agreement across a repeated texture in a few rounds.
+enum { kRelaxationNeighbours = 16 };
+FLOAT_CONSTANT kRelaxationRing[2] = {6.0f, 20.0f};
+FLOAT_CONSTANT kEighthCosine[8] = {1.0f, 0.70710678f, 0.0f, -0.70710678f, -1.0f, -0.70710678f, 0.0f, 0.70710678f};
+// Two positions support one another as long as they differ by less than this [px], and this per px between the edges:
+// what a surface can turn where nothing says how it is turned.
+FLOAT_CONSTANT kSupportReach = 1.0f;
+FLOAT_CONSTANT kSupportReachPerPixel = 0.2f;
+// Support of an edge that has none: neighbours alone shall not rule out a candidate.
+FLOAT_CONSTANT kSupportFloor = 0.05f;
+// Steepest change of a position along an edge that is believed, and the sine of the smallest angle between a right edge
+// and its epipolar line at which it is taken: below it the angle's error is the slope.
+FLOAT_CONSTANT kSlopeMax = 0.5f;
+FLOAT_CONSTANT kSlopeMinSine = 0.2f;
+typedef struct {
+  PackedPositions left;
+  int capacity;            // of the candidate lists
+  int columns, cell_rows;  // cells of the left image
+  float similarity_min;    // of a candidate that takes part
+  float scale;             // of differences of similarity
+  float support_weight;    // in similarity; 0: no support is asked
+  float score_min;         // of the chosen candidate
+  EpipolarGeometry geometry;
+} StereoRelaxationArguments;
+
+// stereo_mutual.cl.
+typedef struct {
+  PackedPositions left;
+  int capacity;  // of the candidate lists
   float mutual_radius;
   EpipolarGeometry geometry;
-} StereoClusterArguments;
+} StereoMutualArguments;
 
 // temporal_candidates.cl.
 typedef struct {

@@ -1,6 +1,7 @@
 #include <map>
 #include <set>
 
+#include "common/filter_limits.hpp"
 #include "frontends.hpp"
 #include "quadedge/error.hpp"
 
@@ -248,14 +249,19 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       CHECK(tap.edge_calls == 2);
       CHECK(same_bytes(tap.stereo_edges, seen.current));
       CHECK(same_bytes(tap.matched, seen.quads));
-      REQUIRE(tap.stereo_lists.size() == 9);  // filters 1 to 9; 10 is the stereo edges
+      REQUIRE(tap.stereo_lists.size() == 11);  // filters 1 to 11; 12 is the stereo edges
       CHECK(tap.stereo_lists[1].first.size() == seen.left_edges.size() + 1);
       std::size_t gone = 0;
       for (int order = 2; order <= 7; ++order)
         gone += check_subset(tap.stereo_lists[order - 1], tap.stereo_lists[order]);
       CHECK(gone > 1000);
       check_subset(tap.stereo_lists[7], tap.stereo_lists[8]);  // anchors of clusters are candidates
-      check_subset(tap.stereo_lists[8], tap.stereo_lists[9]);
+      for (const int order : {9, 10, 11}) check_subset(tap.stereo_lists[order - 1], tap.stereo_lists[order]);
+      const auto& chosen = tap.stereo_lists[10];
+      for (std::size_t i = 0; i + 1 < chosen.first.size(); ++i) CHECK(chosen.first[i + 1] - chosen.first[i] <= 1);
+      const auto& owned = tap.stereo_lists[11].target;
+      CHECK(std::set<std::int32_t>(owned.begin(), owned.end()).size() == owned.size());
+      CHECK(owned.size() < seen.current.size());
       // The cue of a list is what the next filter judges.
       const Config& config = scene.config;
       check_cue(tap.stereo_lists[3], tap.stereo_lists[4],
@@ -263,7 +269,7 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       check_cue(tap.stereo_lists[4], tap.stereo_lists[5],
                 [&](float ncc) { return ncc >= static_cast<float>(config.stereo.ncc_min); });
       check_cue(tap.stereo_lists[8], tap.stereo_lists[9],
-                [&](float similarity) { return similarity >= static_cast<float>(config.stereo.refined_ncc_min); });
+                [&](float similarity) { return similarity >= lowest_similarity(config.stereo); });
       CHECK(tap.stereo_lists[5].cue.size() == tap.stereo_lists[5].target.size());
       CHECK(tap.stereo_lists[6].cue.size() == tap.stereo_lists[6].target.size());
       CHECK(tap.stereo_lists[7].cue.empty());
@@ -279,16 +285,16 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       CHECK(tap.search.left.x == seen.previous.left_x);
       CHECK(tap.search.right.direction == seen.previous.right_direction);
       CHECK(seen.quads.search == 0);
-      for (std::size_t i = 0; i < seen.current.size(); ++i) {  // the final edge is one of the clusters of its row
+      for (std::size_t i = 0; i < seen.current.size(); ++i) {  // the final edge is the cluster that was chosen
         const auto row = static_cast<std::size_t>(seen.current.left_index[i]);
-        const auto& lists = tap.stereo_lists[9];
+        const auto& lists = chosen;
         bool found = false;
         for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]);
              ++c) {
           found = found || (lists.target[c] == seen.current.right_index[i] &&
                             std::abs(lists.x[c] - seen.current.right_x[i]) < 1e-3f);
         }
-        if (!found) FAIL_CHECK("stereo edge " << i << " is no cluster of its row");
+        if (!found) FAIL_CHECK("stereo edge " << i << " was not chosen");
       }
       const auto rows = (seen.previous.size() + static_cast<std::size_t>(step) - 1) / static_cast<std::size_t>(step);
       for (const int side : {0, 1}) {

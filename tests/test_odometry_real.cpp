@@ -105,6 +105,8 @@ TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other var
                                         {"candidate_filters", "group16"},
                                         {"stereo_refinement", "lanes64"},
                                         {"stereo_clusters", "group16"},
+                                        {"stereo_relaxation", "group64"},
+                                        {"stereo_mutual", "group16"},
                                         {"temporal_candidates", "group16"},
                                         {"temporal_quads", "group16"}})));
   CHECK(same_bytes(

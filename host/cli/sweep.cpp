@@ -27,7 +27,10 @@ constexpr Belongs<StereoFilter> kStereo[] = {{"stereo.epipolar_distance", Stereo
                                              {"stereo.shift", StereoFilter::refinement},
                                              {"stereo.refine_", StereoFilter::refinement},
                                              {"stereo.cluster", StereoFilter::refinement},
-                                             {"stereo.refined_ncc_min", StereoFilter::similarity}};
+                                             {"stereo.refined_ncc_min", StereoFilter::similarity},
+                                             {"stereo.refined_ncc_min", StereoFilter::relaxation},
+                                             {"stereo.relaxation", StereoFilter::relaxation},
+                                             {"stereo.support_weight", StereoFilter::relaxation}};
 constexpr Belongs<TemporalFilter> kTemporal[] = {{"temporal.radius", TemporalFilter::displacement},
                                                  {"temporal.orientation", TemporalFilter::orientation},
                                                  {"temporal.ncc_min", TemporalFilter::ncc},

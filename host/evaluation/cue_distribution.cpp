@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/filter_limits.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/filters.hpp"
 
@@ -93,7 +94,7 @@ std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& confi
   add_similarities<StereoFilter>(table, stereo.ncc_min, stereo.sift_max, stereo.ncc_nearly_best,
                                  stereo.sift_nearly_best, cues);
   cues.push_back(make_cue(table, order_of(StereoFilter::similarity), "similarity of representatives", "", false,
-                          {stereo.refined_ncc_min}, kNcc));
+                          {static_cast<double>(lowest_similarity(stereo))}, kNcc));
 
   const auto& temporal = config.temporal;
   for (const auto side : {CueTable::temporal_left, CueTable::temporal_right}) {

@@ -32,6 +32,8 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       filters_(context, config.variants),
       refinement_(context, config.stereo, config.patches.offset, config.variants),
       clustering_(context, config.stereo, config.variants),
+      relaxation_(context, rig.left.width, rig.left.height, config.stereo, config.variants),
+      mutual_(context, config.stereo, config.variants),
       temporal_candidates_(context, config.variants),
       temporal_quads_(context, config.temporal, config.variants),
       temporal_match_(context, config.temporal, config.variants),
@@ -74,7 +76,9 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
   refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges, rig.left_patches,
                   epipolar_, candidates_, refined_);
-  clustering_.run(left_.edges, right_.edges, right_.patches, epipolar_, candidates_, refined_, clusters_, rig);
+  clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
+  relaxation_.run(left_.edges, epipolar_, candidates_, clusters_, relaxed_);
+  mutual_.run(left_.edges, right_.edges, right_.patches, epipolar_, clusters_, relaxed_, owners_, rig);
   rig.read(current.edges);
   rig.has_sift = false;
   indexed_ = false;

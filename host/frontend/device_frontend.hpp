@@ -9,7 +9,9 @@
 #include "stages/sift.hpp"
 #include "stages/stereo_candidates.hpp"
 #include "stages/stereo_clusters.hpp"
+#include "stages/stereo_mutual.hpp"
 #include "stages/stereo_refinement.hpp"
+#include "stages/stereo_relaxation.hpp"
 #include "stages/temporal_candidates.hpp"
 #include "stages/temporal_match.hpp"
 #include "stages/temporal_quads.hpp"
@@ -74,6 +76,8 @@ class DeviceFrontend : public Frontend {
   stages::CandidateFilters filters_;
   stages::StereoRefinement refinement_;
   stages::StereoClusters clustering_;
+  stages::StereoRelaxation relaxation_;
+  stages::StereoMutual mutual_;
   stages::TemporalCandidates temporal_candidates_;
   stages::TemporalQuads temporal_quads_;
   stages::TemporalMatch temporal_match_;
@@ -85,6 +89,8 @@ class DeviceFrontend : public Frontend {
   opencl::Buffer<cl_uchar> wide_before_, wide_now_;
   stages::DeviceRefined refined_;
   stages::DeviceClusters clusters_;
+  stages::DeviceRelaxation relaxed_;
+  stages::DeviceMutual owners_;
   stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
   bool indexed_ = false;                   ///< of the current frame

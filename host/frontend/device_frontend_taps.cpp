@@ -1,5 +1,6 @@
 /// \file device_frontend_taps.cpp  What the device frontend shows a tap after each filter; nothing here runs without
 /// one.
+#include "common/filter_limits.hpp"
 #include "frontend/device_frontend.hpp"
 
 namespace quadedge::frontend {
@@ -50,16 +51,14 @@ void DeviceFrontend::tap_stereo() {
   const auto anchor = clusters_.anchor.read(size);
   const auto x = left_.edges.packed.read(rows),
              y = left_.edges.packed.read(rows, static_cast<std::size_t>(left_.edges.stride));
-  for (const auto filter : {StereoFilter::refinement, StereoFilter::similarity}) {
+  const auto clusters_that = [&](const auto& pass) {
     CandidateLists lists;
     lists.first.assign(1, 0);
     for (std::size_t i = 0; i < rows; ++i) {
       const auto line = epipolar_line(epipolar_, x[i], y[i]);
       const auto begin = static_cast<std::size_t>(judged.first[i]);
       for (std::size_t k = begin; k < begin + static_cast<std::size_t>(count[i]); ++k) {
-        // The kernel's own comparison: it chooses the best among the clusters that pass without marking the others.
-        const bool similar = similarity[k] >= static_cast<float>(config_.stereo.refined_ncc_min);
-        if (filter == StereoFilter::similarity && !similar) continue;
+        if (!pass(i, k)) continue;
         lists.target.push_back(anchor[k]);
         lists.x.push_back(line.x + position[k] * line.ex);
         lists.y.push_back(line.y + position[k] * line.ey);
@@ -67,8 +66,21 @@ void DeviceFrontend::tap_stereo() {
       }
       lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
     }
-    tap_->stereo_filter(filter, lists);
-  }
+    return lists;
+  };
+  tap_->stereo_filter(StereoFilter::refinement, clusters_that([](std::size_t, std::size_t) { return true; }));
+  // The kernel's own comparison: it lets the clusters that pass compete without marking the others.
+  tap_->stereo_filter(StereoFilter::similarity, clusters_that([&](std::size_t, std::size_t k) {
+                        return similarity[k] >= lowest_similarity(config_.stereo);
+                      }));
+  const auto chosen = relaxed_.chosen.read(rows);
+  const auto is_chosen = [&](std::size_t i, std::size_t k) { return chosen[i] == static_cast<std::int32_t>(k); };
+  tap_->stereo_filter(StereoFilter::relaxation, clusters_that(is_chosen));
+  const auto owner = owners_.owner.read(static_cast<std::size_t>(right_.edges.host_count));
+  tap_->stereo_filter(StereoFilter::one_to_one, clusters_that([&](std::size_t i, std::size_t k) {
+                        return is_chosen(i, k) &&
+                               owner[static_cast<std::size_t>(anchor[k])] == static_cast<std::int32_t>(i);
+                      }));
   tap_->stereo(rigs_.current().edges);
 }
 

@@ -3,7 +3,7 @@
 #include "reference/edge_detection.hpp"
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
-#include "reference/stereo_clusters.hpp"
+#include "reference/stereo_mutual.hpp"
 #include "reference/temporal_match.hpp"
 #include "reference/undistortion.hpp"
 #include "reference/wide_description.hpp"
@@ -71,8 +71,9 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
       reference::stereo_refinement(now.left.view(), now.right.view(), left.patches, left_edges_, right_edges_,
                                    epipolar_, candidates, config_.stereo, config_.patches.offset, scores);
   const auto clusters = reference::stereo_clusters(candidates, scores, refined, right_edges_, config_.stereo);
-  now.edges = reference::stereo_mutual(clusters, reference::stereo_best(clusters, config_.stereo), left_edges_,
-                                       epipolar_, config_.stereo);
+  const auto relaxation = reference::stereo_relaxation(clusters, left_edges_, epipolar_, calibration_.left.width,
+                                                       calibration_.left.height, config_.stereo);
+  now.edges = reference::stereo_mutual(clusters, relaxation, left_edges_, epipolar_, config_.stereo);
 
   now.left_descriptions = {rows_of(left.patches, now.edges.left_index, kEdgePatchBytes),
                            rows_of(left.sift, now.edges.left_index, kEdgeSiftBytes)};

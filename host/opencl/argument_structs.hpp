@@ -20,6 +20,8 @@
   VISIT(FilterArguments)               \
   VISIT(StereoRefinementArguments)     \
   VISIT(StereoClusterArguments)        \
+  VISIT(StereoRelaxationArguments)     \
+  VISIT(StereoMutualArguments)         \
   VISIT(TemporalCandidateArguments)    \
   VISIT(QuadChoice)                    \
   VISIT(TemporalMatchArguments)        \

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "common/angles.hpp"
@@ -60,48 +59,6 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
     clusters.first.push_back(static_cast<std::int32_t>(clusters.position.size()));
   }
   return clusters;
-}
-
-std::vector<std::int32_t> stereo_best(const StereoClusters& clusters, const StereoConfig& config) {
-  std::vector<std::int32_t> best(clusters.first.size() - 1, -1);
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    for (std::int32_t k = clusters.first[i]; k < clusters.first[i + 1]; ++k) {
-      const double similarity = clusters.similarity[static_cast<std::size_t>(k)];
-      if (similarity < config.refined_ncc_min) continue;
-      if (best[i] < 0 || similarity > clusters.similarity[static_cast<std::size_t>(best[i])]) best[i] = k;
-    }
-  }
-  return best;
-}
-
-StereoEdges stereo_mutual(const StereoClusters& clusters, const std::vector<std::int32_t>& best, const EdgeSet& left,
-                          const EpipolarGeometry& geometry, const StereoConfig& config) {
-  std::map<std::int32_t, std::size_t> owner;  // right edge -> its best left edge
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    if (best[i] < 0) continue;
-    const auto c = static_cast<std::size_t>(best[i]);
-    const auto [entry, is_new] = owner.emplace(clusters.anchor[c], i);
-    if (!is_new && clusters.similarity[c] > clusters.similarity[static_cast<std::size_t>(best[entry->second])])
-      entry->second = i;
-  }
-  StereoEdges edges;
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    if (best[i] < 0) continue;
-    const auto c = static_cast<std::size_t>(best[i]);
-    const std::size_t rival = owner.at(clusters.anchor[c]);
-    if (std::hypot(left.x[rival] - left.x[i], left.y[rival] - left.y[i]) > config.mutual_radius) continue;
-    const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
-    edges.left_index.push_back(static_cast<std::int32_t>(i));
-    edges.right_index.push_back(clusters.anchor[c]);
-    edges.left_x.push_back(left.x[i]);
-    edges.left_y.push_back(left.y[i]);
-    edges.left_direction.push_back(left.direction[i]);
-    edges.right_x.push_back(static_cast<float>(line.x + clusters.position[c] * line.ex));
-    edges.right_y.push_back(static_cast<float>(line.y + clusters.position[c] * line.ey));
-    edges.right_direction.push_back(static_cast<float>(clusters.direction[c]));
-    edges.ncc.push_back(static_cast<float>(clusters.similarity[c]));
-  }
-  return edges;
 }
 
 }  // namespace quadedge::reference

@@ -23,17 +23,4 @@ struct StereoClusters {
 StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScores& scores,
                                const RefinedCandidates& refined, const EdgeSet& right, const StereoConfig& config);
 
-/// The most alike cluster of every left edge that reaches refined_ncc_min, -1 for none (doc/method.md section 3,
-/// filters 9 and 10).
-std::vector<std::int32_t> stereo_best(const StereoClusters& clusters, const StereoConfig& config);
-
-/// Keeps a left edge if the best left edge of its right edge is itself or lies within `mutual_radius` on the same
-/// curve, and collects the survivors in the order of their left edges.
-///
-/// Strict uniqueness of the right edge's index would halve the result for nothing: third-order edges hold about two
-/// tokens per pixel in either image, so neighbouring left edges rightly meet the same right token, at different points
-/// of their curve.
-StereoEdges stereo_mutual(const StereoClusters& clusters, const std::vector<std::int32_t>& best, const EdgeSet& left,
-                          const EpipolarGeometry& geometry, const StereoConfig& config);
-
 }  // namespace quadedge::reference

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/filter_limits.hpp"
 #include "common/stereo_constants.hpp"
 #include "reference/patches.hpp"
 
@@ -77,7 +78,9 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
       };
       // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
       const double centre = patch_ncc(on_edge, found->values);
-      const double beside = 0.5 * (centre + 1) >= config.refined_ncc_min ? std::max(side_ncc(0), side_ncc(1)) : -1;
+      const double beside = 0.5 * (centre + 1) >= static_cast<double>(lowest_similarity(config))
+                                ? std::max(side_ncc(0), side_ncc(1))
+                                : -1;
       refined.similarity[c] = 0.5 * (centre + beside);
     }
     // Represented candidates stay where they are and take the similarity of the nearest alive one.

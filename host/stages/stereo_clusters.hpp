@@ -1,5 +1,5 @@
 #pragma once
-/// \file stereo_clusters.hpp  Stage 5b: clusters and their representatives, best and mutual; the stereo edges of a rig.
+/// \file stereo_clusters.hpp  Stage 5b: clusters of candidates and their representatives.
 
 #include <map>
 #include <string>
@@ -8,8 +8,6 @@
 #include "quadedge/config.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
-#include "stages/device_stereo_edges.hpp"
-#include "stages/patches.hpp"
 #include "stages/stereo_refinement.hpp"
 
 namespace quadedge::stages {
@@ -22,23 +20,17 @@ struct DeviceClusters {
   /// similarity.
   opencl::Buffer<cl_float> packed;
   int stride = 0;
-  opencl::Buffer<cl_int> anchor;          ///< right edge of the representative
-  opencl::Buffer<cl_int> best;            ///< best cluster per left edge, -1: none
-  opencl::Buffer<cl_int> claimed, owner;  ///< per right edge
-  opencl::Buffer<cl_int> keep, keep_first, total;
+  opencl::Buffer<cl_int> anchor;  ///< right edge of the representative
 };
 
-/// doc/method.md section 3, 8c to 10. Variants of the stage "stereo_clusters".
+/// doc/method.md section 3, 8c. Variants of the stage "stereo_clusters".
 class StereoClusters {
  public:
   StereoClusters(opencl::Context& context, const StereoConfig& config,
                  const std::map<std::string, std::string>& variants);
 
-  /// Clusters, best and mutual; waits for the number of stereo edges and fills the rows of `result` and its right
-  /// patches. `right_patches` has the right image prepared.
-  void run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches, const EpipolarGeometry& geometry,
-           const DeviceCandidates& candidates, const DeviceRefined& refined, DeviceClusters& clusters,
-           DeviceStereoEdges& result);
+  void run(const DeviceEdges& left, const DeviceEdges& right, const DeviceCandidates& candidates,
+           const DeviceRefined& refined, DeviceClusters& clusters);
 
  private:
   template <class T>
@@ -49,15 +41,9 @@ class StereoClusters {
   opencl::Context& context_;
   StereoConfig config_;
   std::size_t local_size_;
-  Scan scan_;
   opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_uchar>, In<cl_float>, In<cl_float>,
-                 Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_int>, Out<cl_int>>
+                 Out<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_int>>
       cluster_;
-  opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, Out<cl_int>> claim_;
-  opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_int>, Out<cl_int>> owner_, mutual_;
-  opencl::Kernel<StereoClusterArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>,
-                 Out<cl_int>, Out<cl_float>, Out<cl_float>>
-      collect_;
 };
 
 }  // namespace quadedge::stages

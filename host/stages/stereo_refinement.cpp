@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/filter_limits.hpp"
 #include "common/stereo_constants.hpp"
 #include "opencl/variants.hpp"
 
@@ -42,7 +43,7 @@ void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& r
   arguments.stiffness = static_cast<float>(std::pow(kRefinementNoise / config_.refine_prior_sigma, 2));
   arguments.alignment = {config_.refine_steps, static_cast<float>(config_.refine_tolerance),
                          static_cast<float>(kRefinementHuber), static_cast<float>(kRefinementClamp)};
-  arguments.similarity_min = static_cast<float>(config_.refined_ncc_min);
+  arguments.similarity_min = lowest_similarity(config_);
   arguments.rejected_order = order_of(StereoFilter::refinement);
   arguments.geometry = geometry;
   kernel_({static_cast<std::size_t>(candidates.rows) * items_per_edge_, local_size_}, arguments, candidates.first,

@@ -17,7 +17,9 @@ enum class StereoFilter : std::uint8_t {
   nearly_best_sift,
   refinement,  ///< along the epipolar line, with clustering
   similarity,  ///< of the clusters' representatives
-  best
+  relaxation,  ///< of an edge's candidates the one that its neighbours agree with
+  one_to_one,  ///< beside: what is left of these where no two left edges may share a right edge
+  best         ///< best and mutual: neighbours may share a right edge
 };
 
 /// Temporal cascade; the value is the order of the paper's Table 2 (doc/method.md section 4). Each kind of search takes
@@ -57,6 +59,8 @@ constexpr const char* to_string(StereoFilter filter) {
     case StereoFilter::nearly_best_sift: return "nearly best SIFT";
     case StereoFilter::refinement: return "refinement and clustering";
     case StereoFilter::similarity: return "similarity of representatives";
+    case StereoFilter::relaxation: return "relaxation";
+    case StereoFilter::one_to_one: return "(strictly one-to-one)";
     case StereoFilter::best: return "best";
   }
   return "unknown";

@@ -1,0 +1,163 @@
+#include "reference/stereo_relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "common/filter_limits.hpp"
+
+namespace quadedge::reference {
+namespace {
+
+/// The clusters of all edges as their neighbours see them.
+class Neighbourhood {
+ public:
+  Neighbourhood(const StereoClusters& clusters, const EdgeSet& left, const EpipolarGeometry& geometry, int width,
+                int height)
+      : clusters_(clusters), left_(left), columns_(relaxation_cells(width)), rows_(relaxation_cells(height)) {
+    cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const double cosine = std::cos(static_cast<double>(left.direction[i]));
+      const double sine = std::sin(static_cast<double>(left.direction[i]));
+      const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
+      const EpipolarLine ahead =
+          epipolar_line(geometry, left.x[i] + static_cast<float>(cosine), left.y[i] + static_cast<float>(sine));
+      for (auto k = begin(i); k < end(i); ++k) {
+        const double slope = position_slope(line, ahead, clusters.position[k], clusters.direction[k]);
+        slope_x_.push_back(slope * cosine);
+        slope_y_.push_back(slope * sine);
+      }
+    }
+  }
+
+  std::size_t begin(std::size_t i) const { return static_cast<std::size_t>(clusters_.first[i]); }
+  std::size_t end(std::size_t i) const { return static_cast<std::size_t>(clusters_.first[i + 1]); }
+
+  /// Edge i stands for its cell, unless another one does.
+  void enter(std::size_t i) {
+    auto& cell = cells_[cell_of(left_.x[i], left_.y[i]).value()];
+    if (!cell) cell = i;
+  }
+
+  /// Mean of what the neighbours of edge i say for its cluster; 0 without neighbours.
+  double support(std::size_t i, std::size_t candidate, const std::vector<double>& belief) const {
+    double sum = 0;
+    int voters = 0;
+    for (std::size_t n = 0; n < kRelaxationNeighbours; ++n) {
+      const float radius = kRelaxationRing[n / 8];
+      const auto cell =
+          cell_of(left_.x[i] + radius * kEighthCosine[n % 8], left_.y[i] + radius * kEighthCosine[(n + 6) % 8]);
+      if (!cell || !cells_[*cell]) continue;
+      sum += vote(i, candidate, *cells_[*cell], belief);
+      ++voters;
+    }
+    return voters > 0 ? sum / voters : 0;
+  }
+
+ private:
+  /// Change of a position on the epipolar line per px along the left edge; `ahead`: the line of the point 1 px ahead.
+  static double position_slope(const EpipolarLine& line, const EpipolarLine& ahead, double position, double direction) {
+    const auto cross = [](double ax, double ay, double bx, double by) { return ax * by - ay * bx; };
+    const double cosine = std::cos(direction), sine = std::sin(direction);
+    const double across = cross(ahead.ex, ahead.ey, cosine, sine);
+    if (!ahead.valid || std::abs(across) < static_cast<double>(kSlopeMinSine)) return 0;
+    const double dx = line.x + position * line.ex - ahead.x, dy = line.y + position * line.ey - ahead.y;
+    const auto limit = static_cast<double>(kSlopeMax);
+    return std::clamp(cross(dx, dy, cosine, sine) / across - position, -limit, limit);
+  }
+
+  /// In single precision, as on the device: an edge must not change its cell by rounding.
+  std::optional<std::size_t> cell_of(float x, float y) const {
+    const int column = static_cast<int>(x / kRelaxationCell), row = static_cast<int>(y / kRelaxationCell);
+    if (x < 0 || y < 0 || column >= columns_ || row >= rows_) return std::nullopt;
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+
+  /// The belief in that cluster of edge j that fits best to a cluster of edge i, the less the worse it fits.
+  double vote(std::size_t i, std::size_t candidate, std::size_t j, const std::vector<double>& belief) const {
+    const double dx = static_cast<double>(left_.x[j] - left_.x[i]), dy = static_cast<double>(left_.y[j] - left_.y[i]);
+    const double reach =
+        static_cast<double>(kSupportReach) + static_cast<double>(kSupportReachPerPixel) * std::hypot(dx, dy);
+    double most = 0;
+    for (auto c = begin(j); c < end(j); ++c) {
+      const double expected =
+          0.5 * ((slope_x_[candidate] + slope_x_[c]) * dx + (slope_y_[candidate] + slope_y_[c]) * dy);
+      const double apart = (clusters_.position[c] - clusters_.position[candidate] - expected) / reach;
+      most = std::max(most, belief[c] * (1 - apart * apart));
+    }
+    return most;
+  }
+
+  const StereoClusters& clusters_;
+  const EdgeSet& left_;
+  int columns_, rows_;
+  std::vector<double> slope_x_, slope_y_;  ///< per cluster: change of its position per px along x, along y
+  std::vector<std::optional<std::size_t>> cells_;
+};
+
+/// Divides by the sum, where there is one.
+void normalise(std::vector<double>& values, std::size_t begin, std::size_t end) {
+  double total = 0;
+  for (auto k = begin; k < end; ++k) total += values[k];
+  for (auto k = begin; k < end && total > 0; ++k) values[k] /= total;
+}
+
+}  // namespace
+
+StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet& left,
+                                   const EpipolarGeometry& geometry, int width, int height,
+                                   const StereoConfig& config) {
+  Neighbourhood neighbourhood(clusters, left, geometry, width, height);
+  const auto lowest = static_cast<double>(lowest_similarity(config));
+  const auto& similarity = clusters.similarity;
+  std::vector<double> prior(similarity.size(), 0.0);
+  std::vector<std::size_t> choosers;  // edges with more than one candidate
+  StereoRelaxation result;
+  result.belief.resize(similarity.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    double highest = -1;
+    int candidates = 0;
+    for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) highest = std::max(highest, similarity[k]);
+    for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) {
+      if (similarity[k] < lowest) continue;
+      prior[k] = result.belief[k] = std::exp((similarity[k] - highest) / config.relaxation_scale);
+      ++candidates;
+    }
+    normalise(result.belief, neighbourhood.begin(i), neighbourhood.end(i));
+    if (candidates > 0) neighbourhood.enter(i);
+    if (candidates > 1) choosers.push_back(i);
+  }
+  for (int round = 0; round < config.relaxation_rounds; ++round) {
+    std::vector<double> next = result.belief;
+    for (const auto i : choosers) {
+      for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) {
+        if (prior[k] > 0)
+          next[k] =
+              prior[k] * std::pow(static_cast<double>(kSupportFloor) + neighbourhood.support(i, k, result.belief), 2);
+      }
+      normalise(next, neighbourhood.begin(i), neighbourhood.end(i));
+    }
+    result.belief = std::move(next);
+  }
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    std::optional<std::size_t> best;
+    for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) {
+      if (result.belief[k] <= 0) continue;
+      if (!best || std::pair(result.belief[k], similarity[k]) > std::pair(result.belief[*best], similarity[*best]))
+        best = k;
+    }
+    double score = 0;
+    if (best) {
+      score = similarity[*best];
+      const auto weight = static_cast<double>(support_weight(config));
+      if (weight > 0) score += weight * neighbourhood.support(i, *best, result.belief);
+    }
+    const bool passes = best && score >= config.refined_ncc_min;
+    result.chosen.push_back(passes ? static_cast<std::int32_t>(*best) : -1);
+    result.score.push_back(score);
+  }
+  return result;
+}
+
+}  // namespace quadedge::reference

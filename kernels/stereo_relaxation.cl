@@ -1,0 +1,154 @@
+// stereo_relaxation.cl: filter 10 of the stereo cascade: relaxation labelling. Neighbouring edges vote on which candidate
+// an edge takes.
+//
+// Needs direction.cl and epipolar.cl. One work-item = one left edge; its candidates are the clusters of stereo_clusters.cl
+// that reach similarity_min, the others have prior 0. Beliefs of a round are read and those of the next one written, so
+// the order of the work-items decides nothing. `slopes`: two blocks of `capacity` floats.
+// Reference: host/reference/stereo_relaxation.cpp.
+
+// How much a candidate's position on the epipolar line changes per px along the left edge, as the right edge's direction
+// tells: the next point of the left curve lies where its epipolar line meets the right curve. 0 where the right edge
+// runs along the line.
+inline float position_slope(const EpipolarLine line, const EpipolarLine ahead, const float position,
+                            const float right_direction) {
+  float cosine;
+  const float sine = sine_cosine(right_direction, &cosine);
+  const float across = ahead.ex * sine - ahead.ey * cosine;
+  if (!ahead.valid || fabs(across) < kSlopeMinSine) return 0.0f;
+  const float dx = line.x + position * line.ex - ahead.x, dy = line.y + position * line.ey - ahead.y;
+  return clamp((dx * sine - dy * cosine) / across - position, -kSlopeMax, kSlopeMax);
+}
+
+// Before the first round: beliefs by similarity alone, slopes as vectors (change per px along x and y), and the first
+// edge with a candidate in every cell of the image (INT_MAX: none).
+kernel void relaxation_start(const StereoRelaxationArguments args, global const int* first,
+                             global const int* cluster_count, global const float* left_edges,
+                             global const float* clusters, global float* prior, global float* belief,
+                             global float* next_belief, global float* slopes, global int* cells) {
+  const int i = (int)get_global_id(0);
+  if (i >= args.left.count) return;
+  const int begin = first[i], end = begin + cluster_count[i];
+  global const float* left = left_edges + args.left.first + i;
+  global const float* position = clusters;
+  global const float* direction = clusters + args.capacity;
+  global const float* similarity = clusters + 2 * args.capacity;
+  float highest = -1.0f;
+  for (int k = begin; k < end; ++k) highest = fmax(highest, similarity[k]);
+  float total = 0.0f;
+  for (int k = begin; k < end; ++k) {
+    prior[k] = similarity[k] >= args.similarity_min ? exp((similarity[k] - highest) / args.scale) : 0.0f;
+    total += prior[k];
+  }
+  for (int k = begin; k < end; ++k) belief[k] = next_belief[k] = total > 0.0f ? prior[k] / total : 0.0f;
+  if (total <= 0.0f) return;
+  const float x = left[0], y = left[args.left.stride];
+  float cosine;
+  const float sine = sine_cosine(left[2 * args.left.stride], &cosine);
+  const EpipolarLine line = epipolar_line(&args.geometry, x, y);
+  const EpipolarLine ahead = epipolar_line(&args.geometry, x + cosine, y + sine);
+  for (int k = begin; k < end; ++k) {
+    const float slope = position_slope(line, ahead, position[k], direction[k]);
+    slopes[k] = slope * cosine;
+    slopes[args.capacity + k] = slope * sine;
+  }
+  atomic_min(cells + (int)(y / kRelaxationCell) * args.columns + (int)(x / kRelaxationCell), i);
+}
+
+// The edge that stands for point n of the rings around (x, y); INT_MAX: none.
+inline int neighbour_at(const StereoRelaxationArguments* args, global const int* cells, const float x, const float y,
+                        const int n) {
+  const float radius = kRelaxationRing[n / 8];
+  const float at_x = x + radius * kEighthCosine[n & 7], at_y = y + radius * kEighthCosine[(n + 6) & 7];
+  const int column = (int)(at_x / kRelaxationCell), row = (int)(at_y / kRelaxationCell);
+  if (at_x < 0.0f || at_y < 0.0f || column >= args->columns || row >= args->cell_rows) return INT_MAX;
+  return cells[row * args->columns + column];
+}
+
+// What the candidates begin .. end of a neighbour at (dx, dy) say for a candidate: the belief in that one of them that
+// fits best, the less the farther it is from where the mean of both slopes expects it. `per_reach`: 1 / reach.
+inline float vote(global const float* position, global const float* slope_x, global const float* slope_y,
+                  global const float* belief, const int candidate, const int begin, const int end, const float dx,
+                  const float dy, const float per_reach) {
+  float most = 0.0f;
+  for (int c = begin; c < end; ++c) {
+    const float expected = 0.5f * ((slope_x[candidate] + slope_x[c]) * dx + (slope_y[candidate] + slope_y[c]) * dy);
+    const float apart = (position[c] - position[candidate] - expected) * per_reach;
+    most = fmax(most, belief[c] * (1.0f - apart * apart));
+  }
+  return most;
+}
+
+// One round for the edges that have a choice: prior * (floor + mean of the neighbours' votes)^2, normalised.
+kernel void relaxation_round(const StereoRelaxationArguments args, global const int* first,
+                             global const int* cluster_count, global const float* left_edges,
+                             global const float* clusters, global const float* slopes, global const int* cells,
+                             global const float* prior, global const float* belief, global float* next_belief) {
+  const int i = (int)get_global_id(0);
+  if (i >= args.left.count) return;
+  const int begin = first[i], end = begin + cluster_count[i];
+  int candidates = 0;
+  for (int k = begin; k < end; ++k) candidates += prior[k] > 0.0f;
+  if (candidates < 2) return;
+  global const float* left_x = left_edges + args.left.first;
+  global const float* left_y = left_x + args.left.stride;
+  const float x = left_x[i], y = left_y[i];
+  for (int k = begin; k < end; ++k) next_belief[k] = 0.0f;
+  int voters = 0;
+  for (int n = 0; n < kRelaxationNeighbours; ++n) {
+    const int j = neighbour_at(&args, cells, x, y, n);
+    if (j == INT_MAX) continue;
+    const float dx = left_x[j] - x, dy = left_y[j] - y;
+    const float per_reach = 1.0f / (kSupportReach + kSupportReachPerPixel * sqrt(dx * dx + dy * dy));
+    const int from = first[j], to = from + cluster_count[j];
+    for (int k = begin; k < end; ++k) {
+      if (prior[k] > 0.0f)
+        next_belief[k] += vote(clusters, slopes, slopes + args.capacity, belief, k, from, to, dx, dy, per_reach);
+    }
+    ++voters;
+  }
+  float total = 0.0f;
+  for (int k = begin; k < end; ++k) {
+    const float support = kSupportFloor + (voters > 0 ? next_belief[k] / (float)voters : 0.0f);
+    next_belief[k] = prior[k] * support * support;
+    total += next_belief[k];
+  }
+  for (int k = begin; k < end; ++k) next_belief[k] /= total;
+}
+
+// The candidate that is believed most, of equal ones the most similar, then the first; its score is its similarity and
+// what the neighbours say for it. chosen = -1: no candidate, or its score does not reach score_min.
+kernel void relaxation_choose(const StereoRelaxationArguments args, global const int* first,
+                              global const int* cluster_count, global const float* left_edges,
+                              global const float* clusters, global const float* slopes, global const int* cells,
+                              global const float* belief, global int* chosen, global float* score) {
+  const int i = (int)get_global_id(0);
+  if (i >= args.left.count) return;
+  global const float* similarity = clusters + 2 * args.capacity;
+  const int begin = first[i], end = begin + cluster_count[i];
+  int best = -1;
+  for (int k = begin; k < end; ++k) {
+    if (belief[k] <= 0.0f) continue;
+    if (best < 0 || belief[k] > belief[best] || (belief[k] == belief[best] && similarity[k] > similarity[best]))
+      best = k;
+  }
+  chosen[i] = -1;
+  score[i] = 0.0f;
+  if (best < 0) return;
+  global const float* left_x = left_edges + args.left.first;
+  global const float* left_y = left_x + args.left.stride;
+  const float x = left_x[i], y = left_y[i];
+  float support = 0.0f;
+  int voters = 0;
+  for (int n = 0; n < kRelaxationNeighbours && args.support_weight > 0.0f; ++n) {
+    const int j = neighbour_at(&args, cells, x, y, n);
+    if (j == INT_MAX) continue;
+    const float dx = left_x[j] - x, dy = left_y[j] - y;
+    const float per_reach = 1.0f / (kSupportReach + kSupportReachPerPixel * sqrt(dx * dx + dy * dy));
+    support += vote(clusters, slopes, slopes + args.capacity, belief, best, first[j], first[j] + cluster_count[j], dx,
+                    dy, per_reach);
+    ++voters;
+  }
+  if (voters > 0) support /= (float)voters;
+  score[i] = similarity[best] + args.support_weight * support;
+  if (score[i] >= args.score_min) chosen[i] = best;
+}

@@ -1,0 +1,157 @@
+#include "describing.hpp"
+#include "matching.hpp"
+#include "quadedge/pi.hpp"
+#include "reference/patches.hpp"
+#include "reference/stereo_mutual.hpp"
+#include "stages/stereo_mutual.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+/// Two images of the smooth texture 6.3 px apart, with left edges at chosen positions and what each has chosen.
+struct Scene {
+  StereoRig rig = flat_rig(97, 71);
+  StereoConfig config;
+  Config all;
+  EpipolarGeometry geometry;
+  Image right_image = image_of(97, 71, [](double x, double y) { return smooth_grey(x + 6.3, y); });
+  EdgeSet left, right;
+  reference::StereoClusters clusters;
+  reference::StereoRelaxation relaxation;
+
+  Scene() {
+    config.max_disparity = 20;
+    geometry = make_epipolar_geometry(rig, config);
+    clusters.first = {0};
+  }
+  /// The next left edge has one cluster, at a right edge and a position on the line, and has chosen it.
+  void add(int target, double position, double score, double similarity) {
+    relaxation.chosen.push_back(static_cast<std::int32_t>(clusters.position.size()));
+    relaxation.score.push_back(score);
+    clusters.anchor.push_back(target);
+    clusters.position.push_back(position);
+    clusters.direction.push_back(right.direction[static_cast<std::size_t>(target)]);
+    clusters.similarity.push_back(similarity);
+    clusters.first.push_back(static_cast<std::int32_t>(clusters.position.size()));
+  }
+  /// The next left edge has chosen none.
+  void add_none() {
+    relaxation.chosen.push_back(-1);
+    relaxation.score.push_back(0);
+    clusters.first.push_back(clusters.first.back());
+  }
+  StereoEdges match() const { return reference::stereo_mutual(clusters, relaxation, left, geometry, config); }
+
+  void compare_devices() const {
+    const StereoEdges truth = match();
+    for_each_variant("stereo_mutual", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+      INFO(name);
+      stages::StereoMutual stage(context, config, variants);
+      stages::Patches right_patches(context, 97, 71, all.patches, {});
+      const auto image = upload(context, right_image);
+      right_patches.prepare(image.pixels);
+      stages::DeviceClusters device_clusters;
+      device_clusters.stride = static_cast<int>(clusters.position.size());
+      std::vector<float> packed;
+      for (const auto* block : {&clusters.position, &clusters.direction, &clusters.similarity})
+        packed.insert(packed.end(), block->begin(), block->end());
+      device_clusters.packed.write(context, packed);
+      device_clusters.anchor.write(context, clusters.anchor);
+      stages::DeviceRelaxation device_relaxation;
+      device_relaxation.chosen.write(context, relaxation.chosen);
+      device_relaxation.score.write(context, {relaxation.score.begin(), relaxation.score.end()});
+      stages::DeviceMutual mutual;
+      stages::DeviceStereoEdges result;
+      stage.run(upload(context, left), upload(context, right), right_patches, geometry, device_clusters,
+                device_relaxation, mutual, result);
+      StereoEdges found;
+      result.read(found);
+      REQUIRE(found.left_index == truth.left_index);
+      CHECK(found.right_index == truth.right_index);
+      CHECK(found.left_x == truth.left_x);
+      CHECK(found.left_y == truth.left_y);
+      CHECK(found.left_direction == truth.left_direction);
+      CHECK(found.right_direction == truth.right_direction);
+      CHECK(found.ncc == truth.ncc);
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        CHECK(found.right_x[i] == Approx(truth.right_x[i]).margin(1e-3));
+        CHECK(found.right_y[i] == Approx(truth.right_y[i]).margin(1e-3));
+      }
+      // The right patches are cut at the refined positions.
+      const auto recut =
+          reference::side_patches(right_image.view(), found.right_x, found.right_y, found.right_direction, all.patches);
+      const auto apart = rounded_apart(result.right_patches.read(recut.size()), recut);
+      CHECK(apart.largest <= 1);
+      CHECK(apart.differing <= apart.samples / 98);
+    });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("stereo mutual: what an edge has chosen is placed on its line", "[stereo][matching][device]") {
+  Scene scene;
+  scene.left = make_edges({{40, 30, 1.2}, {60, 30, -1.0}, {50, 40, 1.6}, {70, 40, 1.6}}, 71);
+  scene.right = make_edges({{33.7, 30, 1.2}, {53.7, 30, -1.0}, {43.7, 40, 1.6}}, 71);
+  scene.add(0, 6.3, 1.2, 0.97);
+  scene.add(1, 6.3, 1.25, 0.99);
+  scene.add(2, 6.35, 1.1, 0.96);
+  scene.add_none();
+  const auto edges = scene.match();
+  CHECK(edges.left_index == std::vector<std::int32_t>{0, 1, 2});
+  CHECK(edges.right_index == std::vector<std::int32_t>{0, 1, 2});
+  CHECK(edges.right_x[0] == Approx(40 - 6.3));
+  CHECK(edges.right_x[1] == Approx(60 - 6.3));
+  CHECK(edges.right_x[2] == Approx(50 - 6.35));
+  CHECK(edges.ncc == std::vector<float>{0.97f, 0.99f, 0.96f});
+  scene.compare_devices();
+}
+
+TEST_CASE("stereo mutual: one right edge serves only neighbours of its best left edge", "[stereo][matching][device]") {
+  Scene scene;
+  scene.left = make_edges({{40, 30, 1.2}, {41, 30, 1.2}, {43, 30, 1.2}}, 71);
+  scene.right = make_edges({{33.7, 30, 1.2}}, 71);
+  scene.config.mutual_radius = 1.5;
+  scene.add(0, 6.3, 1.1, 0.9);    // the best: its neighbours agree with it
+  scene.add(0, 6.8, 0.9, 0.9);    // 1 px beside the best one, within mutual_radius
+  scene.add(0, 6.8, 1.05, 0.99);  // 3 px beside: more similar, but worse supported
+  CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1});
+  scene.compare_devices();
+  scene.config.mutual_radius = 0;  // strictly one-to-one
+  CHECK(scene.match().left_index == std::vector<std::int32_t>{0});
+  scene.compare_devices();
+  // A tie: the same left edge three times. The first one owns the right edge; all are at its position.
+  scene.left.x = {40, 40, 40};
+  scene.left.y = {30, 30, 30};
+  scene.relaxation.score = {0.9, 0.9, 0.9};
+  CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1, 2});
+  scene.compare_devices();
+  scene.left.x = {44, 40, 40};  // and here the others are too far from it
+  CHECK(scene.match().left_index == std::vector<std::int32_t>{0});
+  scene.compare_devices();
+}
+
+TEST_CASE("stereo mutual: devices agree with the reference on random choices, on few and on none",
+          "[stereo][matching][device][oclgrind]") {
+  Random random(29);
+  for (const int count : {301, 1, 0}) {
+    Scene scene;
+    std::vector<Edge> left, right;
+    for (int i = 0; i < count; ++i) left.push_back({random(30, 80), random(14, 56), random(-kPi, kPi)});
+    for (int j = 0; j < count / 3 + 1; ++j) right.push_back({random(14, 80), random(14, 56), random(-kPi, kPi)});
+    scene.left = make_edges(left, 71);
+    scene.right = make_edges(right, 71);
+    for (int i = 0; i < count; ++i) {
+      if (i % 7 == 3) {
+        scene.add_none();
+      } else {  // scores in steps: some right edges are offered the same by several
+        scene.add(static_cast<int>(random(0, count / 3 + 1)), random(4, 9), 0.05 * std::round(20 * random(0.8, 1.3)),
+                  random(0.5, 1));
+      }
+    }
+    if (count > 1) CHECK(scene.match().size() < static_cast<std::size_t>(count) * 2 / 3);
+    scene.compare_devices();
+  }
+}

@@ -1,0 +1,241 @@
+#include "matching.hpp"
+#include "quadedge/pi.hpp"
+#include "reference/stereo_relaxation.hpp"
+#include "stages/stereo_relaxation.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+/// Left edges with clusters that the test makes up.
+struct Scene {
+  StereoRig rig;
+  StereoConfig config;
+  EpipolarGeometry geometry;
+  EdgeSet left;
+  reference::StereoClusters clusters;
+
+  explicit Scene(const StereoRig& of_rig) : rig(of_rig) {
+    config.max_disparity = 60;
+    geometry = make_epipolar_geometry(rig, config);
+    clusters.first = {0};
+  }
+  struct Member {
+    double position, direction, similarity;  // px, rad
+  };
+  /// The next left edge; its clusters in the order of their positions.
+  void add(const Edge& edge, std::vector<Member> members) {
+    left.x.push_back(static_cast<float>(edge.x));
+    left.y.push_back(static_cast<float>(edge.y));
+    left.direction.push_back(static_cast<float>(edge.direction));
+    for (const Member& member : members) {
+      clusters.anchor.push_back(static_cast<std::int32_t>(clusters.anchor.size()));
+      clusters.position.push_back(member.position);
+      clusters.direction.push_back(member.direction);
+      clusters.similarity.push_back(member.similarity);
+    }
+    clusters.first.push_back(static_cast<std::int32_t>(clusters.position.size()));
+  }
+  reference::StereoRelaxation relax() const {
+    return reference::stereo_relaxation(clusters, left, geometry, rig.left.width, rig.left.height, config);
+  }
+  /// Position of what edge i has chosen; NaN: nothing.
+  double chosen(const reference::StereoRelaxation& relaxation, std::size_t i) const {
+    const auto k = relaxation.chosen[i];
+    return k < 0 ? std::nan("") : clusters.position[static_cast<std::size_t>(k)];
+  }
+
+  /// Every device and variant comes to the same beliefs, choices and scores within 1e-3, and to the same bytes when it
+  /// runs again. Single precision may turn a choice between two that are believed alike: `band` edges at most.
+  void compare_devices(std::size_t band) const {
+    const auto truth = relax();
+    const std::size_t rows = left.size();
+    reference::Candidates lists;
+    lists.first = clusters.first;
+    lists.target = clusters.anchor;
+    std::vector<cl_int> counts;
+    for (std::size_t i = 0; i < rows; ++i) counts.push_back(clusters.first[i + 1] - clusters.first[i]);
+    std::vector<float> packed;
+    for (const auto* block : {&clusters.position, &clusters.direction, &clusters.similarity})
+      packed.insert(packed.end(), block->begin(), block->end());
+    for_each_variant(
+        "stereo_relaxation", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+          INFO(name);
+          stages::StereoRelaxation stage(context, rig.left.width, rig.left.height, config, variants);
+          const auto candidates = upload(context, lists);
+          stages::DeviceClusters device_clusters;
+          device_clusters.stride = candidates.capacity;
+          device_clusters.packed.write(context, packed);
+          device_clusters.count.write(context, counts);
+          stages::DeviceRelaxation found;
+          stage.run(upload(context, left), geometry, candidates, device_clusters, found);
+          const auto belief = found.belief.read(clusters.position.size());
+          const auto chosen = found.chosen.read(rows);
+          const auto score = found.score.read(rows);
+          std::size_t different = 0;
+          for (std::size_t i = 0; i < rows; ++i) {
+            bool same = chosen[i] == truth.chosen[i] && std::abs(static_cast<double>(score[i]) - truth.score[i]) < 1e-3;
+            for (auto k = static_cast<std::size_t>(clusters.first[i]);
+                 k < static_cast<std::size_t>(clusters.first[i + 1]); ++k)
+              same = same && std::abs(static_cast<double>(belief[k]) - truth.belief[k]) < 1e-3;
+            different += same ? 0 : 1;
+          }
+          CHECK(different <= band);
+          stage.run(upload(context, left), geometry, candidates, device_clusters, found);
+          CHECK(found.belief.read(clusters.position.size()) == belief);
+          CHECK(found.chosen.read(rows) == chosen);
+          CHECK(found.score.read(rows) == score);
+        });
+  }
+};
+
+constexpr double kUpright = -0.5 * kPi;  // vertical, bright on the right
+
+/// A wall of upright edges every 4 px at `position`, edge by edge with `wrong` in addition: its distance from the right
+/// position, and its lead in similarity.
+Scene wall(double position, double wrong, double lead) {
+  Scene scene(flat_rig(97, 71));
+  for (int y = 12; y < 60; y += 4) {
+    for (int x = 14; x < 84; x += 4) {
+      if (wrong > 0) {
+        scene.add({1.0 * x, 1.0 * y, kUpright}, {{position, kUpright, 0.9}, {position + wrong, kUpright, 0.9 + lead}});
+      } else {
+        scene.add({1.0 * x, 1.0 * y, kUpright}, {{position, kUpright, 0.9}});
+      }
+    }
+  }
+  return scene;
+}
+
+/// Edges of a slanted plane that a rig sees, each with its true candidate and a wrong one that is a little more similar
+/// for every other edge. \returns the true positions; NaN for edges that have no candidate.
+std::vector<double> see_plane(Scene& scene, double wrong, double similarity = 0.85) {
+  Random random(5);
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.5, -0.3, -1).normalized(), point(0, 0, 2.2);
+  const auto seen = [&](double x, double y) -> Eigen::Vector2d {
+    const Eigen::Vector3d ray = scene.rig.left.ray({x, y});
+    return scene.rig.right.project(scene.rig.right_from_left *
+                                   Eigen::Vector3d(point.dot(normal) / ray.dot(normal) * ray));
+  };
+  std::vector<double> truth;
+  for (int i = 0; i < 900; ++i) {
+    const Edge edge = {random(11, scene.rig.left.width - 11), random(11, scene.rig.left.height - 11),
+                       random(-kPi, kPi)};
+    const auto line = epipolar_line(scene.geometry, static_cast<float>(edge.x), static_cast<float>(edge.y));
+    const Eigen::Vector2d at = seen(edge.x, edge.y);
+    const Eigen::Vector2d step =
+        seen(edge.x + 0.01 * std::cos(edge.direction), edge.y + 0.01 * std::sin(edge.direction)) - at;
+    const double direction = std::atan2(step.y(), step.x());
+    const double position = (at - Eigen::Vector2d(line.x, line.y)).dot(Eigen::Vector2d(line.ex, line.ey));
+    if (i % 10 == 9) {
+      scene.add(edge, {});
+      truth.push_back(std::nan(""));
+      continue;
+    }
+    truth.push_back(position);
+    const double lead = i % 2 == 0 ? 0.02 : -0.02;
+    scene.add(edge, {{position - wrong, direction + 0.1, similarity + lead}, {position, direction, similarity}});
+  }
+  return truth;
+}
+
+std::size_t right_choices(const Scene& scene, const std::vector<double>& truth) {
+  const auto relaxation = scene.relax();
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) right += scene.chosen(relaxation, i) == truth[i] ? 1 : 0;
+  return right;
+}
+
+}  // namespace
+
+TEST_CASE("stereo relaxation: neighbours decide where similarity hardly does", "[stereo][matching]") {
+  Scene scene = wall(10, 0, 0);
+  const auto some = scene.left.size() / 2;
+  const Edge edge = {46.5, 35.5, kUpright};
+  scene.add(edge, {{10, kUpright, 0.9}, {18, kUpright, 0.92}});
+  CHECK(scene.chosen(scene.relax(), scene.left.size() - 1) == 10);
+  CHECK(scene.chosen(scene.relax(), some) == 10);
+  scene.config.relaxation_rounds = 0;
+  CHECK(scene.chosen(scene.relax(), scene.left.size() - 1) == 18);
+}
+
+TEST_CASE("stereo relaxation: neighbours do not overrule a clear lead", "[stereo][matching]") {
+  // Full support is worth ((1 + floor) / floor)^2 = 441 = exp(0.304 / scale).
+  for (const auto& [lead, position] : {std::pair(0.25, 10.0), std::pair(0.35, 18.0)}) {
+    Scene scene = wall(10, 0, 0);
+    scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}, {18, kUpright, 0.6 + lead}});
+    CHECK(scene.chosen(scene.relax(), scene.left.size() - 1) == position);
+  }
+}
+
+TEST_CASE("stereo relaxation: what a few edges know spreads through a repeated texture", "[stereo][matching]") {
+  Scene scene = wall(10, 8, 0.003);  // a period of 8 px: the wrong one is the more similar everywhere
+  CHECK(scene.chosen(scene.relax(), 100) == 18);
+  // One edge in seven shows something that does not repeat.
+  for (std::size_t i = 0; i < scene.left.size(); i += 7) scene.clusters.similarity[2 * i + 1] = 0.1;
+  const auto relaxation = scene.relax();
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < scene.left.size(); ++i) right += scene.chosen(relaxation, i) == 10 ? 1 : 0;
+  CHECK(right == scene.left.size());
+}
+
+TEST_CASE("stereo relaxation: what neighbours agree with needs less similarity", "[stereo][matching]") {
+  Scene scene = wall(10, 0, 0);
+  const auto wall_size = scene.left.size();
+  scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}});    // agrees
+  scene.add({50.5, 35.5, kUpright}, {{17, kUpright, 0.79}});   // does not
+  scene.add({54.5, 35.5, kUpright}, {{17, kUpright, 0.81}});   // but is similar enough
+  scene.add({58.5, 35.5, kUpright}, {{10, kUpright, 0.499}});  // filter 9
+  const auto relaxation = scene.relax();
+  CHECK(scene.chosen(relaxation, wall_size) == 10);
+  CHECK(std::isnan(scene.chosen(relaxation, wall_size + 1)));
+  CHECK(scene.chosen(relaxation, wall_size + 2) == 17);
+  CHECK(std::isnan(scene.chosen(relaxation, wall_size + 3)));
+  CHECK(relaxation.score[wall_size] == Approx(0.6 + 0.3));
+  CHECK(relaxation.score[wall_size + 2] == Approx(0.81));
+  Scene alone(flat_rig(97, 71));
+  alone.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.79}, {14, kUpright, 0.5}});
+  alone.add({90.5, 64.5, kUpright}, {{10, kUpright, 0.8}, {14, kUpright, 0.5}});
+  CHECK(alone.relax().chosen == std::vector<std::int32_t>{-1, 2});
+}
+
+TEST_CASE("stereo relaxation: of candidates that are believed alike the first is chosen",
+          "[stereo][matching][device]") {
+  Scene scene(flat_rig(97, 71));
+  scene.add({46.5, 35.5, kUpright}, {{8, kUpright, 0.9}, {12, kUpright, 0.9}});
+  scene.add({52.5, 35.5, kUpright}, {{10, kUpright, 0.9}});
+  const auto relaxation = scene.relax();
+  CHECK(relaxation.belief[0] == Approx(0.5));
+  CHECK(relaxation.chosen == std::vector<std::int32_t>{0, 2});
+  scene.compare_devices(0);
+}
+
+TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one of two different cameras",
+          "[stereo][matching][device]") {
+  StereoRig flat = flat_rig(143, 97, 120, 0.25);
+  for (const StereoRig& rig : {flat, crooked_rig()}) {
+    Scene scene(rig);
+    const auto truth = see_plane(scene, 6);
+    CHECK(right_choices(scene, truth) > 810 * 97 / 100);
+    scene.compare_devices(4);
+    Scene alone = scene;
+    alone.config.relaxation_rounds = 0;
+    CHECK(right_choices(alone, truth) == 360);  // of the odd ones those that have candidates
+    alone.compare_devices(0);
+  }
+}
+
+TEST_CASE("stereo relaxation: devices agree with the reference on random clusters, on few edges and on none",
+          "[stereo][matching][device][oclgrind]") {
+  Random random(31);
+  for (const int count : {401, 1, 0}) {
+    Scene scene(flat_rig(97, 71));
+    for (int i = 0; i < count; ++i) {
+      std::vector<Scene::Member> members;
+      for (int k = 0; k < i % 6; ++k) members.push_back({3.0 * k + random(0, 2), random(-kPi, kPi), random(0.3, 1)});
+      scene.add({random(10, 86), random(10, 60), random(-kPi, kPi)}, members);
+    }
+    scene.compare_devices(4);
+  }
+}
