@@ -188,12 +188,13 @@ FLOAT_CONSTANT kRelaxationCell = 4.0f;
 enum { kRelaxationNeighbours = 16 };
 FLOAT_CONSTANT kRelaxationRing[2] = {6.0f, 20.0f};
 FLOAT_CONSTANT kEighthCosine[8] = {1.0f, 0.70710678f, 0.0f, -0.70710678f, -1.0f, -0.70710678f, 0.0f, 0.70710678f};
-// Two positions support one another as long as they differ by less than this [px], and this per px between the edges:
-// what a surface can turn where nothing says how it is turned.
-FLOAT_CONSTANT kSupportReach = 1.0f;
-FLOAT_CONSTANT kSupportReachPerPixel = 0.2f;
+// Two positions support one another as long as they differ by less than this [px], for each ring: 1 px, and 0.2 per px
+// between the edges, which a surface may turn where nothing says how it is turned.
+FLOAT_CONSTANT kSupportReach[2] = {2.2f, 5.0f};
 // Support of an edge that has none: neighbours alone shall not rule out a candidate.
 FLOAT_CONSTANT kSupportFloor = 0.05f;
+// Support that an edge is given unasked whose only candidate is similar enough without: that of an ordinary edge.
+FLOAT_CONSTANT kUsualSupport = 0.7f;
 // Steepest change of a position along an edge that is believed, and the sine of the smallest angle between a right edge
 // and its epipolar line at which it is taken: below it the angle's error is the slope.
 FLOAT_CONSTANT kSlopeMax = 0.5f;

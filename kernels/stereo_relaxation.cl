@@ -36,7 +36,9 @@ kernel void relaxation_start(const StereoRelaxationArguments args, global const 
   for (int k = begin; k < end; ++k) highest = fmax(highest, similarity[k]);
   float total = 0.0f;
   for (int k = begin; k < end; ++k) {
-    prior[k] = similarity[k] >= args.similarity_min ? exp((similarity[k] - highest) / args.scale) : 0.0f;
+    prior[k] = similarity[k] < args.similarity_min ? 0.0f
+               : similarity[k] == highest          ? 1.0f
+                                                   : exp((similarity[k] - highest) / args.scale);
     total += prior[k];
   }
   for (int k = begin; k < end; ++k) belief[k] = next_belief[k] = total > 0.0f ? prior[k] / total : 0.0f;
@@ -65,14 +67,14 @@ inline int neighbour_at(const StereoRelaxationArguments* args, global const int*
 }
 
 // What the candidates begin .. end of a neighbour at (dx, dy) say for a candidate: the belief in that one of them that
-// fits best, the less the farther it is from where the mean of both slopes expects it. `per_reach`: 1 / reach.
+// fits best, the less the farther it is from where the mean of both slopes expects it.
 inline float vote(global const float* position, global const float* slope_x, global const float* slope_y,
                   global const float* belief, const int candidate, const int begin, const int end, const float dx,
-                  const float dy, const float per_reach) {
+                  const float dy, const float reach) {
   float most = 0.0f;
   for (int c = begin; c < end; ++c) {
     const float expected = 0.5f * ((slope_x[candidate] + slope_x[c]) * dx + (slope_y[candidate] + slope_y[c]) * dy);
-    const float apart = (position[c] - position[candidate] - expected) * per_reach;
+    const float apart = (position[c] - position[candidate] - expected) / reach;
     most = fmax(most, belief[c] * (1.0f - apart * apart));
   }
   return most;
@@ -98,11 +100,11 @@ kernel void relaxation_round(const StereoRelaxationArguments args, global const 
     const int j = neighbour_at(&args, cells, x, y, n);
     if (j == INT_MAX) continue;
     const float dx = left_x[j] - x, dy = left_y[j] - y;
-    const float per_reach = 1.0f / (kSupportReach + kSupportReachPerPixel * sqrt(dx * dx + dy * dy));
     const int from = first[j], to = from + cluster_count[j];
     for (int k = begin; k < end; ++k) {
       if (prior[k] > 0.0f)
-        next_belief[k] += vote(clusters, slopes, slopes + args.capacity, belief, k, from, to, dx, dy, per_reach);
+        next_belief[k] +=
+            vote(clusters, slopes, slopes + args.capacity, belief, k, from, to, dx, dy, kSupportReach[n / 8]);
     }
     ++voters;
   }
@@ -116,7 +118,8 @@ kernel void relaxation_round(const StereoRelaxationArguments args, global const 
 }
 
 // The candidate that is believed most, of equal ones the most similar, then the first; its score is its similarity and
-// what the neighbours say for it. chosen = -1: no candidate, or its score does not reach score_min.
+// what the neighbours say for it; an edge whose only candidate needs no support asks nobody. chosen = -1: no candidate,
+// or its score does not reach score_min.
 kernel void relaxation_choose(const StereoRelaxationArguments args, global const int* first,
                               global const int* cluster_count, global const float* left_edges,
                               global const float* clusters, global const float* slopes, global const int* cells,
@@ -125,30 +128,32 @@ kernel void relaxation_choose(const StereoRelaxationArguments args, global const
   if (i >= args.left.count) return;
   global const float* similarity = clusters + 2 * args.capacity;
   const int begin = first[i], end = begin + cluster_count[i];
-  int best = -1;
+  int best = -1, candidates = 0;
   for (int k = begin; k < end; ++k) {
     if (belief[k] <= 0.0f) continue;
+    ++candidates;
     if (best < 0 || belief[k] > belief[best] || (belief[k] == belief[best] && similarity[k] > similarity[best]))
       best = k;
   }
   chosen[i] = -1;
   score[i] = 0.0f;
   if (best < 0) return;
-  global const float* left_x = left_edges + args.left.first;
-  global const float* left_y = left_x + args.left.stride;
-  const float x = left_x[i], y = left_y[i];
-  float support = 0.0f;
-  int voters = 0;
-  for (int n = 0; n < kRelaxationNeighbours && args.support_weight > 0.0f; ++n) {
-    const int j = neighbour_at(&args, cells, x, y, n);
-    if (j == INT_MAX) continue;
-    const float dx = left_x[j] - x, dy = left_y[j] - y;
-    const float per_reach = 1.0f / (kSupportReach + kSupportReachPerPixel * sqrt(dx * dx + dy * dy));
-    support += vote(clusters, slopes, slopes + args.capacity, belief, best, first[j], first[j] + cluster_count[j], dx,
-                    dy, per_reach);
-    ++voters;
+  float support = kUsualSupport;
+  if (args.support_weight > 0.0f && (candidates > 1 || similarity[best] < args.score_min)) {
+    global const float* left_x = left_edges + args.left.first;
+    global const float* left_y = left_x + args.left.stride;
+    const float x = left_x[i], y = left_y[i];
+    int voters = 0;
+    support = 0.0f;
+    for (int n = 0; n < kRelaxationNeighbours; ++n) {
+      const int j = neighbour_at(&args, cells, x, y, n);
+      if (j == INT_MAX) continue;
+      support += vote(clusters, slopes, slopes + args.capacity, belief, best, first[j], first[j] + cluster_count[j],
+                      left_x[j] - x, left_y[j] - y, kSupportReach[n / 8]);
+      ++voters;
+    }
+    if (voters > 0) support /= (float)voters;
   }
-  if (voters > 0) support /= (float)voters;
   score[i] = similarity[best] + args.support_weight * support;
   if (score[i] >= args.score_min) chosen[i] = best;
 }

@@ -110,7 +110,7 @@ Scene wall(double position, double wrong, double lead) {
 
 /// Edges of a slanted plane that a rig sees, each with its true candidate and a wrong one that is a little more similar
 /// for every other edge. \returns the true positions; NaN for edges that have no candidate.
-std::vector<double> see_plane(Scene& scene, double wrong, double similarity = 0.85) {
+std::vector<double> see_plane(Scene& scene, double wrong, double similarity = 0.9) {
   Random random(5);
   const Eigen::Vector3d normal = Eigen::Vector3d(0.5, -0.3, -1).normalized(), point(0, 0, 2.2);
   const auto seen = [&](double x, double y) -> Eigen::Vector2d {
@@ -161,8 +161,8 @@ TEST_CASE("stereo relaxation: neighbours decide where similarity hardly does", "
 }
 
 TEST_CASE("stereo relaxation: neighbours do not overrule a clear lead", "[stereo][matching]") {
-  // Full support is worth ((1 + floor) / floor)^2 = 441 = exp(0.304 / scale).
-  for (const auto& [lead, position] : {std::pair(0.25, 10.0), std::pair(0.35, 18.0)}) {
+  // Full support is worth ((1 + floor) / floor)^2 = 441 = exp(0.244 / scale).
+  for (const auto& [lead, position] : {std::pair(0.2, 10.0), std::pair(0.3, 18.0)}) {
     Scene scene = wall(10, 0, 0);
     scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}, {18, kUpright, 0.6 + lead}});
     CHECK(scene.chosen(scene.relax(), scene.left.size() - 1) == position);
@@ -184,19 +184,19 @@ TEST_CASE("stereo relaxation: what neighbours agree with needs less similarity",
   Scene scene = wall(10, 0, 0);
   const auto wall_size = scene.left.size();
   scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}});    // agrees
-  scene.add({50.5, 35.5, kUpright}, {{17, kUpright, 0.79}});   // does not
-  scene.add({54.5, 35.5, kUpright}, {{17, kUpright, 0.81}});   // but is similar enough
-  scene.add({58.5, 35.5, kUpright}, {{10, kUpright, 0.499}});  // filter 9
+  scene.add({50.5, 35.5, kUpright}, {{17, kUpright, 0.84}});   // does not
+  scene.add({54.5, 35.5, kUpright}, {{17, kUpright, 0.86}});   // but is similar enough
+  scene.add({58.5, 35.5, kUpright}, {{10, kUpright, 0.449}});  // filter 9
   const auto relaxation = scene.relax();
   CHECK(scene.chosen(relaxation, wall_size) == 10);
   CHECK(std::isnan(scene.chosen(relaxation, wall_size + 1)));
   CHECK(scene.chosen(relaxation, wall_size + 2) == 17);
   CHECK(std::isnan(scene.chosen(relaxation, wall_size + 3)));
-  CHECK(relaxation.score[wall_size] == Approx(0.6 + 0.3));
-  CHECK(relaxation.score[wall_size + 2] == Approx(0.81));
+  CHECK(relaxation.score[wall_size] == Approx(0.6 + 0.4));
+  CHECK(relaxation.score[wall_size + 2] == Approx(0.86 + 0.4 * 0.7));  // not asked: needs no support
   Scene alone(flat_rig(97, 71));
-  alone.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.79}, {14, kUpright, 0.5}});
-  alone.add({90.5, 64.5, kUpright}, {{10, kUpright, 0.8}, {14, kUpright, 0.5}});
+  alone.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.84}, {14, kUpright, 0.5}});
+  alone.add({90.5, 64.5, kUpright}, {{10, kUpright, 0.86}, {14, kUpright, 0.5}});
   CHECK(alone.relax().chosen == std::vector<std::int32_t>{-1, 2});
 }
 

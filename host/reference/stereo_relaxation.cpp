@@ -49,7 +49,7 @@ class Neighbourhood {
       const auto cell =
           cell_of(left_.x[i] + radius * kEighthCosine[n % 8], left_.y[i] + radius * kEighthCosine[(n + 6) % 8]);
       if (!cell || !cells_[*cell]) continue;
-      sum += vote(i, candidate, *cells_[*cell], belief);
+      sum += vote(i, candidate, *cells_[*cell], belief, static_cast<double>(kSupportReach[n / 8]));
       ++voters;
     }
     return voters > 0 ? sum / voters : 0;
@@ -75,10 +75,9 @@ class Neighbourhood {
   }
 
   /// The belief in that cluster of edge j that fits best to a cluster of edge i, the less the worse it fits.
-  double vote(std::size_t i, std::size_t candidate, std::size_t j, const std::vector<double>& belief) const {
+  double vote(std::size_t i, std::size_t candidate, std::size_t j, const std::vector<double>& belief,
+              double reach) const {
     const double dx = static_cast<double>(left_.x[j] - left_.x[i]), dy = static_cast<double>(left_.y[j] - left_.y[i]);
-    const double reach =
-        static_cast<double>(kSupportReach) + static_cast<double>(kSupportReachPerPixel) * std::hypot(dx, dy);
     double most = 0;
     for (auto c = begin(j); c < end(j); ++c) {
       const double expected =
@@ -142,16 +141,19 @@ StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet
   }
   for (std::size_t i = 0; i < left.size(); ++i) {
     std::optional<std::size_t> best;
+    int candidates = 0;
     for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) {
       if (result.belief[k] <= 0) continue;
+      ++candidates;
       if (!best || std::pair(result.belief[k], similarity[k]) > std::pair(result.belief[*best], similarity[*best]))
         best = k;
     }
     double score = 0;
     if (best) {
-      score = similarity[*best];
       const auto weight = static_cast<double>(support_weight(config));
-      if (weight > 0) score += weight * neighbourhood.support(i, *best, result.belief);
+      const bool asked = weight > 0 && (candidates > 1 || similarity[*best] < config.refined_ncc_min);
+      score = similarity[*best] +
+              weight * (asked ? neighbourhood.support(i, *best, result.belief) : static_cast<double>(kUsualSupport));
     }
     const bool passes = best && score >= config.refined_ncc_min;
     result.chosen.push_back(passes ? static_cast<std::int32_t>(*best) : -1);
