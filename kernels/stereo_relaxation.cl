@@ -1,14 +1,14 @@
-// stereo_relaxation.cl: filter 10 of the stereo cascade: relaxation labelling. Neighbouring edges vote on which candidate
-// an edge takes.
+// stereo_relaxation.cl: filter 10 of the stereo cascade: relaxation labelling. Neighbouring edges vote on which
+// candidate an edge takes.
 //
-// Needs direction.cl and epipolar.cl. One work-item = one left edge; its candidates are the clusters of stereo_clusters.cl
-// that reach similarity_min, the others have prior 0. Beliefs of a round are read and those of the next one written, so
-// the order of the work-items decides nothing. `slopes`: two blocks of `capacity` floats.
+// Needs direction.cl and epipolar.cl. One work-item = one left edge; its candidates are the clusters of
+// stereo_clusters.cl that reach similarity_min, the others have prior 0. Beliefs of a round are read and those of the
+// next one written, so the order of the work-items decides nothing. `slopes`: two blocks of `capacity` floats.
 // Reference: host/reference/stereo_relaxation.cpp.
 
-// How much a candidate's position on the epipolar line changes per px along the left edge, as the right edge's direction
-// tells: the next point of the left curve lies where its epipolar line meets the right curve. 0 where the right edge
-// runs along the line.
+// How much a candidate's position on the epipolar line changes per px along the left edge, as the direction of the right
+// edge tells: the next point of the left curve lies where its epipolar line meets the right curve. 0 where the right
+// edge runs along the line.
 inline float position_slope(const EpipolarLine line, const EpipolarLine ahead, const float position,
                             const float right_direction) {
   float cosine;
