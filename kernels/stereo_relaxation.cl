@@ -6,8 +6,8 @@
 // next one written, so the order of the work-items decides nothing. `slopes`: two blocks of `capacity` floats.
 // Reference: host/reference/stereo_relaxation.cpp.
 
-// How much a candidate's position on the epipolar line changes per px along the left edge, as the direction of the right
-// edge tells: the next point of the left curve lies where its epipolar line meets the right curve. 0 where the right
+// How much a candidate's position on the epipolar line changes per px along the left edge, as the right direction
+// tells: the next point of the left curve lies where its epipolar line meets the right curve. 0 where the right
 // edge runs along the line.
 inline float position_slope(const EpipolarLine line, const EpipolarLine ahead, const float position,
                             const float right_direction) {
