@@ -108,9 +108,9 @@ Scene wall(double position, double wrong, double lead) {
   return scene;
 }
 
-/// Edges of a slanted plane that a rig sees, each with its true candidate and a wrong one that is a little more similar
-/// for every other edge. \returns the true positions; NaN for edges that have no candidate.
-std::vector<double> see_plane(Scene& scene, double wrong, double similarity = 0.9) {
+/// Edges of a slanted plane that a rig sees, each with its true candidate and a wrong one somewhere before it, which is
+/// a little more similar for every other edge. \returns the true positions; NaN for edges that have no candidate.
+std::vector<double> see_plane(Scene& scene) {
   Random random(5);
   const Eigen::Vector3d normal = Eigen::Vector3d(0.5, -0.3, -1).normalized(), point(0, 0, 2.2);
   const auto seen = [&](double x, double y) -> Eigen::Vector2d {
@@ -135,7 +135,7 @@ std::vector<double> see_plane(Scene& scene, double wrong, double similarity = 0.
     }
     truth.push_back(position);
     const double lead = i % 2 == 0 ? 0.02 : -0.02;
-    scene.add(edge, {{position - wrong, direction + 0.1, similarity + lead}, {position, direction, similarity}});
+    scene.add(edge, {{position - random(4, 9), direction + 0.1, 0.9 + lead}, {position, direction, 0.9}});
   }
   return truth;
 }
@@ -216,7 +216,7 @@ TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one of 
   StereoRig flat = flat_rig(143, 97, 120, 0.25);
   for (const StereoRig& rig : {flat, crooked_rig()}) {
     Scene scene(rig);
-    const auto truth = see_plane(scene, 6);
+    const auto truth = see_plane(scene);
     CHECK(right_choices(scene, truth) > 810 * 97 / 100);
     scene.compare_devices(4);
     Scene alone = scene;
