@@ -86,14 +86,8 @@ class OpencvBaseline::Implementation {
 };
 
 Features OpencvBaseline::Implementation::detect(const ImageView& recorded, const UndistortionTable& table) const {
-  Image pinhole;
-  ImageView view = recorded;
-  if (!table.empty()) {
-    pinhole = reference::undistort(recorded, table);
-    view = pinhole.view();
-  }
-  const cv::Mat image(view.height, view.width, CV_8UC1, const_cast<std::uint8_t*>(view.pixels),
-                      static_cast<std::size_t>(view.stride));
+  Image pinhole = to_8_bits(table.empty() ? recorded : reference::undistort(recorded, table).view());
+  const cv::Mat image(pinhole.height, pinhole.width, CV_8UC1, pinhole.pixels.data());
   Features features;
   sift_->detectAndCompute(image, cv::noArray(), features.points, features.descriptors);
   return features;

@@ -3,6 +3,17 @@
 // Host and device must round alike: a*b+c is never fused.
 #pragma OPENCL FP_CONTRACT OFF
 
+// WHITE: largest value of the recorded images' pixels, 0 to 255 grey levels whatever their depth.
+#ifndef WHITE
+#define WHITE 255
+#endif
+#if WHITE > 255
+typedef ushort Pixel;
+#else
+typedef uchar Pixel;
+#endif
+#define GREY_PER_VALUE (255.0f / (float)WHITE)
+
 #ifndef PI_F
 #define PI_F 3.14159265358979f
 #endif

@@ -5,8 +5,8 @@
 // computed by the macros and functions of this file, with one order of operations. fma is used where one rounding is
 // wanted, and it is exact in vectors and scalars alike; exp and atan2 are written out for the same reason.
 //
-// Data: plane = the image as floats with replicated border (edges_pad); pixel (i, j) lies at (j + PAD_Y) * stride + i +
-// PAD_X.
+// Data: plane = the image as floats with replicated border (padded_plane.cl); pixel (i, j) lies at
+// (j + PAD_Y) * stride + i + PAD_X.
 // Cell (X, Y) of the doubled grid lies at pixel (X / 2, Y / 2); Y even: phase 0, on a pixel row; Y odd: phase 1,
 // between two.
 // taps = for phase 0, then phase 1: RADIUS + 1 weights of G, then of G', for the pairs of pixels at k + phase and -k.
@@ -152,18 +152,3 @@ DEFINE_ANGLE(angle, float)
 DEFINE_ANGLE(angle8, float8)
 DEFINE_THIRD_ORDER(third_order, float, angle)
 DEFINE_THIRD_ORDER(third_order8, float8, angle8)
-
-// The image as floats, border replicated. One work-item = 16 neighbouring floats of the plane.
-kernel void edges_pad(global const uchar* image, const int width, const int height, global float* plane,
-                      const int stride) {
-  const int x = 16 * (int)get_global_id(0) - PAD_X;
-  const int row = (int)get_global_id(1);
-  if (x + PAD_X >= stride || row >= height + 2 * PAD_Y) return;
-  global const uchar* source = image + clamp(row - PAD_Y, 0, height - 1) * width;
-  global float* target = plane + row * stride + x + PAD_X;
-  if (x >= 0 && x + 16 <= width) {
-    vstore16(convert_float16(vload16(0, source + x)), 0, target);
-  } else {
-    for (int k = 0; k < 16; ++k) target[k] = (float)source[clamp(x + k, 0, width - 1)];
-  }
-}

@@ -27,11 +27,11 @@ inline uint lane_bits(const int16 lanes) {
 // magnitude).
 // Out: winners, the cells of grid row r from 4 * r * 2 * width on, in scan order; counts[r], for all 2 * height rows.
 // LONG: one pass over a strip; its sums stay in registers from row to row.
-kernel void edges_strip_maxima(const DetectionArguments args, const int strip_rows, global const float* plane,
-                               global const float* taps, global float* scratch, const int line, global float* winners,
-                               global int* counts) {
+kernel void edges_strip_maxima(const DetectionArguments args, global const float* threshold_of_frame,
+                               const int strip_rows, global const float* plane, global const float* taps,
+                               global float* scratch, const int line, global float* winners, global int* counts) {
   const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
-  const float threshold = args.threshold;
+  const float threshold = threshold_of_frame[0];
   const int strip = (int)get_global_id(0);
   const int first_row = strip * strip_rows, last_row = min(first_row + strip_rows, 2 * height);
   if (first_row >= last_row) return;

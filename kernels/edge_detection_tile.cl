@@ -15,11 +15,13 @@
 //
 // Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's position (4 * (r * 2 * width + X)) where
 // it did.
-kernel void edges_tile_maxima(const DetectionArguments args, const int tiles_x, global const float* plane,
-                              global const float* taps, global float* winners, global uchar* flags) {
+kernel void edges_tile_maxima(const DetectionArguments args, global const float* threshold_of_frame, const int tiles_x,
+                              global const float* plane, global const float* taps, global float* winners,
+                              global uchar* flags) {
   local float smooth_y[TILE_ROWS * TILE_COLUMNS], slope_y[TILE_ROWS * TILE_COLUMNS];
   local float gx[TILE_ROWS * TILE_CELLS], gy[TILE_ROWS * TILE_CELLS], magnitude[TILE_ROWS * TILE_CELLS];
   const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
+  const float threshold = threshold_of_frame[0];
   const int item = (int)get_local_id(0);
   const int x0 = ((int)get_group_id(0) % tiles_x) * TILE_X, y0 = ((int)get_group_id(0) / tiles_x) * TILE_Y;
 
@@ -57,7 +59,7 @@ kernel void edges_tile_maxima(const DetectionArguments args, const int tiles_x, 
     const int at = (i / (2 * TILE_X) + 1) * TILE_CELLS + i % (2 * TILE_X) + 2;
     uchar won = 0;
     if (cell_x > 2 * margin && cell_x < 2 * (width - 1 - margin) && cell_y > 2 * margin &&
-        cell_y < 2 * (height - 1 - margin) && magnitude[at] > args.threshold) {
+        cell_y < 2 * (height - 1 - margin) && magnitude[at] > threshold) {
       float ahead, behind;
       local const float* m = magnitude + at;
       probes(gx[at], gy[at], m[-1], m[1], m[-TILE_CELLS], m[TILE_CELLS], m[-TILE_CELLS - 1], m[-TILE_CELLS + 1],

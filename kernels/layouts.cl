@@ -102,6 +102,31 @@ typedef struct {
   float clamp;      // px
 } AlignmentSettings;
 
+// Tallies of edge_threshold.cl.
+enum {
+  kThresholdStep = 8,                       // between points of the lattice, px
+  kGradientBins = 192,                      // eight per octave, from 2^-12 to 2^12 grey levels per px
+  kGradientBinsFrom = (127 - 12) * 8 - 1,   // what a float's upper 12 bits exceed the bin by; bin 0 holds all below
+  kNoiseBins = 152,                         // of 0 to 2^21 steps
+  kThresholdBins = kGradientBins + kNoiseBins
+};
+// Median of the noise operator's magnitude for normal noise of standard deviation 1: its norm, 6, times the normal
+// distribution's 75 % quantile.
+FLOAT_CONSTANT kNoiseMedian = 4.04693850f;
+// Factor by which the threshold in use and the measured one may differ.
+FLOAT_CONSTANT kThresholdHold = 1.25f;
+
+// edge_threshold.cl. Thresholds in grey levels per px.
+typedef struct {
+  int width, height;      // of the image
+  int plane_stride;       // floats per row of the padded image
+  float white;            // grey level at which the camera saturates
+  float quantum;          // grey levels between neighbouring values of the recorded image
+  float area;             // ratio of the image whose gradient shall exceed the threshold
+  float per_noise;        // threshold per grey level of the noise's standard deviation
+  float lowest, highest;  // highest wins
+} ThresholdArguments;
+
 // Scratch memory of edge_detection_strip.cl: lines per work-item, and floats of a line in front of the first pixel.
 enum { kStripLines = 20, kStripLineFront = 16 };
 
@@ -110,7 +135,6 @@ enum { kStripLines = 20, kStripLineFront = 16 };
 typedef struct {
   int width, height;  // of the image
   int plane_stride;   // floats per row of the padded image
-  float threshold;    // grey levels per px
   int margin;         // px
   float newton_max;   // px
   int max_edges;

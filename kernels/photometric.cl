@@ -34,12 +34,24 @@ inline PatchFrame patch_frame(const float x, const float y, const float cosine, 
   return frame;
 }
 
-inline float8 corner_bytes(const uint8 corners, const uint shift) {
-  return convert_float8(as_int8(corners >> shift & (uint8)(255u)));
-}
-inline float16 two_corner_bytes(const uint16 corners, const uint shift) {
-  return convert_float16(as_int16(corners >> shift & (uint16)(255u)));
-}
+// Grey levels of the four corners of several pixels k: declares a, b, c, d (pixel_corners.cl).
+#define GATHER8(p, k) (uint8)(p[k.s0], p[k.s1], p[k.s2], p[k.s3], p[k.s4], p[k.s5], p[k.s6], p[k.s7])
+#define GATHER16(p, k)                                                                                                 \
+  (uint16)(p[k.s0], p[k.s1], p[k.s2], p[k.s3], p[k.s4], p[k.s5], p[k.s6], p[k.s7], p[k.s8], p[k.s9], p[k.sa], p[k.sb], \
+           p[k.sc], p[k.sd], p[k.se], p[k.sf])
+#define CORNER(N, packed, shift, mask) (convert_float##N(as_int##N(packed >> shift & (uint##N)(mask))) * GREY_PER_VALUE)
+#if WHITE > 255
+#define CORNERS(N, corners, k)                                                            \
+  const int##N above_ = 2 * (k), below_ = above_ + 1;                                     \
+  const uint##N upper_ = GATHER##N(corners, above_), lower_ = GATHER##N(corners, below_); \
+  const float##N a = CORNER(N, upper_, 0u, 65535u), b = CORNER(N, upper_, 16u, 65535u);   \
+  const float##N c = CORNER(N, lower_, 0u, 65535u), d = CORNER(N, lower_, 16u, 65535u);
+#else
+#define CORNERS(N, corners, k)                                                   \
+  const uint##N four_ = GATHER##N(corners, k);                                   \
+  const float##N a = CORNER(N, four_, 0u, 255u), b = CORNER(N, four_, 8u, 255u); \
+  const float##N c = CORNER(N, four_, 16u, 255u), d = CORNER(N, four_, 24u, 255u);
+#endif
 
 // Whether no sample of a patch can leave the image, given the pixel PATCH_REACH up and left of its centre: then nothing
 // has to be clamped.
@@ -72,10 +84,7 @@ inline void cut_patch(global const uint* corners, const int width, const int hei
     const int8 u0 = convert_int8(u), v0 = convert_int8(v);
     const float8 fx = u - convert_float8(u0), fy = v - convert_float8(v0);
     const int8 k = origin + v0 * stride + u0;
-    const uint8 four = (uint8)(corners[k.s0], corners[k.s1], corners[k.s2], corners[k.s3], corners[k.s4], corners[k.s5],
-                               corners[k.s6], corners[k.s7]);
-    const float8 a = corner_bytes(four, 0), b = corner_bytes(four, 8);
-    const float8 c = corner_bytes(four, 16), d = corner_bytes(four, 24);
+    CORNERS(8, corners, k)
     const float8 top = a + fx * (b - a), bottom = c + fx * (d - c);
     rows[i] = top + fy * (bottom - top);
   }
@@ -117,12 +126,7 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
     const int16 u0 = convert_int16(u), v0 = convert_int16(v);
     const float16 fx = u - convert_float16(u0), fy = v - convert_float16(v0);
     const int16 k = origin + v0 * stride + u0;
-    const uint16 four =
-        (uint16)(corners[k.s0], corners[k.s1], corners[k.s2], corners[k.s3], corners[k.s4], corners[k.s5],
-                 corners[k.s6], corners[k.s7], corners[k.s8], corners[k.s9], corners[k.sa], corners[k.sb],
-                 corners[k.sc], corners[k.sd], corners[k.se], corners[k.sf]);
-    const float16 a = two_corner_bytes(four, 0), b = two_corner_bytes(four, 8);
-    const float16 c = two_corner_bytes(four, 16), d = two_corner_bytes(four, 24);
+    CORNERS(16, corners, k)
     const float16 top = a + fx * (b - a), bottom = c + fx * (d - c);
     rows[i] = top + fy * (bottom - top);
   }

@@ -52,7 +52,14 @@ inline int any_patch(local const float* told) {
   return any;
 }
 
-inline float corner_byte(const uint corners, const uint shift) { return (float)(int)(corners >> shift & 255u); }
+// Grey level of a corner (pixel_corners.cl).
+inline float corner_grey(global const uint* corners, const int pixel, const int corner) {
+#if WHITE > 255
+  return (float)(int)(corners[2 * pixel + corner / 2] >> (16 * (corner & 1)) & 65535u) * GREY_PER_VALUE;
+#else
+  return (float)(int)(corners[pixel] >> (8 * corner) & 255u) * GREY_PER_VALUE;
+#endif
+}
 
 // A column of cut_patch().
 inline void cut_column(global const uint* corners, const int width, const int height, const PatchFrame frame,
@@ -73,9 +80,9 @@ inline void cut_column(global const uint* corners, const int width, const int he
       const float v = clamp(middle_y + along * frame.sine, low_y, high_y);
       const int u0 = (int)u, v0 = (int)v;
       const float fx = u - (float)u0, fy = v - (float)v0;
-      const uint four = corners[origin + v0 * width + u0];
-      const float a = corner_byte(four, 0), b = corner_byte(four, 8), c = corner_byte(four, 16),
-                  d = corner_byte(four, 24);
+      const int pixel = origin + v0 * width + u0;
+      const float a = corner_grey(corners, pixel, 0), b = corner_grey(corners, pixel, 1);
+      const float c = corner_grey(corners, pixel, 2), d = corner_grey(corners, pixel, 3);
       const float top = a + fx * (b - a), bottom = c + fx * (d - c);
       column[i] = top + fy * (bottom - top);
     }

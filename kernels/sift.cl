@@ -44,16 +44,17 @@ inline int reflect(int i, const int size) {
   return i;
 }
 
-inline float8 pixels8(global const uchar* row, const int x, const int width) {
-  if (x >= 0 && x + 8 <= width) return convert_float8(vload8(0, row + x));
+inline float8 pixels8(global const Pixel* row, const int x, const int width) {
+  if (x >= 0 && x + 8 <= width) return convert_float8(vload8(0, row + x)) * GREY_PER_VALUE;
   float values[8];
-  for (int k = 0; k < 8; ++k) values[k] = (float)row[reflect(x + k, width)];
+  for (int k = 0; k < 8; ++k) values[k] = (float)row[reflect(x + k, width)] * GREY_PER_VALUE;
   return vload8(0, values);
 }
 
-kernel void sift_blur_down(global const uchar* image, const int width, const int height, const int stride,
+kernel void sift_blur_down(global const uchar* bytes, const int width, const int height, const int stride,
                            global float* plane) {
   const int x = (int)get_global_id(0) * 8 - 8, y = (int)get_global_id(1);
+  global const Pixel* image = (global const Pixel*)bytes;
   if (x >= stride - 2 * kSiftPadding + 8 || y >= height) return;
   float8 sum = kBlur[0] * pixels8(image + y * width, x, width);
   for (int k = 1; k < 7; ++k) {

@@ -22,15 +22,16 @@ constant float8 kSine = (float8)(0.0f, 0.707106781f, 1.0f, 0.707106781f, 0.0f, -
 constant float kWindow[HALF + 1] = {1.0f,         0.986207117f, 0.945959469f, 0.882496903f,
                                     0.800737403f, 0.706648277f, 0.60653066f,  0.50633562f};
 
-kernel void wide_shrink(global const uchar* image, const int width, const int small_width, const int small_height,
+kernel void wide_shrink(global const uchar* bytes, const int width, const int small_width, const int small_height,
                         global float* small) {
   const int x = (int)get_global_id(0), y = (int)get_global_id(1);
   if (x >= small_width || y >= small_height) return;
+  global const Pixel* image = (global const Pixel*)bytes;
   int sum = 0;
   for (int row = 0; row < kWideShrink; ++row)
     for (int column = 0; column < kWideShrink; ++column)
       sum += image[(kWideShrink * y + row) * width + kWideShrink * x + column];
-  small[y * small_width + x] = (float)sum / (float)(kWideShrink * kWideShrink);
+  small[y * small_width + x] = (float)sum / (float)(kWideShrink * kWideShrink) * GREY_PER_VALUE;
 }
 
 inline float wide_sample(global const float* small, const int width, const int height, const float x, const float y) {

@@ -259,6 +259,24 @@ def speed(results):
     )
 
 
+def light(results):
+    """Tracked steps and wrong ones over contrast, light and gamma, with the fixed threshold and the automatic one."""
+    kept = results["light"]
+    lines = []
+    labels = {"contrast": "contrast", "contrast16": "contrast, 16 bits", "light": "light, noise 8", "gamma": "gamma"}
+    runs = {(row["scene"], row["kind"], row["value"], row["threshold"] == 0): row for row in kept["rows"]}
+    for scene, kind, value, automatic in runs:
+        if not automatic:
+            continue
+        before, after = runs[scene, kind, value, False], runs[scene, kind, value, True]
+        steps = [f"{row['right']}, {row['wrong']}, {row['lost']}" for row in (before, after)]
+        lines.append([f"{labels[kind]} {value:g}", scene, steps[0], number(before["edges"], 6), steps[1],
+                      number(after["edges"], 6), number(after["edge_threshold"])])
+    head = ["", "scene", "threshold 2: right, wrong, lost", "edges", "automatic: right, wrong, lost", "edges",
+            "threshold"]
+    return f"{table(head, lines)}\n`{kept['command']}`. {stamp(kept)}"
+
+
 def peers(results):
     """Other systems; QuadEdge's own time is the measured one."""
     kept = results["peers"]
@@ -280,6 +298,7 @@ TABLES = {
     "matching": matching,
     "quads": quads,
     "speed": speed,
+    "light": light,
     "peers": peers,
 }
 PART_OF = {"beside": "accuracy", "paths": "accuracy", "systems": "accuracy", "steps": "accuracy", "quads": "matching"}

@@ -8,6 +8,16 @@
 #include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 
+/// The threshold of tests that look at edges alone: a fixed one, or the one of images of normal contrast.
+inline double threshold_of(const quadedge::EdgesConfig& config) {
+  return config.threshold > 0 ? config.threshold : config.threshold_max;
+}
+
+inline quadedge::reference::ReferenceEdges detect_edges(const quadedge::ImageView& image,
+                                                        const quadedge::EdgesConfig& config) {
+  return quadedge::reference::detect_edges(image, config, threshold_of(config));
+}
+
 inline void check_structure(const quadedge::reference::ReferenceEdges& edges, int width, int height,
                             const quadedge::EdgesConfig& config) {
   REQUIRE(edges.row_first.size() == static_cast<std::size_t>(2 * height + 1));
@@ -24,7 +34,7 @@ inline void check_structure(const quadedge::reference::ReferenceEdges& edges, in
     }
   }
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    REQUIRE(edges.strength[i] > config.threshold);
+    REQUIRE(edges.strength[i] > threshold_of(config));
     REQUIRE((edges.direction[i] > -quadedge::kPi && edges.direction[i] <= quadedge::kPi));
     REQUIRE((edges.x[i] > config.margin && edges.x[i] < width - 1 - config.margin));
     REQUIRE((edges.y[i] > config.margin && edges.y[i] < height - 1 - config.margin));

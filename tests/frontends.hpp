@@ -18,8 +18,11 @@ struct RenderedScene {
   std::vector<Image> left, right;
   std::vector<Eigen::Isometry3d> world_from_left;
 
-  RenderedScene(const std::string& name, int width, int height, int frames, int step = 1) {
+  RenderedScene(const std::string& name, int width, int height, int frames, int step = 1, int bits = 8,
+                double contrast = 1) {
     SyntheticOptions options;
+    options.bits = bits;
+    options.contrast = contrast;
     options.scene = name;
     options.width = width;
     options.height = height;

@@ -22,7 +22,7 @@ TEST_CASE("images: grey pixels come through unchanged in every lossless format",
   }
 }
 
-TEST_CASE("images: colour becomes luminance and 16 bits are scaled down", "[dataset]") {
+TEST_CASE("images: colour becomes luminance, 16 bits keep their depth", "[dataset]") {
   const TemporaryFolder folder;
   cv::Mat colours(1, 3, CV_8UC3);
   colours.at<cv::Vec3b>(0) = {0, 0, 255};  // red, green, blue as BGR
@@ -36,7 +36,31 @@ TEST_CASE("images: colour becomes luminance and 16 bits are scaled down", "[data
   write_image(folder / "deep.png", 33, 21, CV_16UC1);
   const Image deep = read_grey_image(folder / "deep.png");
   const cv::Mat expected = pattern(33, 21);  // the 16-bit pattern is 257 times this one
-  CHECK(std::equal(deep.pixels.begin(), deep.pixels.end(), expected.begin<std::uint8_t>()));
+  CHECK(deep.white == 65535);
+  for (int y = 0; y < 21; ++y) {
+    for (int x = 0; x < 33; ++x) {
+      REQUIRE(deep.view().value(x, y) == 257 * expected.at<std::uint8_t>(y, x));
+      REQUIRE(deep.view().at(x, y) == Approx(expected.at<std::uint8_t>(y, x)));
+    }
+  }
+}
+
+TEST_CASE("images: the largest value of a PGM is white", "[dataset]") {
+  const TemporaryFolder folder;
+  write_text(folder / "dim.pgm", "P5 3 1 100\n" + std::string({'\0', '\x32', '\x64'}));
+  const Image dim = read_grey_image(folder / "dim.pgm");
+  CHECK(dim.white == 100);
+  CHECK(dim.view().at(0, 0) == 0);
+  CHECK(dim.view().at(1, 0) == Approx(127.5));
+  CHECK(dim.view().at(2, 0) == Approx(255));
+  write_text(folder / "twelve.pgm", "P5 2 1 4095\n" + std::string({'\x0f', '\xff', '\x08', '\x00'}));
+  const Image twelve = read_grey_image(folder / "twelve.pgm");
+  CHECK(twelve.white == 4095);
+  CHECK(twelve.view().value(0, 0) == 4095);
+  CHECK(twelve.view().value(1, 0) == 2048);
+  CHECK(twelve.view().at(0, 0) == Approx(255));
+  write_text(folder / "none.pgm", "P5 2 1 0\n" + std::string(2, '\0'));
+  CHECK_THROWS_WITH(read_grey_image(folder / "none.pgm"), Contains("none.pgm"));
 }
 
 TEST_CASE("images: truncated, empty, damaged and foreign files are refused by name", "[dataset]") {

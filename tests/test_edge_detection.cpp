@@ -7,6 +7,7 @@
 
 #include "devices.hpp"
 #include "edge_images.hpp"
+#include "edge_structure.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/pi.hpp"
@@ -22,12 +23,26 @@ struct Detection {
   int dropped = 0;
 };
 
+/// An image and a threshold on the device.
+struct Input {
+  stages::PaddedPlane plane;
+  opencl::Buffer<cl_float> threshold;
+
+  Input(opencl::Context& context, const Image& image, const EdgesConfig& config)
+      : plane(context, image.width, image.height, config.sigma, image.white) {
+    opencl::Buffer<cl_uchar> pixels;
+    pixels.write(context, image.pixels);
+    plane.prepare(pixels);
+    context.finish();
+    threshold.write(context, {static_cast<cl_float>(threshold_of(config))});
+  }
+};
+
 Detection detect(Device& device, const std::string& variant, const Image& image, const EdgesConfig& config) {
   stages::EdgeDetection stage(*device.context(), image.width, image.height, config, {{"edge_detection", variant}});
-  opencl::Buffer<cl_uchar> pixels;
-  pixels.write(*device.context(), image.pixels);
+  Input input(*device.context(), image, config);
   stages::DeviceEdges edges;
-  stage.run(pixels, edges);
+  stage.run(input.plane, input.threshold, edges);
   edges.read_count();
   return {edges.read(image.height), edges.host_dropped};
 }
@@ -57,16 +72,16 @@ bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
 /// test.
 bool undecided(const reference::GradientField& field, int cell_x, int cell_y, const EdgesConfig& config) {
   const double m = field.magnitude(cell_x, cell_y), rounding = 2e-5 * m + 1e-5;
-  if (m < config.threshold - rounding) return false;
+  if (m < threshold_of(config) - rounding) return false;
   const reference::Probe probe = reference::probe_maximum(field, cell_x, cell_y);
-  return std::abs(m - config.threshold) < rounding || std::abs(m - probe.ahead) < rounding ||
+  return std::abs(m - threshold_of(config)) < rounding || std::abs(m - probe.ahead) < rounding ||
          std::abs(m - probe.behind) < rounding;
 }
 
 /// doc/method.md section 1: 99.9 % within 0.01 px and 0.1 degrees; nothing missing or extra that rounding does not
 /// explain.
 void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config) {
-  const reference::ReferenceEdges truth = reference::detect_edges(image.view(), config);
+  const reference::ReferenceEdges truth = ::detect_edges(image.view(), config);
   const reference::GradientField field = reference::gradient_field(image.view(), config);
   REQUIRE(found.row_first.size() == truth.row_first.size());
   REQUIRE(found.row_first.front() == 0);
@@ -192,12 +207,10 @@ TEST_CASE("edge detection: one detector serves one image after the other", "[edg
     const Image first = textured_image(96, 80, 1), second = textured_image(96, 80, 2);
     const EdgesConfig config = small_capacity();
     stages::EdgeDetection stage(*device.context(), 96, 80, config, {{"edge_detection", variant}});
-    opencl::Buffer<cl_uchar> first_pixels, second_pixels;
-    first_pixels.write(*device.context(), first.pixels);
-    second_pixels.write(*device.context(), second.pixels);
+    const Input first_input(*device.context(), first, config), second_input(*device.context(), second, config);
     stages::DeviceEdges first_edges, second_edges;
-    stage.run(first_pixels, first_edges);
-    stage.run(second_pixels, second_edges);
+    stage.run(first_input.plane, first_input.threshold, first_edges);
+    stage.run(second_input.plane, second_input.threshold, second_edges);
     first_edges.read_count();
     second_edges.read_count();
     CHECK(same_bytes(first_edges.read(80), detect(device, variant, first, config).edges));
@@ -210,6 +223,6 @@ TEST_CASE("edge detection: a flat image has no edges and an unknown variant is r
   for_each_variant([&](Device& device, const std::string& variant) {
     CHECK(detect(device, variant, flat, small_capacity()).edges.size() == 0);
     CHECK_THROWS_AS(detect(device, "no-such-variant", flat, small_capacity()), UsageError);
-    CHECK_THROWS_AS(stages::EdgeDetection(*device.context(), 0, 5, small_capacity(), {}), UsageError);
+    CHECK_THROWS_AS(stages::PaddedPlane(*device.context(), 0, 5, 2.0), UsageError);
   });
 }

@@ -31,7 +31,7 @@ TEST_CASE("edges: a straight edge of any direction lies at its true position to 
     const double angle = (15.0 * k + 3.7) * kDegree, px = 31.5 + 0.37 * std::sin(3.0 * k),
                  py = 32.1 + 0.41 * std::cos(5.0 * k);
     const Image image = render_half_plane(64, 64, px, py, angle);
-    const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+    const ReferenceEdges edges = ::detect_edges(image.view(), config);
     check_structure(edges, 64, 64, config);
     INFO("angle " << angle / kDegree);
     REQUIRE(edges.size() > 40);
@@ -57,7 +57,7 @@ TEST_CASE("edges: a vertical edge that is bright on the right points up, and con
   const std::pair<double, double> bright_side_and_direction[] = {{0, -90}, {90, 0}, {180, 90}, {270, 180}};
   for (const auto& [side, direction] : bright_side_and_direction) {
     const Image image = render_half_plane(48, 48, 23.3, 23.8, side * kDegree);
-    const ReferenceEdges edges = reference::detect_edges(image.view(), {});
+    const ReferenceEdges edges = ::detect_edges(image.view(), {});
     REQUIRE(edges.size() > 20);
     for (const double found : edges.direction) REQUIRE(angle_error(found, direction * kDegree) < 0.1 * kDegree);
   }
@@ -65,12 +65,12 @@ TEST_CASE("edges: a vertical edge that is bright on the right points up, and con
 
 TEST_CASE("edges: pixel centres are integers, so a step between columns 31 and 32 lies at 31.5", "[edges]") {
   const Image image = render_shape(64, 48, 10, 250, [](double x, double) { return x > 31.5; });
-  const ReferenceEdges edges = reference::detect_edges(image.view(), {});
+  const ReferenceEdges edges = ::detect_edges(image.view(), {});
   REQUIRE(edges.size() == 53);  // one per grid row strictly inside the margin: 21 .. 73
   for (const double x : edges.x) REQUIRE(std::abs(x - 31.5) < 1e-5);
 
   const Image lying = render_shape(48, 64, 10, 250, [](double, double y) { return y > 20.5; });
-  for (const double y : reference::detect_edges(lying.view(), {}).y) REQUIRE(std::abs(y - 20.5) < 1e-5);
+  for (const double y : ::detect_edges(lying.view(), {}).y) REQUIRE(std::abs(y - 20.5) < 1e-5);
 }
 
 TEST_CASE("edges: a circle is found inward by the known sigma^2 / 2r and its tangents turn with it", "[edges]") {
@@ -80,7 +80,7 @@ TEST_CASE("edges: a circle is found inward by the known sigma^2 / 2r and its tan
       const Image image = render_shape(128, 128, bright_inside ? 80 : 200, bright_inside ? 200 : 80,
                                        [=](double x, double y) { return std::hypot(x - cx, y - cy) < radius; });
       const EdgesConfig config;
-      const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+      const ReferenceEdges edges = ::detect_edges(image.view(), config);
       check_structure(edges, 128, 128, config);
       REQUIRE(static_cast<double>(edges.size()) > 2.0 * kPi * radius);
       double bias = 0;
@@ -107,7 +107,7 @@ TEST_CASE("edges: the Newton step onto F = 0 brings straight edges nearer to the
     const double angle = (30.0 * k + 11.0) * kDegree;
     const Image image = render_half_plane(64, 64, 31.6, 32.3, angle);
     const auto squares = [&](const EdgesConfig& config) {
-      const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+      const ReferenceEdges edges = ::detect_edges(image.view(), config);
       double sum = 0;
       for (std::size_t i = 0; i < edges.size(); ++i) {
         sum += std::pow((edges.x[i] - 31.6) * std::cos(angle) + (edges.y[i] - 32.3) * std::sin(angle), 2);
@@ -123,7 +123,7 @@ TEST_CASE("edges: the Newton step onto F = 0 brings straight edges nearer to the
 TEST_CASE("edges: the threshold 2 lets a contrast of 11 grey levels through and not one of 9", "[edges]") {
   // Peak gradient of a step of height D: D / (sqrt(2 pi) sigma) = 0.2 D within a percent.
   const auto count = [](double contrast) {
-    return reference::detect_edges(render_half_plane(64, 64, 31.5, 31.5, 0.0, 100, 100 + contrast).view(), {}).size();
+    return ::detect_edges(render_half_plane(64, 64, 31.5, 31.5, 0.0, 100, 100 + contrast).view(), {}).size();
   };
   CHECK(count(9) == 0);
   CHECK(count(11) > 50);
@@ -136,7 +136,7 @@ TEST_CASE("edges: a flat image has none, at any level", "[edges]") {
     EdgesConfig config;
     config.threshold = 1e-6;
     config.margin = 0;
-    CHECK(reference::detect_edges(image.view(), config).size() == 0);
+    CHECK(::detect_edges(image.view(), config).size() == 0);
   }
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("edges: small and odd sizes keep the structure, with and without a mar
     for (const int margin : {0, 3, 10}) {
       EdgesConfig config;
       config.margin = margin;
-      const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+      const ReferenceEdges edges = ::detect_edges(image.view(), config);
       check_structure(edges, width, height, config);
       if (2 * margin + 2 >= width || 2 * margin + 2 >= height) CHECK(edges.size() == 0);
       const EdgeSet set = reference::to_edge_set(edges);
@@ -154,15 +154,15 @@ TEST_CASE("edges: small and odd sizes keep the structure, with and without a mar
       CHECK(set.row_first == edges.row_first);
     }
   }
-  CHECK_THROWS_AS(reference::detect_edges(ImageView{}, {}), UsageError);
+  CHECK_THROWS_AS(::detect_edges(ImageView{}, {}), UsageError);
 }
 
 TEST_CASE("edges: rows of a padded image are read with their stride", "[edges]") {
   const Image image = textured_image(50, 40);
   std::vector<std::uint8_t> padded(64 * 40, 7);
   for (int y = 0; y < 40; ++y) std::copy_n(image.pixels.begin() + y * 50, 50, padded.begin() + y * 64);
-  const ReferenceEdges packed = reference::detect_edges(image.view(), {});
-  const ReferenceEdges strided = reference::detect_edges({padded.data(), 50, 40, 64}, {});
+  const ReferenceEdges packed = ::detect_edges(image.view(), {});
+  const ReferenceEdges strided = ::detect_edges({padded.data(), 50, 40, 64}, {});
   REQUIRE(packed.size() > 20);
   CHECK(packed.x == strided.x);
   CHECK(packed.direction == strided.direction);
@@ -174,7 +174,7 @@ TEST_CASE("edges: another scale detects the same straight edge with its own stre
     config.sigma = sigma;
     config.margin = 14;
     const Image image = render_half_plane(64, 64, 31.7, 31.2, 25.0 * kDegree);
-    const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+    const ReferenceEdges edges = ::detect_edges(image.view(), config);
     REQUIRE(edges.size() > 30);
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const double distance =
@@ -190,12 +190,12 @@ TEST_CASE("edges: directions at the winning cell agree with those at the sub-pix
   const Image image = render_half_plane(64, 64, 31.4, 32.2, 37.0 * kDegree);
   EdgesConfig cell;
   cell.direction_at = "cell";
-  const ReferenceEdges edges = reference::detect_edges(image.view(), cell);
+  const ReferenceEdges edges = ::detect_edges(image.view(), cell);
   REQUIRE(edges.size() > 40);
   for (const double direction : edges.direction)
     REQUIRE(angle_error(direction, (37.0 - 90.0) * kDegree) < 0.2 * kDegree);
   // Published edge maps have the peak of the parabola: no Newton step.
   EdgesConfig parabola;
   parabola.newton_max = 0;
-  CHECK(edges.x == reference::detect_edges(image.view(), parabola).x);
+  CHECK(edges.x == ::detect_edges(image.view(), parabola).x);
 }

@@ -24,10 +24,14 @@ struct Detection {
 
 Detection detect(Device& device, const Image& image, const EdgesConfig& config) {
   stages::EdgeDetection stage(*device.context(), image.width, image.height, config, {});
+  stages::PaddedPlane plane(*device.context(), image.width, image.height, config.sigma);
   opencl::Buffer<cl_uchar> pixels;
   pixels.write(*device.context(), image.pixels);
+  plane.prepare(pixels);
+  opencl::Buffer<cl_float> threshold;
+  threshold.write(*device.context(), {static_cast<cl_float>(threshold_of(config))});
   stages::DeviceEdges edges;
-  stage.run(pixels, edges);
+  stage.run(plane, threshold, edges);
   edges.read_count();
   return {edges.read(image.height), edges.host_dropped};
 }
@@ -56,8 +60,7 @@ TEST_CASE("edge thinning: along a curve every pixel keeps one edge and none is l
   const Image image = render_half_plane(64, 64, 31.4, 32.2, 41.0 * kDegree);
   EdgesConfig thin;
   thin.thinning = true;
-  const ReferenceEdges all = reference::detect_edges(image.view(), {}),
-                       thinned = reference::detect_edges(image.view(), thin);
+  const ReferenceEdges all = ::detect_edges(image.view(), {}), thinned = ::detect_edges(image.view(), thin);
   check_structure(thinned, 64, 64, thin);
   const auto pixels = [](const ReferenceEdges& edges) {
     std::vector<std::pair<int, int>> found;

@@ -9,12 +9,11 @@ using namespace quadedge;
 
 namespace {
 
-Image pattern(int width, int height) {
-  Image image(width, height);
+Image pattern(int width, int height, int white = kWhite8) {
+  Image image(width, height, white);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image.pixels[static_cast<std::size_t>(y * width + x)] =
-          static_cast<std::uint8_t>((x * 37 + y * 101 + x * y * 5) % 256);
+      image.set(x, y, (x * 37 + y * 101 + x * y * 5) * (white / kWhite8) % (white + 1));
     }
   }
   return image;
@@ -43,7 +42,7 @@ TEST_CASE("undistortion: whole-pixel shifts copy pixels and replicate the border
     }
   }
   const Image half = reference::undistort(image.view(), shift_table(9, 7, 0.5f, 0.0f));
-  CHECK(half.view().at(0, 0) == (image.view().at(0, 0) + image.view().at(1, 0) + 1) / 2);
+  CHECK(half.view().value(0, 0) == (image.view().value(0, 0) + image.view().value(1, 0) + 1) / 2);
 }
 
 TEST_CASE("undistortion: every device and variant equals the reference exactly", "[undistortion][device][oclgrind]") {
@@ -52,13 +51,15 @@ TEST_CASE("undistortion: every device and variant equals the reference exactly",
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "undistortion") continue;
       for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
-        const Image image = pattern(width + 2, height + 3);
-        const auto table = shift_table(width, height, 0.37f, 1.61f);
-        stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}});
-        opencl::Buffer<cl_uchar> result;
-        stage.run(image.view(), result);
-        CHECK(result.read(static_cast<std::size_t>(width * height)) ==
-              reference::undistort(image.view(), table).pixels);
+        for (const int white : {255, 4095, 65535}) {
+          const Image image = pattern(width + 2, height + 3, white);
+          const auto table = shift_table(width, height, 0.37f, 1.61f);
+          stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}}, white);
+          opencl::Buffer<cl_uchar> result;
+          stage.run(image.view(), result);
+          const Image expected = reference::undistort(image.view(), table);
+          CHECK(result.read(expected.pixels.size()) == expected.pixels);
+        }
       }
     }
   }

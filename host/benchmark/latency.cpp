@@ -9,6 +9,7 @@
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
 #include "stages/edge_detection.hpp"
+#include "stages/edge_threshold.hpp"
 #include "stages/undistortion.hpp"
 
 namespace quadedge::bench {
@@ -25,13 +26,17 @@ class Detector {
  public:
   Detector(opencl::Context& context, const ImageView& image, const Config& config)
       : context_(context),
-        upload_(context, {}, image.width, image.height, config.variants),
+        upload_(context, {}, image.width, image.height, config.variants, image.white),
+        plane_(context, image.width, image.height, config.edges.sigma, image.white),
+        threshold_(context, config.edges, config.variants),
         detection_(context, image.width, image.height, config.edges, config.variants) {}
 
   /// Returns after the device is done.
   void run(const ImageView& image) {
     upload_.run(image, pixels_);
-    detection_.run(pixels_, edges_);
+    plane_.prepare(pixels_);
+    threshold_.run(plane_, nullptr);
+    detection_.run(plane_, threshold_.values(), edges_);
     context_.finish();
   }
   int count(const ImageView& image) {
@@ -43,6 +48,8 @@ class Detector {
  private:
   opencl::Context& context_;
   stages::Undistortion upload_;
+  stages::PaddedPlane plane_;
+  stages::EdgeThreshold threshold_;
   stages::EdgeDetection detection_;
   opencl::Buffer<cl_uchar> pixels_;
   stages::DeviceEdges edges_;
@@ -137,7 +144,7 @@ double threshold_for_edges(const FramePrefetcher::Frame& frame, int wanted, Devi
     }
     return sum / 2;
   };
-  double low = 0, high = 255;  // more edges than wanted, fewer than wanted
+  double low = 1e-6, high = 255;  // more edges than wanted, fewer than wanted
   if (mean_count(low) <= wanted) return low;
   while (high - low > 0.01) {
     // Edges thin out by ratios: the geometric mean, once there is a lower bound above zero.

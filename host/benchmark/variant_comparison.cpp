@@ -180,7 +180,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     }
   }
   const FrontendOutput& seen = candidates[by_default].output;
-  const FrameSize size{static_cast<double>(input.second.left.pixels.size() + input.second.right.pixels.size()),
+  const FrameSize size{static_cast<double>(input.second.left.pixel_count() + input.second.right.pixel_count()),
                        static_cast<double>(seen.left_edges.size() + seen.right_edges.size())};
   const StageWork work = least_work(stage, size, input.config);
   for (std::size_t i = 0; i < candidates.size(); ++i) {

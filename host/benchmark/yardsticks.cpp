@@ -11,10 +11,9 @@ namespace {
 constexpr int kTaps = 35;
 constexpr int kFilters = 9;
 
-cv::Mat view(const Image& image) {
-  const ImageView pixels = image.view();
-  return cv::Mat(pixels.height, pixels.width, CV_8UC1, const_cast<std::uint8_t*>(pixels.pixels),
-                 static_cast<std::size_t>(pixels.stride));
+cv::Mat grey_matrix(const Image& image) {
+  Image grey = to_8_bits(image.view());
+  return cv::Mat(grey.height, grey.width, CV_8UC1, grey.pixels.data()).clone();
 }
 
 template <class Function>
@@ -32,13 +31,13 @@ Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int threads, 
   cv::setNumThreads(threads);
   const auto sift = cv::SIFT::create();
   cv::Mat doubled, filtered, descriptors;
-  cv::resize(view(frame.left), doubled, {}, 2, 2, cv::INTER_LINEAR);
+  cv::resize(grey_matrix(frame.left), doubled, {}, 2, 2, cv::INTER_LINEAR);
   doubled.convertTo(doubled, CV_32F);
   const cv::Mat taps = cv::getGaussianKernel(kTaps, 4.0, CV_32F);
   std::vector<cv::KeyPoint> points;
   const auto both_sifts = [&] {
     for (const auto* image : {&frame.left, &frame.right})
-      sift->detectAndCompute(view(*image), cv::noArray(), points, descriptors);
+      sift->detectAndCompute(grey_matrix(*image), cv::noArray(), points, descriptors);
   };
   const auto nine_filters = [&] {
     for (int i = 0; i < kFilters; ++i) cv::sepFilter2D(doubled, filtered, CV_32F, taps, taps);

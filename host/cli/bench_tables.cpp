@@ -33,9 +33,9 @@ void print_benchmark(const bench::BenchRecord& record) {
   std::printf("%s, %dx%d, on %s\n", run.input.name.c_str(), run.input.width, run.input.height, run.device.name.c_str());
   std::printf("%d frames measured after the first and %d to get warm; %d of %zu tracked\n",
               static_cast<int>(run.frames.size()) - 1, record.warm_up, run.tracked(), run.frames.size());
-  std::printf("edges.threshold %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
-              run.config.edges.threshold, record.edges_wanted > 0 ? " (chosen)" : "", count(run, "edges_left"),
-              count(run, "edges_right"), count(run, "stereo_edges"), count(run, "quads"));
+  std::printf("threshold of edges %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
+              run.frames.back().result.edge_threshold, record.edges_wanted > 0 ? " (chosen)" : "",
+              count(run, "edges_left"), count(run, "edges_right"), count(run, "stereo_edges"), count(run, "quads"));
   const auto latency = report::latency_summary(run.frames);
   std::printf("\nframe             median %.2f ms, p90 %.2f, p99 %.2f, max %.2f; first %.2f\n", latency.median,
               latency.p90, latency.p99, latency.max, latency.first);

@@ -14,6 +14,10 @@ void declare_scene(Options& options, SyntheticOptions& scene, std::string& size)
   options.number("--noise", scene.noise, "standard deviation of the camera noise [grey levels]");
   options.number("--gain", scene.gain, "factor on the light of every second frame");
   options.number("--right-gain", scene.right_gain, "factor on the right camera's exposure");
+  options.number("--light", scene.light, "factor on the light of all frames");
+  options.number("--gamma", scene.gamma, "grey levels become 255 (v / 255)^(1 / gamma)");
+  options.number("--bits", scene.bits, "of a pixel: 8, 12 or 16");
+  options.number("--contrast", scene.contrast, "of the finished picture, noise included, around grey level 128");
   options.number("--blur", scene.blur,
                  "length of the motion blur, on average over the path [px]; what the path moves per frame at most");
   options.number("--mover", scene.mover, "ratio of the image that a board moving on its own covers, 0 to 0.6");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "data/image_file.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
@@ -62,6 +63,15 @@ std::string calibration_of(const Dataset& dataset) {
   return fs::exists(fs::path(dataset.path) / "calib.txt") ? dataset.path + "/calib.txt" : dataset.path;
 }
 
+/// Largest value of an image's pixels. What is wrong with the image is said by who reads it.
+int white_of(const std::string& file) {
+  try {
+    return image_size(file).white;
+  } catch (const DataError&) {
+    return kWhite8;
+  }
+}
+
 }  // namespace
 
 Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings) {
@@ -73,6 +83,7 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
     if (findings.errors().empty()) findings.error(dataset.path, "no stereo frame", "at least one");
   } else {
     cut_frames(dataset, options);
+    dataset.rig.white = white_of(dataset.frames.front().left);
   }
   findings.attempt([&] { check_rig(dataset.rig, calibration_of(dataset).c_str()); });
   return dataset;

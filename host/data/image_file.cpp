@@ -15,6 +15,7 @@ namespace data {
 namespace {
 
 using namespace std::string_view_literals;
+constexpr int kWhite16 = 65535;
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n"sv;
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at, int count) {
@@ -37,6 +38,7 @@ ImageSize check_png(std::string_view bytes, const std::string& file) {
     if (length > bytes.size() - at - 12) truncated(file, bytes, "PNG", "a complete one, closed by its IEND chunk");
     if (type == "IHDR"sv && length >= 8) {
       size = {static_cast<int>(big_endian(bytes, at + 8, 4)), static_cast<int>(big_endian(bytes, at + 12, 4))};
+      if (length > 8 && big_endian(bytes, at + 16, 1) == 16) size.white = kWhite16;
     }
     if (type == "IEND"sv) return size;
     at += 12 + length;
@@ -84,9 +86,11 @@ ImageSize check_pnm(std::string_view bytes, const std::string& file) {
     }
     return value;
   };
-  const ImageSize size{next_number(), next_number()};
-  const int largest = next_number();
-  const std::size_t per_pixel = (bytes[1] == '6' ? 3U : 1U) * (largest > 255 ? 2U : 1U);
+  const int width = next_number(), height = next_number(), largest = next_number();
+  if (largest < 1 || largest > kWhite16)
+    fail(file, "a PNM with the largest value " + std::to_string(largest), "1 to 65535");
+  const ImageSize size{width, height, largest};
+  const std::size_t per_pixel = (bytes[1] == '6' ? 3U : 1U) * bytes_per_pixel(largest);
   const std::size_t needed = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * per_pixel;
   if (bytes.size() < at + 1 + needed) truncated(file, bytes, "PNM", "all pixels that its header promises");
   return size;
@@ -141,10 +145,11 @@ Image read_grey_image(const std::string& path) {
   if (decoded.empty())
     data::fail(path, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
   if (decoded.channels() == 3) cv::cvtColor(decoded, decoded, cv::COLOR_BGR2GRAY);
-  if (decoded.depth() == CV_16U) decoded.convertTo(decoded, CV_8U, 255.0 / 65535.0);
-  if (decoded.type() != CV_8UC1) data::fail(path, "an unusual pixel type", "8 or 16 bit grey or colour");
-  Image image(decoded.cols, decoded.rows);
-  const cv::Mat target(image.height, image.width, CV_8U, image.pixels.data());
+  const int type = size.white > kWhite8 ? CV_16UC1 : CV_8UC1;
+  if (decoded.type() != type) data::fail(path, "an unusual pixel type", "8 or 16 bit grey or colour");
+  cv::min(decoded, size.white, decoded);  // a header may promise less than its pixels hold
+  Image image(decoded.cols, decoded.rows, size.white);
+  const cv::Mat target(image.height, image.width, type, image.pixels.data());
   decoded.copyTo(target);
   return image;
 }

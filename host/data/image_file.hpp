@@ -6,11 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "quadedge/image.hpp"
+
 namespace quadedge::data {
 
-/// Columns and rows.
+/// Columns and rows, and the largest value of a pixel.
 struct ImageSize {
   int width = 0, height = 0;
+  int white = kWhite8;
   bool operator==(const ImageSize& other) const { return width == other.width && height == other.height; }
   bool operator!=(const ImageSize& other) const { return !(*this == other); }
 };

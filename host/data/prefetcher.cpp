@@ -14,11 +14,15 @@
 namespace quadedge {
 namespace {
 
-Image read_checked(const std::string& file, const PinholeCamera& camera) {
+Image read_checked(const std::string& file, const PinholeCamera& camera, int white) {
   Image image = read_grey_image(file);
   if (image.width != camera.width || image.height != camera.height) {
     data::fail(file, data::to_string({image.width, image.height}) + " pixels",
                data::to_string({camera.width, camera.height}) + " as the calibration and the other frames");
+  }
+  if (image.white != white) {
+    data::fail(file, "values to " + std::to_string(image.white),
+               "to " + std::to_string(white) + " as in the first left image");
   }
   return image;
 }
@@ -31,6 +35,7 @@ class FramePrefetcher::Implementation {
       : frames_(dataset.frames),
         left_(dataset.rig.left),
         right_(dataset.rig.right),
+        white_(dataset.rig.white),
         ahead_(static_cast<std::size_t>(std::max(1, ahead))),
         reader_([this] { read_all(); }) {}
 
@@ -66,8 +71,8 @@ class FramePrefetcher::Implementation {
     Item item;
     try {
       const FrameFiles& files = frames_[number];
-      item.frame = {static_cast<int>(number), files.stamp_ns, read_checked(files.left, left_),
-                    read_checked(files.right, right_)};
+      item.frame = {static_cast<int>(number), files.stamp_ns, read_checked(files.left, left_, white_),
+                    read_checked(files.right, right_, white_)};
     } catch (...) {
       item.problem = std::current_exception();
     }
@@ -93,6 +98,7 @@ class FramePrefetcher::Implementation {
 
   const std::vector<FrameFiles> frames_;
   const PinholeCamera left_, right_;
+  const int white_;
   const std::size_t ahead_;
   std::mutex mutex_;
   std::condition_variable changed_;  ///< the queue, finished_ or stop_

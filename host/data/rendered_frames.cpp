@@ -23,16 +23,16 @@ constexpr std::chrono::milliseconds kPoll{50};
 std::string key_of(const SyntheticOptions& options) {
   // Naming every member makes this fail to compile when one is added. Threads do not change a pixel, nor does the
   // length, but of the loop, which closes with the last frame.
-  const auto& [scene, path, frames, width, height, focal, baseline, noise, gain, right_gain, blur, mover, supersampling,
-               seed, threads] = options;
+  const auto& [scene, path, frames, width, height, focal, baseline, noise, gain, right_gain, light, gamma, bits,
+               contrast, blur, mover, supersampling, seed, threads] = options;
   static_cast<void>(threads);
   ContentHash hash;
   hash.add(renderer_version());
   hash.add(scene);
   hash.add(path);
   hash.add(std::to_string(path == "loop" ? frames : 0));
-  hash.add({static_cast<double>(width), static_cast<double>(height), focal, baseline, noise, gain, right_gain, blur,
-            mover, static_cast<double>(supersampling)});
+  hash.add({static_cast<double>(width), static_cast<double>(height), focal, baseline, noise, gain, right_gain, light,
+            gamma, static_cast<double>(bits), contrast, blur, mover, static_cast<double>(supersampling)});
   hash.add(std::to_string(seed));
   return hash.hex();
 }
@@ -43,12 +43,13 @@ std::string view_file(const std::string& folder, int frame, Side side) {
   return folder + name;
 }
 
-/// Head of a binary PGM file, with the checksum of its pixels as a comment.
+/// Head of a binary PGM file, with the checksum of its pixels as a comment. The machine's byte order, as nobody else
+/// reads the file.
 std::string pgm_head(const Image& image) {
   ContentHash hash;
   hash.add({reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size()});
-  return "P5\n# XXH3 " + hash.hex() + "\n" + std::to_string(image.width) + " " + std::to_string(image.height) +
-         "\n255\n";
+  return "P5\n# XXH3 " + hash.hex() + "\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n" +
+         std::to_string(image.white) + "\n";
 }
 
 std::string pgm(const Image& image) {
@@ -150,7 +151,7 @@ void RenderedFrames::make_folder() {
 /// Returns true where the view had to be rendered.
 bool RenderedFrames::make_view(int frame, Side side, Image& image) {
   const auto& camera = sequence_.rig().left;
-  image = Image(camera.width, camera.height);
+  image = Image(camera.width, camera.height, sequence_.rig().white);
   const std::string file = view_file(folder_, frame, side);
   if (!folder_.empty() && read_view(file, image)) return false;
   image = sequence_.render(frame, side).image;

@@ -58,7 +58,7 @@ FrameTruth read_pair_truth(const Dataset& dataset) {
       truth.right_is_measured = true;
     }
     if (*names.mask != '\0' && fs::exists(mask)) {
-      const Image image = read_grey_image(mask.string());
+      const Image image = to_8_bits(read_grey_image(mask.string()).view());
       check_size({image.width, image.height, {}}, dataset.rig.left, mask.string());
       for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         truth.occluded.push_back(image.pixels[i] == kMaskOccluded ? 1 : 0);

@@ -49,7 +49,10 @@ SurfaceMap surface_from_disparity(const data::FloatMap& disparity, double scale)
 }
 
 SurfaceMap surface_from_grey(const Image& disparity, double scale) {
-  return make_map(disparity.width, disparity.height, disparity.pixels, [&](double value) { return value * scale; });
+  std::vector<int> values;
+  for (int y = 0; y < disparity.height; ++y)
+    for (int x = 0; x < disparity.width; ++x) values.push_back(disparity.view().value(x, y));
+  return make_map(disparity.width, disparity.height, values, [&](double value) { return value * scale; });
 }
 
 SurfaceMap surface_from_depth(const data::FloatMap& depth, double focal_times_baseline) {

@@ -2,7 +2,9 @@
 
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
+#include "reference/edge_threshold.hpp"
 #include "stages/edge_detection.hpp"
+#include "stages/edge_threshold.hpp"
 #include "stages/undistortion.hpp"
 
 namespace quadedge {
@@ -11,16 +13,21 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
   EdgeSet edges;
   std::size_t found = 0;
   if (device.is_reference()) {
-    edges = reference::to_edge_set(reference::detect_edges(image, config.edges));
+    reference::EdgeThreshold threshold(config.edges);
+    edges = reference::to_edge_set(reference::detect_edges(image, config.edges, threshold.next({image})));
     found = edges.size();
   } else {
     auto& context = *device.context();
-    stages::Undistortion upload(context, {}, image.width, image.height, config.variants);
+    stages::Undistortion upload(context, {}, image.width, image.height, config.variants, image.white);
+    stages::PaddedPlane plane(context, image.width, image.height, config.edges.sigma, image.white);
+    stages::EdgeThreshold threshold(context, config.edges, config.variants);
     stages::EdgeDetection detection(context, image.width, image.height, config.edges, config.variants);
     opencl::Buffer<cl_uchar> pixels;
     stages::DeviceEdges device_edges;
     upload.run(image, pixels);
-    detection.run(pixels, device_edges);
+    plane.prepare(pixels);
+    threshold.run(plane, nullptr);
+    detection.run(plane, threshold.values(), device_edges);
     device_edges.read_count();
     edges = device_edges.read(image.height);
     found = edges.size() + static_cast<std::size_t>(device_edges.host_dropped);

@@ -15,33 +15,53 @@ DeviceRig::DeviceRig(const StereoRig& calibration) {
 }
 
 DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
-                               const Config& config)
-    : undistortion(context, table, camera.width, camera.height, config.variants),
+                               int white, const Config& config)
+    : undistortion(context, table, camera.width, camera.height, config.variants, white),
+      plane(context, camera.width, camera.height, config.edges.sigma, white),
       detection(context, camera.width, camera.height, config.edges, config.variants),
-      patches(context, camera.width, camera.height, config.patches, config.variants),
-      sift(context, camera.width, camera.height, config.sift, config.variants) {}
+      patches(context, camera.width, camera.height, config.patches, config.variants, white),
+      sift(context, camera.width, camera.height, config.sift, config.variants, white) {}
 
 DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
     : context_(context),
       config_(config),
       epipolar_(make_epipolar_geometry(rig, config.stereo)),
       calibration_(rig),
-      left_(context, rig.left, rig.left_undistortion, config),
-      right_(context, rig.right, rig.right_undistortion, config),
+      left_(context, rig.left, rig.left_undistortion, rig.white, config),
+      right_(context, rig.right, rig.right_undistortion, rig.white, config),
+      threshold_(context, config.edges, config.variants),
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
-      refinement_(context, config.stereo, config.patches.offset, config.variants),
+      refinement_(context, config.stereo, config.patches.offset, config.variants, rig.white),
       clustering_(context, config.stereo, config.variants),
       relaxation_(context, rig.left.width, rig.left.height, config.stereo, config.variants),
       mutual_(context, config.stereo, config.variants),
       temporal_candidates_(context, config.variants),
       temporal_quads_(context, config.temporal, config.variants),
       temporal_match_(context, config.temporal, config.variants),
-      wide_description_(context, rig.left.width, rig.left.height, config.variants),
+      wide_description_(context, rig.left.width, rig.left.height, config.variants, rig.white),
       wide_matching_(context, config.temporal, config.variants) {
   std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
   std::iota(itself.begin(), itself.end(), 0);
   itself_.write(context, itself);
+}
+
+void DeviceFrontend::detect(const stages::DeviceStereoEdges& rig) {
+  context_.begin_stage("edge_detection");
+  left_.plane.prepare(rig.left_image.pixels);
+  right_.plane.prepare(rig.right_image.pixels);
+  threshold_.run(left_.plane, &right_.plane);
+  left_.detection.run(left_.plane, threshold_.values(), left_.edges);
+  right_.detection.run(right_.plane, threshold_.values(), right_.edges);
+  threshold_.request();
+  left_.edges.request_count();
+  right_.edges.read_count();
+  left_.edges.take_count();
+  counts_ = {};
+  counts_.edge_threshold = threshold_.host_threshold();
+  counts_.edges_left = left_.edges.host_count;
+  counts_.edges_right = right_.edges.host_count;
+  counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
 }
 
 RigHandle DeviceFrontend::process(const StereoFrame& frame) {
@@ -49,15 +69,7 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   stages::DeviceStereoEdges& rig = current.on_device;
   left_.undistortion.run(frame.left, rig.left_image.pixels);
   right_.undistortion.run(frame.right, rig.right_image.pixels);
-  left_.detection.run(rig.left_image.pixels, left_.edges);
-  right_.detection.run(rig.right_image.pixels, right_.edges);
-  left_.edges.request_count();
-  right_.edges.read_count();
-  left_.edges.take_count();
-  counts_ = {};
-  counts_.edges_left = left_.edges.host_count;
-  counts_.edges_right = right_.edges.host_count;
-  counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
+  detect(rig);
   if (tap_ != nullptr) tap_->edges(edges(Side::left), edges(Side::right));
 
   left_.patches.prepare(rig.left_image.pixels);

@@ -5,6 +5,7 @@
 #include "frontend/frontend.hpp"
 #include "stages/candidate_filters.hpp"
 #include "stages/edge_detection.hpp"
+#include "stages/edge_threshold.hpp"
 #include "stages/patches.hpp"
 #include "stages/sift.hpp"
 #include "stages/stereo_candidates.hpp"
@@ -43,13 +44,17 @@ class DeviceFrontend : public Frontend {
   /// Stages 1 to 3 of one camera.
   struct Camera {
     stages::Undistortion undistortion;
+    stages::PaddedPlane plane;
     stages::EdgeDetection detection;
     stages::Patches patches;
     stages::Sift sift;
     stages::DeviceEdges edges;
-    Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table, const Config& config);
+    Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table, int white,
+           const Config& config);
   };
 
+  /// Detects the edges of both images and waits for their number.
+  void detect(const stages::DeviceStereoEdges& rig);
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
@@ -72,6 +77,7 @@ class DeviceFrontend : public Frontend {
   EpipolarGeometry epipolar_;
   StereoRig calibration_;
   Camera left_, right_;
+  stages::EdgeThreshold threshold_;
   stages::StereoCandidates stereo_candidates_;
   stages::CandidateFilters filters_;
   stages::StereoRefinement refinement_;

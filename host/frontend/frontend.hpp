@@ -17,6 +17,7 @@ namespace quadedge::frontend {
 
 /// What can be counted of the current frame.
 struct FrontendCounts {
+  double edge_threshold = 0;  ///< of both images [grey levels per px]
   int edges_left = 0, edges_right = 0;
   int dropped_edges = 0;                      ///< beyond edges.max_edges, both images
   int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() that keep a candidate before the agreement

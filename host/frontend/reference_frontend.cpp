@@ -14,16 +14,17 @@ namespace {
 
 Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
   if (!table.empty()) return reference::undistort(recorded, table);
-  Image image(recorded.width, recorded.height);
+  Image image(recorded.width, recorded.height, recorded.white);
+  const std::ptrdiff_t row = image.view().stride;
   for (int y = 0; y < recorded.height; ++y) {
-    std::copy_n(recorded.pixels + y * recorded.stride, recorded.width, image.pixels.begin() + y * recorded.width);
+    std::copy_n(recorded.pixels + y * recorded.stride, row, image.pixels.begin() + y * row);
   }
   return image;
 }
 
 /// The first edges.max_edges edges in scan order.
-EdgeSet detect(const Image& image, const EdgesConfig& config, int& dropped) {
-  EdgeSet edges = reference::to_edge_set(reference::detect_edges(image.view(), config));
+EdgeSet detect(const Image& image, const EdgesConfig& config, double threshold, int& dropped) {
+  EdgeSet edges = reference::to_edge_set(reference::detect_edges(image.view(), config, threshold));
   const auto limit = static_cast<std::size_t>(config.max_edges);
   if (edges.size() > limit) {
     dropped += static_cast<int>(edges.size() - limit);
@@ -52,15 +53,20 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
-    : calibration_(rig), config_(config), epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
+    : calibration_(rig),
+      config_(config),
+      threshold_(config.edges),
+      epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
 
 RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   ReferenceRig& now = rigs_.next();
   counts_ = {};
   now.left = pinhole_image(frame.left, calibration_.left_undistortion);
   now.right = pinhole_image(frame.right, calibration_.right_undistortion);
-  left_edges_ = detect(now.left, config_.edges, counts_.dropped_edges);
-  right_edges_ = detect(now.right, config_.edges, counts_.dropped_edges);
+  const double threshold = threshold_.next({now.left.view(), now.right.view()});
+  counts_.edge_threshold = threshold;
+  left_edges_ = detect(now.left, config_.edges, threshold, counts_.dropped_edges);
+  right_edges_ = detect(now.right, config_.edges, threshold, counts_.dropped_edges);
   counts_.edges_left = static_cast<int>(left_edges_.size());
   counts_.edges_right = static_cast<int>(right_edges_.size());
   const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);

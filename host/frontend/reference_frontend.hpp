@@ -3,6 +3,7 @@
 
 #include "frontend/frontend.hpp"
 #include "reference/candidate_filters.hpp"
+#include "reference/edge_threshold.hpp"
 
 namespace quadedge::frontend {
 
@@ -26,6 +27,7 @@ class ReferenceFrontend : public Frontend {
  private:
   StereoRig calibration_;
   Config config_;
+  reference::EdgeThreshold threshold_;
   EpipolarGeometry epipolar_;
   EdgeSet left_edges_, right_edges_;
   RigPool<ReferenceRig> rigs_;

@@ -40,8 +40,12 @@ void add_message(const std::string& message, FrameResult& result) {
   result.message += (result.message.empty() ? "" : "; ") + message;
 }
 
-void check_image(const ImageView& image, const PinholeCamera& camera, bool any_size, const char* side) {
+void check_image(const ImageView& image, const PinholeCamera& camera, int white, bool any_size, const char* side) {
   if (image.empty()) throw DataError(std::string("the ") + side + " image is empty");
+  if (image.white != white) {
+    throw DataError(std::string("the ") + side + " image has values to " + std::to_string(image.white) +
+                    ", the rig says to " + std::to_string(white));
+  }
   if (!any_size && (image.width != camera.width || image.height != camera.height)) {
     throw DataError(std::string("the ") + side + " image has " + std::to_string(image.width) + "x" +
                     std::to_string(image.height) + " pixels, the calibration expects " + std::to_string(camera.width) +
@@ -101,8 +105,8 @@ class StereoOdometry::Implementation {
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
-  check_image(frame.left, rig_.left, !rig_.left_undistortion.empty(), "left");
-  check_image(frame.right, rig_.right, !rig_.right_undistortion.empty(), "right");
+  check_image(frame.left, rig_.left, rig_.white, !rig_.left_undistortion.empty(), "left");
+  check_image(frame.right, rig_.right, rig_.white, !rig_.right_undistortion.empty(), "right");
   StageClock latency, clock;
   FrameResult result;
   result.stamp_ns = frame.stamp_ns;
@@ -137,6 +141,7 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   current_ = nullptr;
   current_ = frontend_->process(frame);
   const frontend::FrontendCounts& counts = frontend_->counts();
+  result.edge_threshold = counts.edge_threshold;
   result.counts.edges_left = counts.edges_left;
   result.counts.edges_right = counts.edges_right;
   result.counts.stereo_edges = static_cast<int>(current_->edges.size());

@@ -12,6 +12,7 @@
   VISIT(PackedPointIndex)              \
   VISIT(EpipolarGeometry)              \
   VISIT(AlignmentSettings)             \
+  VISIT(ThresholdArguments)            \
   VISIT(DetectionArguments)            \
   VISIT(PatchArguments)                \
   VISIT(SiftArguments)                 \

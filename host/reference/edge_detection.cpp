@@ -173,7 +173,7 @@ ReferenceEdges thin(const ReferenceEdges& edges) {
 
 }  // namespace
 
-ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config) {
+ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double threshold) {
   const GradientField field = gradient_field(image, config);
   ReferenceEdges edges;
   for (int cell_y = 0; cell_y < 2 * image.height; ++cell_y) {
@@ -181,7 +181,7 @@ ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config) {
     // Strictly inside the margin: the parabola shifts by at most 0.354 px, the Newton step by newton_max.
     if (cell_y <= 2 * config.margin || cell_y >= 2 * (image.height - 1 - config.margin)) continue;
     for (int cell_x = 2 * config.margin + 1; cell_x < 2 * (image.width - 1 - config.margin); ++cell_x) {
-      if (!(field.magnitude(cell_x, cell_y) > config.threshold)) continue;
+      if (!(field.magnitude(cell_x, cell_y) > threshold)) continue;
       const Probe probe = probe_maximum(field, cell_x, cell_y);
       if (!probe.is_maximum()) continue;
       // Parabola through (-step, behind), (0, magnitude), (step, ahead).

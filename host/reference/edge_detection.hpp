@@ -62,8 +62,9 @@ Probe probe_maximum(const GradientField& field, int cell_x, int cell_y);
 /// level.
 Derivatives derivatives_at(ImageView image, double x, double y, double sigma);
 
-/// Third-order edges of an image of any size (too small for the margin: none). Never cut by max_edges.
-ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config);
+/// Third-order edges of an image of any size (too small for the margin: none) whose gradient exceeds `threshold` [grey
+/// levels per px]. Never cut by max_edges.
+ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double threshold);
 
 EdgeSet to_edge_set(const ReferenceEdges& edges);
 

@@ -18,8 +18,8 @@ double grey_at(const ImageView& image, double x, double y) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
   const double fx = x - x0, fy = y - y0;
-  return (1 - fy) * ((1 - fx) * image.at(x0, y0) + fx * image.at(x1, y0)) +
-         fy * ((1 - fx) * image.at(x0, y1) + fx * image.at(x1, y1));
+  const auto grey = [&](int px, int py) { return static_cast<double>(image.at(px, py)); };
+  return (1 - fy) * ((1 - fx) * grey(x0, y0) + fx * grey(x1, y0)) + fy * ((1 - fx) * grey(x0, y1) + fx * grey(x1, y1));
 }
 
 PatchValues cut_patch(const ImageView& image, const PatchFrame& frame, double dx, double dy) {

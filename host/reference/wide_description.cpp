@@ -67,13 +67,11 @@ SmallImage shrink(const ImageView& image) {
   small.height = image.height / kWideShrink;
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
-      int sum = 0;
+      float sum = 0;
       for (int row = 0; row < kWideShrink; ++row)
         for (int column = 0; column < kWideShrink; ++column)
-          sum +=
-              image
-                  .pixels[static_cast<std::ptrdiff_t>(kWideShrink * y + row) * image.stride + kWideShrink * x + column];
-      small.pixels.push_back(static_cast<float>(sum) / (kWideShrink * kWideShrink));
+          sum += image.at(kWideShrink * x + column, kWideShrink * y + row);
+      small.pixels.push_back(sum / (kWideShrink * kWideShrink));
     }
   }
   return small;

@@ -33,8 +33,8 @@ void write_encoded(const std::string& path, const cv::Mat& picture, const std::s
 
 Canvas::Canvas(const ImageView& image, double brightness, int legend_lines)
     : scale_(scale_for(image.width)), image_height_(image.height * scale_) {
-  const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels),
-                     static_cast<std::size_t>(image.stride));
+  Image pixels = to_8_bits(image);
+  const cv::Mat grey(image.height, image.width, CV_8UC1, pixels.pixels.data());
   cv::Mat large;
   cv::resize(grey, large, {}, scale_, scale_, cv::INTER_LINEAR);
   large.convertTo(large, CV_8UC1, brightness);

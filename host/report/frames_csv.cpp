@@ -15,6 +15,12 @@ std::string milliseconds(double value) {
   return text;
 }
 
+std::string grey_levels(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
 /// A field in quotes, as RFC 4180 wants it for free text.
 std::string quoted_field(const std::string& text) {
   std::string field = "\"";
@@ -48,7 +54,7 @@ void FramesCsv::add(const FrameResult& result) {
 }
 
 std::string FramesCsv::header() const {
-  std::string text = "frame,stamp_s,status,key_rig,new_key_rig";
+  std::string text = "frame,stamp_s,status,key_rig,new_key_rig,edge_threshold";
   for (const auto& [name, unused] : named_counts({})) {
     (void)unused;
     text += "," + name;
@@ -62,7 +68,7 @@ std::string FramesCsv::row(std::size_t frame) const {
   const FrameResult& result = frames_[frame];
   std::string text = std::to_string(frame) + "," + data::format_seconds(result.stamp_ns) + "," +
                      to_string(result.status) + "," + std::to_string(result.reference_frame) + "," +
-                     (result.new_key_rig ? "1" : "0");
+                     (result.new_key_rig ? "1" : "0") + "," + grey_levels(result.edge_threshold);
   for (const auto& [name, count] : named_counts(result.counts)) text += "," + std::to_string(count);
   text += "," + milliseconds(result.latency_ms);
   for (const auto& name : stages_) {

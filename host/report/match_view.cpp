@@ -26,9 +26,8 @@ double middle(std::vector<double>& values) {
 MatchView::MatchView(cv::Mat& picture, const cv::Rect& rectangle, const Image& image, const cv::Rect2d& region,
                      double brightness)
     : view_(picture(rectangle)), region_(region), scale_(rectangle.width / region.width) {
-  const ImageView pixels = image.view();
-  const cv::Mat grey(pixels.height, pixels.width, CV_8UC1, const_cast<std::uint8_t*>(pixels.pixels),
-                     static_cast<std::size_t>(pixels.stride));
+  Image pixels = to_8_bits(image.view());
+  const cv::Mat grey(pixels.height, pixels.width, CV_8UC1, pixels.pixels.data());
   cv::Mat part;
   cv::resize(grey(cv::Rect(region)), part, rectangle.size(), 0, 0, scale_ > 2 ? cv::INTER_CUBIC : cv::INTER_LINEAR);
   part.convertTo(part, CV_8UC1, brightness);

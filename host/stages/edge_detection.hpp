@@ -1,5 +1,5 @@
 #pragma once
-/// \file edge_detection.hpp  Stage 2a: third-order edges of one image on the device. doc/method.md section 1.
+/// \file edge_detection.hpp  Stage 2b: third-order edges of one image on the device. doc/method.md section 1.
 
 #include <map>
 #include <optional>
@@ -9,6 +9,7 @@
 #include "quadedge/config.hpp"
 #include "stages/device_edges.hpp"
 #include "stages/edge_thinning.hpp"
+#include "stages/padded_plane.hpp"
 #include "stages/scan.hpp"
 
 namespace quadedge::stages {
@@ -22,23 +23,17 @@ class EdgeDetection {
   EdgeDetection(opencl::Context& context, int width, int height, const EdgesConfig& config,
                 const std::map<std::string, std::string>& variants);
 
-  /// Enqueues the detection in `image` (height x width, packed). At most config.max_edges edges; what does not fit is
-  /// cut off at the end of the scan order and counted in `edges.count`. Call edges.read_count() before the number is
-  /// needed on the host.
-  void run(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges);
+  /// Enqueues the detection in the image of `plane`, above `threshold` (one float on the device, grey levels per px).
+  /// At most config.max_edges edges; what does not fit is cut off at the end of the scan order and counted in
+  /// `edges.count`. Call edges.read_count() before the number is needed on the host.
+  void run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges);
 
  private:
-  /// Floats of the image with its replicated border, see kernels/edge_detection.cl.
-  struct PaddedPlane {
-    int stride = 0, rows = 0;
-    opencl::Buffer<cl_float> pixels;
-  };
-
   void build(const std::map<std::string, std::string>& variants);
-  void detect(const opencl::Buffer<cl_uchar>& image, DeviceEdges& edges);
-  void find_maxima_in_strips();
-  void find_maxima_in_tiles();
-  DetectionArguments arguments() const;
+  void detect(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges);
+  void find_maxima_in_strips(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
+  void find_maxima_in_tiles(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
+  DetectionArguments arguments(const PaddedPlane& plane) const;
 
   using In = opencl::In<cl_float>;
   using Out = opencl::Out<cl_float>;
@@ -55,17 +50,14 @@ class EdgeDetection {
   int tiles_x_ = 0, tiles_y_ = 0;
   int line_ = 0;  ///< floats of one scratch line of a strip
 
-  opencl::Kernel<InByte, cl_int, cl_int, Out, cl_int> pad_;
-  opencl::Kernel<DetectionArguments, cl_int, In, In, Out, cl_int, Out, OutInt> strip_maxima_;
+  opencl::Kernel<DetectionArguments, In, cl_int, In, In, Out, cl_int, Out, OutInt> strip_maxima_;
   opencl::Kernel<DetectionArguments, In, In, InInt, InInt, Out> strip_directions_;
-  opencl::Kernel<DetectionArguments, cl_int, In, In, Out, OutByte> tile_maxima_;
+  opencl::Kernel<DetectionArguments, In, cl_int, In, In, Out, OutByte> tile_maxima_;
   opencl::Kernel<InByte, cl_int, OutInt> tile_count_;
   opencl::Kernel<InByte, cl_int, In, InInt, cl_int, Out, OutInt> tile_compact_;
   opencl::Kernel<DetectionArguments, In, In, InInt, InInt, Out> tile_directions_;
   Scan scan_;
 
-  PaddedPlane plane_;
-  opencl::Buffer<cl_float> taps_;
   opencl::Buffer<cl_float> scratch_;  ///< strips: lines of column sums and gradients
   opencl::Buffer<cl_float> winners_;  ///< 4 floats per cell of the doubled grid
   opencl::Buffer<cl_int> counts_;     ///< winners per row of the doubled grid

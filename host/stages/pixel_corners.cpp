@@ -1,15 +1,19 @@
 #include "stages/pixel_corners.hpp"
 
+#include "stages/device_image.hpp"
+
 namespace quadedge::stages {
 
-PixelCorners::PixelCorners(opencl::Context& context)
-    : context_(&context), kernel_(context, context.program({"pixel_corners.cl"}, {}), "pixel_corners") {}
+PixelCorners::PixelCorners(opencl::Context& context, int white)
+    : context_(&context),
+      words_per_pixel_(bytes_per_pixel(white)),
+      kernel_(context, context.program({"pixel_corners.cl"}, image_defines(white)), "pixel_corners") {}
 
 void PixelCorners::prepare(const opencl::Buffer<cl_uchar>& image, int width, int height) {
   width_ = width;
   height_ = height;
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  values_.ensure(*context_, columns * rows);
+  values_.ensure(*context_, columns * rows * words_per_pixel_);
   kernel_({columns, rows, 64, 1}, image, width, height, values_);
 }
 

@@ -1,6 +1,7 @@
 #include "stages/sift.hpp"
 
 #include "opencl/variants.hpp"
+#include "stages/device_image.hpp"
 
 namespace quadedge::stages {
 namespace {
@@ -12,7 +13,7 @@ int round_up(int value, int step) { return (value + step - 1) / step * step; }
 }  // namespace
 
 Sift::Sift(opencl::Context& context, int width, int height, const SiftConfig& config,
-           const std::map<std::string, std::string>& variants)
+           const std::map<std::string, std::string>& variants, int white)
     : context_(context),
       width_(width),
       height_(height),
@@ -21,7 +22,7 @@ Sift::Sift(opencl::Context& context, int width, int height, const SiftConfig& co
   const auto& variant = opencl::choose_variant("sift", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   items_per_edge_ = std::stoul(variant.defines.at("ITEMS_PER_EDGE"));
-  const auto program = context.program({"direction.cl", "sift.cl"}, variant.defines);
+  const auto program = context.program({"direction.cl", "sift.cl"}, image_defines(white, variant.defines));
   blur_down_ = {context, program, "sift_blur_down"};
   blur_along_ = {context, program, "sift_blur_along"};
   gradient_ = {context, program, "sift_gradient"};

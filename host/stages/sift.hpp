@@ -6,6 +6,7 @@
 
 #include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
+#include "quadedge/image.hpp"
 #include "stages/packed_positions.hpp"
 
 namespace quadedge::stages {
@@ -16,7 +17,7 @@ class Sift {
  public:
   /// For images of width x height pixels.
   Sift(opencl::Context& context, int width, int height, const SiftConfig& config,
-       const std::map<std::string, std::string>& variants);
+       const std::map<std::string, std::string>& variants, int white = kWhite8);
 
   /// Takes the next image (packed, height x width): prepares the gradient of the blurred image.
   void prepare(const opencl::Buffer<cl_uchar>& image);

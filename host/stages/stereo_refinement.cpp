@@ -5,21 +5,23 @@
 #include "common/filter_limits.hpp"
 #include "common/stereo_constants.hpp"
 #include "opencl/variants.hpp"
+#include "stages/device_image.hpp"
 
 namespace quadedge::stages {
 StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
-                                   const std::map<std::string, std::string>& variants)
+                                   const std::map<std::string, std::string>& variants, int white)
     : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const bool lanes = variant.defines.count("GROUP") != 0;
   items_per_edge_ = lanes ? kPatchLanes : 1;
+  const opencl::Defines defines = image_defines(white, variant.defines);
   const auto program = lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl",
                                                 "candidate_positions.cl", "stereo_refinement_lanes.cl"},
-                                               variant.defines)
+                                               defines)
                              : context.program({"direction.cl", "epipolar.cl", "photometric.cl",
                                                 "candidate_positions.cl", "stereo_refinement.cl"},
-                                               variant.defines);
+                                               defines);
   kernel_ = {context, program, "stereo_refinement"};
 }
 

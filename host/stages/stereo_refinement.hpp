@@ -6,6 +6,7 @@
 
 #include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
+#include "quadedge/image.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
 #include "stages/pixel_corners.hpp"
@@ -23,7 +24,7 @@ struct DeviceRefined {
 class StereoRefinement {
  public:
   StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
-                   const std::map<std::string, std::string>& variants);
+                   const std::map<std::string, std::string>& variants, int white = kWhite8);
 
   /// Living candidates get a position and a similarity; those that diverge are rejected. Both images prepared for
   /// sampling; `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.

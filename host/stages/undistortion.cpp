@@ -1,24 +1,27 @@
 #include "stages/undistortion.hpp"
 
 #include "opencl/variants.hpp"
+#include "stages/device_image.hpp"
 
 namespace quadedge::stages {
 
 Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
-                           const std::map<std::string, std::string>& variants)
+                           const std::map<std::string, std::string>& variants, int white)
     : context_(context),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      bytes_per_pixel_(bytes_per_pixel(white)),
       active_(!table.empty()) {
   if (!active_) return;
   const auto& variant = opencl::choose_variant("undistortion", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  kernel_ = {context, context.program({"undistortion.cl"}, variant.defines), "undistort"};
+  kernel_ = {context, context.program({"undistortion.cl"}, image_defines(white, variant.defines)), "undistort"};
   source_x_.write(context, table.source_x);
   source_y_.write(context, table.source_y);
 }
 
 void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target) {
-  const auto width = static_cast<std::size_t>(recorded.width), height = static_cast<std::size_t>(recorded.height);
+  const auto width = static_cast<std::size_t>(recorded.width) * bytes_per_pixel_;
+  const auto height = static_cast<std::size_t>(recorded.height);
   target.ensure(context_, width * height);
   context_.count_to_device(width * height);
   try {
@@ -36,7 +39,7 @@ void Undistortion::run(const ImageView& recorded, opencl::Buffer<cl_uchar>& imag
     return;
   }
   upload(recorded, recorded_);
-  image.ensure(context_, pixels_);
+  image.ensure(context_, pixels_ * bytes_per_pixel_);
   kernel_({pixels_, local_size_}, recorded_, recorded.width, recorded.height, source_x_, source_y_, image,
           static_cast<cl_int>(pixels_));
 }

@@ -13,9 +13,10 @@ namespace quadedge::stages {
 /// Uploads one camera's images and undoes the lens distortion; without a table it only uploads.
 class Undistortion {
  public:
-  /// `table` may be empty: the recorded images are pinhole images of width x height already.
+  /// `table` may be empty: the recorded images are pinhole images of width x height already. `white`: the largest value
+  /// of their pixels.
   Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
-               const std::map<std::string, std::string>& variants);
+               const std::map<std::string, std::string>& variants, int white = kWhite8);
 
   /// Enqueues upload and undistortion. `image` receives the packed pinhole image, height x width.
   /// The recorded image may have any size when there is a table.
@@ -25,7 +26,7 @@ class Undistortion {
   void upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& target);
 
   opencl::Context& context_;
-  std::size_t pixels_ = 0;
+  std::size_t pixels_ = 0, bytes_per_pixel_;
   std::size_t local_size_ = 1;
   bool active_ = false;
   opencl::Buffer<cl_float> source_x_, source_y_;

@@ -2,15 +2,16 @@
 
 #include "common/layouts.hpp"
 #include "opencl/variants.hpp"
+#include "stages/device_image.hpp"
 
 namespace quadedge::stages {
 
 WideDescription::WideDescription(opencl::Context& context, int width, int height,
-                                 const std::map<std::string, std::string>& variants)
+                                 const std::map<std::string, std::string>& variants, int white)
     : context_(context), width_(width), small_width_(width / kWideShrink), small_height_(height / kWideShrink) {
   const auto& variant = opencl::choose_variant("wide_description", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"direction.cl", "wide_description.cl"}, variant.defines);
+  const auto program = context.program({"direction.cl", "wide_description.cl"}, image_defines(white, variant.defines));
   shrink_ = {context, program, "wide_shrink"};
   describe_ = {context, program, "wide_describe"};
 }

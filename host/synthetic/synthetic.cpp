@@ -41,10 +41,23 @@ void check(const SyntheticOptions& options) {
   require(options.noise >= 0.0 && options.noise <= 100.0, "noise", options.noise, "0 to 100 grey levels");
   require(options.gain >= 0.1 && options.gain <= 10.0, "gain", options.gain, "0.1 to 10");
   require(options.right_gain >= 0.1 && options.right_gain <= 10.0, "right_gain", options.right_gain, "0.1 to 10");
+  require(options.light >= 0.01 && options.light <= 10.0, "light", options.light, "0.01 to 10");
+  require(options.gamma >= 0.1 && options.gamma <= 10.0, "gamma", options.gamma, "0.1 to 10");
+  require(options.bits == 8 || options.bits == 12 || options.bits == 16, "bits", options.bits, "8, 12, 16");
+  require(options.contrast > 0.0 && options.contrast <= 1.0, "contrast", options.contrast, "above 0, at most 1");
   require(options.blur >= 0.0 && options.blur <= 50.0, "blur", options.blur, "0 to 50 px");
   require(options.mover >= 0.0 && options.mover <= 0.6, "mover", options.mover, "0 to 0.6");
   require(options.supersampling >= 1 && options.supersampling <= 64, "supersampling", options.supersampling, "1 to 64");
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads, "0 (one per processor) to 1024");
+}
+
+/// The camera's answer to an exposure: saturated, bent by its gamma, then flattened. Grey levels, 0 to 255.
+double tone(double grey, const SyntheticOptions& options) {
+  constexpr double kWhite = kWhite8, kMiddle = 128.0;
+  grey = std::clamp(grey, 0.0, kWhite);
+  if (options.gamma != 1.0) grey = kWhite * std::pow(grey / kWhite, 1.0 / options.gamma);
+  if (options.contrast != 1.0) grey = kMiddle + options.contrast * (grey - kMiddle);
+  return grey;
 }
 
 StereoRig make_rig(const SyntheticOptions& options) {
@@ -57,6 +70,7 @@ StereoRig make_rig(const SyntheticOptions& options) {
               options.width,
               options.height};
   rig.right = rig.left;
+  rig.white = (1 << options.bits) - 1;
   rig.right_from_left.translation().x() = -options.baseline;
   return rig;
 }
@@ -141,17 +155,20 @@ RenderedView SyntheticSequence::render(int frame, Side side) const {
   synthetic::Radiance radiance = synthetic::expose({implementation_->scene, board, rig(), implementation_->path,
                                                     implementation_->exposure, options.supersampling, options.threads},
                                                    frame, side);
-  const double gain = (frame % 2 == 1 ? options.gain : 1.0) * (side == Side::right ? options.right_gain : 1.0);
+  const double gain =
+      options.light * (frame % 2 == 1 ? options.gain : 1.0) * (side == Side::right ? options.right_gain : 1.0);
 
   RenderedView view;
-  view.image = Image(options.width, options.height);
+  view.image = Image(options.width, options.height, rig().white);
   view.depth = std::move(radiance.depth);
   const std::uint64_t key = synthetic::combine(synthetic::combine(options.seed, frame), index_of(side));
   for (std::size_t i = 0; i < radiance.grey.size(); ++i) {
     double grey = gain * radiance.grey[i];
     if (options.noise > 0.0)
       grey += options.noise * synthetic::normal(synthetic::combine(key, static_cast<std::int64_t>(i)));
-    view.image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::floor(grey + 0.5), 0.0, 255.0));
+    const double value = tone(grey, options) * view.image.white / kWhite8;
+    view.image.set(static_cast<int>(i) % options.width, static_cast<int>(i) / options.width,
+                   static_cast<int>(std::floor(value + 0.5)));
   }
   return view;
 }

@@ -44,6 +44,8 @@ struct StereoRig {
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
   UndistortionTable left_undistortion, right_undistortion;  ///< empty where the recorded images are pinhole images
 
+  int white = 255;  ///< largest value of the recorded images' pixels, see ImageView
+
   double baseline() const { return right_from_left.translation().norm(); }
 };
 

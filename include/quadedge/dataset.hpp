@@ -62,7 +62,7 @@ struct DatasetCheck {
 };
 DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options = {});
 
-/// Reads one image as 8-bit grey. Colour becomes luminance, 16-bit is scaled down.
+/// Reads one grey image at its full depth. Colour becomes luminance.
 /// \throws DataError for a missing, truncated or undecodable file.
 Image read_grey_image(const std::string& path);
 

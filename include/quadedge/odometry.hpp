@@ -54,6 +54,7 @@ struct FrameResult {
   /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current
   /// left frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double edge_threshold = 0;    ///< that the gradient of both images' edges exceeds [grey levels per px]
   double disparity_offset = 0;  ///< found so far, added to every disparity [px]
   int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first one
   /// Number of the frame that the pose was measured against: the key stereo rig or, where that one is out of sight, the

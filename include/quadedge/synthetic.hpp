@@ -34,6 +34,10 @@ struct SyntheticOptions {
   double noise = 1.5;           ///< standard deviation of the camera noise [grey levels]
   double gain = 1.0;  ///< of the light in every second frame: it changes by this factor, and back, from frame to frame
   double right_gain = 1.0;  ///< of the right camera's exposure
+  double light = 1.0;       ///< of all frames
+  double gamma = 1.0;       ///< grey levels become 255 (v / 255)^(1 / gamma), camera noise included
+  int bits = 8;             ///< of a pixel: 8, 12 or 16
+  double contrast = 1.0;    ///< of the finished picture around grey level 128, camera noise included
   /// Motion blur: way of the image's middle, at 2.5 m, while the shutter is open, on average over the path [px]. The
   /// shutter is open equally long in all frames, a frame period at most: more than the path's mean motion per frame is
   /// refused.

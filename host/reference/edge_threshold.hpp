@@ -1,0 +1,43 @@
+#pragma once
+/// \file edge_threshold.hpp  The threshold of a frame's edges in plain C++. doc/method.md section 1.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/layouts.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge::reference {
+
+/// How often which magnitude of the gradient and which response of the noise operator was seen, in the bins of
+/// kernels/edge_threshold.cl.
+struct ContrastTally {
+  std::array<std::int64_t, kGradientBins> gradients{};
+  std::array<std::int64_t, kNoiseBins> responses{};
+
+  /// Adds what `image` shows at its lattice points.
+  void add(const ImageView& image, double sigma);
+  /// The magnitude that this ratio of the gradients exceeds [grey levels per px]; 0 without any.
+  double gradient_exceeded_by(double ratio) const;
+  /// Standard deviation of the noise [steps between the values that a pixel can have]: the median response over what
+  /// normal noise makes of it.
+  double noise() const;
+};
+
+/// Chooses the threshold of one frame after the other.
+class EdgeThreshold {
+ public:
+  explicit EdgeThreshold(const EdgesConfig& config) : config_(config) {}
+
+  /// The threshold of the next frame [grey levels per px], whose images these are: two, or a single one.
+  double next(const std::vector<ImageView>& images);
+  double noise() const { return noise_; }  ///< of that frame, standard deviation [grey levels]; 0 if not measured
+
+ private:
+  EdgesConfig config_;
+  double threshold_ = 0, noise_ = 0;
+};
+
+}  // namespace quadedge::reference

@@ -1,0 +1,53 @@
+#pragma once
+/// \file edge_threshold.hpp  Stage 2a: the threshold of a frame's edges, from what its images show. doc/method.md
+/// section 1.
+
+#include <map>
+#include <string>
+
+#include "opencl/argument_structs.hpp"
+#include "quadedge/config.hpp"
+#include "stages/padded_plane.hpp"
+
+namespace quadedge::stages {
+
+/// Measures contrast and noise of the images of one time and keeps the threshold on the device, where the edge
+/// detection reads it: nothing waits. With edges.threshold > 0 that is the threshold, and nothing is measured.
+/// Remembers the threshold of the frame before. All variants give the same bytes.
+class EdgeThreshold {
+ public:
+  /// `variants`: stage "edge_threshold". \throws UsageError for an unknown variant.
+  EdgeThreshold(opencl::Context& context, const EdgesConfig& config,
+                const std::map<std::string, std::string>& variants);
+
+  /// Enqueues the measuring of a frame: its left and right image, or of a single image it alone (`right` null).
+  void run(const PaddedPlane& left, const PaddedPlane* right);
+
+  /// {threshold [grey levels per px], standard deviation of the noise [grey levels], 0 where it is not measured} of the
+  /// frame that run() was called for last.
+  const opencl::Buffer<cl_float>& values() const { return values_; }
+
+  /// Copies them to host_threshold and host_noise; they are there after the next read() of any buffer.
+  void request() { values_.read_later(host_values_, 2); }
+  double host_threshold() const { return static_cast<double>(host_values_[0]); }
+  double host_noise() const { return static_cast<double>(host_values_[1]); }
+
+ private:
+  /// Enqueues the tallies of one image, the first of which is number `first`. \returns how many.
+  int tally(const PaddedPlane& plane, int first);
+  ThresholdArguments arguments(const PaddedPlane& plane) const;
+
+  using InInt = opencl::In<cl_int>;
+  using In = opencl::In<cl_float>;
+
+  opencl::Context& context_;
+  EdgesConfig config_;
+  std::size_t local_size_ = 1;
+  opencl::Buffer<cl_float> values_;
+  opencl::Buffer<cl_int> tallies_;
+  cl_float host_values_[2] = {0, 0};
+  opencl::Kernel<ThresholdArguments, In, In, cl_int, opencl::Out<cl_int>> tally_;
+  opencl::Kernel<ThresholdArguments, InInt, cl_int, opencl::Out<cl_float>> choose_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,227 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "devices.hpp"
+#include "edge_images.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/detect_edges.hpp"
+#include "quadedge/error.hpp"
+#include "reference/edge_threshold.hpp"
+#include "stages/edge_threshold.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+/// Normal noise around `level`, rounded and clipped as a camera does it.
+Image noisy_image(int width, int height, double level, double sigma, int white = kWhite8, unsigned seed = 1) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal(level, sigma);
+  Image image(width, height, white);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double value = normal(generator) * white / kWhite8;
+      image.set(x, y, static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(white))));
+    }
+  }
+  return image;
+}
+
+/// The picture with its differences from `middle` scaled, in another depth.
+Image flattened(const Image& image, double contrast, int white, double middle = 128) {
+  Image result(image.width, image.height, white);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double grey = middle + contrast * (static_cast<double>(image.view().at(x, y)) - middle);
+      result.set(x, y, static_cast<int>(std::lround(grey * white / kWhite8)));
+    }
+  }
+  return result;
+}
+
+struct Measured {
+  float threshold = 0, noise = 0;
+};
+
+/// The thresholds of frames that one stage is given in turn; a frame is one image or two.
+std::vector<Measured> measure(Device& device, const std::string& variant, const std::vector<std::vector<Image>>& frames,
+                              const EdgesConfig& config) {
+  opencl::Context& context = *device.context();
+  stages::EdgeThreshold stage(context, config, {{"edge_threshold", variant}});
+  std::vector<Measured> found;
+  for (const auto& images : frames) {
+    std::vector<stages::PaddedPlane> planes;
+    for (const Image& image : images) {
+      planes.emplace_back(context, image.width, image.height, config.sigma, image.white);
+      opencl::Buffer<cl_uchar> pixels;
+      pixels.write(context, image.pixels);
+      planes.back().prepare(pixels);
+      context.finish();
+    }
+    stage.run(planes[0], planes.size() > 1 ? &planes[1] : nullptr);
+    const auto values = stage.values().read(2);
+    found.push_back({values[0], values[1]});
+  }
+  return found;
+}
+
+std::vector<ImageView> views(const std::vector<Image>& images) {
+  std::vector<ImageView> result;
+  for (const Image& image : images) result.push_back(image.view());
+  return result;
+}
+
+void for_each_variant(const std::function<void(Device&, const std::string&)>& visit) {
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    for (const auto& variant : opencl::all_variants())
+      if (variant.stage == "edge_threshold") visit(device, variant.name);
+  }
+}
+
+/// Threshold and noise of a single frame by the reference.
+Measured reference_of(const std::vector<Image>& images, const EdgesConfig& config = {}) {
+  reference::EdgeThreshold reference(config);
+  const double threshold = reference.next(views(images));
+  return {static_cast<float>(threshold), static_cast<float>(reference.noise())};
+}
+
+}  // namespace
+
+TEST_CASE("edge threshold: noise is measured to 5 %, at any size, depth and level", "[edges]") {
+  for (const auto& [width, height] : {std::pair{127, 93}, {640, 481}}) {
+    const double tolerance = width > 200 ? 0.05 : 0.12;
+    for (const double sigma : {1.0, 1.5, 3.0, 8.0}) {
+      INFO(width << " " << sigma);
+      CHECK(static_cast<double>(reference_of({noisy_image(width, height, 128, sigma)}).noise) ==
+            Approx(std::sqrt(sigma * sigma + 1.0 / 12.0)).epsilon(tolerance));
+    }
+    for (const double sigma : {0.05, 0.3, 2.0}) {
+      INFO(width << " " << sigma);
+      CHECK(static_cast<double>(reference_of({noisy_image(width, height, 60, sigma, 65535)}).noise) ==
+            Approx(sigma).epsilon(tolerance));
+      CHECK(static_cast<double>(reference_of({noisy_image(width, height, 200, sigma, 4095)}).noise) ==
+            Approx(sigma).epsilon(tolerance + 0.01));
+    }
+  }
+}
+
+TEST_CASE("edge threshold: saturated pixels say nothing of the noise", "[edges]") {
+  Image image = noisy_image(320, 241, 128, 2);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < 240; ++x) image.set(x, y, x < 120 ? 0 : 255);
+  CHECK(static_cast<double>(reference_of({image}).noise) == Approx(2.02).epsilon(0.08));
+}
+
+TEST_CASE("edge threshold: every device and variant measures what the reference measures",
+          "[edges][device][oclgrind]") {
+  std::vector<std::vector<Image>> cases;
+  for (const auto& [width, height] : {std::pair{1, 1}, {7, 9}, {17, 31}, {75, 66}}) {
+    const Image image = textured_image(width, height), other = textured_image(width + 5, height + 3, 2);
+    cases.push_back({image});
+    cases.push_back({image, other});
+    cases.push_back({flattened(image, 0.1, 255), flattened(other, 0.1, 255)});
+    cases.push_back({flattened(image, 0.01, 65535), flattened(other, 0.01, 65535)});
+    cases.push_back({noisy_image(width, height, 3, 4), noisy_image(width, height, 128, 12)});
+  }
+  for_each_variant([&](Device& device, const std::string& variant) {
+    for (const double sigma : {2.0, 0.8, 3.1}) {
+      EdgesConfig config;
+      config.sigma = sigma;
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        INFO(device.info().name << " " << variant << " sigma " << sigma << " case " << i);
+        const Measured found = measure(device, variant, {cases[i]}, config).front();
+        const Measured expected = reference_of(cases[i], config);
+        // A gradient on the border of two bins may fall on either side: one of few points at the smallest sizes.
+        CHECK(found.threshold == Approx(expected.threshold).epsilon(cases[i][0].width < 70 ? 0.05 : 0.01));
+        CHECK(found.noise == Approx(expected.noise).epsilon(1e-4));
+      }
+    }
+  });
+}
+
+TEST_CASE("edge threshold: variants give the same bytes, twice", "[edges][device]") {
+  const std::vector<std::vector<Image>> frames = {
+      {flattened(textured_image(321, 243), 0.1, 255), flattened(textured_image(321, 243, 2), 0.1, 255)}};
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    std::vector<Measured> first;
+    for (const auto& variant : opencl::all_variants()) {
+      if (variant.stage != "edge_threshold") continue;
+      for (int repetition = 0; repetition < 2; ++repetition) {
+        const auto found = measure(device, variant.name, frames, {});
+        if (first.empty()) first = found;
+        CHECK(found[0].threshold == first[0].threshold);
+        CHECK(found[0].noise == first[0].noise);
+      }
+    }
+  }
+}
+
+TEST_CASE("edge threshold: normal contrast has the largest, a flat picture the lowest, nothing but white the largest",
+          "[edges]") {
+  const EdgesConfig config;
+  const double one_step = 1.0 / (std::sqrt(2.0 * 3.14159265358979323846) * config.sigma);
+  CHECK(reference_of({textured_image(320, 240)}).threshold == 2.0F);
+  CHECK(reference_of({noisy_image(320, 240, 100, 0)}).threshold == Approx(2 * one_step));
+  CHECK(reference_of({noisy_image(320, 240, 100, 0, 65535)}).threshold == Approx(2 * one_step / 257));
+  CHECK(reference_of({noisy_image(320, 240, 0, 0)}).threshold == 2.0F);
+  CHECK(reference_of({noisy_image(320, 240, 255, 0)}).threshold == 2.0F);
+  // Noise alone: five standard deviations of its gradient, never above the largest.
+  const double per_noise = 5.0 / (std::sqrt(8.0 * 3.14159265358979323846) * 4.0);
+  CHECK(static_cast<double>(reference_of({noisy_image(640, 480, 128, 3)}).threshold) ==
+        Approx(3 * per_noise).epsilon(0.05));
+  CHECK(reference_of({noisy_image(640, 480, 128, 30)}).threshold == 2.0F);
+}
+
+TEST_CASE("edge threshold: follows the contrast, and the edges stay", "[edges][device]") {
+  const Image bright = textured_image(320, 243);
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    const std::size_t edges = detect_edges(bright.view(), device, {}).size();
+    for (const auto& [contrast, white] : {std::pair{0.2, 255}, {0.1, 4095}, {0.05, 65535}, {0.004, 65535}}) {
+      INFO(device.info().name << " " << contrast << " " << white);
+      const Image dim = flattened(bright, contrast, white);
+      const EdgeSet found = detect_edges(dim.view(), device, {});
+      CHECK(static_cast<double>(found.size()) > 0.75 * static_cast<double>(edges));
+      CHECK(static_cast<double>(found.size()) < 1.5 * static_cast<double>(edges));
+      Config fixed;
+      fixed.edges.threshold = 2;
+      CHECK(static_cast<double>(detect_edges(dim.view(), device, fixed).size()) < 0.75 * static_cast<double>(edges));
+    }
+  }
+}
+
+TEST_CASE("edge threshold: is held while the contrast stays about the same and follows a change at once",
+          "[edges][device]") {
+  const Image bright = textured_image(320, 243);
+  std::vector<std::vector<Image>> frames;
+  for (const double contrast : {0.10, 0.105, 0.095, 0.11, 0.3, 0.1})
+    frames.push_back({flattened(bright, contrast, 65535)});
+  reference::EdgeThreshold reference{EdgesConfig{}};
+  std::vector<double> expected;
+  for (const auto& images : frames) expected.push_back(reference.next(views(images)));
+  CHECK(expected[1] == expected[0]);
+  CHECK(expected[2] == expected[0]);
+  CHECK(expected[3] == expected[0]);
+  CHECK(expected[4] > 2.5 * expected[0]);
+  CHECK(expected[5] < 0.5 * expected[4]);
+  for_each_variant([&](Device& device, const std::string& variant) {
+    const auto found = measure(device, variant, frames, {});
+    for (std::size_t i = 0; i < frames.size(); ++i) CHECK(found[i].threshold == Approx(expected[i]).epsilon(0.01));
+  });
+}
+
+TEST_CASE("edge threshold: a fixed one is taken as it is", "[edges][device]") {
+  EdgesConfig config;
+  config.threshold = 0.75;
+  const Image flat = noisy_image(64, 48, 100, 0);
+  CHECK(reference_of({flat}, config).threshold == 0.75F);
+  for_each_variant([&](Device& device, const std::string& variant) {
+    CHECK(measure(device, variant, {{flat}}, config)[0].threshold == 0.75F);
+  });
+}

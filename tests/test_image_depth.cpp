@@ -1,0 +1,120 @@
+/// \file test_image_depth.cpp  Images of 12 and 16 bits, from the stages to the path.
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "devices.hpp"
+#include "edge_images.hpp"
+#include "frontends.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/detect_edges.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/odometry.hpp"
+
+using namespace quadedge;
+using matching::FrontendResult;
+using matching::RenderedScene;
+using matching::run_frontend;
+
+namespace {
+
+/// Share of the stereo edges of `a` that `b` has, too, to 0.02 px.
+double shared(const StereoEdges& a, const StereoEdges& b) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    bool hit = false;
+    for (std::size_t j = 0; j < b.size() && !hit; ++j) {
+      hit = std::abs(a.left_x[i] - b.left_x[j]) < 0.02F && std::abs(a.left_y[i] - b.left_y[j]) < 0.02F &&
+            std::abs(a.right_x[i] - b.right_x[j]) < 0.02F;
+    }
+    found += hit ? 1 : 0;
+  }
+  return a.size() == 0 ? 1 : static_cast<double>(found) / static_cast<double>(a.size());
+}
+
+/// The same grey levels in 16 bits.
+Image deepened(const Image& image) {
+  Image result(image.width, image.height, 65535);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) result.set(x, y, 257 * image.view().value(x, y));
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("image depth: pixels are values, grey levels do not depend on the depth", "[image]") {
+  Image image(3, 2, 4095);
+  image.set(2, 1, 4095);
+  image.set(0, 1, 819);
+  CHECK(image.view().value(2, 1) == 4095);
+  CHECK(image.view().at(2, 1) == Approx(255));
+  CHECK(image.view().at(0, 1) == Approx(51));
+  CHECK(to_8_bits(image.view()).pixels == std::vector<std::uint8_t>{0, 0, 0, 51, 0, 255});
+  const std::vector<std::uint16_t> words = {1, 2, 0, 3, 4, 0};
+  const ImageView view = ImageView::of_words(words.data(), 2, 2, 3, 65535);
+  CHECK(view.value(1, 1) == 4);
+  CHECK(view.value(0, 1) == 3);
+}
+
+TEST_CASE("image depth: the same grey levels in 16 bits have the same edges", "[edges][device]") {
+  const Image image = textured_image(161, 123), deep = deepened(image);
+  auto names = all_devices();
+  names.emplace_back("reference");
+  for (const auto& name : names) {
+    Device device(name);
+    const EdgeSet expected = detect_edges(image.view(), device, {}), found = detect_edges(deep.view(), device, {});
+    REQUIRE(expected.size() > 500);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      REQUIRE(found.x[i] == Approx(expected.x[i]).margin(1e-3));
+      REQUIRE(found.y[i] == Approx(expected.y[i]).margin(1e-3));
+      REQUIRE(found.strength[i] == Approx(expected.strength[i]).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("image depth: devices find the reference's stereo edges in 12 and 16 bits, every variant the same bytes",
+          "[frontend][matching][device]") {
+  const std::set<std::string> readers = {"edge_threshold", "edge_detection", "patches", "sift", "stereo_refinement"};
+  for (const int bits : {12, 16}) {
+    RenderedScene scene("cables", 161, 97, 2, 1, bits, bits == 16 ? 0.02 : 0.5);
+    scene.config.stereo.sift_max = 500;
+    const FrontendResult truth = run_frontend(scene, "reference");
+    REQUIRE(truth.current.size() > 100);
+    for (const auto& device : all_devices()) {
+      const FrontendResult expected = run_frontend(scene, device);
+      CHECK(shared(expected.current, truth.current) > 0.99);
+      CHECK(shared(truth.current, expected.current) > 0.99);
+      for (const auto& variant : opencl::all_variants()) {
+        if (bits != 16 || readers.count(variant.stage) == 0) continue;
+        INFO(bits << " " << variant.stage << " " << variant.name);
+        CHECK(same_bytes(run_frontend(scene, device, {{variant.stage, variant.name}}), expected));
+      }
+    }
+  }
+}
+
+TEST_CASE("image depth: a hundredth of the contrast in 16 bits is tracked like the whole", "[odometry][device]") {
+  const RenderedScene bright("room", 320, 200, 4, 1, 16), dim("room", 320, 200, 4, 1, 16, 0.01);
+  for (const auto& name : all_devices()) {
+    Device device(name);
+    StereoOdometry first(bright.rig, device, bright.config), second(dim.rig, device, dim.config);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const FrameResult expected = first.track(bright.frame(i)), found = second.track(dim.frame(i));
+      CHECK(is_tracked(found.status));
+      CHECK((found.world_from_left.translation() - dim.world_from_left[i].translation()).norm() < 2e-3);
+      CHECK(static_cast<double>(found.counts.edges_left) > 0.9 * expected.counts.edges_left);
+      CHECK(static_cast<double>(found.counts.edges_left) < 2.0 * expected.counts.edges_left);
+      CHECK(found.edge_threshold < 0.1);
+    }
+  }
+}
+
+TEST_CASE("image depth: images of another depth than the rig's are refused", "[odometry][device]") {
+  const RenderedScene scene("room", 160, 100, 1);
+  StereoRig rig = scene.rig;
+  rig.white = 65535;
+  Device device(all_devices().front());
+  StereoOdometry odometry(rig, device, scene.config);
+  CHECK_THROWS_AS(odometry.track(scene.frame(0)), DataError);
+  CHECK_THROWS_WITH(odometry.track(scene.frame(0)), Catch::Matchers::Contains("65535"));
+}
