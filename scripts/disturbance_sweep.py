@@ -4,14 +4,12 @@
     disturbance_sweep.py OUT                                 all scenes, everything
     disturbance_sweep.py OUT --scenes room --kinds blur noise --frames 10 --size 640x332
     disturbance_sweep.py OUT --kinds mover --values 0.3 --scene-seed 11
-    disturbance_sweep.py OUT --light --frames 26 --size 480x249
 
 Swept are the light of every second frame (half to twice), the right camera's exposure (half to twice), motion blur (to
 5 px, with the camera in the hand: on the ellipse the image does not move that far in a frame), camera noise (to 8 grey
-levels) and the ratio of the image that a board moving on its own covers (to 40 %).
---light sweeps instead the contrast of the picture (to a twentieth in 8 bits, to 1/250 in 16 bits), the light of all
-frames (to 0.15, with noise of 8 grey levels) and the camera's gamma, each with the threshold of edges fixed at 2 grey
-levels per px and with the automatic one, into doc/results/light.json and the tables made of it.
+levels) and the ratio of the image that a board moving on its own covers (to 40 %); where --kinds asks for them, too,
+the contrast of the picture (to a twentieth in 8 bits, to a hundredth in 16), the light of all frames (to 0.15, with
+noise of 8 grey levels) and the camera's gamma.
 OUT/disturbances.csv and .json hold one row per run, OUT/disturbances.svg the plots. A step is wrong where it is
 reported as tracked and is off by more than 5 mm + 10 % of the motion or by 0.25 degrees (`quadedge evaluate trajectory
 --steps`). Needs matplotlib and the program `quadedge`.
@@ -20,16 +18,11 @@ Exit code: 0 done, 1 a program failed, 2 wrong usage.
 
 import argparse
 import csv
-import datetime
-import itertools
 import json
 import statistics
 import subprocess
 import sys
 from pathlib import Path
-
-import measure as measure_all
-import result_tables
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 SCENES = ("room", "cables", "facade")
@@ -40,14 +33,15 @@ KINDS = {
     "blur": ("motion blur, camera in the hand [px]", (0, 1, 2, 3, 4, 5), ("--path", "handheld")),
     "noise": ("camera noise [grey levels]", (0, 1.5, 3, 5, 8), ()),
     "mover": ("ratio of the image covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4), ()),
-    "contrast": ("contrast of the picture", (1, 0.5, 0.2, 0.1, 0.05), ()),
-    "contrast16": ("contrast of the picture, 16 bits", (1, 0.1, 0.02, 0.004), ("--bits", 16)),
-    "light": ("light of all frames, noise 8, factor", (1, 0.5, 0.3, 0.15), ("--noise", 8)),
-    "gamma": ("gamma", (0.45, 0.7, 1, 1.5, 2.2), ()),
 }
-OPTIONS = {"contrast16": "contrast"}  # where the option is called otherwise
-LIGHT = ("contrast", "contrast16", "light", "gamma")
-THRESHOLDS = (2, 0)  # of edges: fixed, and automatic
+# The same, for what is dark or of little contrast; scripts/measure.py --only light
+LIGHT = {
+    "contrast": ("contrast", (1, 0.2, 0.1, 0.05), ()),
+    "contrast16": ("contrast, 16 bits", (1, 0.1, 0.01), ("--bits", 16)),
+    "light": ("light, noise 8", (1, 0.3, 0.15), ("--noise", 8)),
+    "gamma": ("gamma", (0.45, 2.2), ()),
+}
+OPTIONS = {"contrast16": "contrast"}  # of kinds that are not called by their option
 COLUMNS = ("scene", "kind", "value", "threshold", "edge_threshold", "edges", "frames", "tracked", "right", "wrong",
            "lost", "rpe_translation_m", "rpe_rotation_deg", "end_drift_percent")
 
@@ -64,16 +58,16 @@ def call(command, allowed=(0,)):
         raise Problem(f"{line}\nended with code {result.returncode}: {result.stderr.strip()}")
 
 
-def measure(scene, kind, value, threshold, options):
-    """One run of the rendered sequence: a row of the table."""
+def measure(scene, kind, value, options, threshold=0):
+    """One run of the rendered sequence, with a threshold of edges or the automatic one (0): a row of the table."""
     output = options.out / "runs" / f"{scene}_{kind}_{value}_{threshold}"
     size = ["--size", options.size] if options.size else []
     device = ["--device", options.device] if options.device else []
     seed = ["--scene-seed", options.scene_seed] if options.scene_seed is not None else []
     # Code 5, many frames lost, is a result too.
-    call([options.quadedge, "demo", "--scene", scene, "--frames", options.frames, f"--{OPTIONS.get(kind, kind)}", value, "-o", output,
-          "--force", "--quiet", "--edges.threshold", threshold,
-          *KINDS[kind][2], *size, *device, *seed], allowed=(0, 5))
+    call([options.quadedge, "demo", "--scene", scene, "--frames", options.frames, f"--{OPTIONS.get(kind, kind)}",
+          value, "-o", output, "--force", "--quiet", "--edges.threshold", threshold,
+          *{**KINDS, **LIGHT}[kind][2], *size, *device, *seed], allowed=(0, 5))
     with open(output / "frames.csv", encoding="utf-8") as file:
         frames = list(csv.DictReader(file))
     tracked = sum(1 for line in open(output / "trajectory.txt", encoding="utf-8") if not line.startswith("#"))
@@ -81,8 +75,7 @@ def measure(scene, kind, value, threshold, options):
     row.update(scene=scene, kind=kind, value=value, threshold=threshold,
                edge_threshold=statistics.median(float(frame["edge_threshold"]) for frame in frames),
                edges=statistics.mean(int(frame["edges_left"]) for frame in frames), frames=options.frames,
-               tracked=tracked, right=0, wrong=0,
-               lost=options.frames - 1)
+               tracked=tracked, right=0, wrong=0, lost=options.frames - 1)
     if tracked < 2:
         return row
     judged = output / "evaluation.json"
@@ -135,30 +128,14 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path, metavar="OUT")
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
-    parser.add_argument("--kinds", nargs="+", choices=KINDS)
+    parser.add_argument("--kinds", nargs="+", choices=[*KINDS, *LIGHT], default=list(KINDS))
     parser.add_argument("--values", nargs="+", type=float, help="instead of each kind's own")
-    parser.add_argument("--light", action="store_true", help="contrast, light and gamma, into doc/results/light.json")
     parser.add_argument("--frames", type=int, default=12)
     parser.add_argument("--scene-seed", type=int, help="as in `quadedge demo`")
     parser.add_argument("--size", help="of the images, WxH; default 942x489")
     parser.add_argument("--device", help="as in `quadedge run`")
     parser.add_argument("--quadedge", type=Path, default=REPOSITORY / "build" / "quadedge")
-    options = parser.parse_args()
-    options.kinds = options.kinds or [kind for kind in KINDS if (kind in LIGHT) == options.light]
-    return options
-
-
-def write_light(rows, options):
-    """doc/results/light.json, where kinds that were not measured stay, and the tables of the documentation."""
-    file = result_tables.RESULTS / "light.json"
-    before = json.loads(file.read_text(encoding="utf-8"))["rows"] if file.exists() else []
-    rows = [row for row in before if row["kind"] not in options.kinds] + rows
-    size = f" --size {options.size}" if options.size else ""
-    result = {"commit": measure_all.commit(), "date": datetime.date.today().isoformat(), "frames": options.frames,
-              "size": options.size or "942x489", "rows": rows,
-              "command": f"scripts/disturbance_sweep.py OUT --light --frames {options.frames}{size}"}
-    file.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    result_tables.write()
+    return parser.parse_args()
 
 
 def main():
@@ -168,12 +145,11 @@ def main():
     try:
         for scene in options.scenes:
             for kind in options.kinds:
-                values = options.values or KINDS[kind][1]
-                for value, threshold in itertools.product(values, THRESHOLDS if options.light else (0,)):
-                    rows.append(measure(scene, kind, value, threshold, options))
+                for value in options.values or {**KINDS, **LIGHT}[kind][1]:
+                    rows.append(measure(scene, kind, value, options))
                     row = rows[-1]
-                    print(f"{scene} {kind} {value}, threshold {row['edge_threshold']}: {row['edges']:.0f} edges, "
-                          f"{row['right']} right, {row['wrong']} wrong, {row['lost']} lost", flush=True)
+                    print(f"{scene} {kind} {value}: {row['right']} right, {row['wrong']} wrong, {row['lost']} lost",
+                          flush=True)
     except Problem as problem:
         print(f"disturbance_sweep: {problem}", file=sys.stderr)
         return 1
@@ -182,10 +158,7 @@ def main():
         table.writeheader()
         table.writerows(rows)
     (options.out / "disturbances.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
-    if options.light:
-        write_light(rows, options)
-    else:
-        plot(rows, options)
+    plot(rows, options)
     return 0
 
 

@@ -291,9 +291,33 @@ def measure_disturbances(programs):
     return rows
 
 
+def measure_light(programs):
+    """Little contrast and light in two scenes, with the threshold of edges fixed as it once was, and automatic."""
+    options = programs.options
+    sweep = argparse.Namespace(
+        out=options.work / "light",
+        frames=options.frames or 26,
+        size="480x249",
+        device=None,
+        scene_seed=None,
+        quadedge=options.quadedge,
+    )
+    rows = []
+    try:
+        for scene in (scene for scene in ("room", "cables") if scene in options.sequences):
+            for kind, (_, values, _) in disturbance_sweep.LIGHT.items():
+                print(f"light: {scene}, {kind}", file=sys.stderr, flush=True)
+                for value in values:
+                    rows += [disturbance_sweep.measure(scene, kind, value, sweep, threshold) for threshold in (2, 0)]
+    except disturbance_sweep.Problem as problem:
+        raise Problem(str(problem)) from problem
+    return rows
+
+
 PARTS = {
     "accuracy": measure_accuracy,
     "matching": measure_matching,
     "speed": measure_speed,
     "disturbances": measure_disturbances,
+    "light": measure_light,
 }

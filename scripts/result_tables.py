@@ -260,21 +260,20 @@ def speed(results):
 
 
 def light(results):
-    """Tracked steps and wrong ones over contrast, light and gamma, with the fixed threshold and the automatic one."""
-    kept = results["light"]
+    """Steps over contrast, light and gamma, with the fixed threshold of edges and the automatic one."""
+    kept = results["light"]["rows"]
+    runs = {(row["scene"], row["kind"], row["value"], row["threshold"] == 0): row for row in kept}
     lines = []
-    labels = {"contrast": "contrast", "contrast16": "contrast, 16 bits", "light": "light, noise 8", "gamma": "gamma"}
-    runs = {(row["scene"], row["kind"], row["value"], row["threshold"] == 0): row for row in kept["rows"]}
     for scene, kind, value, automatic in runs:
         if not automatic:
             continue
-        before, after = runs[scene, kind, value, False], runs[scene, kind, value, True]
-        steps = [f"{row['right']}, {row['wrong']}, {row['lost']}" for row in (before, after)]
-        lines.append([f"{labels[kind]} {value:g}", scene, steps[0], number(before["edges"], 6), steps[1],
-                      number(after["edges"], 6), number(after["edge_threshold"])])
-    head = ["", "scene", "threshold 2: right, wrong, lost", "edges", "automatic: right, wrong, lost", "edges",
-            "threshold"]
-    return f"{table(head, lines)}\n`{kept['command']}`. {stamp(kept)}"
+        fixed, found = runs[scene, kind, value, False], runs[scene, kind, value, True]
+        cells = [f"{disturbance_sweep.LIGHT[kind][0]} {value:g}", scene]
+        for row in (fixed, found):
+            cells += [f"{row['right']}, {row['wrong']}, {row['lost']}", f"{row['edges']:.0f}"]
+        lines.append([*cells, number(found["edge_threshold"])])
+    head = ["", "scene", "fixed: right, wrong, lost", "edges", "automatic: right, wrong, lost", "edges", "threshold"]
+    return table(head, lines) + f"\n{kept[0]['frames'] - 1} steps each. " + stamp(results["light"])
 
 
 def peers(results):
