@@ -131,7 +131,8 @@ TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches"
   const Image image = noise_image(50, 40, 1);
   Image turned(40, 50);  // clockwise on screen: (x, y) goes to (39 - y, x)
   for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 50; ++x) turned.pixels[static_cast<std::size_t>(x * 40 + 39 - y)] = image.view().at(x, y);
+    for (int x = 0; x < 50; ++x)
+      turned.pixels[static_cast<std::size_t>(x * 40 + 39 - y)] = static_cast<std::uint8_t>(image.view().value(x, y));
   }
   const float x = 24.25f, y = 18.625f, direction = 0.3f;
   const auto before = cut(image, x, y, direction), after = cut(turned, 39 - y, x, direction + kHalfTurn / 2);
@@ -179,7 +180,8 @@ TEST_CASE("patches: beyond the border the outermost pixels repeat", "[patches]")
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) {
       const int from_x = std::clamp(x - 10, 0, 19), from_y = std::clamp(y - 10, 0, 19);
-      larger.pixels[static_cast<std::size_t>(y * 40 + x)] = texture.view().at(from_x, from_y);
+      larger.pixels[static_cast<std::size_t>(y * 40 + x)] =
+          static_cast<std::uint8_t>(texture.view().value(from_x, from_y));
     }
   }
   for (const auto& [x, y] : {std::pair{0.5f, 1.25f}, {18.75f, 18.5f}, {9.0f, 0.0f}}) {

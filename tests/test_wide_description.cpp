@@ -81,7 +81,8 @@ TEST_CASE("wide description: turning image and edge by 90 degrees gives the same
   const Image image = waves(120, 90);
   Image turned(90, 120);  // clockwise on screen: (x, y) goes to (89 - y, x)
   for (int y = 0; y < 90; ++y) {
-    for (int x = 0; x < 120; ++x) turned.pixels[static_cast<std::size_t>(x * 90 + 89 - y)] = image.view().at(x, y);
+    for (int x = 0; x < 120; ++x)
+      turned.pixels[static_cast<std::size_t>(x * 90 + 89 - y)] = static_cast<std::uint8_t>(image.view().value(x, y));
   }
   const auto before = describe_one(image, 60.4f, 41.7f, 0.35f),
              after = describe_one(turned, 89 - 41.7f, 60.4f, 0.35f + static_cast<float>(kPi / 2));
