@@ -79,26 +79,28 @@ inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, 
                   fma(0.25f * rise, t, magnitude), (float)cell_x);
 }
 
-// Weights of G, G', G'', G''' at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at
+// Weights of G and its derivatives up to the fourth at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at
 // index - RADIUS from the point's whole part; `fraction` is the rest. Zero beyond TAPS.
-#define DEFINE_WEIGHTS(NAME, T, I, CONVERT_I, CONVERT_T, AS_T)                                              \
-  inline void NAME(const float fraction, const I index, T* g0, T* g1, T* g2, T* g3) {                       \
-    const T u = fraction - CONVERT_T(index - RADIUS);                                                       \
-    const T uu = u * u;                                                                                     \
-    const T e = uu * (-0.5f / (SIGMA * SIGMA));                                                             \
-    const T n = fma(e, (T)1.44269504f, (T)12582912.0f) - 12582912.0f; /* rounds to a whole number */        \
-    const T r = fma(n, (T)-1.42860677e-6f, fma(n, (T)-0.693145752f, e));                                    \
-    T p = fma(r, (T)1.38888889e-3f, (T)8.33333333e-3f);                                                     \
-    p = fma(r, p, (T)4.16666667e-2f);                                                                       \
-    p = fma(r, p, (T)1.66666667e-1f);                                                                       \
-    p = fma(r, p, (T)0.5f);                                                                                 \
-    p = fma(r, p, (T)1.0f);                                                                                 \
-    p = fma(r, p, (T)1.0f);                                                                                 \
-    const T g = p * AS_T((CONVERT_I(n) + 127) << 23) * (0.398942280f / SIGMA);                              \
-    *g0 = index < TAPS ? g : (T)0.0f;                                                                       \
-    *g1 = *g0 * u * (-1.0f / (SIGMA * SIGMA));                                                              \
-    *g2 = *g0 * (uu - SIGMA * SIGMA) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA));                            \
-    *g3 = *g0 * u * (3.0f * SIGMA * SIGMA - uu) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA * SIGMA * SIGMA)); \
+#define DEFINE_WEIGHTS(NAME, T, I, CONVERT_I, CONVERT_T, AS_T)                                                        \
+  inline void NAME(const float fraction, const I index, T* g) {                                                       \
+    const float ss = SIGMA * SIGMA;                                                                                   \
+    const T u = fraction - CONVERT_T(index - RADIUS);                                                                 \
+    const T uu = u * u;                                                                                               \
+    const T e = uu * (-0.5f / ss);                                                                                    \
+    const T n = fma(e, (T)1.44269504f, (T)12582912.0f) - 12582912.0f; /* rounds to a whole number */                  \
+    const T r = fma(n, (T)-1.42860677e-6f, fma(n, (T)-0.693145752f, e));                                              \
+    T p = fma(r, (T)1.38888889e-3f, (T)8.33333333e-3f);                                                               \
+    p = fma(r, p, (T)4.16666667e-2f);                                                                                 \
+    p = fma(r, p, (T)1.66666667e-1f);                                                                                 \
+    p = fma(r, p, (T)0.5f);                                                                                           \
+    p = fma(r, p, (T)1.0f);                                                                                           \
+    p = fma(r, p, (T)1.0f);                                                                                           \
+    const T value = p * AS_T((CONVERT_I(n) + 127) << 23) * (0.398942280f / SIGMA);                                    \
+    g[0] = index < TAPS ? value : (T)0.0f;                                                                            \
+    g[1] = g[0] * u * (-1.0f / (SIGMA * SIGMA));                                                                      \
+    g[2] = g[0] * (uu - SIGMA * SIGMA) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA));                                    \
+    g[3] = g[0] * u * (3.0f * SIGMA * SIGMA - uu) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA * SIGMA * SIGMA));         \
+    g[4] = g[0] * fma(uu, uu - 6.0f * ss, (T)(3.0f * ss * ss)) * (1.0f / (ss * ss * ss * ss));                        \
   }
 DEFINE_WEIGHTS(weights, float, int, convert_int, convert_float, as_float)
 DEFINE_WEIGHTS(weights8, float8, int8, convert_int8, convert_float8, as_float8)
@@ -130,10 +132,13 @@ inline float window_level(global const float* plane, const int stride, const int
     return copysign(x < 0.0f ? PI_F - quarter : quarter, y);   \
   }
 
-// From the nine derivatives d = ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy at (x, y) to the direction, and the
-// Newton step onto F = 0, which moves x and y.
+#define DERIVATIVES 14  // of the window: ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy, ixxxx, ixxxy, ixxyy, ixyyy, iyyyy
+#define ORDERS 5        // of derivation along one axis, 0 to 4
+
+// From the derivatives d at (x, y) to the direction; to the Newton step onto F = 0, which moves x and y; and to how far
+// the edge drifts towards its bright side per unit of log(SIGMA), by the heat equation.
 #define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                      \
-  inline T NAME(const T* d, const float newton_max, T* x, T* y) {                                               \
+  inline T NAME(const T* d, const float newton_max, T* x, T* y, T* drift) {                                     \
     const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                               \
     const T xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];                                        \
     const T fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7]; \
@@ -146,6 +151,12 @@ inline float window_level(global const float* plane, const int stride, const int
     const T step = slope < 0.0f ? clamp(-f * magnitude / slope, -longest, longest) / magnitude : (T)0.0f;       \
     *x = fma(step, d[0], *x);                                                                                   \
     *y = fma(step, d[1], *y);                                                                                   \
+    const T change_x = d[5] + d[7], change_y = d[6] + d[8]; /* the Laplacian's own derivatives */               \
+    const T by_scale = 2.0f * (d[0] * d[2] + d[1] * d[3]) * change_x +                                          \
+                       2.0f * (d[0] * d[3] + d[1] * d[4]) * change_y + xx * (d[9] + d[11]) +                    \
+                       xy * (d[10] + d[12]) + yy * (d[11] + d[13]);                                             \
+    const T far = (T)kLongestScaleDrift;                                                                        \
+    *drift = slope < 0.0f ? clamp(-SIGMA * SIGMA * by_scale * magnitude / slope, -far, far) : (T)0.0f;          \
     return theta > -PI_F ? theta : (T)PI_F;                                                                     \
   }
 DEFINE_ANGLE(angle, float)

@@ -128,22 +128,22 @@ kernel void edges_strip_maxima(const DetectionArguments args, global const float
   }
 }
 
-// The nine derivatives at (x, y), written to d[0], d[8], d[16] ...; the columns of the window lie in lanes of 8.
+// The derivatives at (x, y), written to d[0], d[8], d[16] ...; the columns of the window lie in lanes of 8.
 inline void window_derivatives(global const float* plane, const int stride, const float x, const float y, float* d) {
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   const int whole_x = (int)x, whole_y = (int)y;
-  float weights_y[4][COLUMNS];
-  float8 wx[4][BLOCKS], sums[4][BLOCKS];
+  float weights_y[ORDERS][COLUMNS];
+  float8 wx[BLOCKS][ORDERS], sums[ORDERS][BLOCKS];
 #pragma unroll
   for (int b = 0; b < BLOCKS; ++b) {
-    float8 w0, w1, w2, w3;
-    weights8(y - (float)whole_y, lanes + 8 * b, &w0, &w1, &w2, &w3);
-    vstore8(w0, b, weights_y[0]);
-    vstore8(w1, b, weights_y[1]);
-    vstore8(w2, b, weights_y[2]);
-    vstore8(w3, b, weights_y[3]);
-    weights8(x - (float)whole_x, lanes + 8 * b, &wx[0][b], &wx[1][b], &wx[2][b], &wx[3][b]);
-    sums[0][b] = sums[1][b] = sums[2][b] = sums[3][b] = (float8)0.0f;
+    float8 wy[ORDERS];
+    weights8(y - (float)whole_y, lanes + 8 * b, wy);
+    weights8(x - (float)whole_x, lanes + 8 * b, wx[b]);
+#pragma unroll
+    for (int order = 0; order < ORDERS; ++order) {
+      vstore8(wy[order], b, weights_y[order]);
+      sums[order][b] = (float8)0.0f;
+    }
   }
   const float8 level = (float8)window_level(plane, stride, whole_x, whole_y);
   global const float* window = WINDOW(plane, stride, whole_x, whole_y);
@@ -155,7 +155,7 @@ inline void window_derivatives(global const float* plane, const int stride, cons
       const float8 low = LOAD8(row) - level;
       const float8 high = b + 1 < BLOCKS ? LOAD8(row + 8) - level : low;
 #pragma unroll
-      for (int order = 0; order < 4; ++order) {
+      for (int order = 0; order < ORDERS; ++order) {
         const float8 weight = (float8)weights_y[order][k];
         sums[order][b] = fma(weight, low, sums[order][b]);
         if (b + 1 < BLOCKS) sums[order][b + 1] = fma(weight, high, sums[order][b + 1]);
@@ -164,8 +164,8 @@ inline void window_derivatives(global const float* plane, const int stride, cons
   }
 #define DOT(position, order_x, order_y)                                                                    \
   {                                                                                                        \
-    float8 sum_ = wx[order_x][0] * sums[order_y][0];                                                       \
-    _Pragma("unroll") for (int b = 1; b < BLOCKS; ++b) sum_ = fma(wx[order_x][b], sums[order_y][b], sum_); \
+    float8 sum_ = wx[0][order_x] * sums[order_y][0];                                                       \
+    _Pragma("unroll") for (int b = 1; b < BLOCKS; ++b) sum_ = fma(wx[b][order_x], sums[order_y][b], sum_); \
     const float4 four_ = sum_.lo + sum_.hi;                                                                \
     const float2 two_ = four_.lo + four_.hi;                                                               \
     d[8 * (position)] = two_.x + two_.y;                                                                   \
@@ -179,6 +179,11 @@ inline void window_derivatives(global const float* plane, const int stride, cons
   DOT(6, 2, 1)
   DOT(7, 1, 2)
   DOT(8, 0, 3)
+  DOT(9, 4, 0)
+  DOT(10, 3, 1)
+  DOT(11, 2, 2)
+  DOT(12, 1, 3)
+  DOT(13, 0, 4)
 }
 
 // Third-order direction and Newton step of the winners, written in their position in scan order.
@@ -194,9 +199,10 @@ kernel void edges_strip_directions(const DetectionArguments args, global const f
   global float* ys = edges + max_edges;
   global float* directions = edges + 2 * max_edges;
   global float* strengths = edges + 3 * max_edges;
+  global float* drifts = edges + 4 * max_edges;
   const int first = row_first[row], count = min(counts[row], max_edges - first);
-  float derivatives[9 * 8], x[8], y[8], theta[8];
-  for (int k = 0; k < 72; ++k) derivatives[k] = 0.0f;
+  float derivatives[DERIVATIVES * 8], x[8], y[8], theta[8], drift[8];
+  for (int k = 0; k < 8 * DERIVATIVES; ++k) derivatives[k] = 0.0f;
   for (int k = 0; k < 8; ++k) x[k] = y[k] = 0.0f;
   for (int begin = 0; begin < count; begin += 8) {
     const int size = min(8, count - begin);
@@ -208,15 +214,17 @@ kernel void edges_strip_directions(const DetectionArguments args, global const f
       window_derivatives(plane, stride, AT_CELL ? 0.5f * winner.w : winner.x, AT_CELL ? 0.5f * (float)row : winner.y,
                          derivatives + k);
     }
-    float8 d[9], edge_x = vload8(0, x), edge_y = vload8(0, y);
-    for (int j = 0; j < 9; ++j) d[j] = vload8(j, derivatives);
-    vstore8(third_order8(d, newton_max, &edge_x, &edge_y), 0, theta);
+    float8 d[DERIVATIVES], edge_x = vload8(0, x), edge_y = vload8(0, y), edge_drift;
+    for (int j = 0; j < DERIVATIVES; ++j) d[j] = vload8(j, derivatives);
+    vstore8(third_order8(d, newton_max, &edge_x, &edge_y, &edge_drift), 0, theta);
+    vstore8(edge_drift, 0, drift);
     vstore8(edge_x, 0, x);
     vstore8(edge_y, 0, y);
     for (int k = 0; k < size; ++k) {
       xs[first + begin + k] = x[k];
       ys[first + begin + k] = y[k];
       directions[first + begin + k] = theta[k];
+      drifts[first + begin + k] = drift[k];
     }
   }
 }

@@ -121,8 +121,8 @@ kernel void edges_tile_compact(global const uchar* flags, const int cells, globa
 // window.
 kernel void edges_tile_directions(const DetectionArguments args, global const float* plane, global const float* compact,
                                   global const int* rows, global const int* total, global float* edges) {
-  local float weights_y[LOCAL / 8][4][COLUMNS];
-  local float sums[9][LOCAL];
+  local float weights_y[LOCAL / 8][ORDERS][COLUMNS];
+  local float sums[DERIVATIVES][LOCAL];
   const int item = (int)get_local_id(0), lane = item & 7, group = item >> 3;
   const int n = (int)get_global_id(0) >> 3, stride = args.plane_stride;
   const bool active = n < total[0];
@@ -130,45 +130,40 @@ kernel void edges_tile_directions(const DetectionArguments args, global const fl
   const float x = AT_CELL ? 0.5f * winner.w : winner.x, y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
   const int whole_x = (int)x, whole_y = (int)y;
   for (int k = lane; k < COLUMNS; k += 8) {
-    float w0, w1, w2, w3;
-    weights(y - (float)whole_y, k, &w0, &w1, &w2, &w3);
-    weights_y[group][0][k] = w0;
-    weights_y[group][1][k] = w1;
-    weights_y[group][2][k] = w2;
-    weights_y[group][3][k] = w3;
+    float w[ORDERS];
+    weights(y - (float)whole_y, k, w);
+    for (int order = 0; order < ORDERS; ++order) weights_y[group][order][k] = w[order];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   const float level = window_level(plane, stride, whole_x, whole_y);
   global const float* window = WINDOW(plane, stride, whole_x, whole_y);
-  float s[9];
+  float s[DERIVATIVES];
   for (int column = lane; column < COLUMNS; column += 8) {
-    float d0 = 0.0f, d1 = 0.0f, d2 = 0.0f, d3 = 0.0f;
+    float d[ORDERS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < TAPS; ++k) {
       const float grey = window[k * stride + column] - level;
-      d0 = fma(weights_y[group][0][k], grey, d0);
-      d1 = fma(weights_y[group][1][k], grey, d1);
-      d2 = fma(weights_y[group][2][k], grey, d2);
-      d3 = fma(weights_y[group][3][k], grey, d3);
+      for (int order = 0; order < ORDERS; ++order) d[order] = fma(weights_y[group][order][k], grey, d[order]);
     }
-    float w0, w1, w2, w3;
-    weights(x - (float)whole_x, column, &w0, &w1, &w2, &w3);
-    const float wx[9] = {w1, w0, w2, w1, w0, w3, w2, w1, w0};
-    const float dy[9] = {d0, d1, d0, d1, d2, d0, d1, d2, d3};
-    for (int j = 0; j < 9; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
+    float w[ORDERS];
+    weights(x - (float)whole_x, column, w);
+    const float wx[DERIVATIVES] = {w[1], w[0], w[2], w[1], w[0], w[3], w[2], w[1], w[0], w[4], w[3], w[2], w[1], w[0]};
+    const float dy[DERIVATIVES] = {d[0], d[1], d[0], d[1], d[2], d[0], d[1], d[2], d[3], d[0], d[1], d[2], d[3], d[4]};
+    for (int j = 0; j < DERIVATIVES; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
   }
-  for (int j = 0; j < 9; ++j) sums[j][item] = s[j];
+  for (int j = 0; j < DERIVATIVES; ++j) sums[j][item] = s[j];
   for (int distance = 4; distance > 0; distance /= 2) {
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane < distance) {
-      for (int j = 0; j < 9; ++j) sums[j][item] += sums[j][item + distance];
+      for (int j = 0; j < DERIVATIVES; ++j) sums[j][item] += sums[j][item + distance];
     }
   }
   if (active && lane == 0) {
-    float d[9], edge_x = winner.x, edge_y = winner.y;
-    for (int j = 0; j < 9; ++j) d[j] = sums[j][item];
-    edges[2 * args.max_edges + n] = third_order(d, args.newton_max, &edge_x, &edge_y);
+    float d[DERIVATIVES], edge_x = winner.x, edge_y = winner.y, drift;
+    for (int j = 0; j < DERIVATIVES; ++j) d[j] = sums[j][item];
+    edges[2 * args.max_edges + n] = third_order(d, args.newton_max, &edge_x, &edge_y, &drift);
     edges[n] = edge_x;
     edges[args.max_edges + n] = edge_y;
     edges[3 * args.max_edges + n] = winner.z;
+    edges[4 * args.max_edges + n] = drift;
   }
 }

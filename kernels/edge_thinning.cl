@@ -2,7 +2,7 @@
 //
 // An edge is kept unless the same pixel (nearest to its position) holds a stronger one whose direction is within 45
 // degrees; of equals the first one is the stronger. Edges come packed in blocks of `stride` floats: x, y, direction,
-// strength.
+// strength, scale drift.
 // Reference: host/reference/edge_thinning.cpp.
 
 // flags[i] = edge i is kept; counts[row] = kept edges of the row. One work-item per row of the doubled grid.
@@ -54,7 +54,7 @@ kernel void edges_thinning_move(global const float* edges, const int stride, glo
   int position = new_row_first[row];
   for (int i = row_first[row]; i < row_first[row + 1]; ++i) {
     if (!flags[i]) continue;
-    for (int block = 0; block < 4; ++block) thinned[block * stride + position] = edges[block * stride + i];
+    for (int block = 0; block < 5; ++block) thinned[block * stride + position] = edges[block * stride + i];
     ++position;
   }
 }

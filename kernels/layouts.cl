@@ -55,6 +55,7 @@ enum { kCandidateAlive = 0, kCandidateRepresented = 255 };
 // Candidates that shift onto the epipolar line within so many px of one another lie at the same position: neighbours on
 // a curve, which the refinement leads to the same point (stereo_refinement.cl).
 FLOAT_CONSTANT kSamePosition = 0.5f;
+FLOAT_CONSTANT kLongestScaleDrift = 3.0f;  // of an edge per unit of log(edges.sigma) [px]; flat profiles promise any
 // Largest difference of contrast that the photometric alignment evens out (photometric.cl).
 FLOAT_CONSTANT kGainMax = 2.0f;
 // Members of a cluster whose similarity differs by less are equally similar: the first right edge in scan order

@@ -34,7 +34,7 @@ kernel void stereo_mutual(const StereoMutualArguments args, global const int* ch
 }
 
 // Writes the survivors in the order of their left edges.
-// `packed`: blocks of one float per left edge: left x, y, direction, right x, y, direction.
+// `packed`: blocks of one float per left edge: left x, y, direction, right x, y, direction, left scale drift.
 kernel void stereo_collect(const StereoMutualArguments args, global const int* keep_first, global const int* chosen,
                            global const float* left_edges, global const float* clusters,
                            global const int* cluster_anchor, global int* left_index, global int* right_index,
@@ -53,5 +53,6 @@ kernel void stereo_collect(const StereoMutualArguments args, global const int* k
   packed[3 * stride + row] = line.x + clusters[k] * line.ex;
   packed[4 * stride + row] = line.y + clusters[k] * line.ey;
   packed[5 * stride + row] = clusters[args.capacity + k];
+  packed[6 * stride + row] = left[4 * args.left.stride];
   ncc[row] = clusters[2 * args.capacity + k];
 }

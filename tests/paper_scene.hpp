@@ -25,6 +25,7 @@ inline void add_edge(quadedge::EdgeSet& edges, float x, float y, float direction
   edges.y.push_back(y);
   edges.direction.push_back(direction);
   edges.strength.push_back(10);
+  edges.scale_drift.push_back(0);
 }
 
 /// Every pixel of the left view has disparity 10, but column 80 and beyond is unknown.

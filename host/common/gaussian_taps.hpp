@@ -8,13 +8,15 @@
 
 namespace quadedge {
 
-/// The Gaussian and its first three derivatives at offset `u` [px] for scale `sigma` [px]; analytic, not renormalised.
+/// The Gaussian and its first four derivatives at offset `u` [px] for scale `sigma` [px]; analytic, not renormalised.
 /// Element n is the derivative of order n. A derivative of the image at x is the sum over pixels k of I(k) G^(n)(x -
 /// k).
-inline std::array<double, 4> gaussian_derivatives(double u, double sigma) {
+inline std::array<double, 5> gaussian_derivatives(double u, double sigma) {
   const double s2 = sigma * sigma;
   const double g = std::exp(-u * u / (2.0 * s2)) / (std::sqrt(2.0 * kPi) * sigma);
-  return {g, -u / s2 * g, (u * u - s2) / (s2 * s2) * g, u * (3.0 * s2 - u * u) / (s2 * s2 * s2) * g};
+  const double u2 = u * u;
+  return {g, -u / s2 * g, (u2 - s2) / (s2 * s2) * g, u * (3.0 * s2 - u2) / (s2 * s2 * s2) * g,
+          (u2 * u2 - 6.0 * u2 * s2 + 3.0 * s2 * s2) / (s2 * s2 * s2 * s2) * g};
 }
 
 /// Pixels that a kernel reaches to either side: at least 4 sigma. Kernels centred on a pixel have 2 R + 1 taps, kernels

@@ -57,6 +57,8 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   result.epipolar_sine = std::abs(cross(right_edge, line));
   if (!(result.epipolar_sine > 0) || result.epipolar_sine < min_sine) return std::nullopt;
 
+  const Eigen::Vector2d to_bright_side(-left_edge.y(), left_edge.x());
+  result.scale_drift = image_step(rig.left, observation.left_scale_drift * to_bright_side).head<2>();
   const Eigen::Vector3d left_step = image_step(rig.left, left_edge);
   const double left_scale = 1.0 / left_step.norm();
   result.direction = left_step * left_scale;

@@ -21,6 +21,7 @@ struct OrientedPoint {
 struct StereoObservation {
   Eigen::Vector2d left = Eigen::Vector2d::Zero(), right = Eigen::Vector2d::Zero();
   double left_direction = 0, right_direction = 0;
+  double left_scale_drift = 0;  ///< of the left edge, see EdgeSet::scale_drift
 };
 
 /// A stereo edge in the quantities whose noise is Gaussian: the left pixel is exact by definition (it says which point
@@ -32,6 +33,8 @@ struct StereoMeasurement {
   double inverse_depth_per_pixel = 0;  ///< its change per pixel along the right image's epipolar line, >= 0 [1/(m px)]
   double epipolar_sine = 0;            ///< |sin| of the angle between right edge and epipolar line, in the image
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< K^-1 (cos, sin, 0) of the left edge, unit norm
+  /// How far the left edge moves per unit of log(scale), as a step of its ray; see EdgeSet::scale_drift.
+  Eigen::Vector2d scale_drift = Eigen::Vector2d::Zero();
   double slope = 0;                                      ///< depth slope of the tangent, no unit
   double slope_per_radian = 0;  ///< its standard deviation when both directions have one of 1 rad
   /// Unit normals, left camera's frame, of the planes through a camera's centre and the tangent as that camera sees it.

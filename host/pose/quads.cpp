@@ -19,7 +19,8 @@ StereoObservation observation(const StereoEdges& edges, std::size_t i) {
   return {{edges.left_x[i], edges.left_y[i]},
           {edges.right_x[i], edges.right_y[i]},
           edges.left_direction[i],
-          edges.right_direction[i]};
+          edges.right_direction[i],
+          edges.left_scale_drift.empty() ? 0.0 : static_cast<double>(edges.left_scale_drift[i])};
 }
 
 }  // namespace

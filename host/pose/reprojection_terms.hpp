@@ -19,7 +19,7 @@ constexpr std::size_t kLanes = 8;
 /// Many ReprojectionTerms as a structure of arrays, one row per quad, and each quad's own unknown.
 class ReprojectionTerms {
  public:
-  static constexpr std::size_t kColumns = 14;  ///< the members of ReprojectionTerm in their order
+  static constexpr std::size_t kColumns = 16;  ///< the members of ReprojectionTerm in their order
 
   /// Takes the terms of the quads `rows`; per_ray_unit(); their own unknowns start at zero.
   void assign(const QuadObservations& quads, const std::vector<std::int32_t>& rows, const PinholeCamera& left,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/gaussian_taps.hpp"
+#include "common/layouts.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/pi.hpp"
 #include "reference/edge_thinning.hpp"
@@ -110,13 +111,13 @@ Derivatives derivatives_at(ImageView image, double x, double y, double sigma) {
   const double level = 0.25 * (grey_at(x0, y0) + grey_at(x0 + 1, y0) + grey_at(x0, y0 + 1) + grey_at(x0 + 1, y0 + 1));
   Derivatives d{};
   for (int row = y0 - radius; row <= y0 + radius + 1; ++row) {
-    double along_x[4] = {0, 0, 0, 0};
+    double along_x[5] = {0, 0, 0, 0, 0};
     for (int column = x0 - radius; column <= x0 + radius + 1; ++column) {
       const double grey = grey_at(column, row) - level;
-      const std::array<double, 4> taps = gaussian_derivatives(x - column, sigma);
-      for (std::size_t order = 0; order < 4; ++order) along_x[order] += taps[order] * grey;
+      const std::array<double, 5> taps = gaussian_derivatives(x - column, sigma);
+      for (std::size_t order = 0; order < 5; ++order) along_x[order] += taps[order] * grey;
     }
-    const std::array<double, 4> taps = gaussian_derivatives(y - row, sigma);
+    const std::array<double, 5> taps = gaussian_derivatives(y - row, sigma);
     d.ix += taps[0] * along_x[1];
     d.iy += taps[1] * along_x[0];
     d.ixx += taps[0] * along_x[2];
@@ -126,6 +127,11 @@ Derivatives derivatives_at(ImageView image, double x, double y, double sigma) {
     d.ixxy += taps[1] * along_x[2];
     d.ixyy += taps[2] * along_x[1];
     d.iyyy += taps[3] * along_x[0];
+    d.ixxxx += taps[0] * along_x[4];
+    d.ixxxy += taps[1] * along_x[3];
+    d.ixxyy += taps[2] * along_x[2];
+    d.ixyyy += taps[3] * along_x[1];
+    d.iyyyy += taps[4] * along_x[0];
   }
   return d;
 }
@@ -151,6 +157,20 @@ double newton_step(const Derivatives& d, const std::array<double, 2>& gradient_f
   return slope < 0 ? std::clamp(-f / slope, -longest, longest) : 0.0;
 }
 
+/// How far F = 0 moves along the gradient per unit of log(sigma) [px]. The smoothed image obeys the heat equation
+/// dI / dlog(sigma) = sigma^2 Laplacian(I), which gives the same of F.
+double scale_drift(const Derivatives& d, const std::array<double, 2>& gradient_f, double sigma) {
+  const double m = std::hypot(d.ix, d.iy);
+  const double slope = (gradient_f[0] * d.ix + gradient_f[1] * d.iy) / m;
+  if (!(slope < 0)) return 0.0;
+  const double change_x = d.ixxx + d.ixyy, change_y = d.ixxy + d.iyyy;  // of the gradient
+  const double by_scale = 2.0 * (d.ix * d.ixx + d.iy * d.ixy) * change_x +
+                          2.0 * (d.ix * d.ixy + d.iy * d.iyy) * change_y + d.ix * d.ix * (d.ixxxx + d.ixxyy) +
+                          2.0 * d.ix * d.iy * (d.ixxxy + d.ixyyy) + d.iy * d.iy * (d.ixxyy + d.iyyyy);
+  const auto longest = static_cast<double>(kLongestScaleDrift);
+  return std::clamp(-sigma * sigma * by_scale / slope, -longest, longest);
+}
+
 ReferenceEdges thin(const ReferenceEdges& edges) {
   const std::vector<std::uint8_t> kept = kept_by_thinning(to_edge_set(edges));
   ReferenceEdges result;
@@ -163,6 +183,7 @@ ReferenceEdges thin(const ReferenceEdges& edges) {
       result.y.push_back(edges.y[i]);
       result.direction.push_back(edges.direction[i]);
       result.strength.push_back(edges.strength[i]);
+      result.scale_drift.push_back(edges.scale_drift[i]);
       result.cell_x.push_back(edges.cell_x[i]);
       result.cell_y.push_back(edges.cell_y[i]);
     }
@@ -200,6 +221,7 @@ ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double t
       edges.y.push_back(y + step * d.iy / m);
       edges.direction.push_back(direction > -kPi ? direction : kPi);
       edges.strength.push_back(probe.magnitude + 0.5 * b * shift);
+      edges.scale_drift.push_back(scale_drift(d, f, config.sigma));
       edges.cell_x.push_back(cell_x);
       edges.cell_y.push_back(cell_y);
     }
@@ -212,7 +234,8 @@ EdgeSet to_edge_set(const ReferenceEdges& edges) {
   const auto to_float = [](const std::vector<double>& values) {
     return std::vector<float>(values.begin(), values.end());
   };
-  return {to_float(edges.x), to_float(edges.y), to_float(edges.direction), to_float(edges.strength), edges.row_first};
+  return {to_float(edges.x), to_float(edges.y), to_float(edges.direction), to_float(edges.strength),
+          to_float(edges.scale_drift), edges.row_first};
 }
 
 }  // namespace quadedge::reference

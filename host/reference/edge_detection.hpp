@@ -17,6 +17,7 @@ struct ReferenceEdges {
   std::vector<double> x, y;                  ///< pixels
   std::vector<double> direction;             ///< radians in (-pi, pi]; the bright side lies at (-sin, cos)
   std::vector<double> strength;              ///< peak gradient magnitude, grey levels per pixel
+  std::vector<double> scale_drift;           ///< towards the bright side per unit of log(sigma), pixels
   std::vector<std::int32_t> cell_x, cell_y;  ///< cell (2 i, 2 j) of the doubled grid is pixel (i, j)
   std::vector<std::int32_t> row_first;       ///< as in EdgeSet, size 2 * height + 1
 
@@ -48,7 +49,7 @@ struct Probe {
 
 /// Derivatives of the smoothed image at one point, grey levels and pixels.
 struct Derivatives {
-  double ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy;
+  double ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy, ixxxx, ixxxy, ixxyy, ixyyy, iyyyy;
 };
 
 /// \throws UsageError for an empty image.

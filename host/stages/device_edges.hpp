@@ -10,7 +10,7 @@ namespace quadedge::stages {
 /// Third-order edges in scan order (EdgeSet on the device). Only the first host_count elements of a block mean
 /// anything.
 struct DeviceEdges {
-  /// Four blocks of `stride` floats: x, y [px], direction [rad], strength [grey levels per px].
+  /// Five blocks of `stride` floats: x, y [px], direction [rad], strength [grey levels per px], scale drift [px].
   opencl::Buffer<cl_float> packed;
   int stride = 0;
   opencl::Buffer<cl_int> row_first;  ///< 2 * height + 1 starts of the rows of the doubled grid
@@ -21,7 +21,7 @@ struct DeviceEdges {
 
   /// Makes room for `capacity` edges; contents are lost when it grows.
   void reserve(opencl::Context& context, int capacity) {
-    packed.ensure(context, 4 * static_cast<std::size_t>(capacity));
+    packed.ensure(context, 5 * static_cast<std::size_t>(capacity));
     stride = capacity;
   }
 
@@ -44,7 +44,7 @@ struct DeviceEdges {
   EdgeSet read(int height) const {
     EdgeSet edges;
     std::size_t block = 0;
-    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength}) {
+    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift}) {
       values->resize(static_cast<std::size_t>(host_count));
       packed.read_later(values->data(), values->size(), static_cast<std::size_t>(stride) * block++);
     }

@@ -15,7 +15,7 @@ namespace quadedge::stages {
 /// the frame itself can be overwritten.
 struct DeviceStereoEdges {
   opencl::Buffer<cl_int> left_index, right_index;
-  /// Six blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad].
+  /// Seven blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad], left scale drift [px].
   opencl::Buffer<cl_float> packed;
   opencl::Buffer<cl_float> ncc;
   opencl::Buffer<cl_char> left_patches;   ///< of every edge of the left image, see host/reference/patches.hpp
@@ -39,7 +39,7 @@ struct DeviceStereoEdges {
     }
     std::size_t block = 0;
     for (auto* values : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y,
-                         &edges.right_direction}) {
+                         &edges.right_direction, &edges.left_scale_drift}) {
       values->resize(size);
       packed.read_later(values->data(), size, step * block++);
     }

@@ -44,7 +44,7 @@ void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patche
   result.stride = n;
   result.left_index.ensure(context_, edges);
   result.right_index.ensure(context_, edges);
-  result.packed.ensure(context_, 6 * edges);
+  result.packed.ensure(context_, 7 * edges);
   result.ncc.ensure(context_, edges);
   collect_(range, arguments, mutual.keep_first, relaxation.chosen, left.packed, clusters.packed, clusters.anchor,
            result.left_index, result.right_index, result.packed, result.ncc);
