@@ -81,26 +81,26 @@ inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, 
 
 // Weights of G and its derivatives up to the fourth at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at
 // index - RADIUS from the point's whole part; `fraction` is the rest. Zero beyond TAPS.
-#define DEFINE_WEIGHTS(NAME, T, I, CONVERT_I, CONVERT_T, AS_T)                                                        \
-  inline void NAME(const float fraction, const I index, T* g) {                                                       \
-    const float ss = SIGMA * SIGMA;                                                                                   \
-    const T u = fraction - CONVERT_T(index - RADIUS);                                                                 \
-    const T uu = u * u;                                                                                               \
-    const T e = uu * (-0.5f / ss);                                                                                    \
-    const T n = fma(e, (T)1.44269504f, (T)12582912.0f) - 12582912.0f; /* rounds to a whole number */                  \
-    const T r = fma(n, (T)-1.42860677e-6f, fma(n, (T)-0.693145752f, e));                                              \
-    T p = fma(r, (T)1.38888889e-3f, (T)8.33333333e-3f);                                                               \
-    p = fma(r, p, (T)4.16666667e-2f);                                                                                 \
-    p = fma(r, p, (T)1.66666667e-1f);                                                                                 \
-    p = fma(r, p, (T)0.5f);                                                                                           \
-    p = fma(r, p, (T)1.0f);                                                                                           \
-    p = fma(r, p, (T)1.0f);                                                                                           \
-    const T value = p * AS_T((CONVERT_I(n) + 127) << 23) * (0.398942280f / SIGMA);                                    \
-    g[0] = index < TAPS ? value : (T)0.0f;                                                                            \
-    g[1] = g[0] * u * (-1.0f / (SIGMA * SIGMA));                                                                      \
-    g[2] = g[0] * (uu - SIGMA * SIGMA) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA));                                    \
-    g[3] = g[0] * u * (3.0f * SIGMA * SIGMA - uu) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA * SIGMA * SIGMA));         \
-    g[4] = g[0] * fma(uu, uu - 6.0f * ss, (T)(3.0f * ss * ss)) * (1.0f / (ss * ss * ss * ss));                        \
+#define DEFINE_WEIGHTS(NAME, T, I, CONVERT_I, CONVERT_T, AS_T)                                                \
+  inline void NAME(const float fraction, const I index, T* g) {                                               \
+    const float ss = SIGMA * SIGMA;                                                                           \
+    const T u = fraction - CONVERT_T(index - RADIUS);                                                         \
+    const T uu = u * u;                                                                                       \
+    const T e = uu * (-0.5f / ss);                                                                            \
+    const T n = fma(e, (T)1.44269504f, (T)12582912.0f) - 12582912.0f; /* rounds to a whole number */          \
+    const T r = fma(n, (T)-1.42860677e-6f, fma(n, (T)-0.693145752f, e));                                      \
+    T p = fma(r, (T)1.38888889e-3f, (T)8.33333333e-3f);                                                       \
+    p = fma(r, p, (T)4.16666667e-2f);                                                                         \
+    p = fma(r, p, (T)1.66666667e-1f);                                                                         \
+    p = fma(r, p, (T)0.5f);                                                                                   \
+    p = fma(r, p, (T)1.0f);                                                                                   \
+    p = fma(r, p, (T)1.0f);                                                                                   \
+    const T value = p * AS_T((CONVERT_I(n) + 127) << 23) * (0.398942280f / SIGMA);                            \
+    g[0] = index < TAPS ? value : (T)0.0f;                                                                    \
+    g[1] = g[0] * u * (-1.0f / (SIGMA * SIGMA));                                                              \
+    g[2] = g[0] * (uu - SIGMA * SIGMA) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA));                            \
+    g[3] = g[0] * u * (3.0f * SIGMA * SIGMA - uu) * (1.0f / (SIGMA * SIGMA * SIGMA * SIGMA * SIGMA * SIGMA)); \
+    g[4] = g[0] * fma(uu, uu - 6.0f * ss, (T)(3.0f * ss * ss)) * (1.0f / (ss * ss * ss * ss));                \
   }
 DEFINE_WEIGHTS(weights, float, int, convert_int, convert_float, as_float)
 DEFINE_WEIGHTS(weights8, float8, int8, convert_int8, convert_float8, as_float8)
@@ -132,32 +132,36 @@ inline float window_level(global const float* plane, const int stride, const int
     return copysign(x < 0.0f ? PI_F - quarter : quarter, y);   \
   }
 
-#define DERIVATIVES 14  // of the window: ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy, ixxxx, ixxxy, ixxyy, ixyyy, iyyyy
-#define ORDERS 5        // of derivation along one axis, 0 to 4
+#define DERIVATIVES \
+  14              // of the window: ix, iy, ixx, ixy, iyy, ixxx, ixxy, ixyy, iyyy, ixxxx, ixxxy, ixxyy, ixyyy, iyyyy
+#define ORDERS 5  // of derivation along one axis, 0 to 4
 
 // From the derivatives d at (x, y) to the direction; to the Newton step onto F = 0, which moves x and y; and to how far
 // the edge drifts towards its bright side per unit of log(SIGMA), by the heat equation.
-#define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                      \
-  inline T NAME(const T* d, const float newton_max, T* x, T* y, T* drift) {                                     \
-    const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                               \
-    const T xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];                                        \
-    const T fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7]; \
-    const T fy = 2.0f * d[1] * (d[4] * d[4] + d[3] * d[3]) + d[0] * shared + xx * d[6] + xy * d[7] + yy * d[8]; \
-    const T theta = ANGLE(fx, -fy);                                                                             \
-    const T slope = fx * d[0] + fy * d[1]; /* times |grad I| */                                                 \
-    const T f = xx * d[2] + xy * d[3] + yy * d[4];                                                              \
-    const T magnitude = MAGNITUDE(d[0], d[1]);                                                                  \
-    const T longest = (T)newton_max;                                                                            \
-    const T step = slope < 0.0f ? clamp(-f * magnitude / slope, -longest, longest) / magnitude : (T)0.0f;       \
-    *x = fma(step, d[0], *x);                                                                                   \
-    *y = fma(step, d[1], *y);                                                                                   \
-    const T change_x = d[5] + d[7], change_y = d[6] + d[8]; /* the Laplacian's own derivatives */               \
-    const T by_scale = 2.0f * (d[0] * d[2] + d[1] * d[3]) * change_x +                                          \
-                       2.0f * (d[0] * d[3] + d[1] * d[4]) * change_y + xx * (d[9] + d[11]) +                    \
-                       xy * (d[10] + d[12]) + yy * (d[11] + d[13]);                                             \
-    const T far = (T)kLongestScaleDrift;                                                                        \
-    *drift = slope < 0.0f ? clamp(-SIGMA * SIGMA * by_scale * magnitude / slope, -far, far) : (T)0.0f;          \
-    return theta > -PI_F ? theta : (T)PI_F;                                                                     \
+#define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                             \
+  inline T NAME(const T* d, const float newton_max, T* x, T* y, T* drift) {                                            \
+    const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                                      \
+    const T xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];                                               \
+    const T fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7];        \
+    const T fy = 2.0f * d[1] * (d[4] * d[4] + d[3] * d[3]) + d[0] * shared + xx * d[6] + xy * d[7] + yy * d[8];        \
+    const T theta = ANGLE(fx, -fy);                                                                                    \
+    const T slope = fx * d[0] + fy * d[1]; /* times |grad I| */                                                        \
+    const T f = xx * d[2] + xy * d[3] + yy * d[4];                                                                     \
+    const T magnitude = MAGNITUDE(d[0], d[1]);                                                                         \
+    const T longest = (T)newton_max;                                                                                   \
+    const T step = slope < 0.0f ? clamp(-f * magnitude / slope, -longest, longest) / magnitude : (T)0.0f;              \
+    *x = fma(step, d[0], *x);                                                                                          \
+    *y = fma(step, d[1], *y);                                                                                          \
+    const T change_x = d[5] + d[7], change_y = d[6] + d[8]; /* the Laplacian's own derivatives */                      \
+    const T squared = magnitude * magnitude;                                                                           \
+    const T by_scale = 2.0f * (d[0] * d[2] + d[1] * d[3]) * change_x + 2.0f * (d[0] * d[3] + d[1] * d[4]) * change_y + \
+                       xx * (d[9] + d[11]) + xy * (d[10] + d[12]) + yy * (d[11] + d[13]);                              \
+    /* Of F / |grad I|^2, whose changes hardly depend on how near F = 0 they are taken. */                             \
+    const T shift = by_scale - 2.0f * f * (d[0] * change_x + d[1] * change_y) / squared;                               \
+    const T fall = slope - 2.0f * f * f / squared;                                                                     \
+    const T far = (T)kLongestScaleDrift;                                                                               \
+    *drift = slope < 0.0f && fall < 0.0f ? clamp(-SIGMA * SIGMA * shift * magnitude / fall, -far, far) : (T)0.0f;      \
+    return theta > -PI_F ? theta : (T)PI_F;                                                                            \
   }
 DEFINE_ANGLE(angle, float)
 DEFINE_ANGLE(angle8, float8)

@@ -287,6 +287,34 @@ def peers(results):
     return table(kept["head"], rows)
 
 
+def drift_over_scenes(results):
+    """End errors after long rendered sequences, with those of another program beside them where there are any."""
+    rows = []
+    for row in results["drift"]["rows"]:
+        for name, found in (("before", row.get("before")), ("now", row)):
+            if found is None:
+                continue
+            ends = " ".join(number(run["end_mm"], 2) for run in found["runs"])
+            parts = ", ".join(f"{part:+.1f}" for part in found["mean_end_parts_mm"])
+            rows.append([row["scene"], name, f"{ends} mm", f"{found['end_percent']:.3f} %", f"({parts}) mm",
+                         f"{number(found['rms_mm'], 2)} mm"])
+    head = ["scene", "", "end error of each texture", "mean, of the way", "mean vector", "rms along the way"]
+    return table(head, rows)
+
+
+def truth(results):
+    """Errors of a recording before and after constants of its truth are taken away."""
+    found = results["truth"]
+    rows = [
+        [row["frames"], length(row["way_mm"] / 1e3),
+         *(length(row[name] / 1e3) for name in ("as_it_is_mm", "constants_removed_mm", "of_other_half_mm"))]
+        for row in found["rows"]
+    ]
+    head = ["frames", "way", "error, rms", "eight constants of the truth removed", "found on the other half"]
+    constants = ", ".join(f"{name} {value:+.4f}" for name, value in found["constants"].items())
+    return table(head, rows) + f"\nConstants (radians, seconds, metres): {constants}.\n"
+
+
 TABLES = {
     "accuracy": accuracy,
     "systems": systems,
@@ -299,6 +327,8 @@ TABLES = {
     "speed": speed,
     "light": light,
     "peers": peers,
+    "drift": drift_over_scenes,
+    "truth": truth,
 }
 PART_OF = {"beside": "accuracy", "paths": "accuracy", "systems": "accuracy", "steps": "accuracy", "quads": "matching"}
 # Part -> (title, what to know, tables)

@@ -87,7 +87,7 @@ inline bool same_bytes(const TemporalMatches& a, const TemporalMatches& b) {
 }
 inline bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
   return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
-         a.row_first == b.row_first;
+         a.scale_drift == b.scale_drift && a.row_first == b.row_first;
 }
 inline bool same_bytes(const FrontendResult& a, const FrontendResult& b) {
   return same_bytes(a.left_edges, b.left_edges) && same_bytes(a.right_edges, b.right_edges) &&

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -96,6 +97,50 @@ TEST_CASE("edges: a circle is found inward by the known sigma^2 / 2r and its tan
       // / 2r.
       CHECK(bias == Approx(-sigma * sigma / (2.0 * radius)).margin(0.003));
     }
+  }
+}
+
+TEST_CASE("edges: the scale drift tells where a larger scale finds the edge, of a disc and of thin bars", "[edges]") {
+  const double cx = 64.27, cy = 63.81;
+  const auto disc = [=](double x, double y) { return std::hypot(x - cx, y - cy) < 20.0; };
+  const auto bar = [=](double x, double y) { return std::abs(0.8 * (x - cx) + 0.6 * (y - cy)) < 1.5; };
+  const auto thread = [=](double x, double y) { return std::abs(0.6 * (x - cx) - 0.8 * (y - cy)) < 0.6; };
+  for (const std::function<bool(double, double)>& inside :
+       {std::function<bool(double, double)>(disc), std::function<bool(double, double)>(bar),
+        std::function<bool(double, double)>(thread)}) {
+    const Image image = render_shape(128, 128, 20, 220, inside);
+    EdgesConfig smaller, config, larger;
+    smaller.sigma = 1.95;
+    larger.sigma = 2.05;
+    const auto across = [&](const ReferenceEdges& edges, std::size_t i, double x, double y) {
+      return (edges.y[i] - y) * std::cos(edges.direction[i]) - (edges.x[i] - x) * std::sin(edges.direction[i]);
+    };
+    const ReferenceEdges edges = reference::detect_edges(image.view(), config);
+    const ReferenceEdges before = reference::detect_edges(image.view(), smaller),
+                         after = reference::detect_edges(image.view(), larger);
+    // Distance from edge `i` across it to the nearest edge of another scale.
+    const auto to = [&](const ReferenceEdges& others, std::size_t i) {
+      std::size_t nearest = 0;
+      const auto squared = [&](std::size_t k) {
+        return std::pow(others.x[k] - edges.x[i], 2) + std::pow(others.y[k] - edges.y[i], 2);
+      };
+      for (std::size_t k = 0; k < others.size(); ++k)
+        if (squared(k) < squared(nearest)) nearest = k;
+      return across(others, nearest, edges.x[i], edges.y[i]);
+    };
+    double drift = 0, moved = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (std::abs(edges.x[i] - cx) > 30 || std::abs(edges.y[i] - cy) > 30) continue;  // ends of the bars
+      drift += edges.scale_drift[i];
+      moved += (to(after, i) - to(before, i)) / std::log(2.05 / 1.95);
+      ++count;
+    }
+    REQUIRE(count > 60);
+    drift /= static_cast<double>(count);
+    moved /= static_cast<double>(count);
+    REQUIRE(std::abs(moved) > 0.15);
+    CHECK(drift == Approx(moved).epsilon(0.1));
   }
 }
 

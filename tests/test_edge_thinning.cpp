@@ -45,6 +45,7 @@ TEST_CASE("edge thinning: the strongest of a pixel survives, directions 45 degre
     edges.y.push_back(y);
     edges.direction.push_back(static_cast<float>(direction_deg * kDegree));
     edges.strength.push_back(strength);
+    edges.scale_drift.push_back(0);
   };
   add(5.2F, 7.4F, 10, 3);     // 0: weaker neighbour of 1
   add(4.6F, 6.6F, 50, 4);     // 1: strongest of pixel (5, 7)

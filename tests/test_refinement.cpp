@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "refinement_trials.hpp"
 
@@ -39,6 +40,41 @@ TEST_CASE("Far points with large disparity noise do not shorten the motion", "[l
   const generated::Trials trials = generated::run_trials(problem, 120);
   CHECK(trials.standard_error(5) < 1.6e-4);
   CHECK(std::abs(trials.mean(5)) < 3.5 * trials.standard_error(5));
+}
+
+TEST_CASE("Edges that are found at one scale while the scene grows do not shorten the motion", "[pose][refinement]") {
+  generated::Problem problem = generated::drive();
+  const auto& camera = problem.rig.left;
+  const Eigen::Vector2d middle(camera.cx, camera.cy);
+  const auto error = [&](bool told) {
+    generated::Random random(36);
+    QuadObservations quads;
+    while (quads.size() < 500) {
+      const auto p = generated::random_point(problem.rig, problem.near, problem.far, random);
+      const OrientedPoint q{problem.motion * p.point, problem.motion.linear() * p.tangent};
+      if (q.point.z() < 3) continue;
+      auto before = generated::observe(problem.rig, p), after = generated::observe(problem.rig, q);
+      // Every edge drifts outwards with the scale, so that it stays behind as the scene comes nearer; half of the
+      // growth is told by either time. The right edge drifts as the left one does.
+      const double growth = std::log(p.point.z() / q.point.z());
+      const auto drift = [&](StereoObservation& o, double way) {
+        const Eigen::Vector2d normal(-std::sin(o.left_direction), std::cos(o.left_direction));
+        const double outwards = normal.dot(o.left - middle) > 0 ? 1.5 : -1.5;
+        const double depth = (&o == &before ? p : q).point.z();
+        o.left += way * growth * outwards * normal;
+        o.right = problem.rig.right.project(problem.rig.right_from_left * (depth * camera.ray(o.left)));
+        if (told) o.left_scale_drift = outwards;
+      };
+      drift(before, 0.5);
+      drift(after, -0.5);
+      quads.append(problem.rig, before, after, 1.0f, 0, static_cast<int>(quads.size()), generated::limits());
+    }
+    const Refined refined = generated::refined_by(quads, problem.rig, {}, problem.motion);
+    REQUIRE(refined.solved);
+    return generated::error_of(refined.current_from_previous, problem.motion).tail<3>().norm();
+  };
+  CHECK(error(false) > 2e-3);  // of 1.2 m
+  CHECK(error(true) < 0.1 * error(false));
 }
 
 TEST_CASE("Wrong quads that pass for inliers hardly move the pose", "[pose][refinement]") {

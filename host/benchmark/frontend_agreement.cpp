@@ -41,7 +41,7 @@ double both_ways(const Rows& a, const Rows& b) {
 
 bool same(const EdgeSet& a, const EdgeSet& b) {
   return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
-         a.row_first == b.row_first;
+         a.scale_drift == b.scale_drift && a.row_first == b.row_first;
 }
 bool same(const StereoEdges& a, const StereoEdges& b) {
   return a.left_index == b.left_index && a.right_index == b.right_index && a.left_x == b.left_x &&

@@ -35,7 +35,7 @@ struct StereoMeasurement {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< K^-1 (cos, sin, 0) of the left edge, unit norm
   /// How far the left edge moves per unit of log(scale), as a step of its ray; see EdgeSet::scale_drift.
   Eigen::Vector2d scale_drift = Eigen::Vector2d::Zero();
-  double slope = 0;                                      ///< depth slope of the tangent, no unit
+  double slope = 0;             ///< depth slope of the tangent, no unit
   double slope_per_radian = 0;  ///< its standard deviation when both directions have one of 1 rad
   /// Unit normals, left camera's frame, of the planes through a camera's centre and the tangent as that camera sees it.
   Eigen::Vector3d left_normal = Eigen::Vector3d::UnitY(), right_normal = Eigen::Vector3d::UnitY();

@@ -167,8 +167,13 @@ double scale_drift(const Derivatives& d, const std::array<double, 2>& gradient_f
   const double by_scale = 2.0 * (d.ix * d.ixx + d.iy * d.ixy) * change_x +
                           2.0 * (d.ix * d.ixy + d.iy * d.iyy) * change_y + d.ix * d.ix * (d.ixxxx + d.ixxyy) +
                           2.0 * d.ix * d.iy * (d.ixxxy + d.ixyyy) + d.iy * d.iy * (d.ixxyy + d.iyyyy);
+  // Of F / |grad I|^2, whose changes hardly depend on how near F = 0 they are taken.
+  const double f = d.ix * d.ix * d.ixx + 2.0 * d.ix * d.iy * d.ixy + d.iy * d.iy * d.iyy;
+  const double shift = by_scale - 2.0 * f * (d.ix * change_x + d.iy * change_y) / (m * m);
+  const double fall = slope - 2.0 * f * f / (m * m * m);
+  if (!(fall < 0)) return 0.0;
   const auto longest = static_cast<double>(kLongestScaleDrift);
-  return std::clamp(-sigma * sigma * by_scale / slope, -longest, longest);
+  return std::clamp(-sigma * sigma * shift / fall, -longest, longest);
 }
 
 ReferenceEdges thin(const ReferenceEdges& edges) {
@@ -234,8 +239,8 @@ EdgeSet to_edge_set(const ReferenceEdges& edges) {
   const auto to_float = [](const std::vector<double>& values) {
     return std::vector<float>(values.begin(), values.end());
   };
-  return {to_float(edges.x), to_float(edges.y), to_float(edges.direction), to_float(edges.strength),
-          to_float(edges.scale_drift), edges.row_first};
+  return {to_float(edges.x),        to_float(edges.y),           to_float(edges.direction),
+          to_float(edges.strength), to_float(edges.scale_drift), edges.row_first};
 }
 
 }  // namespace quadedge::reference

@@ -43,8 +43,8 @@ struct EdgeSet {
   /// the right: -90 degrees). The bright side lies at (-sin, cos), the dark side at (sin, -cos).
   std::vector<float> direction;
   std::vector<float> strength;  ///< peak gradient magnitude, grey levels per pixel
-  /// How far the edge moves towards its bright side per unit of log(edges.sigma), pixels. It moves as far when the scene
-  /// shrinks by as much; see doc/method.md section 6.
+  /// How far the edge moves towards its bright side per unit of log(edges.sigma), pixels. It moves as far when the
+  /// scene shrinks by as much; see doc/method.md section 6.
   std::vector<float> scale_drift;
   /// Where each row of the doubled grid starts: row r holds edges row_first[r] .. row_first[r + 1]. Size 2 * height
   /// + 1. The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
@@ -61,7 +61,7 @@ struct StereoEdges {
       right_index;  ///< the right edge that was refined; neighbours on one left curve may share it
   std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge, pixels and radians
   std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
-  std::vector<float> left_scale_drift;  ///< of the left edge, see EdgeSet; empty: none is known
+  std::vector<float> left_scale_drift;                   ///< of the left edge, see EdgeSet; empty: none is known
   std::vector<float> ncc;  ///< similarity of the refined pair: mean NCC of the edges' own patches and the better side
 
   EdgePositionsView positions(Side side) const {
