@@ -105,10 +105,10 @@ typedef struct {
 
 // Tallies of edge_threshold.cl.
 enum {
-  kThresholdStep = 8,                       // between points of the lattice, px
-  kGradientBins = 192,                      // eight per octave, from 2^-12 to 2^12 grey levels per px
-  kGradientBinsFrom = (127 - 12) * 8 - 1,   // what a float's upper 12 bits exceed the bin by; bin 0 holds all below
-  kNoiseBins = 152,                         // of 0 to 2^21 steps
+  kThresholdStep = 8,                      // between points of the lattice, px
+  kGradientBins = 192,                     // eight per octave, from 2^-12 to 2^12 grey levels per px
+  kGradientBinsFrom = (127 - 12) * 8 - 1,  // what a float's upper 12 bits exceed the bin by; bin 0 holds all below
+  kNoiseBins = 152,                        // of 0 to 2^21 steps
   kThresholdBins = kGradientBins + kNoiseBins
 };
 // Median of the noise operator's magnitude for normal noise of standard deviation 1: its norm, 6, times the normal

@@ -123,13 +123,16 @@ def examine(sequence, results):
     offset, difference = rotation_offset(truth, time, rotation)
     steps = {n: errors_and_causes(truth, time, rotation, position, n) for n in STEPS if n < len(time) // 2}
     constants = fit(steps, lambda error: slice(None))
-    halves = [fit(steps, lambda error: slice(None, len(error) // 2)), fit(steps, lambda error: slice(len(error) // 2, None))]
+    halves = [fit(steps, lambda error: slice(None, len(error) // 2)),
+              fit(steps, lambda error: slice(len(error) // 2, None))]
     rows = []
     for n, (error, causes, ways) in steps.items():
         middle = len(error) // 2
-        crossed = np.concatenate([error[middle:] - causes[middle:] @ halves[0], error[:middle] - causes[:middle] @ halves[1]])
+        crossed = np.concatenate([error[middle:] - causes[middle:] @ halves[0],
+                                  error[:middle] - causes[:middle] @ halves[1]])
         rows.append({"frames": n, "way_mm": 1e3 * float(ways.mean()), "as_it_is_mm": 1e3 * rms(error),
-                     "constants_removed_mm": 1e3 * rms(error - causes @ constants), "of_other_half_mm": 1e3 * rms(crossed)})
+                     "constants_removed_mm": 1e3 * rms(error - causes @ constants),
+                     "of_other_half_mm": 1e3 * rms(crossed)})
     return {"sequence": sequence.name, "rotation_offset_ms": 1e3 * offset, "rotation_rms_deg": float(difference),
             "constants": dict(zip(NAMES, (float(value) for value in constants))), "rows": rows}
 

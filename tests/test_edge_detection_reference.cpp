@@ -115,9 +115,8 @@ TEST_CASE("edges: the scale drift tells where a larger scale finds the edge, of 
     const auto across = [&](const ReferenceEdges& edges, std::size_t i, double x, double y) {
       return (edges.y[i] - y) * std::cos(edges.direction[i]) - (edges.x[i] - x) * std::sin(edges.direction[i]);
     };
-    const ReferenceEdges edges = reference::detect_edges(image.view(), config);
-    const ReferenceEdges before = reference::detect_edges(image.view(), smaller),
-                         after = reference::detect_edges(image.view(), larger);
+    const ReferenceEdges edges = ::detect_edges(image.view(), config);
+    const ReferenceEdges before = ::detect_edges(image.view(), smaller), after = ::detect_edges(image.view(), larger);
     // Distance from edge `i` across it to the nearest edge of another scale.
     const auto to = [&](const ReferenceEdges& others, std::size_t i) {
       std::size_t nearest = 0;

@@ -311,11 +311,12 @@ TEST_CASE("odometry: cameras of different sizes, turned against one another, tra
       image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(view.grey[i]), 0L, 255L));
     return image;
   };
+  const synthetic::CameraPath path("ellipse", 7, 4, world.lane);
   for (int i = 0; i < 4; ++i) {
-    scene.world_from_left.push_back(synthetic::world_from_left(i));
-    const Eigen::Isometry3d left_from_world = scene.world_from_left.back().inverse();
-    scene.left.push_back(render(scene.rig.left, left_from_world));
-    scene.right.push_back(render(scene.rig.right, scene.rig.right_from_left * left_from_world));
+    scene.world_from_left.push_back(path.world_from_left(i));
+    const Eigen::Isometry3d left_from_scene = path.scene_from_left(i).inverse();
+    scene.left.push_back(render(scene.rig.left, left_from_scene));
+    scene.right.push_back(render(scene.rig.right, scene.rig.right_from_left * left_from_scene));
   }
   scene.config = {};
   scene.config.stereo.min_depth = 0.8 * world.nearest;

@@ -28,7 +28,8 @@ EdgeSet detect(const Image& image, const EdgesConfig& config, double threshold, 
   const auto limit = static_cast<std::size_t>(config.max_edges);
   if (edges.size() > limit) {
     dropped += static_cast<int>(edges.size() - limit);
-    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift}) values->resize(limit);
+    for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift})
+      values->resize(limit);
     for (auto& first : edges.row_first) first = std::min(first, static_cast<std::int32_t>(limit));
   }
   return edges;
