@@ -78,8 +78,8 @@ inline FrontendResult run_frontend(const RenderedScene& scene, const std::string
 
 inline bool same_bytes(const StereoEdges& a, const StereoEdges& b) {
   return a.left_index == b.left_index && a.right_index == b.right_index && a.left_x == b.left_x &&
-         a.left_y == b.left_y && a.left_direction == b.left_direction && a.right_x == b.right_x &&
-         a.right_y == b.right_y && a.right_direction == b.right_direction && a.ncc == b.ncc;
+         a.left_scale_drift == b.left_scale_drift && a.left_y == b.left_y && a.left_direction == b.left_direction &&
+         a.right_x == b.right_x && a.right_y == b.right_y && a.right_direction == b.right_direction && a.ncc == b.ncc;
 }
 inline bool same_bytes(const TemporalMatches& a, const TemporalMatches& b) {
   return a.previous == b.previous && a.current == b.current && a.left_x == b.left_x && a.left_y == b.left_y &&
