@@ -121,10 +121,10 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
   CHECK(json["pairs"][0]["name"] == "room4");
   CHECK(json["pairs"][0]["disparity_error_px"]["median"].get<double>() < 0.3);
   const auto& pooled = json["pooled"];
-  REQUIRE(pooled["stereo"].size() == 11);
+  REQUIRE(pooled["stereo"].size() == 13);
   CHECK(pooled["stereo"][0]["recall"] == 1.0);
-  CHECK(pooled["stereo"][10]["ambiguity_mean"] == 0.0);
-  CHECK(pooled["stereo"][10]["precision"].get<double>() > 0.9);
+  CHECK(pooled["stereo"][12]["ambiguity_mean"] == 0.0);
+  CHECK(pooled["stereo"][12]["precision"].get<double>() > 0.9);
   CHECK(pooled["temporal_left"].size() == 9);
   CHECK(pooled["temporal_right"].size() == 9);
   CHECK(pooled["quads"]["precision"].get<double>() > 0.8);
