@@ -8,8 +8,11 @@
 #include <quadedge/synthetic.hpp>
 
 int main() try {
-  // Scene, number of frames, width, height, focal length [px].
-  const quadedge::SyntheticSequence camera({"room", 3, 320, 200, 184.0});
+  quadedge::SyntheticOptions options;
+  options.frames = 3;
+  options.width = 320, options.height = 200;
+  options.focal = 184.0;  // px
+  const quadedge::SyntheticSequence camera(options);
 
   // The calibration of a rectified camera: the same pinhole left and right, the right one 6 cm to the right. Rigs
   // that are not rectified have a rotation in right_from_left as well, and distorted images a table each.
