@@ -1,6 +1,7 @@
 #pragma once
 /// \file image.hpp  Grey images of 8 to 16 bits: an owner, a view, and the two views of a stereo frame.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -78,7 +79,7 @@ struct Image {
 inline Image to_8_bits(const ImageView& image) {
   Image result(image.width, image.height);
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) result.set(x, y, static_cast<int>(image.at(x, y) + 0.5F));
+    for (int x = 0; x < image.width; ++x) result.set(x, y, static_cast<int>(std::lround(image.at(x, y))));
   return result;
 }
 
