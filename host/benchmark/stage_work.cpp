@@ -21,7 +21,7 @@ StageWork edges_work(const FrameSize& frame, const EdgesConfig& config) {
   const double maximum = 4 * 15;                         // per pixel: four cells, magnitude, two probes, the test
   const double window = 2 * pairs;                       // samples per axis around an edge
   const double third_order =
-      window * window * 4 * 2 + window * 10 * 2;  // four orders along x, then ten derivatives along y
+      window * window * 5 * 2 + window * 14 * 2;  // five orders along x, then fourteen derivatives along y
   return {frame.pixels + frame.edges * kEdgeBytes, frame.pixels * (down + along + maximum) + frame.edges * third_order};
 }
 
