@@ -243,6 +243,12 @@ typedef struct {
   EpipolarGeometry geometry;
 } StereoMutualArguments;
 
+// point_index.cl.
+typedef struct {
+  PackedPositions left_edges, right_edges;
+  PackedPointIndex left, right;
+} PointIndexArguments;
+
 // temporal_candidates.cl.
 typedef struct {
   int rows;

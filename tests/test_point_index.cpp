@@ -2,22 +2,54 @@
 #include <numeric>
 #include <set>
 
-#include "common/point_index.hpp"
 #include "matching.hpp"
+#include "reference/point_index.hpp"
+#include "stages/point_index.hpp"
 
 using namespace quadedge;
+
+namespace {
+
+/// Random edges of which many share a cell, and some lie beyond the border of a width x height image.
+EdgePositions crowded_edges(int count, int width, int height, std::uint64_t seed) {
+  matching::Random random(seed);
+  EdgePositions edges;
+  for (int k = 0; k < count; ++k) {
+    const double part = k % 3 == 0 ? 0.2 : 1.1;  // of the image
+    edges.x.push_back(static_cast<float>(random(-3, part * width)));
+    edges.y.push_back(static_cast<float>(random(-3, part * height)));
+    edges.direction.push_back(static_cast<float>(random(-3, 3)));
+  }
+  return edges;
+}
+
+void check_index(const EdgePositions& edges, int width, int height, const stages::DevicePointIndex& index) {
+  reference::PointIndex expected;
+  reference::make_point_index(edges.x, edges.y, width, height, expected);
+  const std::size_t count = edges.size(), starts = expected.cell_first.size();
+  CHECK(index.layout().columns == expected.columns);
+  CHECK(index.layout().rows == expected.rows);
+  CHECK(index.cells.read(starts) == expected.cell_first);
+  CHECK(index.cells.read(count, starts) == expected.order);
+  const auto points = index.points.read(3 * count);
+  std::size_t k = 0;
+  for (const auto* values : {&edges.x, &edges.y, &edges.direction})
+    for (const auto number : expected.order) CHECK(points[k++] == (*values)[static_cast<std::size_t>(number)]);
+}
+
+}  // namespace
 
 TEST_CASE("point index: cells of 8 x 4 px in rows, then the number; what lies outside counts to the border",
           "[temporal][matching]") {
   //                             0     1      2      3      4    5     6
   const std::vector<float> xs = {17, 7.9f, 8.1f, 2.25f, 100, -30, 3}, ys = {2.1f, 3.9f, 4.2f, 0.2f, 9, -3, 4};
-  PointIndex index;
-  make_point_index(xs, ys, 20, 7, index);
+  reference::PointIndex index;
+  reference::make_point_index(xs, ys, 20, 7, index);
   CHECK(index.columns == 3);
   CHECK(index.rows == 2);
   CHECK(index.order == std::vector<std::int32_t>{1, 3, 5, 0, 6, 2, 4});
   CHECK(index.cell_first == std::vector<std::int32_t>{0, 3, 3, 4, 5, 6, 7});
-  make_point_index({}, {}, 9, 3, index);
+  reference::make_point_index({}, {}, 9, 3, index);
   CHECK(index.order.empty());
   CHECK(index.cell_first == std::vector<std::int32_t>(3, 0));
 }
@@ -29,8 +61,8 @@ TEST_CASE("point index: a square holds every point within its radius, also beyon
     xs.push_back(static_cast<float>(random(-5, 85)));
     ys.push_back(static_cast<float>(random(-5, 35)));
   }
-  PointIndex index;
-  make_point_index(xs, ys, 80, 30, index);
+  reference::PointIndex index;
+  reference::make_point_index(xs, ys, 80, 30, index);
   auto sorted = index.order;
   std::sort(sorted.begin(), sorted.end());
   std::vector<std::int32_t> all(500);
@@ -46,4 +78,22 @@ TEST_CASE("point index: a square holds every point within its radius, also beyon
       if (std::hypot(xs[p] - x, ys[p] - y) <= radius) CHECK(visited.count(i) == 1);
     }
   }
+}
+
+TEST_CASE("point index: devices sort the edges of both sides as the reference does",
+          "[temporal][matching][device][oclgrind]") {
+  matching::for_each_variant(
+      "point_index", [&](opencl::Context& context, const matching::Variants& variants, const std::string& name) {
+        INFO(name);
+        stages::PointIndex stage(context, variants);
+        stages::DevicePointIndex left_index(83, 31), right_index(90, 29);
+        for (const auto& [left_count, right_count] : {std::pair(700, 513), {0, 3}, {1, 0}, {401, 800}}) {
+          const auto left = crowded_edges(left_count, 83, 31, 5), right = crowded_edges(right_count, 90, 29, 6);
+          stages::DevicePositions edges;
+          edges.write(context, {left, right});
+          stage.run(edges.list(0), edges.list(1), left_index, right_index);
+          check_index(left, 83, 31, left_index);
+          check_index(right, 90, 29, right_index);
+        }
+      });
 }

@@ -57,26 +57,27 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
 std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std::vector<Edge>& current_edges,
                              int height, double radius, double orientation, int step) {
   const auto predicted = positions_of(predicted_edges), current = positions_of(current_edges);
-  PointIndex index;
-  make_point_index(current.x, current.y, kWidth, height, index);
+  reference::PointIndex index;
+  reference::make_point_index(current.x, current.y, kWidth, height, index);
   const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius),
                                                     static_cast<float>(orientation), step);
   const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
-  for_each_variant("temporal_candidates",
-                   [&](opencl::Context& context, const Variants& variants, const std::string& name) {
-                     INFO(name);
-                     stages::DevicePointIndex device_index;
-                     device_index.build(context, current, kWidth, height);
-                     stages::DevicePositions device_predicted;
-                     device_predicted.write(context, {predicted});
-                     stages::TemporalCandidates stage(context, variants);
-                     stages::DeviceCandidates lists;
-                     stage.run(device_predicted.list(), step, device_index, static_cast<float>(radius),
-                               static_cast<float>(orientation), lists);
-                     check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
-                                 lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current,
-                                 radius, orientation, step);
-                   });
+  for_each_variant(
+      "temporal_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
+        INFO(name);
+        stages::DevicePositions device_current, device_predicted;
+        device_current.write(context, {current});
+        stages::DevicePointIndex device_index(kWidth, height), other(kWidth, height);
+        stages::PointIndex(context, variants).run(device_current.list(), device_current.list(), device_index, other);
+        device_predicted.write(context, {predicted});
+        stages::TemporalCandidates stage(context, variants);
+        stages::DeviceCandidates lists;
+        stage.run(device_predicted.list(), step, device_index, static_cast<float>(radius),
+                  static_cast<float>(orientation), lists);
+        check_lists(lists.first.read(static_cast<std::size_t>(lists.rows) + 1),
+                    lists.target.read(static_cast<std::size_t>(lists.host_total)), predicted, current, radius,
+                    orientation, step);
+      });
   return certain;
 }
 
@@ -99,8 +100,8 @@ TEST_CASE("temporal candidates: a circle around the predicted position and a ful
   const std::vector<Edge> current = {
       {24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
   const auto positions = positions_of(current);
-  PointIndex index;
-  make_point_index(positions.x, positions.y, kWidth, 30, index);
+  reference::PointIndex index;
+  reference::make_point_index(positions.x, positions.y, kWidth, 30, index);
   const auto lists = reference::temporal_candidates(positions_of(predicted), positions, index, 5.0f, 0.15f);
   CHECK(lists.first == std::vector<std::int32_t>{0, 2, 2, 3});
   CHECK(lists.target == std::vector<std::int32_t>{3, 0, 2});

@@ -109,8 +109,8 @@ struct Scene {
   /// Edges within the radius alone, as the reference finds them.
   reference::Candidates displaced(Side side) const {
     const EdgePositionsView edges = current.positions(side);
-    PointIndex index;
-    make_point_index(edges.x, edges.y, kWidth, kHeight, index);
+    reference::PointIndex index;
+    reference::make_point_index(edges.x, edges.y, kWidth, kHeight, index);
     return reference::temporal_candidates(side == Side::left ? search.left : search.right, edges, index, search.radius,
                                           4, search.step);
   }
@@ -138,9 +138,10 @@ struct Scene {
           stages::DeviceStereoEdges device_base, device_current;
           upload_rig(context, base, base_left, base_right, base_left_sift, base_right_sift, device_base);
           upload_rig(context, current, left, right, left_sift, right_sift, device_current);
-          stages::DevicePointIndex left_index, right_index;
-          left_index.build(context, current.positions(Side::left), kWidth, kHeight);
-          right_index.build(context, current.positions(Side::right), kWidth, kHeight);
+          stages::DevicePositions edges;
+          edges.write(context, {current.positions(Side::left), current.positions(Side::right)});
+          stages::DevicePointIndex left_index(kWidth, kHeight), right_index(kWidth, kHeight);
+          stages::PointIndex(context, variants).run(edges.list(0), edges.list(1), left_index, right_index);
           stages::DevicePositions predicted;
           predicted.write(context, {search.left, search.right});
           for (const bool tapped : {false, true}) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "common/point_index.hpp"
 #include "evaluation/filter_table.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
+#include "reference/point_index.hpp"
 
 namespace quadedge::evaluation {
 
@@ -18,7 +18,7 @@ class NearbyTargets {
   /// The arrays must outlive the object. `height`: of the image [px].
   NearbyTargets(const std::vector<float>& x, const std::vector<float>& y, int height) : x_(x), y_(y) {
     const float right_end = x.empty() ? 0 : *std::max_element(x.begin(), x.end());
-    make_point_index(x, y, std::max(1, static_cast<int>(std::ceil(right_end)) + 1), height, index_);
+    reference::make_point_index(x, y, std::max(1, static_cast<int>(std::ceil(right_end)) + 1), height, index_);
   }
 
   /// Calls `found(index)` for every target within `radius` px of the position.
@@ -35,7 +35,7 @@ class NearbyTargets {
  private:
   const std::vector<float>& x_;
   const std::vector<float>& y_;
-  PointIndex index_;
+  reference::PointIndex index_;
 };
 
 /// Angle between two directions modulo half a turn [deg].

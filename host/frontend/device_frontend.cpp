@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "common/layouts.hpp"
-#include "common/point_index.hpp"
 
 namespace quadedge::frontend {
 
@@ -36,11 +35,14 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       clustering_(context, config.stereo, config.variants),
       relaxation_(context, rig.left.width, rig.left.height, config.stereo, config.variants),
       mutual_(context, config.stereo, config.variants),
+      point_index_(context, config.variants),
       temporal_candidates_(context, config.variants),
       temporal_quads_(context, config.temporal, config.variants),
       temporal_match_(context, config.temporal, config.variants),
       wide_description_(context, rig.left.width, rig.left.height, config.variants, rig.white),
-      wide_matching_(context, config.temporal, config.variants) {
+      wide_matching_(context, config.temporal, config.variants),
+      left_index_(rig.left.width, rig.left.height),
+      right_index_(rig.right.width, rig.right.height) {
   std::vector<cl_int> itself(static_cast<std::size_t>(config.edges.max_edges));
   std::iota(itself.begin(), itself.end(), 0);
   itself_.write(context, itself);
@@ -100,9 +102,8 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
 
 void DeviceFrontend::index_current() {
   if (indexed_) return;
-  const StereoEdges& edges = rigs_.current().edges;
-  left_index_.build(context_, edges.positions(Side::left), calibration_.left.width, calibration_.left.height);
-  right_index_.build(context_, edges.positions(Side::right), calibration_.right.width, calibration_.right.height);
+  const stages::DeviceStereoEdges& edges = rigs_.current().on_device;
+  point_index_.run(edges.positions(Side::left), edges.positions(Side::right), left_index_, right_index_);
   indexed_ = true;
 }
 

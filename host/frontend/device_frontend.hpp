@@ -84,6 +84,7 @@ class DeviceFrontend : public Frontend {
   stages::StereoClusters clustering_;
   stages::StereoRelaxation relaxation_;
   stages::StereoMutual mutual_;
+  stages::PointIndex point_index_;
   stages::TemporalCandidates temporal_candidates_;
   stages::TemporalQuads temporal_quads_;
   stages::TemporalMatch temporal_match_;

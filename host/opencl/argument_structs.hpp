@@ -23,6 +23,7 @@
   VISIT(StereoClusterArguments)        \
   VISIT(StereoRelaxationArguments)     \
   VISIT(StereoMutualArguments)         \
+  VISIT(PointIndexArguments)           \
   VISIT(TemporalCandidateArguments)    \
   VISIT(QuadChoice)                    \
   VISIT(TemporalMatchArguments)        \

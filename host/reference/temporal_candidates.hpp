@@ -1,8 +1,8 @@
 #pragma once
 /// \file temporal_candidates.hpp  Plain C++ twin of kernels/temporal_candidates.cl.
 
-#include "common/point_index.hpp"
 #include "common/temporal_search.hpp"
+#include "reference/point_index.hpp"
 #include "reference/stereo_candidates.hpp"
 
 namespace quadedge::reference {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/point_index.hpp"
+#include "reference/point_index.hpp"
 #include "reference/temporal_candidates.hpp"
 #include "reference/temporal_quads.hpp"
 

@@ -14,7 +14,7 @@ TemporalCandidates::TemporalCandidates(opencl::Context& context, const std::map<
   const auto& variant = opencl::choose_variant("temporal_candidates", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto program =
-      context.program({"edge_positions.cl", "point_index.cl", "temporal_candidates.cl"}, variant.defines);
+      context.program({"edge_positions.cl", "indexed_points.cl", "temporal_candidates.cl"}, variant.defines);
   count_ = {context, program, "temporal_candidates_count"};
   fill_ = {context, program, "temporal_candidates_fill"};
 }
@@ -28,9 +28,9 @@ void TemporalCandidates::run(const PositionsView& predicted, int row_step, const
   const opencl::Range range(static_cast<std::size_t>(candidates.rows), local_size_);
   const TemporalCandidateArguments arguments{candidates.rows,  row_step, predicted.at,
                                              current.layout(), radius,   orientation};
-  count_(range, arguments, predicted.packed, current.points(), current.cells(), candidates.counts);
+  count_(range, arguments, predicted.packed, current.points, current.cells, candidates.counts);
   candidates.build(context_, scan_, [&] {
-    fill_(range, arguments, predicted.packed, current.points(), current.cells(), candidates.first, candidates.capacity,
+    fill_(range, arguments, predicted.packed, current.points, current.cells, candidates.first, candidates.capacity,
           candidates.target);
   });
 }

@@ -7,7 +7,7 @@
 
 #include "opencl/argument_structs.hpp"
 #include "stages/device_candidates.hpp"
-#include "stages/device_point_index.hpp"
+#include "stages/point_index.hpp"
 
 namespace quadedge::stages {
 

@@ -10,9 +10,9 @@
 #include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
-#include "stages/device_point_index.hpp"
 #include "stages/device_stereo_edges.hpp"
 #include "stages/judged_candidates.hpp"
+#include "stages/point_index.hpp"
 #include "stages/scan.hpp"
 
 namespace quadedge::stages {

@@ -8,7 +8,7 @@
 
 #include "common/layouts.hpp"
 
-namespace quadedge {
+namespace quadedge::reference {
 
 /// Points sorted by cell, cells in rows, and within a cell by number.
 struct PointIndex {
@@ -39,4 +39,4 @@ struct PointIndex {
 void make_point_index(const std::vector<float>& xs, const std::vector<float>& ys, int width, int height,
                       PointIndex& index);
 
-}  // namespace quadedge
+}  // namespace quadedge::reference

@@ -1,6 +1,6 @@
-#include "common/point_index.hpp"
+#include "reference/point_index.hpp"
 
-namespace quadedge {
+namespace quadedge::reference {
 
 void make_point_index(const std::vector<float>& xs, const std::vector<float>& ys, int width, int height,
                       PointIndex& index) {
@@ -21,4 +21,4 @@ void make_point_index(const std::vector<float>& xs, const std::vector<float>& ys
   first.pop_back();
 }
 
-}  // namespace quadedge
+}  // namespace quadedge::reference
