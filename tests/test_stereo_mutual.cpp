@@ -64,10 +64,9 @@ struct Scene {
       device_relaxation.score.write(context, {relaxation.score.begin(), relaxation.score.end()});
       stages::DeviceMutual mutual;
       stages::DeviceStereoEdges result;
-      stage.run(upload(context, left), upload(context, right), right_patches, geometry, device_clusters,
-                device_relaxation, mutual, result);
       StereoEdges found;
-      result.read(found);
+      stage.run(upload(context, left), upload(context, right), right_patches, geometry, device_clusters,
+                device_relaxation, mutual, result, found);
       REQUIRE(found.left_index == truth.left_index);
       CHECK(found.right_index == truth.right_index);
       CHECK(found.left_x == truth.left_x);

@@ -76,11 +76,11 @@ void measure_latency(const Subject& subject, BenchRecord& record) {
   Device device = subject.open_device(false);
   StereoOdometry odometry(subject.rig, device, subject.config);
   const auto start = Clock::now();
-  opencl::Context::Moved before;
+  opencl::Context::Traffic before;
   const int total = static_cast<int>(subject.frames.size());
   for (std::size_t i = 0; i < subject.frames.size(); ++i) {
     if (i == 1 + static_cast<std::size_t>(record.warm_up) && device.context() != nullptr)
-      before = device.context()->moved();
+      before = device.context()->traffic();
     report::FrameRecord frame;
     frame.start_ms = milliseconds_since(start);
     frame.result = odometry.track(subject.frames[i].view());
@@ -89,7 +89,7 @@ void measure_latency(const Subject& subject, BenchRecord& record) {
   }
   record.run.host_peak_mb = host_peak_mb();
   if (device.context() == nullptr) return;
-  const auto& moved = device.context()->moved();
+  const auto& moved = device.context()->traffic();
   const double frames = std::max(1, total - 1 - record.warm_up), scale = 1 / (kMegabyte * frames);
   record.to_device_mb = static_cast<double>(moved.to_device - before.to_device) * scale;
   record.waits = static_cast<double>(moved.waits - before.waits) / frames;

@@ -12,30 +12,35 @@ constexpr std::size_t kBlockRows = 1024;
 
 inline std::size_t block_count(std::size_t rows) { return (rows + kBlockRows - 1) / kBlockRows; }
 
-/// Calls body(block, begin, end) for consecutive blocks of rows, in any order and at the same time.
+/// Rows that are done before a second thread would have started, where a row takes nanoseconds.
+constexpr std::size_t kCheapRows = 16 * kBlockRows;
+
+/// Calls body(block, begin, end) for consecutive blocks of rows, in any order and at the same time; one after the other
+/// where there are `alone` rows or fewer.
 template <class Body>
-void for_row_blocks(std::size_t rows, Body&& body) {
+void for_row_blocks(std::size_t rows, Body&& body, std::size_t alone = kBlockRows) {
   const auto one = [&](std::size_t block) {
     body(block, block * kBlockRows, std::min(rows, (block + 1) * kBlockRows));
   };
-  if (rows <= kBlockRows) {
-    if (rows > 0) one(0);
+  if (rows <= alone) {
+    for (std::size_t block = 0; block < block_count(rows); ++block) one(block);
   } else {
     tbb::parallel_for(std::size_t{0}, block_count(rows), one);
   }
 }
 
 /// Sum over all rows: body(begin, end, sum) adds a block's rows to a sum that starts as `zero`; the blocks' sums are
-/// added in order.
+/// added in order. `alone`: see for_row_blocks().
 template <class Sum, class Body>
-Sum sum_row_blocks(std::size_t rows, const Sum& zero, Body&& body) {
+Sum sum_row_blocks(std::size_t rows, const Sum& zero, Body&& body, std::size_t alone = kBlockRows) {
   Sum total = zero;
   if (rows <= kBlockRows) {
     body(std::size_t{0}, rows, total);
     return total;
   }
   std::vector<Sum> sums(block_count(rows), zero);
-  for_row_blocks(rows, [&](std::size_t block, std::size_t begin, std::size_t end) { body(begin, end, sums[block]); });
+  for_row_blocks(
+      rows, [&](std::size_t block, std::size_t begin, std::size_t end) { body(begin, end, sums[block]); }, alone);
   for (const Sum& sum : sums) total += sum;
   return total;
 }

@@ -92,8 +92,7 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
                   epipolar_, candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
   relaxation_.run(left_.edges, epipolar_, candidates_, clusters_, relaxed_);
-  mutual_.run(left_.edges, right_.edges, right_.patches, epipolar_, clusters_, relaxed_, owners_, rig);
-  rig.read(current.edges);
+  mutual_.run(left_.edges, right_.edges, right_.patches, epipolar_, clusters_, relaxed_, owners_, rig, current.edges);
   rig.has_sift = false;
   indexed_ = false;
   if (tap_ != nullptr) tap_stereo();

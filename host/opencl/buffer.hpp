@@ -49,9 +49,12 @@ class Buffer {
   /// Copies from the host. Returns after the host memory may be reused.
   void write(const T* values, std::size_t count) {
     if (count == 0) return;
-    context_->count_to_device(count * sizeof(T));
-    call("writing a buffer",
-         [&] { context_->queue().enqueueWriteBuffer(memory_, CL_TRUE, 0, count * sizeof(T), values); });
+    context_->count_wait();
+    enqueue_write(values, count, CL_TRUE);
+  }
+  /// The same without waiting: `values` must stay as they are until the next read() of any buffer of the context.
+  void write_later(const T* values, std::size_t count) {
+    if (count > 0) enqueue_write(values, count, CL_FALSE);
   }
   void write(Context& context, const std::vector<T>& values) {
     ensure(context, values.size());
@@ -99,6 +102,11 @@ class Buffer {
     memory_ = cl::Buffer();
     context_ = nullptr;
     capacity_ = 0;
+  }
+  void enqueue_write(const T* values, std::size_t count, cl_bool blocking) {
+    context_->count_to_device(count * sizeof(T));
+    call("writing a buffer",
+         [&] { context_->queue().enqueueWriteBuffer(memory_, blocking, 0, count * sizeof(T), values); });
   }
   void enqueue_read(T* values, std::size_t count, std::size_t offset, cl_bool blocking) const {
     context_->count_to_host(count * sizeof(T));

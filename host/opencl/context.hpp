@@ -46,14 +46,19 @@ class Context {
   std::size_t peak_bytes() const { return peak_bytes_; }
   void account(std::ptrdiff_t bytes);
 
-  /// Bytes copied between host and device so far, and how often the host waited for results.
-  struct Moved {
-    std::size_t to_device = 0, to_host = 0, waits = 0;
+  /// What went over the queue so far: kernels launched, copies to the device and their bytes, bytes copied to the host,
+  /// and how often the host waited for the queue.
+  struct Traffic {
+    std::size_t launches = 0, writes = 0, to_device = 0, to_host = 0, waits = 0;
   };
-  const Moved& moved() const { return moved_; }
-  void count_to_device(std::size_t bytes) { moved_.to_device += bytes; }
-  void count_to_host(std::size_t bytes) { moved_.to_host += bytes; }
-  void count_wait() { ++moved_.waits; }
+  const Traffic& traffic() const { return traffic_; }
+  void count_launch() { ++traffic_.launches; }
+  void count_to_device(std::size_t bytes) {
+    ++traffic_.writes;
+    traffic_.to_device += bytes;
+  }
+  void count_to_host(std::size_t bytes) { traffic_.to_host += bytes; }
+  void count_wait() { ++traffic_.waits; }
 
   /// The stage that the following launches belong to (profiling).
   void begin_stage(const std::string& stage) { stage_ = stage; }
@@ -75,7 +80,7 @@ class Context {
   double build_ms_ = 0;
   std::map<std::string, cl::Program> programs_;
   std::size_t bytes_ = 0, peak_bytes_ = 0;
-  Moved moved_;
+  Traffic traffic_;
   std::string stage_ = "other";
   std::vector<std::pair<std::string, cl::Event>> events_;
 };

@@ -104,6 +104,7 @@ class Kernel {
     try {
       cl_uint index = 0;
       (set(index++, args), ...);
+      context_->count_launch();
       cl::Event event;
       context_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global_x, global_y),
                                              cl::NDRange(range.local_x, range.local_y), nullptr,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/row_blocks.hpp"
+#include "common/vector_clones.hpp"
 
 namespace quadedge::pose {
 
@@ -41,12 +42,14 @@ struct Projected {
 [[gnu::always_inline]] inline float squared_norm(float x, float y) { return x * x + y * y; }
 
 /// Does a tangent projected to `tangent` at `point` run along (cosine, sine) in the image?
-bool same_direction(const Projected& point, const Projected& tangent, float cosine, float sine, float min_cosine) {
+[[gnu::always_inline]] inline bool same_direction(const Projected& point, const Projected& tangent, float cosine,
+                                                  float sine, float min_cosine) {
   const float dx = tangent.x * point.z - point.x * tangent.z, dy = tangent.y * point.z - point.y * tangent.z;
   return std::abs(dx * cosine + dy * sine) >= min_cosine * std::sqrt(squared_norm(dx, dy));
 }
 
 /// Sum of the rows' truncated squared distances [px^2].
+QUADEDGE_VECTOR_CLONES
 double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, float limit, std::size_t first,
                     std::size_t last) {
   const float *ray_x = quads.ray_x.data(), *ray_y = quads.ray_y.data(), *inverse_depth = quads.inverse_depth.data();
@@ -79,18 +82,42 @@ double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, flo
   return sum;
 }
 
+/// Which rows are inliers, one byte each, and how many; all tests of a row are made, so that vector units can.
 /// \param limit squared distance [px^2] \param min_cosine between projected and measured direction
-bool is_inlier(const ScoringArrays& quads, std::size_t i, const LaterCameras& cameras, float limit, float min_cosine) {
-  const Projected left = project_point(cameras.left, quads.ray_x[i], quads.ray_y[i], quads.inverse_depth[i]);
-  const Projected right = project_point(cameras.right, quads.ray_x[i], quads.ray_y[i], quads.inverse_depth[i]);
-  if (!(left.z > 0.0f && right.z > 0.0f)) return false;
-  if (!(squared_norm(left.x / left.z - quads.left_x[i], left.y / left.z - quads.left_y[i]) < limit)) return false;
-  if (!(squared_norm(right.x / right.z - quads.right_x[i], right.y / right.z - quads.right_y[i]) < limit)) return false;
-  const float x = quads.tangent_x[i], y = quads.tangent_y[i], z = quads.tangent_z[i];
-  return same_direction(left, project_direction(cameras.left, x, y, z), quads.left_cos[i], quads.left_sin[i],
-                        min_cosine) &&
-         same_direction(right, project_direction(cameras.right, x, y, z), quads.right_cos[i], quads.right_sin[i],
-                        min_cosine);
+QUADEDGE_VECTOR_CLONES
+int mark_inliers(const ScoringArrays& quads, const LaterCameras& cameras, float limit, float min_cosine,
+                 std::size_t first, std::size_t last, std::uint8_t* inlier) {
+  const float *ray_x = quads.ray_x.data(), *ray_y = quads.ray_y.data(), *inverse_depth = quads.inverse_depth.data();
+  const float *tangent_x = quads.tangent_x.data(), *tangent_y = quads.tangent_y.data(),
+              *tangent_z = quads.tangent_z.data();
+  const float *left_x = quads.left_x.data(), *left_y = quads.left_y.data(), *left_cos = quads.left_cos.data(),
+              *left_sin = quads.left_sin.data();
+  const float *right_x = quads.right_x.data(), *right_y = quads.right_y.data(), *right_cos = quads.right_cos.data(),
+              *right_sin = quads.right_sin.data();
+  const LaterCameras c = cameras;  // a local copy stays in registers
+  int found = 0;
+  int passes[kBlock];
+  for (std::size_t begin = first; begin < last; begin += kBlock) {
+    const std::size_t rows = std::min(kBlock, last - begin);
+    for (std::size_t k = 0; k < rows; ++k) {
+      const std::size_t i = begin + k;
+      const Projected left = project_point(c.left, ray_x[i], ray_y[i], inverse_depth[i]);
+      const Projected right = project_point(c.right, ray_x[i], ray_y[i], inverse_depth[i]);
+      const Projected left_tangent = project_direction(c.left, tangent_x[i], tangent_y[i], tangent_z[i]);
+      const Projected right_tangent = project_direction(c.right, tangent_x[i], tangent_y[i], tangent_z[i]);
+      const bool in_front = (left.z > 0.0f) & (right.z > 0.0f);
+      const bool near = (squared_norm(left.x / left.z - left_x[i], left.y / left.z - left_y[i]) < limit) &
+                        (squared_norm(right.x / right.z - right_x[i], right.y / right.z - right_y[i]) < limit);
+      const bool along = same_direction(left, left_tangent, left_cos[i], left_sin[i], min_cosine) &
+                         same_direction(right, right_tangent, right_cos[i], right_sin[i], min_cosine);
+      passes[k] = in_front & near & along;
+    }
+    for (std::size_t k = 0; k < rows; ++k) {
+      inlier[begin + k] = static_cast<std::uint8_t>(passes[k]);
+      found += passes[k];
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -103,9 +130,12 @@ LaterCameras::LaterCameras(const StereoRig& rig, const Eigen::Isometry3d& curren
 double truncated_cost(const ScoringArrays& quads, const LaterCameras& cameras, double threshold) {
   const std::size_t count = quads.size();
   if (count == 0) return 1.0;
-  const double sum = sum_row_blocks(count, 0.0, [&](std::size_t begin, std::size_t end, double& block_sum) {
-    block_sum = cost_of_rows(quads, cameras, static_cast<float>(threshold * threshold), begin, end);
-  });
+  const double sum = sum_row_blocks(
+      count, 0.0,
+      [&](std::size_t begin, std::size_t end, double& block_sum) {
+        block_sum = cost_of_rows(quads, cameras, static_cast<float>(threshold * threshold), begin, end);
+      },
+      kCheapRows);
   return sum / (threshold * threshold * static_cast<double>(count));
 }
 
@@ -113,12 +143,12 @@ int select_inliers(const ScoringArrays& quads, const LaterCameras& cameras, doub
                    std::vector<std::uint8_t>& inlier) {
   inlier.assign(quads.size(), 0);
   const float limit = static_cast<float>(threshold * threshold), min_cosine = static_cast<float>(std::cos(max_angle));
-  return sum_row_blocks(quads.size(), 0, [&](std::size_t begin, std::size_t end, int& found) {
-    for (std::size_t i = begin; i < end; ++i) {
-      inlier[i] = is_inlier(quads, i, cameras, limit, min_cosine) ? 1 : 0;
-      found += inlier[i];
-    }
-  });
+  return sum_row_blocks(
+      quads.size(), 0,
+      [&](std::size_t begin, std::size_t end, int& found) {
+        found = mark_inliers(quads, cameras, limit, min_cosine, begin, end, inlier.data());
+      },
+      kCheapRows);
 }
 
 int count_cells(const ScoringArrays& quads, const std::vector<std::uint8_t>& mask, double cell) {

@@ -25,13 +25,14 @@ struct DeviceStereoEdges {
       right_sift;  ///< of every stereo edge, where has_sift; see host/reference/sift.hpp
   bool has_sift = false;
   int stride = 0;
-  int count = 0;
+  cl_int count = 0;
 
   PositionsView positions(Side side) const { return {packed, {3 * index_of(side) * stride, stride, count}}; }
 
-  /// Copies the rows to the host; waits for the device once.
-  void read(StereoEdges& edges) const {
-    const auto size = static_cast<std::size_t>(count), step = static_cast<std::size_t>(stride);
+  /// Copies the rows to the host, and their number, which stands in `total` first; waits for the device once. As many
+  /// rows as there may be are copied, as their number is not known yet.
+  void read(const opencl::Buffer<cl_int>& total, StereoEdges& edges) {
+    const auto size = static_cast<std::size_t>(stride), step = size;
     for (auto [buffer, values] :
          {std::pair(&left_index, &edges.left_index), std::pair(&right_index, &edges.right_index)}) {
       values->resize(size);
@@ -44,7 +45,13 @@ struct DeviceStereoEdges {
       packed.read_later(values->data(), size, step * block++);
     }
     edges.ncc.resize(size);
-    ncc.read(edges.ncc.data(), size);
+    ncc.read_later(edges.ncc.data(), size);
+    total.read(&count, 1);
+    const auto found = static_cast<std::size_t>(count);
+    for (auto* values : {&edges.left_index, &edges.right_index}) values->resize(found);
+    for (auto* values : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y,
+                         &edges.right_direction, &edges.left_scale_drift, &edges.ncc})
+      values->resize(found);
   }
 };
 

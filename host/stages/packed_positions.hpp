@@ -19,7 +19,8 @@ struct PositionsView {
 /// Lists of edges in one buffer, each a block of x, one of y and one of direction.
 class DevicePositions {
  public:
-  /// Replaces what is there.
+  /// Replaces what is there. The copy is done with the next read() of a buffer of the context, and no other call may
+  /// come before that.
   void write(opencl::Context& context, std::initializer_list<EdgePositionsView> lists) {
     at_.clear();
     staged_.clear();
@@ -29,7 +30,8 @@ class DevicePositions {
       for (const auto* block : {&list.x, &list.y, &list.direction})
         staged_.insert(staged_.end(), block->begin(), block->end());
     }
-    packed_.write(context, staged_);
+    packed_.ensure(context, staged_.size());
+    packed_.write_later(staged_.data(), staged_.size());
   }
 
   /// The list with that number, as written last.

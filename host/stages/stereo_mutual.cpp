@@ -20,11 +20,12 @@ StereoMutual::StereoMutual(opencl::Context& context, const StereoConfig& config,
 
 void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches,
                        const EpipolarGeometry& geometry, const DeviceClusters& clusters,
-                       const DeviceRelaxation& relaxation, DeviceMutual& mutual, DeviceStereoEdges& result) {
+                       const DeviceRelaxation& relaxation, DeviceMutual& mutual, DeviceStereoEdges& result,
+                       StereoEdges& edges) {
   context_.begin_stage("stereo_mutual");
   const int n = left.host_count;
-  const auto edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
-  mutual.keep.ensure(context_, edges);
+  const auto left_edges = static_cast<std::size_t>(n), right_edges = static_cast<std::size_t>(right.host_count);
+  mutual.keep.ensure(context_, left_edges);
   mutual.claimed.ensure(context_, right_edges);
   mutual.owner.ensure(context_, right_edges);
   mutual.claimed.fill(0, right_edges);
@@ -35,22 +36,20 @@ void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patche
   arguments.capacity = clusters.stride;
   arguments.mutual_radius = mutual_radius_;
   arguments.geometry = geometry;
-  const opencl::Range range(edges, local_size_);
+  const opencl::Range range(left_edges, local_size_);
   claim_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed);
   owner_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed, mutual.owner);
   mutual_(range, arguments, relaxation.chosen, clusters.anchor, left.packed, mutual.owner, mutual.keep);
   scan_.run(mutual.keep, n, n, mutual.keep_first, mutual.total);
 
   result.stride = n;
-  result.left_index.ensure(context_, edges);
-  result.right_index.ensure(context_, edges);
-  result.packed.ensure(context_, 7 * edges);
-  result.ncc.ensure(context_, edges);
+  result.left_index.ensure(context_, left_edges);
+  result.right_index.ensure(context_, left_edges);
+  result.packed.ensure(context_, 7 * left_edges);
+  result.ncc.ensure(context_, left_edges);
   collect_(range, arguments, mutual.keep_first, relaxation.chosen, left.packed, clusters.packed, clusters.anchor,
            result.left_index, result.right_index, result.packed, result.ncc);
-  cl_int total[2];
-  mutual.total.read(total, 2);
-  result.count = total[0];
+  result.read(mutual.total, edges);
   right_patches.cut(result.positions(Side::right), result.right_patches);
 }
 

@@ -28,11 +28,11 @@ class StereoMutual {
   StereoMutual(opencl::Context& context, const StereoConfig& config,
                const std::map<std::string, std::string>& variants);
 
-  /// Waits for the number of stereo edges and fills the rows of `result` and its right patches. `right_patches` has the
-  /// right image prepared.
+  /// Fills the rows of `result`, waits for them, with a copy in `edges`, and then enqueues their right patches, which
+  /// nobody waits for. `right_patches` has the right image prepared.
   void run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches, const EpipolarGeometry& geometry,
            const DeviceClusters& clusters, const DeviceRelaxation& relaxation, DeviceMutual& mutual,
-           DeviceStereoEdges& result);
+           DeviceStereoEdges& result, StereoEdges& edges);
 
  private:
   template <class T>
