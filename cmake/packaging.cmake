@@ -44,7 +44,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS pocl-opencl-icd)  # a device for mac
 
 # What quadedgeConfig.cmake looks for.
 set(development_packages libeigen3-dev libtbb-dev ocl-icd-opencl-dev opencl-headers libopencv-imgcodecs-dev
-  libopencv-calib3d-dev nlohmann-json3-dev libyaml-cpp-dev)
+  libopencv-calib3d-dev nlohmann-json3-dev libyaml-cpp-dev libjpeg-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libquadedge-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers, CMake configuration and examples.")

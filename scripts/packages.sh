@@ -2,7 +2,7 @@
 
 build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers
   libeigen3-dev libtbb-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libcli11-dev catch2
-  nlohmann-json3-dev libyaml-cpp-dev libtomlplusplus-dev libxxhash-dev"
+  nlohmann-json3-dev libyaml-cpp-dev libjpeg-dev libtomlplusplus-dev libxxhash-dev"
 test_packages="curl file groff-base oclgrind clang clang-format python3-venv p7zip-full munge slurmctld
   slurmd slurm-client"
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include "dataset_files.hpp"
 #include "quadedge/dataset.hpp"
@@ -185,6 +186,117 @@ TEST_CASE("dataset: garbage rows are named with their line", "[dataset]") {
   const std::string eth3d = write_eth3d_slam(folder / "s");
   write_text(eth3d + "/rgb.txt", "12.0 rgb/12.0.png extra\n");
   check_fault(eth3d, "rgb.txt:1", "extra");
+}
+
+TEST_CASE("dataset: what stands twice, or leads elsewhere, is refused with its line", "[dataset]") {
+  const std::string stamp = "1403715273312143104";
+  struct Fault {
+    std::string file;  ///< below the folder of the recording
+    std::string from, to;
+    std::string place, found;
+  };
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k"), euroc = write_euroc(folder / "e"), pair = folder / "m";
+  for (const char* name : {"/im0.png", "/im1.png"}) write_image(pair + name);
+  write_text(pair + "/calib.txt",
+             "cam0=[50 0 20; 0 51 15; 0 0 1]\ncam1=[50 0 20; 0 51 15; 0 0 1]\nbaseline=100\nwidth=32\nheight=24\n");
+  const std::string list = euroc + "/mav0/cam0/data.csv", yaml = euroc + "/mav0/cam1/sensor.yaml";
+  for (const auto& [file, from, to, place, found] :
+       std::vector<Fault>{{kitti + "/calib.txt", "P2:", "P0:", "calib.txt:3", "a second row P0"},
+                          {pair + "/calib.txt", "cam1=", "cam0=", "calib.txt:2", "a second entry cam0"},
+                          {pair + "/calib.txt", "width=32", "width=32.5", "calib.txt:4", "32.5"},
+                          {pair + "/calib.txt", "width=32", "width=1e300", "calib.txt:4", "1e300"},
+                          {yaml, "rate_hz: 20", "resolution: [30, 20]", "sensor.yaml:11", "a second entry resolution"},
+                          {yaml, "cols: 4", "rows: 4", "sensor.yaml:5", "a second entry rows"},
+                          {list, "1403715273362143104,", stamp + ",", "data.csv:3", "the stamp " + stamp + " again"},
+                          {list, "," + stamp + ".png", ",../data/" + stamp + ".png", "data.csv:2", "../data/"},
+                          {list, "," + stamp + ".png", "," + list, "data.csv:2", "/cam0/"},
+                          {list, "," + stamp + ".png", ",..", "data.csv:2", "\"..\""}}) {
+    INFO(file << " " << to);
+    const std::string good = read_text(file);
+    REQUIRE(good.find(from) != std::string::npos);
+    write_text(file, std::string(good).replace(good.find(from), from.size(), to));
+    check_fault(file.rfind(euroc, 0) == 0 ? euroc : file.rfind(kitti, 0) == 0 ? kitti : pair, place, found);
+    write_text(file, good);
+  }
+  for (const auto& recording : {kitti, euroc, pair}) CHECK_NOTHROW(open_dataset(recording));
+}
+
+TEST_CASE("dataset: a resolution that is no image's is refused before tables of that size are made", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string euroc = write_euroc(folder.path()), yaml = euroc + "/mav0/cam0/sensor.yaml", good = read_text(yaml);
+  for (const auto& [resolution, found] :
+       {std::pair<const char*, const char*>{"[60000, 60000]", "found 32 x 24 pixels, expected 60000 x 60000"},
+        {"[24, 32]", "found 32 x 24 pixels, expected 24 x 32"},
+        {"[70000, 24]", "a resolution of 70000 x 24"},
+        {"[32.5, 24]", "a resolution of 32.5 x 24"},
+        {"[-32, 24]", "a resolution of -32 x 24"},
+        {"[1e300, 24]", "x 24"}}) {
+    INFO(resolution);
+    write_text(yaml, std::string(good).replace(good.find("[32, 24]"), 8, resolution));
+    CHECK_THROWS_WITH(open_dataset(euroc), Contains(found) && Contains("cam0"));
+    CHECK_FALSE(check_dataset(euroc).errors.empty());
+  }
+}
+
+TEST_CASE("dataset: calibrations far from any camera are refused by their file, whatever the search would take",
+          "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k");
+  for (const auto& [f, tx] : {std::pair<std::string, std::string>{"1e300", "-1e300"},
+                              {"100", "-1e11"},
+                              {"1e9", "-1e9"},
+                              {"1e300", "-1e-300"}}) {
+    INFO(f << " " << tx);
+    write_text(kitti + "/calib.txt",
+               "P0: " + f + " 0 15 0 0 100 11 0 0 0 1 0\nP1: " + f + " 0 15 " + tx + " 0 100 11 0 0 0 1 0\n");
+    CHECK_THROWS_WITH(open_dataset(kitti), Contains("calib.txt") && Contains("baseline") && !Contains("stereo."));
+    CHECK_THROWS_AS(open_dataset(kitti), DataError);
+  }
+}
+
+TEST_CASE("dataset: a byte order mark in front of a text file is skipped", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k"), euroc = write_euroc(folder / "e"),
+                    eth3d = write_eth3d_slam(folder / "s");
+  for (const std::string& recording : {kitti, euroc, eth3d}) REQUIRE_NOTHROW(open_dataset(recording));
+  for (const std::string& file :
+       {kitti + "/calib.txt", kitti + "/times.txt", folder / "k/poses/07.txt", euroc + "/mav0/cam0/sensor.yaml",
+        euroc + "/mav0/cam1/data.csv", euroc + "/mav0/state_groundtruth_estimate0/data.csv", eth3d + "/rgb.txt",
+        eth3d + "/calibration.txt", eth3d + "/extrinsics_1_2.txt", eth3d + "/groundtruth.txt"}) {
+    INFO(file);
+    const std::string good = read_text(file);
+    write_text(file, "\xEF\xBB\xBF" + good);
+    for (const std::string& recording : {kitti, euroc, eth3d}) CHECK_NOTHROW(open_dataset(recording));
+    write_text(file, good);
+  }
+  const std::string yaml = euroc + "/mav0/cam0/sensor.yaml";
+  write_text(yaml, "\xEF\xBB\xBF%YAML:1.0\n" + read_text(yaml));
+  CHECK(open_dataset(euroc).rig.left.width == 32);
+}
+
+TEST_CASE("dataset: a pipe or a device in the place of a file is refused and not waited for", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string kitti = write_kitti(folder / "k"), euroc = write_euroc(folder / "e"),
+                    eth3d = write_eth3d_slam(folder / "s");
+  for (const auto& [recording, file] : {std::pair<std::string, std::string>{kitti, "calib.txt"},
+                                        {kitti, "times.txt"},
+                                        {euroc, "mav0/cam0/sensor.yaml"},
+                                        {euroc, "mav0/cam1/data.csv"},
+                                        {eth3d, "rgb.txt"},
+                                        {eth3d, "calibration2.txt"},
+                                        {eth3d, "groundtruth.txt"}}) {
+    INFO(file);
+    const std::string path = recording + "/" + file;
+    std::filesystem::rename(path, path + ".good");
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    check_fault(recording, file, "a pipe");
+    std::filesystem::remove(path);
+    std::filesystem::create_symlink("/dev/zero", path);
+    check_fault(recording, file, "a device");
+    std::filesystem::remove(path);
+    std::filesystem::rename(path + ".good", path);
+  }
 }
 
 TEST_CASE("dataset: a check lists everything that is wrong, not only the first thing", "[dataset]") {

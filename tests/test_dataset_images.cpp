@@ -86,6 +86,28 @@ TEST_CASE("images: truncated, empty, damaged and foreign files are refused by na
   CHECK_THROWS_AS(read_grey_image(folder / "bent.png"), DataError);
 }
 
+TEST_CASE("images: a JPEG with bytes that libjpeg warns of is refused, an intact one is not", "[dataset]") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.jpg";
+  cv::Mat picture = pattern(160, 120);
+  cv::GaussianBlur(picture, picture, {9, 9}, 2);
+  for (const bool progressive : {false, true}) {
+    REQUIRE(cv::imwrite(file, picture, {cv::IMWRITE_JPEG_PROGRESSIVE, progressive ? 1 : 0}));
+    REQUIRE(read_grey_image(file).width == 160);
+    const std::string good = read_text(file);
+    // A damage that leaves the container whole: within the entropy-coded data of the first scan.
+    const std::size_t begin = good.find("\xFF\xDA") + 14;
+    for (const std::size_t length : {1, 16, 200}) {
+      INFO((progressive ? "progressive, " : "baseline, ") << length << " bytes lost");
+      write_text(file, std::string(good).erase(begin + 40, length));
+      CHECK_THROWS_AS(read_grey_image(file), DataError);
+      CHECK_THROWS_WITH(read_grey_image(file), Contains("a.jpg") && Contains("damaged JPEG") && Contains("expected"));
+    }
+    write_text(file, std::string(good).insert(good.size() - 2, 40, '\x12'));
+    CHECK_THROWS_WITH(read_grey_image(file), Contains("extraneous"));
+  }
+}
+
 TEST_CASE("prefetcher: frames come in order, whole, however far it reads ahead", "[dataset]") {
   const TemporaryFolder folder;
   const Dataset set = open_dataset(write_kitti(folder.path(), 9));

@@ -115,7 +115,7 @@ DatasetCheck check_dataset(const std::string& path, const DatasetOptions& option
     check.errors = findings.errors();
     check.errors.push_back(problem.what());
   } catch (const std::filesystem::filesystem_error& problem) {
-    check.errors.push_back(path + ": " + problem.what() + "; expected a readable folder");
+    check.errors.push_back(data::unreadable_place(path, problem));
   }
   return check;
 }

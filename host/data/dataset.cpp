@@ -1,6 +1,7 @@
 #include "quadedge/dataset.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "data/image_file.hpp"
 #include "data/layout.hpp"
@@ -56,11 +57,14 @@ void check_stamps(const Dataset& dataset, Findings& findings) {
   }
 }
 
-/// Folder and files that a rig was read from, for messages.
-std::string calibration_of(const Dataset& dataset) {
-  if (dataset.format == "euroc") return dataset.path + " (cam0/sensor.yaml, cam1/sensor.yaml)";
-  if (dataset.format == "eth3d-slam") return dataset.path + " (calibration.txt, calibration2.txt, extrinsics_1_2.txt)";
-  return fs::exists(fs::path(dataset.path) / "calib.txt") ? dataset.path + "/calib.txt" : dataset.path;
+/// \throws DataError for a calibration of which no search for disparities comes: it is far from any camera.
+void check_disparities(const Dataset& dataset) {
+  constexpr double kLargest = 10'000;  // px; constants.inc allows no more for stereo.max_disparity
+  if (dataset.max_disparity <= kLargest) return;
+  std::ostringstream found;
+  found << "a focal length of " << dataset.rig.left.fx << " px and a baseline of " << dataset.rig.baseline()
+        << " m, so that things near by have disparities of " << dataset.max_disparity << " px";
+  fail(calibration_of(dataset), found.str(), "pixels and metres that give at most 10000 px");
 }
 
 /// Largest value of an image's pixels. What is wrong with the image is said by who reads it.
@@ -85,8 +89,17 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
     cut_frames(dataset, options);
     dataset.rig.white = white_of(dataset.frames.front().left);
   }
-  findings.attempt([&] { check_rig(dataset.rig, calibration_of(dataset).c_str()); });
+  findings.attempt([&] {
+    check_rig(dataset.rig, calibration_of(dataset).c_str());
+    check_disparities(dataset);
+  });
   return dataset;
+}
+
+std::string calibration_of(const Dataset& dataset) {
+  if (dataset.format == "euroc") return dataset.path + " (cam0/sensor.yaml, cam1/sensor.yaml)";
+  if (dataset.format == "eth3d-slam") return dataset.path + " (calibration.txt, calibration2.txt, extrinsics_1_2.txt)";
+  return fs::exists(fs::path(dataset.path) / "calib.txt") ? dataset.path + "/calib.txt" : dataset.path;
 }
 
 }  // namespace data
@@ -100,9 +113,11 @@ std::vector<std::string> dataset_formats() {
 Dataset open_dataset(const std::string& path, const DatasetOptions& options) {
   data::Findings findings(false);
   try {
-    return data::read_dataset(path, options, findings);
+    Dataset dataset = data::read_dataset(path, options, findings);
+    data::check_sizes(dataset, data::calibration_of(dataset));
+    return dataset;
   } catch (const std::filesystem::filesystem_error& problem) {
-    throw DataError(path + ": " + problem.what() + "; expected a readable folder");
+    throw DataError(data::unreadable_place(path, problem));
   }
 }
 

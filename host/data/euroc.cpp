@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <opencv2/calib3d.hpp>
+#include <set>
 #include <yaml-cpp/yaml.h>
 
 #include "data/layout.hpp"
@@ -28,13 +29,26 @@ struct Sensor {
 
 constexpr const char* kSensorFile = "the sensor.yaml of a EuRoC camera";
 
+/// \throws DataError for a key that stands twice in one map: readers of YAML differ in which one counts.
+void check_keys(const YAML::Node& node, const std::string& file) {
+  if (!node.IsMap()) return;
+  std::set<std::string> keys;
+  for (const auto& entry : node) {
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : std::string();
+    if (!keys.insert(key).second) fail(file, entry.first.Mark().line + 1, "a second entry " + key, "each entry once");
+    check_keys(entry.second, file);
+  }
+}
+
 /// sensor.yaml, a map. A first line "%YAML:1.0", which OpenCV writes, is no directive of YAML ("%YAML 1.0" would be):
 /// it becomes a comment.
 YAML::Node read_yaml(const std::string& file) {
-  std::string text = read_bytes(file);
+  std::string text = read_text(file);
   if (text.rfind("%YAML:", 0) == 0) text[0] = '#';
   try {
-    return YAML::Load(text);
+    YAML::Node yaml = YAML::Load(text);
+    check_keys(yaml, file);
+    return yaml;
   } catch (const YAML::Exception& problem) {
     fail(file, problem.mark.line + 1, "text that is no YAML (" + problem.msg + ")", kSensorFile);
   }
@@ -65,6 +79,19 @@ std::string word_of(const YAML::Node& map, const std::string& key, const std::st
   return word.IsScalar() ? word.Scalar() : std::string();
 }
 
+/// "resolution: [columns, rows]"
+ImageSize resolution_of(const YAML::Node& map, const std::string& file) {
+  const auto sides = list_of(map, "resolution", 2, file);
+  for (const double side : sides) {
+    if (side < 1 || side > kLargestImageSide || side != std::floor(side)) {
+      fail(file, map["resolution"].Mark().line + 1,
+           "a resolution of " + format_exact(sides[0]) + " x " + format_exact(sides[1]),
+           "whole numbers of pixels from 1 to " + std::to_string(kLargestImageSide));
+    }
+  }
+  return {static_cast<int>(sides[0]), static_cast<int>(sides[1])};
+}
+
 Sensor read_sensor(const std::string& file) {
   const YAML::Node yaml = read_yaml(file);
   Sensor sensor;
@@ -73,13 +100,9 @@ Sensor read_sensor(const std::string& file) {
   const std::string lens = word_of(yaml, "distortion_model", file);
   if (lens != "radial-tangential" && lens != "radtan")
     fail(file, "the distortion model " + in_quotes(lens), "radial-tangential");
-  const auto intrinsics = list_of(yaml, "intrinsics", 4, file), resolution = list_of(yaml, "resolution", 2, file);
-  sensor.camera = {intrinsics[0],
-                   intrinsics[1],
-                   intrinsics[2],
-                   intrinsics[3],
-                   static_cast<int>(resolution[0]),
-                   static_cast<int>(resolution[1])};
+  const auto intrinsics = list_of(yaml, "intrinsics", 4, file);
+  const ImageSize size = resolution_of(yaml, file);
+  sensor.camera = {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], size.width, size.height};
   sensor.distortion = list_of(yaml, "distortion_coefficients", 4, file);
   const auto pose = list_of(entry_of(yaml, "T_BS", file), "data", 16, file);
   Eigen::Matrix4d matrix;
@@ -105,14 +128,19 @@ UndistortionTable table_of(const Sensor& sensor) {
   return table;
 }
 
-/// data.csv of a camera: stamp and file name, in the file's order.
+/// data.csv of a camera: stamp and file name, in the file's order. No stamp comes twice; names lead nowhere else.
 std::vector<std::pair<std::int64_t, std::string>> read_list(const fs::path& camera) {
   const std::string file = (camera / "data.csv").string();
   std::vector<std::pair<std::int64_t, std::string>> list;
+  std::set<std::int64_t> stamps;
   for (const auto& line : data_lines(file)) {
     const auto cells = split(line.text, ", \t");
     if (cells.size() != 2) fail(file, line.number, in_quotes(line.text), "timestamp [ns],filename");
     list.emplace_back(parse_nanoseconds(cells[0], file, line.number), cells[1]);
+    if (!stamps.insert(list.back().first).second)
+      fail(file, line.number, "the stamp " + cells[0] + " again", "it once");
+    if (fs::path(cells[1]).filename() != cells[1] || cells[1] == "..")
+      fail(file, line.number, in_quotes(cells[1]), "the name of an image in data/");
   }
   if (list.empty()) fail(file, "no image", "rows of timestamp [ns],filename");
   return list;
@@ -197,9 +225,11 @@ Dataset read_euroc(const fs::path& root, const DatasetOptions&, Findings& findin
     dataset.rig.left = left.camera;
     dataset.rig.right = right.camera;
     dataset.rig.right_from_left = right.body_from_camera.inverse() * left.body_from_camera;
+    dataset.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestDepth;
+    // Tables of a resolution that is no image's may fill the memory; what is wrong is said where the images are read.
+    if (!sizes_fit(dataset)) return;
     dataset.rig.left_undistortion = table_of(left);
     dataset.rig.right_undistortion = table_of(right);
-    dataset.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestDepth;
   });
   const fs::path truth = folder / "state_groundtruth_estimate0" / "data.csv";
   if (fs::exists(truth)) {

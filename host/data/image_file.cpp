@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "data/jpeg_damage.hpp"
 #include "data/text.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
@@ -112,8 +113,7 @@ ImageSize check_complete(std::string_view bytes, const std::string& file) {
     fail(file, bytes.empty() ? "an empty file" : "bytes that start with " + in_quotes(bytes.substr(0, 8)),
          "a PNG, JPEG or binary PGM/PPM image");
   }
-  constexpr int kLargest = 1 << 16;
-  if (size.width <= 0 || size.height <= 0 || size.width > kLargest || size.height > kLargest) {
+  if (size.width <= 0 || size.height <= 0 || size.width > kLargestImageSide || size.height > kLargestImageSide) {
     fail(file, "an image of " + to_string(size) + " pixels", "sides between 1 and 65536");
   }
   return size;
@@ -133,6 +133,8 @@ bool is_image_name(const std::string& name) {
 Image read_grey_image(const std::string& path) {
   const std::string bytes = data::read_bytes(path);
   const data::ImageSize size = data::check_complete(bytes, path);
+  if (const std::string damage = data::jpeg_damage(bytes); !damage.empty())
+    data::fail(path, "a damaged JPEG (" + damage + ")", "an intact " + data::to_string(size) + " image");
   cv::Mat decoded;
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));

@@ -18,6 +18,8 @@ struct ImageSize {
   bool operator!=(const ImageSize& other) const { return !(*this == other); }
 };
 
+constexpr int kLargestImageSide = 1 << 16;  ///< px
+
 /// "W x H", as messages print it.
 std::string to_string(ImageSize size);
 

@@ -50,8 +50,10 @@ std::map<std::string, Projection> read_projections(const std::string& file) {
     const std::size_t colon = line.text.find(':');
     if (colon == std::string::npos) fail(file, line.number, in_quotes(line.text), "NAME: and twelve numbers");
     const auto values = parse_row({line.number, line.text.substr(colon + 1)}, file, 12, "a 3 x 4 matrix, row by row");
-    Projection& projection =
-        projections[split(line.text.substr(0, colon)).empty() ? "" : split(line.text.substr(0, colon))[0]];
+    const auto words = split(line.text.substr(0, colon));
+    const auto [entry, is_new] = projections.try_emplace(words.empty() ? "" : words[0], Projection::Zero());
+    if (!is_new) fail(file, line.number, "a second row " + entry->first, "each matrix once");
+    Projection& projection = entry->second;
     for (int i = 0; i < 12; ++i) projection(i / 4, i % 4) = values[static_cast<std::size_t>(i)];
   }
   return projections;

@@ -83,6 +83,40 @@ void set_sizes_from_first_frame(Dataset& dataset) {
   dataset.rig.right.height = right.height;
 }
 
+namespace {
+
+ImageSize size_of(const PinholeCamera& camera) { return {camera.width, camera.height}; }
+
+}  // namespace
+
+bool sizes_fit(const Dataset& dataset) {
+  for (const auto& frame : dataset.frames) {
+    try {
+      return image_size(frame.left) == size_of(dataset.rig.left) &&
+             image_size(frame.right) == size_of(dataset.rig.right);
+    } catch (const DataError&) {
+      continue;  // said by who reads the frame
+    }
+  }
+  return true;
+}
+
+void check_sizes(const Dataset& dataset, const std::string& calibration) {
+  const auto check = [&](const std::string& file, const PinholeCamera& camera) {
+    const ImageSize found = image_size(file), expected = size_of(camera);
+    if (found != expected)
+      fail(file, to_string(found) + " pixels", to_string(expected) + ", as " + calibration + " says");
+  };
+  check(dataset.frames.front().left, dataset.rig.left);
+  check(dataset.frames.front().right, dataset.rig.right);
+}
+
+std::string unreadable_place(const std::string& path, const fs::filesystem_error& problem) {
+  const std::string name = in_quotes(problem.path1().filename().string());
+  return path + ": found " + name + " that cannot be read (" + problem.code().message() +
+         "), expected a readable folder";
+}
+
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file) {
   constexpr double kTolerance = 1e-3;
   const double deviation = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
@@ -143,7 +177,9 @@ PairCalibration read_pair_calibration(const std::string& file) {
   for (const auto& line : data_lines(file)) {
     const std::size_t equals = line.text.find('=');
     if (equals == std::string::npos) fail(file, line.number, in_quotes(line.text), "key=value");
-    entries[line.text.substr(0, equals)] = {line.text.substr(equals + 1), line.number};
+    const std::string key = line.text.substr(0, equals);
+    if (!entries.insert({key, {line.text.substr(equals + 1), line.number}}).second)
+      fail(file, line.number, "a second entry " + key, "each entry once");
   }
   const auto entry = [&](const std::string& key) {
     const auto found = entries.find(key);
@@ -155,12 +191,17 @@ PairCalibration read_pair_calibration(const std::string& file) {
     const auto tokens = split(text);
     return parse_number(tokens.empty() ? "" : tokens[0], file, line, key);
   };
+  const auto side = [&](const std::string& key) {
+    const auto [text, line] = entry(key);
+    const auto tokens = split(text);
+    return parse_whole(tokens.empty() ? "" : tokens[0], file, line, key, 1, kLargestImageSide);
+  };
   PairCalibration calibration;
   StereoRig& rig = calibration.rig;
   set_camera(rig.left, entry("cam0").first, file, entry("cam0").second);
   set_camera(rig.right, entry("cam1").first, file, entry("cam1").second);
-  rig.left.width = rig.right.width = static_cast<int>(number("width"));
-  rig.left.height = rig.right.height = static_cast<int>(number("height"));
+  rig.left.width = rig.right.width = side("width");
+  rig.left.height = rig.right.height = side("height");
   rig.right_from_left.translation() << -number("baseline") / 1000.0, 0, 0;
   calibration.disparity_offset = rig.right.cx - rig.left.cx;
   if (entries.count("ndisp")) calibration.disparities = number("ndisp");

@@ -54,6 +54,9 @@ const std::vector<Layout>& layouts();
 /// open_dataset and check_dataset: chooses the layout, reads it, checks stamps and rig, cuts the range of frames.
 Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings);
 
+/// Folder and files that a dataset's rig was read from, for messages.
+std::string calibration_of(const Dataset& dataset);
+
 bool is_kitti(const fs::path& folder);
 bool is_kitti_recording(const fs::path& folder);
 Dataset read_kitti_odometry(const fs::path& folder, const DatasetOptions& options, Findings& findings);
@@ -86,6 +89,16 @@ void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, co
 
 /// Sets width and height of both cameras from the first frame's images.
 void set_sizes_from_first_frame(Dataset& dataset);
+
+/// Do the first images that can be read have the sizes of the rig's cameras? Also where none can be read.
+bool sizes_fit(const Dataset& dataset);
+
+/// \throws DataError, which names the image and `calibration`, when the images of the first frame are damaged or have
+/// other sizes than the rig's cameras.
+void check_sizes(const Dataset& dataset, const std::string& calibration);
+
+/// What the file system says of a place that cannot be read, as a complaint about `path`.
+std::string unreadable_place(const std::string& path, const fs::filesystem_error& problem);
 
 /// The rotation nearest to a matrix read from a file. \throws DataError when it is off by more than rounding (1e-3).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file);

@@ -20,9 +20,20 @@ void fail(const std::string& file, int line, const std::string& found, const std
   fail(file + ":" + std::to_string(line), found, expected);
 }
 
-std::string read_bytes(const std::string& file) {
+std::string irregular_kind(const std::string& file) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) fail(file, "a folder", "a file");
+  switch (std::filesystem::status(file, ignored).type()) {
+    case std::filesystem::file_type::directory: return "a folder";
+    case std::filesystem::file_type::fifo: return "a pipe";
+    case std::filesystem::file_type::socket: return "a socket";
+    case std::filesystem::file_type::block:
+    case std::filesystem::file_type::character: return "a device";
+    default: return {};
+  }
+}
+
+std::string read_bytes(const std::string& file) {
+  if (const std::string kind = irregular_kind(file); !kind.empty()) fail(file, kind, "a regular file");
   std::FILE* stream = std::fopen(file.c_str(), "rb");
   if (stream == nullptr)
     fail(file, std::string("nothing that can be opened (") + std::strerror(errno) + ")", "a readable file");
@@ -35,13 +46,20 @@ std::string read_bytes(const std::string& file) {
   return bytes;
 }
 
+std::string read_text(const std::string& file) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::string text = read_bytes(file);
+  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) text.erase(0, kByteOrderMark.size());
+  return text;
+}
+
 std::vector<Line> data_lines(const std::string& file) {
-  const std::string bytes = read_bytes(file);
+  const std::string all = read_text(file);
   std::vector<Line> lines;
   int number = 0;
-  for (std::size_t begin = 0; begin < bytes.size();) {
-    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
-    std::string text = bytes.substr(begin, end - begin);
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t end = std::min(all.find('\n', begin), all.size());
+    std::string text = all.substr(begin, end - begin);
     ++number;
     begin = end + 1;
     if (!text.empty() && text.back() == '\r') text.pop_back();
@@ -79,6 +97,16 @@ double parse_number(const std::string& token, const std::string& file, int line,
     fail(file, line, in_quotes(token), "a finite number (" + what + ")");
   }
   return value;
+}
+
+int parse_whole(const std::string& token, const std::string& file, int line, const std::string& what, int low,
+                int high) {
+  const double value = parse_number(token, file, line, what);
+  if (value < low || value > high || value != std::floor(value)) {
+    fail(file, line, in_quotes(token),
+         "a whole number from " + std::to_string(low) + " to " + std::to_string(high) + " (" + what + ")");
+  }
+  return static_cast<int>(value);
 }
 
 std::vector<double> parse_row(const Line& line, const std::string& file, std::size_t count, const std::string& what) {

@@ -13,8 +13,15 @@ namespace quadedge::data {
 [[noreturn]] void fail(const std::string& file, const std::string& found, const std::string& expected);
 [[noreturn]] void fail(const std::string& file, int line, const std::string& found, const std::string& expected);
 
-/// A whole file. \throws DataError when it is missing, a folder, or cannot be read.
+/// "a folder", "a pipe", "a device" or "a socket" for what is no regular file; empty for regular files and for nothing.
+/// Reading a pipe can wait for ever, reading a device never end.
+std::string irregular_kind(const std::string& file);
+
+/// A whole regular file. \throws DataError when it is missing, of another kind, or cannot be read.
 std::string read_bytes(const std::string& file);
+
+/// A whole text file without the UTF-8 byte order mark that some editors put in front. \throws DataError as read_bytes.
+std::string read_text(const std::string& file);
 
 /// One line of a text file, without its line end.
 struct Line {
@@ -23,7 +30,7 @@ struct Line {
 };
 
 /// The lines that hold data: not empty and not starting with '#'. Both kinds of line end. \throws DataError as
-/// read_bytes.
+/// read_text.
 std::vector<Line> data_lines(const std::string& file);
 
 /// The non-empty pieces between any of `separators`.
@@ -34,6 +41,10 @@ std::string in_quotes(std::string_view text);
 
 /// A finite number that fills the whole token. \throws DataError; `what` names the quantity.
 double parse_number(const std::string& token, const std::string& file, int line, const std::string& what);
+
+/// A finite whole number from `low` to `high`, also one written "752.0". \throws DataError; `what` names the quantity.
+int parse_whole(const std::string& token, const std::string& file, int line, const std::string& what, int low,
+                int high);
 
 /// Exactly `count` finite numbers on one line. `what` describes the row, e.g. "timestamp tx ty tz qx qy qz qw".
 std::vector<double> parse_row(const Line& line, const std::string& file, std::size_t count, const std::string& what);

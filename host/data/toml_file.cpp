@@ -21,8 +21,11 @@ constexpr std::size_t kMostBytes = 1'000'000, kLongestLine = 4096;  // a dotted 
 
 std::string at_line(const std::string& file, std::size_t line) { return file + ":" + std::to_string(line) + ": "; }
 
-/// The file's text, so short that reading it cannot take long. Pipes are read, too.
+/// The file's text, so short that reading it cannot take long.
 std::string bounded_text(const std::string& file) {
+  if (const std::string kind = irregular_kind(file); !kind.empty()) {
+    throw UsageError(file + ": found " + kind + ", expected a configuration file");
+  }
   std::ifstream in(file, std::ios::binary);
   std::string text(kMostBytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
