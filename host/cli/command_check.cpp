@@ -44,8 +44,10 @@ class CheckCommand : public Command {
  private:
   /// Is PATH a folder of recordings instead of one? (KITTI's folder with a single sequence stands for that sequence.)
   bool is_tree() {
-    if (options_.format != "auto" || !options_.sequence.empty() || !std::filesystem::is_directory(path_)) return false;
-    if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList)) return true;
+    std::error_code ignored;
+    if (options_.format != "auto" || !options_.sequence.empty() || !std::filesystem::is_directory(path_, ignored))
+      return false;
+    if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList, ignored)) return true;
     const auto members = data::find_members(path_);
     return members.size() > 1 || (members.size() == 1 && members[0].path != "." && members[0].format != "kitti");
   }

@@ -20,22 +20,34 @@ std::string recording_format(const fs::path& folder, bool with_pairs) {
   return {};
 }
 
-/// Adds the recordings in and below a folder. `seen` holds the true places of folders, so that circular links end.
-void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, std::vector<FoundRecording>& found) {
-  std::error_code error;
-  const fs::path place = fs::canonical(folder, error);
-  if (error || !seen.insert(place).second) return;
-  if (const std::string format = recording_format(folder, with_pairs); !format.empty()) {
-    found.push_back({folder.string(), format});
-    return;
-  }
+/// The folders in a folder, sorted, hidden ones left out; and what may be one but cannot be told: a link to itself.
+std::vector<fs::path> folders_in(const fs::path& folder) {
   std::vector<fs::path> folders;
-  for (fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
-       !error && entry != end; entry.increment(error)) {
-    std::error_code ignored;
-    if (entry->is_directory(ignored) && entry->path().filename().string()[0] != '.') folders.push_back(entry->path());
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::error_code error;
+    const bool is_folder = entry.is_directory(error);
+    const bool unknown = error && error != std::errc::no_such_file_or_directory;
+    if ((is_folder || unknown) && entry.path().filename().string()[0] != '.') folders.push_back(entry.path());
   }
   std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+/// Adds the recordings in and below a folder, and what cannot be read without a format. `seen` holds the true places of
+/// folders, so that circular links end.
+void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, std::vector<FoundRecording>& found) {
+  std::vector<fs::path> folders;
+  try {
+    if (!seen.insert(fs::canonical(folder)).second) return;
+    if (const std::string format = recording_format(folder, with_pairs); !format.empty()) {
+      found.push_back({folder.string(), format});
+      return;
+    }
+    folders = folders_in(folder);
+  } catch (const fs::filesystem_error&) {
+    found.push_back({folder.string(), ""});
+    return;
+  }
   for (const auto& below : folders) search(below, with_pairs, seen, found);
 }
 
@@ -99,8 +111,9 @@ std::vector<FoundRecording> find_recordings(const std::string& root, bool with_p
 }
 
 std::string plain_name(const std::string& text) {
+  constexpr std::size_t kLongest = 128;  // file systems take 255 bytes, and names of several parts are joined
   std::string name;
-  for (const char c : text) {
+  for (const char c : text.substr(0, kLongest)) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
     name += plain ? c : '_';
   }
@@ -108,8 +121,11 @@ std::string plain_name(const std::string& text) {
 }
 
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list) {
-  if (!fs::exists(root_or_list))
-    fail(root_or_list, "no such file or folder", "a folder of sequences, or a list of folders");
+  std::error_code error;
+  if (!fs::exists(root_or_list, error)) {
+    fail(root_or_list, error ? "a place that cannot be read (" + error.message() + ")" : "no such file or folder",
+         "a folder of sequences, or a list of folders");
+  }
   if (!fs::is_directory(root_or_list)) {
     const auto recordings = search_list(root_or_list);
     if (recordings.empty()) fail(root_or_list, "no line", "the folder of a sequence on every line");

@@ -8,10 +8,10 @@ namespace quadedge::data {
 
 /// A sequence that a batch works on.
 struct FoundSequence {
-  std::string name;  ///< unique in its batch, letters, digits and -_. alone: a folder can be called so
-  std::string path;  ///< the sequence's own folder
-  std::string
-      format;  ///< layout by its looks; empty for a line of a list that is no recording (and whose run will say why)
+  std::string name;    ///< unique in its batch, letters, digits and -_. alone: a folder can be called so
+  std::string path;    ///< the sequence's own folder
+  std::string format;  ///< layout by its looks; empty for a line of a list that is no recording, and for a folder that
+                       ///< cannot be read (whose run will say why)
 };
 
 /// A folder: every recording of any layout below it, links followed, sorted by path. Still pairs are no sequences.
@@ -20,15 +20,16 @@ struct FoundSequence {
 /// recording stays in the result. Nothing is found twice. \throws DataError for a missing or empty root or list.
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list);
 
-/// A folder that holds recorded data.
+/// A folder that holds recorded data; without a format one that cannot be read.
 struct FoundRecording {
   std::string path, format;
 };
 
-/// The recordings in and below a folder, sorted by path, links followed; with the still pairs on request.
+/// The recordings in and below a folder, sorted by path, links followed; with the still pairs on request. Folders that
+/// cannot be read, links to themselves and paths that are too long are among them.
 std::vector<FoundRecording> find_recordings(const std::string& root, bool with_pairs);
 
-/// The text with everything but letters, digits and -_. replaced by '_'.
+/// The text with everything but letters, digits and -_. replaced by '_', and cut where it is too long for a folder.
 std::string plain_name(const std::string& text);
 
 }  // namespace quadedge::data
