@@ -34,13 +34,17 @@ TEST_CASE("odometry: once every buffer has had its largest content, tracking all
   for (const auto& name : all_devices()) {
     quadedge::Device device(name);
     quadedge::StereoOdometry odometry(scene.rig, device, scene.config);
+    std::int64_t stamp = 0;
+    const auto is_tracked = [&](std::size_t i) {
+      quadedge::StereoFrame frame = scene.frame(i);
+      frame.stamp_ns = ++stamp;
+      return odometry.track(frame).status == quadedge::FrameStatus::tracked ? 1 : 0;
+    };
     // To and fro, so that the same motions come again with other key rigs.
     const auto there_and_back = [&] {
       int tracked = 0;
-      for (std::size_t i = 0; i + 1 < 8; ++i)
-        tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
-      for (std::size_t i = 7; i > 0; --i)
-        tracked += odometry.track(scene.frame(i)).status == quadedge::FrameStatus::tracked ? 1 : 0;
+      for (std::size_t i = 0; i + 1 < 8; ++i) tracked += is_tracked(i);
+      for (std::size_t i = 7; i > 0; --i) tracked += is_tracked(i);
       return tracked;
     };
     for (int cycle = 0; cycle < 5; ++cycle) there_and_back();

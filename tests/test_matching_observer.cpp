@@ -245,7 +245,9 @@ std::vector<FrameResult> track_with_loss(const std::string& device_name, Tap* ta
   std::vector<FrameResult> results;
   for (const auto* scene : {&before, &after}) {
     for (std::size_t i = 0; i < scene->left.size(); ++i) {
-      results.push_back(odometry.track(scene->frame(i)));
+      StereoFrame frame = scene->frame(i);
+      frame.stamp_ns = static_cast<std::int64_t>(results.size());
+      results.push_back(odometry.track(frame));
       visit(results.back(), odometry.details());
     }
   }

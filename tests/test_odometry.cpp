@@ -37,6 +37,12 @@ void check_pose(const FrameResult& result, const Eigen::Isometry3d& truth, doubl
   CHECK(turn_between(result.world_from_left, truth) < degrees * kDegree);
 }
 
+/// The frame at another time, for sequences that show things in another order.
+StereoFrame at(std::int64_t stamp_ns, StereoFrame frame) {
+  frame.stamp_ns = stamp_ns;
+  return frame;
+}
+
 /// All but times.
 bool same_bytes(const FrameResult& a, const FrameResult& b) {
   return a.status == b.status && a.world_from_left.matrix() == b.world_from_left.matrix() &&
@@ -132,7 +138,7 @@ TEST_CASE("odometry: a frame of another place is lost, and the next one is track
   Device device(all_devices().front());
   StereoOdometry odometry(room().rig, device, config);
   for (std::size_t i : {0, 1, 2}) CHECK(is_tracked(odometry.track(room().frame(i)).status));
-  const auto lost = odometry.track(elsewhere.frame(0));
+  const auto lost = odometry.track(at(room().frame(3).stamp_ns, elsewhere.frame(0)));
   CHECK_FALSE(is_tracked(lost.status));
   CHECK(lost.counts.stereo_edges > 100);
   const auto result = odometry.track(room().frame(4));
@@ -233,15 +239,51 @@ TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odo
   CHECK(odometry.track(room().frame(1)).reference_frame == 0);
 }
 
+TEST_CASE("odometry: a stride below a row's bytes is refused, of 8 and of 16 bits", "[odometry][device]") {
+  Device device(all_devices().front());
+  StereoRig deep = room().rig;
+  deep.white = 65535;
+  const Image bytes(240, 150), words(240, 150, 65535);
+  for (const auto& [rig, image, row] :
+       {std::tuple<StereoRig, ImageView, std::ptrdiff_t>{room().rig, bytes.view(), 240}, {deep, words.view(), 480}}) {
+    StereoOdometry odometry(rig, device, room().config);
+    for (const std::ptrdiff_t stride : {row - 1, std::ptrdiff_t{0}, -row}) {
+      INFO("rows of " << row << " bytes, stride " << stride);
+      ImageView narrow = image;
+      narrow.stride = stride;
+      CHECK_THROWS_AS(odometry.track({0, narrow, image}), DataError);
+      CHECK_THROWS_WITH(odometry.track({0, image, narrow}),
+                        Catch::Matchers::Contains("right") && Catch::Matchers::Contains(std::to_string(stride)) &&
+                            Catch::Matchers::Contains("expected at least the " + std::to_string(row)));
+    }
+    CHECK_NOTHROW(odometry.track({0, image, image}));
+  }
+}
+
+TEST_CASE("odometry: a stamp that goes back is refused and leaves no trace", "[odometry][device]") {
+  Device device(all_devices().front());
+  StereoOdometry odometry(room().rig, device, room().config);
+  CHECK(odometry.track(at(1000, room().frame(0))).status == FrameStatus::first);
+  CHECK_THROWS_AS(odometry.track(at(999, room().frame(1))), DataError);
+  CHECK_THROWS_WITH(odometry.track(at(-5, room().frame(1))),
+                    Catch::Matchers::Contains("-5") && Catch::Matchers::Contains("expected at least 1000"));
+  // The frame that did not count has no stamp either, and the same time again is no step back.
+  const auto result = odometry.track(at(1000, room().frame(1)));
+  CHECK(result.status == FrameStatus::tracked);
+  CHECK(result.reference_frame == 0);
+}
+
 TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the device", "[odometry][device]") {
   for (const auto& name : all_devices()) {
     Device device(name);
     StereoOdometry odometry(room().rig, device, room().config);
     const std::size_t last = room().left.size() - 1;
+    std::int64_t stamp = 0;
     const auto track_there_and_back = [&] {
       for (std::size_t i = 0; i < last; ++i)
-        CHECK(odometry.track(room().frame(i)).status != FrameStatus::lost_no_consensus);
-      for (std::size_t i = last; i > 0; --i) CHECK(odometry.track(room().frame(i)).status == FrameStatus::tracked);
+        CHECK(odometry.track(at(++stamp, room().frame(i))).status != FrameStatus::lost_no_consensus);
+      for (std::size_t i = last; i > 0; --i)
+        CHECK(odometry.track(at(++stamp, room().frame(i))).status == FrameStatus::tracked);
     };
     for (int pass = 0; pass < 3; ++pass) track_there_and_back();  // rigs take turns in holding the frames
     const std::size_t bytes = odometry.device_bytes();

@@ -42,6 +42,11 @@ void add_message(const std::string& message, FrameResult& result) {
 
 void check_image(const ImageView& image, const PinholeCamera& camera, int white, bool any_size, const char* side) {
   if (image.empty()) throw DataError(std::string("the ") + side + " image is empty");
+  const auto row_bytes = static_cast<std::ptrdiff_t>(bytes_per_pixel(image.white)) * image.width;
+  if (image.stride < row_bytes) {
+    throw DataError(std::string("the ") + side + " image has a stride of " + std::to_string(image.stride) +
+                    " bytes, expected at least the " + std::to_string(row_bytes) + " of a row");
+  }
   if (image.white != white) {
     throw DataError(std::string("the ") + side + " image has values to " + std::to_string(image.white) +
                     ", the rig says to " + std::to_string(white));
@@ -99,14 +104,20 @@ class StereoOdometry::Implementation {
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
-  frontend::RigHandle current_;    ///< of the frame tracked last; null before the first one
-  odometry::StepHandle step_;      ///< its motion; null where none was looked for
+  frontend::RigHandle current_;  ///< of the frame tracked last; null before the first one
+  odometry::StepHandle step_;    ///< its motion; null where none was looked for
+  std::optional<std::int64_t> last_stamp_ns_;
   std::vector<double> distances_;  ///< buffer of median_parallax()
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   check_image(frame.left, rig_.left, rig_.white, !rig_.left_undistortion.empty(), "left");
   check_image(frame.right, rig_.right, rig_.white, !rig_.right_undistortion.empty(), "right");
+  if (last_stamp_ns_ && frame.stamp_ns < *last_stamp_ns_) {
+    throw DataError("the stamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
+                    std::to_string(*last_stamp_ns_) + " ns, that of the frame before");
+  }
+  last_stamp_ns_ = frame.stamp_ns;
   StageClock latency, clock;
   FrameResult result;
   result.stamp_ns = frame.stamp_ns;

@@ -86,8 +86,8 @@ class StereoOdometry {
   StereoOdometry(const StereoRig& rig, Device& device, const Config& config);
   ~StereoOdometry();
 
-  /// Processes the next frame. What can happen in any frame is a status; \throws DataError for images of a size that
-  /// does not belong to the rig, DeviceError for a failing device.
+  /// Processes the next frame. What can happen in any frame is a status; \throws DataError for images that do not fit
+  /// the rig, a stride below a row's bytes, a stamp before the last one's (no trace is left); DeviceError.
   FrameResult track(const StereoFrame& frame);
 
   /// Details of the frame tracked last (reads back from the device); empty before the first one.
