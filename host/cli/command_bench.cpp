@@ -62,8 +62,8 @@ class BenchCommand : public Command {
     check_options();
     const bool compare_files = !compare_.empty() && std::filesystem::is_regular_file(path_);
     if (compare_files) return compare(path_);
-    refuse_existing_file(json_, force_);
-    refuse_existing_file(trace_, force_);
+    check_output_file(json_, force_);
+    check_output_file(trace_, force_);
     const bench::BenchRecord record = measure();
     print_benchmark(record);
     const std::string text = bench::bench_json(record);

@@ -72,7 +72,7 @@ class CompareCommand : public Command {
     if (edges_ < 0) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more");
     if (repetitions_ < 1) throw UsageError("--repetitions " + std::to_string(repetitions_) + ": expected 1 or more");
     Config config = method_.config();
-    refuse_existing_file(json_, force_);
+    check_output_file(json_, force_);
     Device device = method_.open_device(true);
     if (device.is_reference()) throw UsageError("the reference device has no kernel variants");
     const DeviceInfo info = device.info();

@@ -32,8 +32,8 @@ class EdgesCommand : public Command {
   }
   int run() override {
     const Config config = method_.config();
-    refuse_existing_file(csv_, force_);
-    refuse_existing_file(draw_, force_);
+    check_output_file(csv_, force_);
+    check_output_file(draw_, force_);
     const Image image = read_grey_image(image_);
     Device device = method_.open_device();
     const EdgeSet edges = detect_edges(image.view(), device, config);

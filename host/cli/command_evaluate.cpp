@@ -75,7 +75,7 @@ class EvaluateTrajectoryCommand : public Command {
     if (!(step_limits_.translation_m >= 0 && step_limits_.rotation_deg > 0)) {
       throw UsageError("--step-metres, --step-degrees: expected at least 0 m and more than 0 degrees");
     }
-    refuse_existing_file(json_, force_);
+    check_output_file(json_, force_);
     Loaded estimate = load_file(estimate_);
     Trajectory truth;
     std::vector<std::int64_t> frames;

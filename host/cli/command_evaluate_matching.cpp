@@ -56,8 +56,8 @@ class EvaluateMatchingCommand : public Command {
     if (!sweep_.empty() && !(json_.empty() && html_.empty() && draw_.empty())) {
       throw UsageError("--sweep prints lines only; run without it for --json, --html or --draw");
     }
-    refuse_existing_file(json_, force_);
-    refuse_existing_file(html_, force_);
+    check_output_file(json_, force_);
+    check_output_file(html_, force_);
     refuse_full_folder(draw_, force_);
     const Config config = method_.config();
     open_sources();

@@ -39,7 +39,7 @@ class ReportCommand : public Command {
         throw UsageError("--peer " + peers_[i] + ": the name is taken");
       }
     }
-    refuse_existing_file(output_, force_);
+    check_output_file(output_, force_);
     const std::string file = output_.empty() ? (std::filesystem::path(batch_) / "report.html").string() : output_;
     data::write_atomically(file, report::batch_report_html(batch_, baseline_, peers));
     std::printf("%s\n", file.c_str());

@@ -62,7 +62,6 @@ class RunCommand : public Command {
       dataset_.first_frame = frame_number(frames_.substr(0, colon), 0, frames_);
       dataset_.last_frame = frame_number(frames_.substr(colon + 1), -1, frames_);
     }
-    refuse_existing_file(run_.trace, run_.force);
     Dataset dataset = open_dataset(path_, dataset_);
     if (run_.output.empty()) run_.output = default_output_folder(dataset.name);
     const auto source = make_recorded_source(std::move(dataset));

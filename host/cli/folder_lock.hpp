@@ -1,22 +1,27 @@
 #pragma once
-/// \file folder_lock.hpp  Keeps two batches from writing to the same place.
+/// \file folder_lock.hpp  Keeps two runs or batches from writing to the same place.
 
 #include <string>
 #include <utility>
 
 namespace quadedge::cli {
 
-/// A lock that ends with its object or its process. The file stays.
+/// A lock that ends with its object or its process. Who holds it alone removes the file in the end.
 class FolderLock {
  public:
-  /// `shared`: others may hold it shared as well. \throws UsageError when somebody else holds it, DataError when the
-  /// file cannot be made. A file system without locks is used without.
-  FolderLock(const std::string& file, bool shared, const std::string& what);
+  /// `shared`: others may hold it shared as well. `what`: the folder, for the message. \throws UsageError when somebody
+  /// else holds it, DataError when the file cannot be made. A file system without locks is used without.
+  FolderLock(std::string file, bool shared, const std::string& what);
   ~FolderLock();
-  FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  FolderLock(FolderLock&& other) noexcept
+      : name_(std::move(other.name_)), shared_(other.shared_), file_(std::exchange(other.file_, -1)) {}
   FolderLock& operator=(FolderLock&&) = delete;
 
  private:
+  bool is_removed() const;
+
+  std::string name_;
+  bool shared_;
   int file_ = -1;
 };
 

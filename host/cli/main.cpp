@@ -1,13 +1,18 @@
 /// \file main.cpp  The quadedge program: runs one command and turns errors into exit codes.
+#include <csignal>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
 #include "cli/parser.hpp"
+#include "cli/standard_streams.hpp"
 #include "quadedge/error.hpp"
 
 int main(int argc, char** argv) {
   using namespace quadedge;
+  cli::occupy_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is a write that fails, like a full disk
   try {
     std::vector<std::unique_ptr<cli::Command>> commands;
     commands.push_back(cli::make_run_command());
@@ -36,6 +41,10 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::cerr << "quadedge: out of memory\n";
     return static_cast<int>(ExitCode::internal);
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "quadedge: " << error.path1().string() << ": " << error.code().message()
+              << "; expected a place that can be read\n";
+    return static_cast<int>(ExitCode::data);
   } catch (const std::exception& error) {
     std::cerr << "quadedge: internal error: " << error.what() << "\n";
     return static_cast<int>(ExitCode::internal);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "data/atomic_file.hpp"
 #include "data/find_sequences.hpp"
 #include "quadedge/error.hpp"
 
@@ -21,11 +22,12 @@ bool is_picture(const fs::path& file) {
 
 }  // namespace
 
-void prepare_output_folder(const std::string& path, bool force) {
+FolderLock prepare_output_folder(const std::string& path, bool force) {
   const fs::path folder(path);
   std::error_code error;
   fs::create_directories(folder / "pictures", error);
   if (error) throw DataError(path + ": the output folder cannot be made: " + error.message());
+  FolderLock lock((folder / ".lock").string(), false, path);
   for (const char* name : kResultFiles) {
     if (!fs::exists(folder / name, error)) continue;
     if (!force)
@@ -38,13 +40,16 @@ void prepare_output_folder(const std::string& path, bool force) {
     if (is_picture(entry.path())) fs::remove(entry.path(), error);
   }
   if (error) throw DataError((folder / "pictures").string() + ": old pictures cannot be removed: " + error.message());
+  return lock;
 }
 
-void refuse_existing_file(const std::string& path, bool force) {
+void check_output_file(const std::string& path, bool force) {
+  if (path.empty()) return;
   std::error_code error;
-  if (!force && !path.empty() && fs::is_regular_file(path, error)) {
+  if (!force && fs::is_regular_file(path, error)) {
     throw UsageError(path + ": the file exists; choose another name, or --force to replace it");
   }
+  data::check_writable(path);
 }
 
 void refuse_full_folder(const std::string& path, bool force) {

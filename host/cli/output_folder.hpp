@@ -3,15 +3,19 @@
 
 #include <string>
 
+#include "cli/folder_lock.hpp"
+
 namespace quadedge::cli {
 
-/// Makes the folder and checks that it can be written. A folder that holds results is refused without `force`; with it,
-/// the old results (and nothing else) are removed, so that no stale file stays among the new ones. \throws UsageError
-/// for a refused folder, DataError (naming the path) for one that cannot be made or written.
-void prepare_output_folder(const std::string& path, bool force);
+/// Makes the folder, checks that it can be written, and locks it. A folder that holds results is refused without
+/// `force`; with it, the old results (and nothing else) are removed, so that no stale file stays among the new ones.
+/// \throws UsageError for a refused folder and for one that another run writes to, DataError (naming the path) for one
+/// that cannot be made or written.
+[[nodiscard]] FolderLock prepare_output_folder(const std::string& path, bool force);
 
-/// Refuses a file that exists, unless `force`. \throws UsageError.
-void refuse_existing_file(const std::string& path, bool force);
+/// Before long work: refuses a file that exists, unless `force`, and one that could not be written. Nothing for an
+/// empty path. \throws UsageError, DataError.
+void check_output_file(const std::string& path, bool force);
 
 /// Refuses a folder that holds anything, unless `force`. \throws UsageError.
 void refuse_full_folder(const std::string& path, bool force);

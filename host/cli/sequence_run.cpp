@@ -223,7 +223,8 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.input = source.facts();
   run.config = method.config();
   complete(run.config, source);
-  prepare_output_folder(options.output, options.force);
+  const FolderLock lock = prepare_output_folder(options.output, options.force);
+  check_output_file(options.trace, options.force);
   try {
     track_frames(source, method, options, interruption, run);
   } catch (const DataError& error) {
@@ -235,10 +236,10 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   if (options.profile) profile_frames(source, method, options, interruption, run);
   end_if_interrupted(interruption, source, options, run);
   evaluate(source, options, run);
-  if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
   report::draw_trajectory(options.output + "/pictures/trajectory.png", tracked_poses(run), source.truth(),
                           run.input.name + ", left camera from above");
   data::write_atomically(options.output + "/report.json", report::report_json(run));
+  if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
   return run;
 }
 

@@ -9,19 +9,46 @@
 #include "quadedge/error.hpp"
 
 namespace quadedge::data {
+namespace {
 
-void write_atomically(const std::string& path, std::string_view bytes) {
+/// Is the file written beside its place and then renamed? Devices and pipes are written as they are.
+bool is_replaced(const std::string& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
-  const bool replace = !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
-  const std::string name = replace ? path + ".part" + std::to_string(getpid()) : path;
+  return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+}
+
+std::string unfinished_name(const std::string& path) { return path + ".part" + std::to_string(getpid()); }
+
+[[noreturn]] void refuse(const std::string& path, const char* step, int reason) {
+  throw DataError(path + ": cannot " + step + ": " + std::strerror(reason) + "; expected a place that can be written");
+}
+
+constexpr const char* kOpen = "open the file for writing";
+
+}  // namespace
+
+void check_writable(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) refuse(path, kOpen, EISDIR);
+  if (!is_replaced(path)) return;  // to open a pipe could wait, to open a device could do something
+  const std::string name = unfinished_name(path);
+  std::FILE* stream = std::fopen(name.c_str(), "wb");
+  if (stream == nullptr) refuse(path, kOpen, errno);
+  std::fclose(stream);
+  std::filesystem::remove(name, error);
+}
+
+void write_atomically(const std::string& path, std::string_view bytes) {
+  const bool replace = is_replaced(path);
+  const std::string name = replace ? unfinished_name(path) : path;
   const auto give_up = [&](const char* step, int reason) {
+    std::error_code ignored;
     if (replace) std::filesystem::remove(name, ignored);
-    throw DataError(path + ": cannot " + step + ": " + std::strerror(reason) +
-                    "; expected a place that can be written");
+    refuse(path, step, reason);
   };
   std::FILE* stream = std::fopen(name.c_str(), "wb");
-  if (stream == nullptr) give_up("open the file for writing", errno);
+  if (stream == nullptr) give_up(kOpen, errno);
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size() && std::fflush(stream) == 0;
   const int write_reason = errno;
   const bool closed = std::fclose(stream) == 0;

@@ -1,0 +1,152 @@
+/// \file test_cli_process.cpp  The program among others: closed streams, limits, rights, and a second one of itself.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "background_program.hpp"
+#include "batch_folders.hpp"
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Words in front of the program that let a shell start it with other streams or limits.
+std::string through_shell(const std::string& before, const std::string& redirections) {
+  return "sh -c '" + before + " exec \"$0\" \"$@\" " + redirections + "'";
+}
+
+/// Words in front of the program that take root's rights to read everything; empty where there are none to take.
+std::string without_rights() {
+  return geteuid() == 0 ? "setpriv --reuid 65534 --regid 65534 --clear-groups" : std::string();
+}
+
+}  // namespace
+
+TEST_CASE("process: what is printed into closed streams lands in no file", "[cli][device]") {
+  const TemporaryFolder folder;
+  REQUIRE(run_program({"run", small_sequence(), "-o", folder / "open"}).code == 0);
+  const std::string trajectory = read_text(folder / "open/trajectory.txt");
+  int number = 0;
+  for (const auto& [redirections, code] : {std::pair<const char*, int>{"2>&-", 0},
+                                           {">&-", 3},  // the results cannot be printed
+                                           {">&- 2>&-", 3},
+                                           {"<&- >&- 2>&-", 3},
+                                           {"<&-", 0}}) {
+    INFO(redirections);
+    const std::string out = folder / std::to_string(++number);
+    const auto result = run_program({"run", small_sequence(), "-o", out}, through_shell("", redirections));
+    CHECK(result.code == code);
+    CHECK(read_text(out + "/trajectory.txt") == trajectory);
+    for (const char* name : {"trajectory_kitti.txt", "frames.csv", "config.toml", "report.json"}) {
+      CHECK_THAT(read_text(out + "/" + name), !Contains("frame 4/4") && !Contains("latency    median"));
+    }
+  }
+}
+
+TEST_CASE("process: two runs never write into one folder", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const std::vector<std::string> run = {"run", small_sequence(), "-o", out};
+  BackgroundProgram first(run, folder / "log");
+  REQUIRE(first.wait_until([&] { return fs::exists(out + "/frames.csv"); }));
+  kill(first.process(), SIGSTOP);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--force"}}) {
+    auto arguments = run;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto second = run_program(arguments);
+    CHECK(second.code == 2);
+    CHECK_THAT(second.err, Contains(out) && Contains("is writing there"));
+  }
+  kill(first.process(), SIGCONT);
+  REQUIRE_FALSE(first.wait_until([] { return false; }));
+  CHECK(read_lines(out + "/trajectory.txt").size() == 5);
+  CHECK(fs::exists(out + "/report.json"));
+  CHECK_FALSE(fs::exists(out + "/.lock"));
+}
+
+TEST_CASE("process: a limit on the size of files is an error like a full disk", "[cli]") {
+  const TemporaryFolder folder;
+  const auto result = run_program({"run", small_sequence(), "-o", folder / "out", "--device", "reference"},
+                                  through_shell("ulimit -f 2;", ""));
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains(folder / "out/config.toml") && Contains("large"));
+}
+
+TEST_CASE("process: a file that cannot be written in the end is refused in the beginning", "[cli]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "in the way";
+  fs::create_directory(folder / "results");
+  const std::string image = (*fs::directory_iterator(small_sequence() + "/rgb")).path().string();
+  const std::vector<std::vector<std::string>> commands = {
+      {"run", small_sequence(), "--device", "reference", "-o", folder / "out", "--force", "--trace"},
+      {"demo", "--frames", "2", "--size", "160x100", "--device", "reference", "-o", folder / "demo", "--force",
+       "--trace"},
+      {"bench", "--frames", "1", "--size", "160x100", "--json"},
+      {"compare", "--size", "160x100", "--json"},
+      {"evaluate", "matching", "room", "--frames", "1", "--size", "160x100", "--html"},
+      {"edges", image, "--csv"}};
+  for (const auto& command : commands) {
+    for (const std::string& file : {folder / "absent/t.json", folder / "file/t.json", folder / "results"}) {
+      auto arguments = command;
+      arguments.push_back(file);
+      INFO(command[0] << " " << file);
+      const auto result = run_program(arguments);
+      CHECK(result.code == 3);
+      CHECK_THAT(result.err, Contains(file) && Contains("expected a place that can be written"));
+      CHECK_FALSE(fs::exists(folder / "out/trajectory.txt"));
+    }
+  }
+}
+
+TEST_CASE("process: the report is there although the trace cannot be written", "[cli][device]") {
+  const TemporaryFolder folder;
+  const auto result =
+      run_program({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("/dev/full"));
+  CHECK(nlohmann::json::parse(read_text(folder / "out/report.json"))["frames_tracked"] == 1);
+}
+
+TEST_CASE("process: folders that cannot be read are recorded, the others go on, and the code is 3", "[cli]") {
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms(0755));
+  const std::string tree = folder / "tree";
+  fs::create_directories(tree + "/locked/inside");
+  fs::create_symlink("itself", tree + "/itself");
+  for (const char* name : {"one", "two"}) fs::copy(small_sequence(), tree + "/" + name, fs::copy_options::recursive);
+  fs::permissions(tree + "/locked", fs::perms::none);
+  const auto check = run_program({"check", tree}, without_rights());
+  INFO(check.out << check.err);
+  CHECK(check.code == 3);
+  CHECK_THAT(check.out, Contains("there    one") && Contains("there    two") && Contains("DAMAGED  locked") &&
+                            Contains("DAMAGED  itself") && Contains("4 there, 2 of them damaged"));
+  CHECK_THAT(check.err, Contains("tree/locked: found") && Contains("Permission denied") && Contains("Too many levels"));
+  const auto list = run_program({"batch", tree, "--list"}, without_rights());
+  CHECK(list.code == 0);
+  CHECK_THAT(list.out, Contains("itself\t") && Contains("locked\t") && Contains("one\t") && Contains("two\t"));
+  fs::permissions(tree + "/locked", fs::perms::owner_all);
+
+  const TemporaryFolder other;
+  fs::create_directory(other / "tree");
+  fs::create_symlink("itself", other / "tree/itself");
+  const auto batch = run_program({"batch", other / "tree", "-o", other / "out", "--device", "reference"});
+  CHECK(batch.code == 3);
+  CHECK_THAT(batch.err, Contains("itself (failed)") && Contains("Too many levels"));
+}
+
+TEST_CASE("process: a path that cannot be is the user's, not the program's mistake", "[cli]") {
+  const TemporaryFolder folder;
+  fs::create_symlink("itself", folder / "itself");
+  for (const std::string& path : {folder / "itself", std::string(300, 'y')}) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"run"}, {"check"}, {"batch"}, {"report"}, {"edges"}, {"evaluate", "matching"}}) {
+      INFO(command[0]);
+      auto arguments = command;
+      arguments.push_back(path);
+      const auto result = run_program(arguments);
+      CHECK(result.code == 3);
+      CHECK_THAT(result.err, Contains(path) && !Contains("internal"));
+    }
+  }
+}
