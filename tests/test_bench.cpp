@@ -175,6 +175,29 @@ TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][b
   CHECK(compare_with(incomplete).code == 3);
   CHECK(compare_with(json{{"schema", 1}}).code == 3);
 
+  for (const char* pointer :
+       {"/latency_ms/median", "/latency_ms/first", "/edge_detection_ms/median", "/stages_ms/stereo/median",
+        "/kernels_ms/edge_detection/median", "/start_ms/total", "/memory_mb/host_peak", "/moved_mb_per_frame/to_host",
+        "/frames_lost", "/baseline/opencv_sift_both_ms"}) {
+    for (const json& value : {json(nullptr), json("fast"), json(-1)}) {
+      INFO(pointer << " " << value.dump());
+      json changed = shared_bench().parsed();
+      changed[json::json_pointer(pointer)] = value;
+      result = compare_with(changed);
+      CHECK(result.code == 3);
+      CHECK_THAT(result.err, Contains("new.json: found " + std::string(pointer + 1) + " " + value.dump()) &&
+                                 Contains("expected a number"));
+    }
+  }
+  for (const char* key : {"schema", "bench_schema"}) {
+    INFO(key);
+    json changed = shared_bench().parsed();
+    changed[key] = 77;
+    result = compare_with(changed);
+    CHECK(result.code == 3);
+    CHECK_THAT(result.err, Contains("new.json: found " + std::string(key) + " 77, expected 1"));
+  }
+
   const TemporaryFolder folder;
   std::ofstream(folder / "text.json") << "no JSON";
   result = run_program({"bench", "--compare", folder / "text.json", folder / "text.json"});

@@ -2,64 +2,87 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
 
 #include "benchmark/bench_record.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
+#include "report/json.hpp"
 #include "report/json_values.hpp"
 
 namespace quadedge::bench {
 namespace {
 
 using report::Json;
-using report::to_number;
 
 constexpr double kSmallShare = 0.05;  // of the frame: stages below it are shown, not judged
 
-Json read_result(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw DataError(file + ": cannot be read");
+/// A result and the file that it was read from.
+struct Result {
+  std::string file;
   Json json;
-  try {
-    json = Json::parse(stream);
-  } catch (const Json::exception&) {
-    throw DataError(file + ": this is no JSON; expected a result of `quadedge bench --json`");
-  }
-  if (!json.is_object() || !json.contains("bench_schema"))
-    throw DataError(file + ": expected a result of `quadedge bench --json`");
-  if (json["bench_schema"] != kBenchSchema) {
-    throw DataError(file + ": has schema " + json["bench_schema"].dump() + ", this program compares schema " +
-                    std::to_string(kBenchSchema));
-  }
-  return json;
+};
+
+void require_schema(const Result& result, const char* key, int known) {
+  if (result.json.contains(key) && result.json[key] == known) return;
+  const std::string found = result.json.contains(key) ? result.json[key].dump() : "none";
+  data::fail(result.file, std::string(key) + " " + found, std::to_string(known) + ", which this program compares");
 }
 
-void require_equal(const Json& before, const Json& after, const char* pointer, const std::string& old_file,
-                   const std::string& new_file) {
+Result read_result(const std::string& file) {
+  Result result{file, {}};
+  constexpr const char* kExpected = "a result of `quadedge bench --json`";
+  try {
+    result.json = Json::parse(data::read_text(file));
+  } catch (const Json::exception&) {
+    data::fail(file, "no JSON", kExpected);
+  }
+  if (!result.json.is_object() || !result.json.contains("bench_schema")) data::fail(file, "other JSON", kExpected);
+  require_schema(result, "bench_schema", kBenchSchema);
+  require_schema(result, "schema", report::kReportSchema);
+  return result;
+}
+
+/// A figure that every result has. \throws DataError where it is missing or no number of 0 or more: nothing can be said
+/// of a regression then.
+double figure(const Result& result, const std::string& pointer) {
   const Json::json_pointer key(pointer);
-  if (before.at(key) == after.at(key)) return;
-  throw DataError(new_file + " and " + old_file + " cannot be compared: " + std::string(pointer + 1) + " is " +
-                  after.at(key).dump() + ", and was " + before.at(key).dump());
+  const Json value = result.json.contains(key) ? result.json.at(key) : Json("none");
+  if (value.is_number() && std::isfinite(value.get<double>()) && value.get<double>() >= 0) return value.get<double>();
+  data::fail(result.file, pointer.substr(1) + " " + value.dump(), "a number of 0 or more");
+}
+
+/// A time that others are compared with.
+double positive_figure(const Result& result, const std::string& pointer) {
+  const double value = figure(result, pointer);
+  if (!(value > 0)) data::fail(result.file, pointer.substr(1) + " 0", "more than 0");
+  return value;
+}
+
+void require_equal(const Result& before, const Result& after, const char* pointer) {
+  const Json::json_pointer key(pointer);
+  if (before.json.at(key) == after.json.at(key)) return;
+  throw DataError(after.file + " and " + before.file + " cannot be compared: " + std::string(pointer + 1) + " is " +
+                  after.json.at(key).dump() + ", and was " + before.json.at(key).dump());
 }
 
 /// Collects figures of both results.
 class Figures {
  public:
-  Figures(const Json& before, const Json& after, double noise_percent, BenchComparison& result)
+  Figures(const Result& before, const Result& after, double noise_percent, BenchComparison& result)
       : before_(before), after_(after), noise_(noise_percent), result_(result) {}
 
   void time(const std::string& name, const std::string& pointer, bool judged) {
-    add(name, required(before_, pointer), required(after_, pointer), judged, result_.drift);
+    add(name, figure(before_, pointer), figure(after_, pointer), judged, result_.drift);
   }
   void size(const std::string& name, const std::string& pointer) {
-    add(name, required(before_, pointer), required(after_, pointer), true, 1);
+    add(name, figure(before_, pointer), figure(after_, pointer), true, 1);
   }
   /// The medians of every stage of a table.
   void stages(const std::string& label, const std::string& table, double frame_ms) {
     std::set<std::string> names;
-    for (const Json* json : {&before_, &after_}) {
+    for (const Json* json : {&before_.json, &after_.json}) {
       if (!json->contains(table)) continue;
       for (const auto& [stage, unused] : json->at(table).items()) {
         (void)unused;
@@ -73,37 +96,33 @@ class Figures {
   }
 
  private:
-  static double required(const Json& json, const std::string& pointer) {
-    return to_number(json.at(Json::json_pointer(pointer)));
-  }
   /// NaN for a stage that one of the results does not have.
-  static double value(const Json& json, const std::string& pointer) {
-    const Json::json_pointer key(pointer);
-    return json.contains(key) ? to_number(json.at(key)) : std::numeric_limits<double>::quiet_NaN();
+  static double value(const Result& result, const std::string& pointer) {
+    const bool there = result.json.contains(Json::json_pointer(pointer));
+    return there ? figure(result, pointer) : std::numeric_limits<double>::quiet_NaN();
   }
   void add(const std::string& name, double before, double after, bool judged, double drift) {
-    ComparedFigure figure;
-    figure.name = name;
-    figure.before = before;
-    figure.after = after;
-    figure.change_percent = figure.before == 0 ? (figure.after == 0 ? 0 : std::numeric_limits<double>::quiet_NaN())
-                                               : 100 * (figure.after / drift / figure.before - 1);
-    figure.judged = judged && std::isfinite(figure.change_percent);
-    figure.worse = figure.judged && figure.change_percent > noise_;
-    result_.figures.push_back(figure);
+    ComparedFigure compared;
+    compared.name = name;
+    compared.before = before;
+    compared.after = after;
+    compared.change_percent = before == 0 && after == 0 ? 0 : 100 * (after / drift / before - 1);
+    compared.judged = judged && !std::isnan(compared.change_percent);
+    compared.worse = compared.judged && compared.change_percent > noise_;
+    result_.figures.push_back(compared);
   }
 
-  const Json& before_;
-  const Json& after_;
+  const Result& before_;
+  const Result& after_;
   double noise_;
   BenchComparison& result_;
 };
 
-void compare_lost_frames(const Json& before, const Json& after, BenchComparison& result) {
+void compare_lost_frames(const Result& before, const Result& after, BenchComparison& result) {
   ComparedFigure lost;
   lost.name = "lost frames";
-  lost.before = to_number(before.at("frames_lost"));
-  lost.after = to_number(after.at("frames_lost"));
+  lost.before = figure(before, "/frames_lost");
+  lost.after = figure(after, "/frames_lost");
   lost.change_percent = std::numeric_limits<double>::quiet_NaN();
   lost.judged = true;
   lost.worse = lost.after > lost.before;
@@ -131,17 +150,17 @@ bool BenchComparison::regressed() const {
 }
 
 BenchComparison compare_benchmarks(const std::string& old_file, const std::string& new_file, double noise_percent) {
-  const Json before = read_result(old_file), after = read_result(new_file);
+  const Result before = read_result(old_file), after = read_result(new_file);
   BenchComparison result;
   try {
     for (const char* key : {"/device/name", "/device/platform", "/input/name", "/input/width", "/input/height"}) {
-      require_equal(before, after, key, old_file, new_file);
+      require_equal(before, after, key);
     }
-    if (before.contains("baseline") && after.contains("baseline")) {
-      result.drift = to_number(after["baseline"].at("opencv_sift_both_ms")) /
-                     to_number(before["baseline"].at("opencv_sift_both_ms"));
+    if (before.json.contains("baseline") && after.json.contains("baseline")) {
+      constexpr const char* kYardstick = "/baseline/opencv_sift_both_ms";
+      result.drift = positive_figure(after, kYardstick) / positive_figure(before, kYardstick);
     }
-    const double frame_ms = to_number(before.at("latency_ms").at("median"));
+    const double frame_ms = positive_figure(before, "/latency_ms/median");
     Figures figures(before, after, noise_percent, result);
     figures.time("frame, median [ms]", "/latency_ms/median", true);
     figures.time("frame, p90 [ms]", "/latency_ms/p90", true);
@@ -158,7 +177,7 @@ BenchComparison compare_benchmarks(const std::string& old_file, const std::strin
     figures.size("to the device, per frame [MB]", "/moved_mb_per_frame/to_device");
     figures.size("to the host, per frame [MB]", "/moved_mb_per_frame/to_host");
     compare_lost_frames(before, after, result);
-    note_differences(before, after, result);
+    note_differences(before.json, after.json, result);
   } catch (const Json::exception& error) {
     throw DataError(new_file + " or " + old_file + " is incomplete: " + error.what());
   }
