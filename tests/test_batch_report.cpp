@@ -113,6 +113,46 @@ TEST_CASE("batch report: shows every sequence, compares with baseline and peers,
   CHECK_THROWS_WITH(report::batch_report_html(folder / "absent", "", {}), Contains("absent"));
 }
 
+TEST_CASE("batch report: a damaged sequence, picture or peer is said, and the page shows the others", "[report]") {
+  const TemporaryFolder folder;
+  const std::string today = folder / "today";
+  std::vector<std::pair<std::string, report::RunRecord>> runs = {{"good", made_up_run(12, 0.01)}};
+  const std::vector<std::pair<std::string, std::string>> damages = {
+      {"report", "report.json"}, {"frames", "frames.csv"}, {"poses", "trajectory.txt"}, {"truth", "groundtruth.txt"}};
+  std::vector<std::string> names = {"good"};
+  for (const auto& damage : damages) {
+    runs.emplace_back(damage.first, made_up_run(8, 0.02));
+    names.push_back(damage.first);
+  }
+  write_batch(today, runs);
+  const std::string good = report::member_folder(today, "good");
+  cv::imwrite(good + "/pictures/thumbnail_000005.jpg", dataset_files::pattern(48, 30));
+  write_text(good + "/pictures/thumbnail_000007.jpg", "no picture");
+  write_text(folder / "peers/good.txt", "0 0 0 0 0 0 0 2\n");
+  for (const auto& [name, file] : damages)
+    dataset_files::truncate(report::member_folder(today, name) + "/" + file, 0.55);
+
+  const auto summary = report::summarise(today, names, 50);
+  CHECK(summary.exit_code == 3);
+  CHECK(summary.rows[0].status == report::MemberStatus::done);
+  for (std::size_t i = 1; i <= 2; ++i) {  // what the summary itself reads
+    INFO(names[i]);
+    CHECK(summary.rows[i].status == report::MemberStatus::failed);
+    CHECK_THAT(summary.rows[i].member.message, Contains("damaged") && Contains(damages[i - 1].second));
+    CHECK_FALSE(summary.rows[i].accuracy);
+  }
+  const std::string page = report::batch_report_html(today, "", {{"Other", folder / "peers"}});
+  for (const auto& [name, file] : damages) {
+    INFO(name);
+    CHECK_THAT(page, Contains("sequences/" + name + "/" + file));
+  }
+  CHECK_THAT(page, Contains("thumbnail_000007.jpg: no picture") && Contains("peers/good.txt:1"));
+  CHECK(count(page, "data:image/jpeg;base64,") == 1);
+  CHECK(count(page, "Latency by stage</text>") == 1);
+  // As the other batch of a comparison they cost as little.
+  CHECK_THAT(report::batch_report_html(today, today, {}), Contains("Latency by stage"));
+}
+
 TEST_CASE("batch report: stays below five megabytes for a whole benchmark", "[report]") {
   const TemporaryFolder folder;
   std::vector<std::pair<std::string, report::RunRecord>> runs;

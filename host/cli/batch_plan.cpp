@@ -11,6 +11,7 @@
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
+#include "report/whole_results.hpp"
 
 namespace quadedge::cli {
 namespace fs = std::filesystem;
@@ -47,9 +48,10 @@ bool is_finished(const std::string& folder, const std::string& key, bool timing)
   const auto member = report::read_member(folder);
   if (!member || member->exit_code != 0 || member->key != key || key.empty()) return false;
   if (timing && member->jobs > 1) return false;
-  for (const char* name : {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "report.json", "config.toml"}) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(fs::path(folder) / name, ignored)) return false;
+  try {
+    report::check_whole(folder);
+  } catch (const DataError&) {
+    return false;
   }
   return true;
 }

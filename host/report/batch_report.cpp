@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -25,12 +26,16 @@ struct Detail {
 constexpr std::array<Detail, 6> kDetails = {
     {{2000, 480, 75}, {600, 480, 60}, {300, 320, 55}, {200, 260, 50}, {120, 200, 50}, {60, 0, 0}}};
 
-/// The picture in the size of the page's detail.
+/// The picture in the size of the page's detail; empty for a file that cannot be read.
 std::vector<std::uint8_t> reduced(const std::string& file, const Detail& detail) {
-  const std::string bytes = data::read_bytes(file);
-  const std::vector<std::uint8_t> encoded(bytes.begin(), bytes.end());
-  cv::Mat picture = cv::imdecode(encoded, cv::IMREAD_COLOR);
-  if (picture.empty()) throw DataError(file + ": found no picture, expected a JPEG file");
+  std::vector<std::uint8_t> encoded;
+  if (data::irregular_kind(file).empty()) {
+    std::ifstream stream(file, std::ios::binary);
+    encoded.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  cv::Mat picture;
+  if (!encoded.empty()) picture = cv::imdecode(encoded, cv::IMREAD_COLOR);
+  if (picture.empty()) return {};
   const double scale = static_cast<double>(detail.thumbnail_width) / picture.cols;
   if (scale < 1) cv::resize(picture, picture, {}, scale, scale, cv::INTER_AREA);
   std::vector<std::uint8_t> small;
@@ -114,8 +119,14 @@ void add_sequence(HtmlPage& page, const SequenceResults& sequence, const Detail&
   page.plots(frame_plots(sequence, detail.points), "");
   if (detail.thumbnail_width == 0 || sequence.thumbnails.empty()) return;
   std::vector<HtmlPage::Picture> pictures;
-  for (const auto& file : sequence.thumbnails)
-    pictures.push_back({reduced(file, detail), "image/jpeg", frame_of(file)});
+  for (const auto& file : sequence.thumbnails) {
+    auto picture = reduced(file, detail);
+    if (picture.empty()) {
+      page.paragraph(file + ": no picture that can be read");
+    } else {
+      pictures.push_back({std::move(picture), "image/jpeg", frame_of(file)});
+    }
+  }
   page.pictures(pictures);
   page.paragraph(
       "Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame that they "

@@ -130,7 +130,15 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
   std::vector<double> latencies, firsts;
   for (const auto& name : names) {
     const std::string folder = member_folder(output, name);
-    const SummaryRow& row = summary.rows.emplace_back(read_summary_row(folder, name, min_tracked));
+    SummaryRow& row = summary.rows.emplace_back(read_summary_row(folder, name, min_tracked));
+    FramesTable table;
+    if (row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked) {
+      try {
+        table = read_frames_table(folder + "/frames.csv");
+      } catch (const DataError& problem) {
+        row = damaged(row, problem.what());
+      }
+    }
     if (row.status == MemberStatus::failed || row.status == MemberStatus::missing) {
       summary.exit_code = worse_exit_code(summary.exit_code, row.member.exit_code);
       continue;
@@ -140,7 +148,6 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
     }
     summary.frames += row.frames;
     summary.tracked += row.tracked;
-    const auto table = read_frames_table(folder + "/frames.csv");
     if (table.latency_ms.empty()) continue;
     firsts.push_back(table.latency_ms.front());
     latencies.insert(latencies.end(), table.latency_ms.begin() + 1, table.latency_ms.end());

@@ -47,10 +47,13 @@ struct BatchSummary {
 };
 
 /// Reads the results of one sequence from its folder. A run that tracked fewer frames than `min_tracked` percent counts
-/// as too_few_tracked. \throws DataError for damaged results.
+/// as too_few_tracked, one whose results are damaged as failed.
 SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked);
 
-/// Puts the results of OUT/sequences/NAME together. \throws DataError for damaged results.
+/// The row of a sequence whose results are damaged, for a complaint of who read them.
+SummaryRow damaged(SummaryRow row, const std::string& complaint);
+
+/// Puts the results of OUT/sequences/NAME together.
 BatchSummary summarise(const std::string& output, const std::vector<std::string>& names, double min_tracked);
 
 /// Worst of two exit codes: a program error is worse than a device, that worse than data, usage and too few tracked

@@ -76,6 +76,19 @@ std::vector<std::string> thumbnails(const fs::path& folder) {
   return files;
 }
 
+/// Adds the trajectory of another system or batch; a note where the file cannot be read.
+bool add_other(SequenceResults& results, const std::string& name, const std::string& file, const Trajectory& truth) {
+  Trajectory poses;
+  try {
+    poses = read_tum(file);
+  } catch (const DataError& problem) {
+    results.notes.push_back(name + ": " + problem.what());
+    return false;
+  }
+  add_trajectory(results, name, std::move(poses), truth);
+  return true;
+}
+
 }  // namespace
 
 std::optional<SummaryAccuracy> ComparedTrajectory::accuracy() const {
@@ -90,24 +103,28 @@ SequenceResults read_sequence_results(const std::string& output, const std::stri
   const fs::path folder = member_folder(output, name);
   results.row = read_summary_row(folder.string(), name, min_tracked);
   if (!results.ran()) return results;
-  results.frames = read_frames_table((folder / "frames.csv").string());
+  Trajectory truth, estimate;
+  try {
+    results.frames = read_frames_table((folder / "frames.csv").string());
+    estimate = read_tum((folder / "trajectory.txt").string());
+    if (fs::is_regular_file(folder / "groundtruth.txt")) truth = read_tum((folder / "groundtruth.txt").string());
+  } catch (const DataError& problem) {
+    results.row = damaged(results.row, problem.what());
+    return results;
+  }
   results.thumbnails = thumbnails(folder / "pictures");
-  Trajectory truth, estimate = read_tum((folder / "trajectory.txt").string());
-  if (fs::is_regular_file(folder / "groundtruth.txt")) truth = read_tum((folder / "groundtruth.txt").string());
   results.truth = truth;
   if (const auto match = first_match(estimate, truth)) move(results.truth, match->second.world_from_left.inverse());
   add_trajectory(results, "QuadEdge", std::move(estimate), truth);
   if (!baseline.empty()) {
     const std::string other = member_folder(baseline, name);
     const auto row = read_summary_row(other, name, min_tracked);
-    if (row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked) {
-      results.baseline = row;
-      add_trajectory(results, "baseline", read_tum(other + "/trajectory.txt"), truth);
-    }
+    const bool ran = row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked;
+    if (ran && add_other(results, "baseline", other + "/trajectory.txt", truth)) results.baseline = row;
   }
   for (const auto& peer : peers) {
     if (const auto file = peer_file(peer, name); !file.empty()) {
-      add_trajectory(results, peer.name, read_tum(file), truth);
+      add_other(results, peer.name, file, truth);
     } else {
       results.notes.push_back(peer.name + ": no " + name + ".txt in " + peer.folder);
     }

@@ -39,8 +39,8 @@ struct SequenceResults {
   bool ran() const { return row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked; }
 };
 
-/// Reads the results of a sequence. `baseline`: folder of the other batch, or empty. \throws DataError for damaged
-/// results.
+/// Reads the results of a sequence; where they are damaged it counts as failed. `baseline`: folder of the other batch,
+/// or empty. What cannot be read of it or of a peer is said in the notes.
 SequenceResults read_sequence_results(const std::string& output, const std::string& name, double min_tracked,
                                       const std::string& baseline, const std::vector<Peer>& peers);
 

@@ -57,12 +57,16 @@ SummaryRow read_summary_row(const std::string& folder, const std::string& name, 
   row.member = *member;
   row.status = MemberStatus::failed;
   if (member->exit_code != 0) return row;
-  const std::string file = folder + "/report.json";
-  const Json report = read_json(file, "the report of a run");
   try {
-    take_report(row, report);
-  } catch (const Json::exception& problem) {
-    data::fail(file, problem.what(), "the report of a run");
+    const std::string file = folder + "/report.json";
+    const Json report = read_json(file, "the report of a run");
+    try {
+      take_report(row, report);
+    } catch (const Json::exception& problem) {
+      data::fail(file, problem.what(), "the report of a run");
+    }
+  } catch (const DataError& problem) {
+    return damaged(row, problem.what());
   }
   const bool enough = 100.0 * row.tracked >= min_tracked * row.frames;
   row.status = enough ? MemberStatus::done : MemberStatus::too_few_tracked;
@@ -71,6 +75,16 @@ SummaryRow read_summary_row(const std::string& folder, const std::string& name, 
     row.member.message = "tracked " + std::to_string(row.tracked) + " of " + std::to_string(row.frames) + " frames";
   }
   return row;
+}
+
+SummaryRow damaged(SummaryRow row, const std::string& complaint) {
+  SummaryRow failed;
+  failed.member = std::move(row.member);
+  failed.member.exit_code = static_cast<int>(ExitCode::data);
+  failed.member.message = "its results are damaged: " + complaint;
+  failed.status = MemberStatus::failed;
+  failed.latency = {kNan, kNan, kNan, kNan, kNan};
+  return failed;
 }
 
 std::string summary_json(const BatchSummary& summary) {
