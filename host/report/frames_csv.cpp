@@ -31,24 +31,39 @@ std::string quoted_field(const std::string& text) {
   return field + "\"";
 }
 
+/// Where a row's last field, the message, begins: behind the last comma that stands in no quotes.
+std::size_t message_begin(const std::string& row) {
+  std::size_t begin = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] == '"') quoted = !quoted;
+    if (row[i] == ',' && !quoted) begin = i + 1;
+  }
+  return begin;
+}
+
 }  // namespace
 
-FramesCsv::FramesCsv(const std::string& path) : file_(path) { file_.append(header()); }
+FramesCsv::FramesCsv(const std::string& path) : path_(path), file_(path) { file_.append(header()); }
 
 void FramesCsv::add(const FrameResult& result) {
-  bool new_stage = false;
+  const std::size_t before = stages_.size();
   for (const auto& stage : result.stages) {
-    if (std::find(stages_.begin(), stages_.end(), stage.stage) != stages_.end()) continue;
-    stages_.push_back(stage.stage);
-    new_stage = true;
+    if (std::find(stages_.begin(), stages_.end(), stage.stage) == stages_.end()) stages_.push_back(stage.stage);
   }
-  frames_.push_back(result);
-  if (!new_stage) {
-    file_.append(row(frames_.size() - 1));
-    return;
-  }
+  if (stages_.size() > before) add_empty_columns(stages_.size() - before);
+  file_.append(row(result));
+  ++frames_;
+}
+
+/// Writes the file anew with columns for stages that the frames in it did not have.
+void FramesCsv::add_empty_columns(std::size_t count) {
   std::string text = header();
-  for (std::size_t i = 0; i < frames_.size(); ++i) text += row(i);
+  for (const auto& line : data::data_lines(path_)) {
+    if (line.number == 1) continue;
+    const std::size_t message = message_begin(line.text);
+    text += line.text.substr(0, message) + std::string(count, ',') + line.text.substr(message) + "\n";
+  }
   file_.clear();
   file_.append(text);
 }
@@ -64,9 +79,8 @@ std::string FramesCsv::header() const {
   return text + ",message\n";
 }
 
-std::string FramesCsv::row(std::size_t frame) const {
-  const FrameResult& result = frames_[frame];
-  std::string text = std::to_string(frame) + "," + data::format_seconds(result.stamp_ns) + "," +
+std::string FramesCsv::row(const FrameResult& result) const {
+  std::string text = std::to_string(frames_) + "," + data::format_seconds(result.stamp_ns) + "," +
                      to_string(result.status) + "," + std::to_string(result.reference_frame) + "," +
                      (result.new_key_rig ? "1" : "0") + "," + grey_levels(result.edge_threshold);
   for (const auto& [name, count] : named_counts(result.counts)) text += "," + std::to_string(count);

@@ -15,16 +15,19 @@ class FramesCsv {
  public:
   /// \throws DataError when the file cannot be written.
   explicit FramesCsv(const std::string& path);
-  /// Adds the row of the next frame. A stage that was not seen before adds a column: the file is written anew.
+  /// Adds the row of the next frame. A stage that was not seen before adds a column: the file is written anew. Nothing
+  /// is kept of the frames, so that long runs do not grow.
   void add(const FrameResult& result);
 
  private:
   std::string header() const;
-  std::string row(std::size_t frame) const;
+  std::string row(const FrameResult& result) const;
+  void add_empty_columns(std::size_t count);
 
+  std::string path_;
   AppendFile file_;
   std::vector<std::string> stages_;
-  std::vector<FrameResult> frames_;
+  int frames_ = 0;
 };
 
 }  // namespace quadedge::report
