@@ -42,20 +42,15 @@ def memory_and_time(process):
 
 def watch(program, frames_csv):
     """(frames done, memory, time) whenever a frame was done, until the program ends."""
-    samples, done, read = [], -1, 0  # the heading is a line, too
+    samples, size = [], 0
     while program.poll() is None:
         time.sleep(0.005)
-        if not frames_csv.exists():
+        if not frames_csv.exists() or frames_csv.stat().st_size == size:
             continue
-        if frames_csv.stat().st_size < read:  # a new column: the file is written anew
-            done, read = -1, 0
-        with open(frames_csv, "rb") as file:
-            file.seek(read)
-            news = file.read()
-        read += len(news)
-        done += news.count(b"\n")
-        if news and (sample := memory_and_time(program.pid)):
-            samples.append((done, *sample))
+        text = frames_csv.read_bytes()  # all of it: a new column writes the file anew
+        size = len(text)
+        if sample := memory_and_time(program.pid):
+            samples.append((text.count(b"\n") - 1, *sample))
     return samples
 
 

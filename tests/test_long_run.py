@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Tests scripts/long_run.py: what it reads of a process, and when it calls a run level.
+
+test_long_run.py SCRIPTS [UNITTEST OPTION...]
+"""
+
+import contextlib
+import io
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, sys.argv[1])
+import long_run  # noqa: E402
+
+
+def judged(frames=1100, memory=lambda frame: 200, cost=lambda frame: 0.05):
+    """Whether a run is called level whose memory [MB] and processor time [s] follow the frames so."""
+    time, samples = 3, []
+    for frame in range(frames + 1):
+        time += cost(frame)
+        samples.append((frame, memory(frame), time))
+    with contextlib.redirect_stdout(io.StringIO()) as text:
+        level = long_run.report(samples, [50.0] * frames)
+    return level, text.getvalue()
+
+
+class LongRun(unittest.TestCase):
+    def test_a_level_run_is_level(self):
+        level, text = judged(memory=lambda frame: 150 + 50 * min(1, frame / 90) + 4 * frame / 1000)
+        self.assertTrue(level)
+        self.assertIn("memory +4.0 MB", text)
+        self.assertRegex(text, r"time per frame [+-]0\.0 %")
+
+    def test_growth_of_memory_is_seen(self):
+        self.assertFalse(judged(memory=lambda frame: 200 + 6 * frame / 1000)[0])
+        self.assertFalse(judged(memory=lambda frame: 206 if frame == 700 else 200)[0])
+
+    def test_growth_of_the_time_per_frame_is_seen(self):
+        self.assertFalse(judged(cost=lambda frame: 0.05 * (1 + 0.3 * frame / 1000))[0])
+        self.assertTrue(judged(cost=lambda frame: 0.05 * (1 + 0.1 * frame / 1000))[0])
+
+    def test_few_frames_say_nothing(self):
+        with self.assertRaises(SystemExit):
+            judged(frames=250)
+
+    def test_a_process_is_read_and_its_end_noticed(self):
+        memory, seconds = long_run.memory_and_time(os.getpid())
+        self.assertGreater(memory, 1)
+        self.assertGreaterEqual(seconds, 0)
+        self.assertIsNone(long_run.memory_and_time(2**30))
+
+    def test_rows_are_counted_although_a_new_column_begins_the_file_anew(self):
+        with tempfile.TemporaryDirectory() as folder:
+            frames = Path(folder) / "frames.csv"
+            texts = ["frame,latency_ms,message\n0,5,\n", "frame,latency_ms,pose_ms,message\n0,5,,\n1,5,1,\n", None]
+
+            class Program:
+                """A program that writes the next text whenever it is asked whether it has ended."""
+
+                pid, returncode = os.getpid(), None
+
+                def poll(self):
+                    text = texts.pop(0)
+                    if text is None:
+                        return 0
+                    spare = frames.with_suffix(".part")
+                    spare.write_text(text)
+                    spare.rename(frames)
+                    return None
+
+            self.assertEqual([sample[0] for sample in long_run.watch(Program(), frames)], [1, 2])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
