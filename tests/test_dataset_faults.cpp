@@ -118,6 +118,8 @@ TEST_CASE("dataset: a damaged sensor.yaml is refused with the key or the line", 
   damaged("0.0, -1.0, 0.0, 0.0,", "0.0, -1.0, 0.0,", ":6", "15 numbers for data");
   write_text(yaml, "");
   check_fault(euroc, "cam0/sensor.yaml", "no entry camera_model");
+  write_text(yaml, "all: &all {camera_model: pinhole, again: *all}\n");
+  check_fault(euroc, "cam0/sensor.yaml", "no entry camera_model");
   write_text(yaml, "- camera_model: pinhole\n");
   check_fault(euroc, "cam0/sensor.yaml", "no entry camera_model");
   write_text(yaml, std::string("\x89PNG\0\xff: [", 9));

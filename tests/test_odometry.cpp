@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "frontends.hpp"
+#include "quadedge/detect_edges.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "synthetic/path.hpp"
@@ -257,6 +258,10 @@ TEST_CASE("odometry: a stride below a row's bytes is refused, of 8 and of 16 bit
                             Catch::Matchers::Contains("expected at least the " + std::to_string(row)));
     }
     CHECK_NOTHROW(odometry.track({0, image, image}));
+    ImageView narrow = image;
+    narrow.stride = row - 1;
+    CHECK_THROWS_AS(detect_edges(narrow, device, {}), DataError);
+    CHECK_THROWS_AS(detect_edges({}, device, {}), DataError);
   }
 }
 

@@ -29,14 +29,15 @@ struct Sensor {
 
 constexpr const char* kSensorFile = "the sensor.yaml of a EuRoC camera";
 
-/// \throws DataError for a key that stands twice in one map: readers of YAML differ in which one counts.
-void check_keys(const YAML::Node& node, const std::string& file) {
-  if (!node.IsMap()) return;
+/// \throws DataError for a key that stands twice in one map: readers of YAML differ in which one counts. Looks no more
+/// than `levels` maps deep, which is all that is read; aliases could make it endless.
+void check_keys(const YAML::Node& node, const std::string& file, int levels = 2) {
+  if (levels == 0 || !node.IsMap()) return;
   std::set<std::string> keys;
   for (const auto& entry : node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : std::string();
     if (!keys.insert(key).second) fail(file, entry.first.Mark().line + 1, "a second entry " + key, "each entry once");
-    check_keys(entry.second, file);
+    check_keys(entry.second, file, levels - 1);
   }
 }
 

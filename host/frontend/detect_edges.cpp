@@ -1,5 +1,6 @@
 #include "quadedge/detect_edges.hpp"
 
+#include "common/image_check.hpp"
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/edge_threshold.hpp"
@@ -10,6 +11,7 @@
 namespace quadedge {
 
 EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config) {
+  check_pixels(image, "the image");
   EdgeSet edges;
   std::size_t found = 0;
   if (device.is_reference()) {

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <utility>
 
+#include "common/image_check.hpp"
 #include "frontend/frontend.hpp"
 #include "odometry/constant_velocity.hpp"
 #include "odometry/disparity_offset.hpp"
@@ -41,12 +42,7 @@ void add_message(const std::string& message, FrameResult& result) {
 }
 
 void check_image(const ImageView& image, const PinholeCamera& camera, int white, bool any_size, const char* side) {
-  if (image.empty()) throw DataError(std::string("the ") + side + " image is empty");
-  const auto row_bytes = static_cast<std::ptrdiff_t>(bytes_per_pixel(image.white)) * image.width;
-  if (image.stride < row_bytes) {
-    throw DataError(std::string("the ") + side + " image has a stride of " + std::to_string(image.stride) +
-                    " bytes, expected at least the " + std::to_string(row_bytes) + " of a row");
-  }
+  check_pixels(image, std::string("the ") + side + " image");
   if (image.white != white) {
     throw DataError(std::string("the ") + side + " image has values to " + std::to_string(image.white) +
                     ", the rig says to " + std::to_string(white));

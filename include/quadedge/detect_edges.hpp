@@ -9,7 +9,7 @@
 namespace quadedge {
 
 /// Third-order edges of one pinhole image on the chosen device.
-/// \throws DeviceError when the device fails, UsageError when the image has more edges than edges.max_edges.
+/// \throws DeviceError, UsageError for more edges than edges.max_edges, DataError for a stride below a row's bytes.
 EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config);
 
 }  // namespace quadedge
