@@ -10,7 +10,7 @@
 // Cell (X, Y) of the doubled grid lies at pixel (X / 2, Y / 2); Y even: phase 0, on a pixel row; Y odd: phase 1,
 // between two.
 // taps = for phase 0, then phase 1: RADIUS + 1 weights of G, then of G', for the pairs of pixels at k + phase and -k.
-// winners = 4 floats per cell that won the maximum test: x, y, strength, X.
+// winners = 4 floats per cell that won the maximum test: x, y, strength, X + direction_code() of the gradient.
 
 #ifndef RADIUS
 #define RADIUS 8
@@ -68,6 +68,14 @@ DEFINE_PROBES(probes16, float16)
 // No smaller than either probe and larger than one.
 #define IS_MAXIMUM(m, ahead, behind) ((((m) > (behind)) & ((m) >= (ahead))) | (((m) >= (behind)) & ((m) > (ahead))))
 
+// The line along a gradient in steps of 0.2 degrees, as a fraction: that of 1024 codes, the upper half of which says
+// |gx| >= |gy|, the lower bits the ratio of the smaller to the larger component.
+inline float direction_code(const float gx, const float gy) {
+  const int steep = fabs(gx) >= fabs(gy);
+  const float ratio = steep ? gy / gx : gx / gy;
+  return ((steep ? 512.0f : 0.0f) + rint((ratio + 1.0f) * 255.5f)) * (1.0f / 1024.0f);
+}
+
 // Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) grid steps away, which
 // cancels.
 inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, const float gy, const float magnitude,
@@ -76,7 +84,7 @@ inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, 
   const float t = -0.5f * rise / ((ahead - magnitude) + (behind - magnitude));
   const float scale = 0.5f * t / fmax(fabs(gx), fabs(gy));
   return (float4)(fma(scale, gx, 0.5f * (float)cell_x), fma(scale, gy, 0.5f * (float)cell_y),
-                  fma(0.25f * rise, t, magnitude), (float)cell_x);
+                  fma(0.25f * rise, t, magnitude), (float)cell_x + direction_code(gx, gy));
 }
 
 // Weights of G and its derivatives up to the fourth at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at

@@ -141,6 +141,26 @@ typedef struct {
   int max_edges;
 } DetectionArguments;
 
+// Numbers the epipolar lines of an image, alike in both images of a rig, in pixels of the left camera: the line through
+// (x, y) has number (across . (x, y, 1)) / (forward . (x, y, 1)). On a rectified rig that is y less the principal
+// point's.
+typedef struct {
+  float across_x, across_y, across_1;
+  float forward_x, forward_y, forward_1;
+} EpipolarRows;
+
+enum { kSelectionUnit = 256 };            // of the weights that edge_selection.cl adds up
+FLOAT_CONSTANT kSearchedWidth = 1.5f;     // of the maxima around a line that the searched image keeps, in steps
+FLOAT_CONSTANT kClosestSelection = 0.5f;  // px; maxima of a curve are not closer
+
+// edge_selection.cl.
+typedef struct {
+  int width, height;  // of the image
+  EpipolarRows rows;
+  float min_sine;  // of the angle between an edge and its epipolar line: what lies flatter cannot be matched
+  float slack;     // by which that sine may differ between the images; 1: no difference is allowed for
+} SelectionArguments;
+
 // patches.cl.
 typedef struct {
   int width, height;

@@ -21,7 +21,6 @@ using namespace quadedge;
 /// A configuration that leaves no kernel out, with variant number `wanted` of every stage that has so many.
 Config config_with(std::size_t wanted) {
   Config config;
-  config.edges.thinning = true;
   config.stereo.max_disparity = 64;
   config.stereo.sift_max = 500;
   std::map<std::string, std::size_t> seen;

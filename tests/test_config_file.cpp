@@ -83,7 +83,7 @@ TEST_CASE("config file: what it does not say stays at its default", "[config]") 
 
 TEST_CASE("config file: an error names file, line, key, what was expected and what was found", "[config]") {
   CHECK(refusal("\n\nseed = -1\n") == "FILE:3: seed: expected a whole number of 0 to 9223372036854775807, found -1");
-  CHECK(refusal("[edges]\nthinning = 7\n") == "FILE:2: edges.thinning: expected true or false, found 7");
+  CHECK(refusal("[pose]\nrefine = 7\n") == "FILE:2: pose.refine: expected true or false, found 7");
   CHECK(refusal("[edges]\nsigma = true\n") == "FILE:2: edges.sigma: expected a number, found true");
   CHECK(refusal("[edges]\nsigma = \"wide\"\n") == "FILE:2: edges.sigma: expected a number, found \"wide\"");
   CHECK(refusal("[edges]\nsigma = 1000\n") == "FILE:2: edges.sigma: expected 0.5 to 8, found 1000");

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "common/epipolar_rows.hpp"
 #include "common/layouts.hpp"
 
 namespace quadedge::frontend {
@@ -29,6 +30,8 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       left_(context, rig.left, rig.left_undistortion, rig.white, config),
       right_(context, rig.right, rig.right_undistortion, rig.white, config),
       threshold_(context, config.edges, config.variants),
+      selection_(context, config.edges, selection_arguments(rig, Side::left, config.stereo),
+                 selection_arguments(rig, Side::right, config.stereo)),
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
       refinement_(context, config.stereo, config.patches.offset, config.variants, rig.white),
@@ -48,19 +51,25 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
   itself_.write(context, itself);
 }
 
-void DeviceFrontend::detect(const stages::DeviceStereoEdges& rig) {
+void DeviceFrontend::detect(DeviceRig& current) {
+  const stages::DeviceStereoEdges& rig = current.on_device;
   context_.begin_stage("edge_detection");
   left_.plane.prepare(rig.left_image.pixels);
   right_.plane.prepare(rig.right_image.pixels);
   threshold_.run(left_.plane, &right_.plane);
-  left_.detection.run(left_.plane, threshold_.values(), left_.edges);
-  right_.detection.run(right_.plane, threshold_.values(), right_.edges);
+  left_.detection.find_maxima(left_.plane, threshold_.values());
+  right_.detection.find_maxima(right_.plane, threshold_.values());
+  selection_.run(left_.detection.maxima(), right_.detection.maxima());
+  left_.detection.take_directions(left_.plane, left_.edges);
+  right_.detection.take_directions(right_.plane, right_.edges);
   threshold_.request();
+  selection_.request();
   left_.edges.request_count();
   right_.edges.read_count();
   left_.edges.take_count();
   counts_ = {};
   counts_.edge_threshold = threshold_.host_threshold();
+  current.edges_spacing = selection_.host_spacing();
   counts_.edges_left = left_.edges.host_count;
   counts_.edges_right = right_.edges.host_count;
   counts_.dropped_edges = left_.edges.host_dropped + right_.edges.host_dropped;
@@ -71,7 +80,7 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   stages::DeviceStereoEdges& rig = current.on_device;
   left_.undistortion.run(frame.left, rig.left_image.pixels);
   right_.undistortion.run(frame.right, rig.right_image.pixels);
-  detect(rig);
+  detect(current);
   if (tap_ != nullptr) tap_->edges(edges(Side::left), edges(Side::right));
 
   left_.patches.prepare(rig.left_image.pixels);

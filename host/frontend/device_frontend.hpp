@@ -5,6 +5,7 @@
 #include "frontend/frontend.hpp"
 #include "stages/candidate_filters.hpp"
 #include "stages/edge_detection.hpp"
+#include "stages/edge_selection.hpp"
 #include "stages/edge_threshold.hpp"
 #include "stages/patches.hpp"
 #include "stages/sift.hpp"
@@ -54,7 +55,7 @@ class DeviceFrontend : public Frontend {
   };
 
   /// Detects the edges of both images and waits for their number.
-  void detect(const stages::DeviceStereoEdges& rig);
+  void detect(DeviceRig& current);
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
@@ -78,6 +79,7 @@ class DeviceFrontend : public Frontend {
   StereoRig calibration_;
   Camera left_, right_;
   stages::EdgeThreshold threshold_;
+  stages::EdgeSelection selection_;
   stages::StereoCandidates stereo_candidates_;
   stages::CandidateFilters filters_;
   stages::StereoRefinement refinement_;

@@ -1,6 +1,8 @@
 #include "frontend/reference_frontend.hpp"
 
+#include "common/epipolar_rows.hpp"
 #include "reference/edge_detection.hpp"
+#include "reference/edge_selection.hpp"
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
 #include "reference/stereo_mutual.hpp"
@@ -23,8 +25,8 @@ Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
 }
 
 /// The first edges.max_edges edges in scan order.
-EdgeSet detect(const Image& image, const EdgesConfig& config, double threshold, int& dropped) {
-  EdgeSet edges = reference::to_edge_set(reference::detect_edges(image.view(), config, threshold));
+EdgeSet limited(const reference::ReferenceEdges& all, const EdgesConfig& config, int& dropped) {
+  EdgeSet edges = reference::to_edge_set(all);
   const auto limit = static_cast<std::size_t>(config.max_edges);
   if (edges.size() > limit) {
     dropped += static_cast<int>(edges.size() - limit);
@@ -59,6 +61,24 @@ ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
       threshold_(config.edges),
       epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
 
+void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
+  reference::ReferenceEdges left = reference::detect_edges(now.left.view(), config_.edges, threshold);
+  reference::ReferenceEdges right = reference::detect_edges(now.right.view(), config_.edges, threshold);
+  now.edges_spacing = 0;
+  if (config_.edges.budget > 0) {
+    const SelectionArguments in_left = selection_arguments(calibration_, Side::left, config_.stereo),
+                             in_right = selection_arguments(calibration_, Side::right, config_.stereo);
+    const reference::GradientMaxima left_maxima = maxima_of(left), right_maxima = maxima_of(right);
+    const float spacing =
+        reference::selection_spacing(in_left, left_maxima, in_right, right_maxima, config_.edges.budget);
+    left = select_edges(left, kept_by_selection(in_left, left_maxima, spacing));
+    right = select_edges(right, kept_by_selection(in_right, right_maxima, spacing));
+    now.edges_spacing = static_cast<double>(spacing);
+  }
+  left_edges_ = limited(left, config_.edges, counts_.dropped_edges);
+  right_edges_ = limited(right, config_.edges, counts_.dropped_edges);
+}
+
 RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   ReferenceRig& now = rigs_.next();
   counts_ = {};
@@ -66,8 +86,7 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   now.right = pinhole_image(frame.right, calibration_.right_undistortion);
   const double threshold = threshold_.next({now.left.view(), now.right.view()});
   counts_.edge_threshold = threshold;
-  left_edges_ = detect(now.left, config_.edges, threshold, counts_.dropped_edges);
-  right_edges_ = detect(now.right, config_.edges, threshold, counts_.dropped_edges);
+  detect(now, threshold);
   counts_.edges_left = static_cast<int>(left_edges_.size());
   counts_.edges_right = static_cast<int>(right_edges_.size());
   const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);

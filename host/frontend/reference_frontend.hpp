@@ -25,6 +25,9 @@ class ReferenceFrontend : public Frontend {
   std::size_t device_bytes() const override { return 0; }
 
  private:
+  /// The edges of both images, as many as the budget allows.
+  void detect(ReferenceRig& now, double threshold);
+
   StereoRig calibration_;
   Config config_;
   reference::EdgeThreshold threshold_;

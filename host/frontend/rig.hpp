@@ -20,6 +20,8 @@ class Rig {
 
   int frame = -1;     ///< number of the frame, counted from 0 by the front end
   StereoEdges edges;  ///< on the host
+  /// Distance of the epipolar lines where edges were kept [px]; 0: all were. See kernels/edge_selection.cl.
+  double edges_spacing = 0;
 
   /// The stereo edges measured with a calibration whose disparities carry `offset` [px]. Kept until the offset changes.
   /// \param min_epipolar_angle see pose::measure() [rad]

@@ -1,5 +1,7 @@
 #include "odometry/step_builder.hpp"
 
+#include <algorithm>
+
 namespace quadedge::odometry {
 namespace {
 
@@ -18,6 +20,8 @@ void StepBuilder::estimate(const MotionQuery& query, const PoseConfig& limits,
                            const std::optional<Eigen::Isometry3d>& initial, MotionStep& step) {
   quad_builder_.build(calibration(), measured(*step.base), query.current->edges, step.matches,
                       pose::QuadLimits(config_), step.quads);
+  step.quads.scoring.half_length =
+      pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
   estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(), step.motion);
 }
 

@@ -14,6 +14,8 @@
   VISIT(AlignmentSettings)             \
   VISIT(ThresholdArguments)            \
   VISIT(DetectionArguments)            \
+  VISIT(EpipolarRows)                  \
+  VISIT(SelectionArguments)            \
   VISIT(PatchArguments)                \
   VISIT(SiftArguments)                 \
   VISIT(StereoCandidateArguments)      \

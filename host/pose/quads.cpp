@@ -38,6 +38,7 @@ void ScoringArrays::clear() {
 
 void ScoringArrays::append_row(const ScoringArrays& other, std::size_t row) {
   for (auto column : kColumns) (this->*column).push_back((other.*column)[row]);
+  half_length = other.half_length;
 }
 
 void ScoringArrays::resize(std::size_t rows) {
@@ -135,6 +136,12 @@ void QuadBuilder::build(const StereoRig& rig, const MeasuredEdges& previous, con
                 static_cast<std::int32_t>(i), limits);
     }
   });
+}
+
+float QuadBuilder::half_length(double spacing) {
+  constexpr double kFarthest =
+      1.41421356;  // of two edges of a curve in spacings: kernels/edge_selection.cl, density_of()
+  return static_cast<float>(0.5 * kFarthest * spacing);
 }
 
 }  // namespace quadedge::pose

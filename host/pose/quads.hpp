@@ -32,6 +32,9 @@ struct ScoringArrays {
   std::vector<float> tangent_x, tangent_y, tangent_z;
   std::vector<float> left_x, left_y, left_cos, left_sin;      ///< current left pixel and unit direction in the image
   std::vector<float> right_x, right_y, right_cos, right_sin;  ///< current right pixel and unit direction in the image
+  /// An edge stands for the piece of its curve that reaches so far to both sides, along which its place is a matter of
+  /// chance: nearly half of the distance to its neighbours [px]. 0 where all edges of a curve take part.
+  float half_length = 0;
 
   std::size_t size() const { return ray_x.size(); }
   void reserve(std::size_t rows);
@@ -80,6 +83,8 @@ class QuadBuilder {
  public:
   void build(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
              const TemporalMatches& matches, const QuadLimits& limits, QuadObservations& quads);
+  /// \param spacing the larger distance of the lines on which the edges of the two rigs lie; 0: all edges [px]
+  static float half_length(double spacing);
 
  private:
   MeasuredEdges after_;

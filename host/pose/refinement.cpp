@@ -1,6 +1,7 @@
 #include "pose/refinement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "pose/fit_limits.hpp"
@@ -110,12 +111,13 @@ class Refinement {
 
   void take_selected() {
     std::swap(work_.rows, work_.last_rows);
-    work_.terms.assign(quads_, work_.last_rows, rig_.left, noise_);
+    work_.terms.assign(quads_, work_.last_rows, rig_.left, noise_, scale_);
   }
 
   bool fit(bool knows_scale) {
     Eigen::Isometry3d candidate = result_.current_from_previous;
     result_.solved = fit_pose(config_, knows_scale, work_, candidate);
+    if (result_.solved && work_.reprojection_scale > 0) scale_ = std::sqrt(work_.reprojection_scale);
     if (result_.solved) result_.current_from_previous = candidate;
     return result_.solved;
   }
@@ -151,6 +153,7 @@ class Refinement {
   RefinementWorkspace& work_;
   std::vector<std::uint8_t>& inlier_;
   Refined& result_;
+  double scale_ = 1;  ///< of the last fit
 };
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 namespace quadedge::pose {
 
-ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise) {
+ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
+                                        double scale) {
   const StereoMeasurement &previous = quads.previous[quad], &current = quads.current[quad];
   const double cosine = quads.scoring.left_cos[quad], sine = quads.scoring.left_sin[quad];
   ReprojectionTerm term;
@@ -19,8 +20,9 @@ ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size
   term.scale_drift_y = 0.5 * (previous.scale_drift.y() + current.scale_drift.y());
   term.across_x = -sine / noise.across;
   term.across_y = cosine / noise.across;
-  term.along_x = cosine / noise.along;
-  term.along_y = sine / noise.along;
+  const double along = noise.along_in_time(static_cast<double>(quads.scoring.half_length), scale);
+  term.along_x = cosine / along;
+  term.along_y = sine / along;
   term.current_inverse_depth = current.inverse_depth;
   term.current_inverse_depth_weight =
       1.0 / (current.inverse_depth_per_pixel * noise.on_epipolar_line(current.epipolar_sine));

@@ -36,8 +36,9 @@ struct ReprojectionTerm {
   double current_inverse_depth_weight;     ///< 1 / its standard deviation [m]
 };
 
-/// \param quad its row in `quads`
-ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise);
+/// \param quad its row in `quads` \param scale see NoiseModel::along_in_time()
+ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
+                                        double scale = 1.0);
 
 /// The same term with the axes of the image multiplied by the focal lengths, per unit of a ray instead of per pixel.
 ReprojectionTerm per_ray_unit(const ReprojectionTerm& term, const PinholeCamera& left);

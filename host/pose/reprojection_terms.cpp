@@ -94,7 +94,7 @@ Sums<Values> sum_all(ReprojectionTerms& terms, const Evaluation& at, decltype(su
 }  // namespace
 
 void ReprojectionTerms::assign(const QuadObservations& quads, const std::vector<std::int32_t>& rows,
-                               const PinholeCamera& left, const NoiseModel& noise) {
+                               const PinholeCamera& left, const NoiseModel& noise, double scale) {
   static_assert(kBlockRows % kLanes == 0);
   size_ = rows.size();
   const std::size_t padded = padded_size();
@@ -109,7 +109,7 @@ void ReprojectionTerms::assign(const QuadObservations& quads, const std::vector<
         continue;
       }
       const ReprojectionTerm term =
-          per_ray_unit(make_reprojection_term(quads, static_cast<std::size_t>(rows[k]), noise), left);
+          per_ray_unit(make_reprojection_term(quads, static_cast<std::size_t>(rows[k]), noise, scale), left);
       std::array<double, kColumns> values;
       std::memcpy(values.data(), &term, sizeof term);
       for (std::size_t which = 0; which < kColumns; ++which) columns_[which][k] = values[which];

@@ -22,8 +22,9 @@ class ReprojectionTerms {
   static constexpr std::size_t kColumns = 16;  ///< the members of ReprojectionTerm in their order
 
   /// Takes the terms of the quads `rows`; per_ray_unit(); their own unknowns start at zero.
+  /// \param scale see NoiseModel::along_in_time()
   void assign(const QuadObservations& quads, const std::vector<std::int32_t>& rows, const PinholeCamera& left,
-              const NoiseModel& noise);
+              const NoiseModel& noise, double scale = 1.0);
 
   std::size_t size() const { return size_; }
   /// With the rows of zeros at the end.

@@ -41,6 +41,14 @@ struct Projected {
 
 [[gnu::always_inline]] inline float squared_norm(float x, float y) { return x * x + y * y; }
 
+/// Squared distance from the piece of curve that an edge stands for: (x, y) is the way from the edge, (cosine, sine)
+/// its direction.
+[[gnu::always_inline]] inline float squared_distance(float x, float y, float cosine, float sine, float half_length) {
+  const float along = std::abs(x * cosine + y * sine);
+  const float beyond = along > half_length ? along - half_length : 0.0f;
+  return squared_norm(x, y) - (along * along - beyond * beyond);
+}
+
 /// Does a tangent projected to `tangent` at `point` run along (cosine, sine) in the image?
 [[gnu::always_inline]] inline bool same_direction(const Projected& point, const Projected& tangent, float cosine,
                                                   float sine, float min_cosine) {
@@ -55,6 +63,9 @@ double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, flo
   const float *ray_x = quads.ray_x.data(), *ray_y = quads.ray_y.data(), *inverse_depth = quads.inverse_depth.data();
   const float *left_x = quads.left_x.data(), *left_y = quads.left_y.data();
   const float *right_x = quads.right_x.data(), *right_y = quads.right_y.data();
+  const float *left_cos = quads.left_cos.data(), *left_sin = quads.left_sin.data();
+  const float *right_cos = quads.right_cos.data(), *right_sin = quads.right_sin.data();
+  const float half_length = quads.half_length;
   const LaterCameras c = cameras;  // a local copy stays in registers
   float sums[kSums] = {};
   float costs[kBlock];
@@ -65,9 +76,11 @@ double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, flo
       const Projected in_left = project_point(c.left, ray_x[i], ray_y[i], inverse_depth[i]);
       const Projected in_right = project_point(c.right, ray_x[i], ray_y[i], inverse_depth[i]);
       const float left_inverse = 1.0f / in_left.z, right_inverse = 1.0f / in_right.z;
-      const float left = squared_norm(in_left.x * left_inverse - left_x[i], in_left.y * left_inverse - left_y[i]);
+      const float left = squared_distance(in_left.x * left_inverse - left_x[i], in_left.y * left_inverse - left_y[i],
+                                          left_cos[i], left_sin[i], half_length);
       const float right =
-          squared_norm(in_right.x * right_inverse - right_x[i], in_right.y * right_inverse - right_y[i]);
+          squared_distance(in_right.x * right_inverse - right_x[i], in_right.y * right_inverse - right_y[i],
+                           right_cos[i], right_sin[i], half_length);
       const float worse = left > right ? left : right;
       const float nearer = in_left.z < in_right.z ? in_left.z : in_right.z;
       const float cost = worse < limit ? worse : limit;  // NaN counts as the limit
@@ -94,6 +107,7 @@ int mark_inliers(const ScoringArrays& quads, const LaterCameras& cameras, float 
               *left_sin = quads.left_sin.data();
   const float *right_x = quads.right_x.data(), *right_y = quads.right_y.data(), *right_cos = quads.right_cos.data(),
               *right_sin = quads.right_sin.data();
+  const float half_length = quads.half_length;
   const LaterCameras c = cameras;  // a local copy stays in registers
   int found = 0;
   int passes[kBlock];
@@ -106,8 +120,10 @@ int mark_inliers(const ScoringArrays& quads, const LaterCameras& cameras, float 
       const Projected left_tangent = project_direction(c.left, tangent_x[i], tangent_y[i], tangent_z[i]);
       const Projected right_tangent = project_direction(c.right, tangent_x[i], tangent_y[i], tangent_z[i]);
       const bool in_front = (left.z > 0.0f) & (right.z > 0.0f);
-      const bool near = (squared_norm(left.x / left.z - left_x[i], left.y / left.z - left_y[i]) < limit) &
-                        (squared_norm(right.x / right.z - right_x[i], right.y / right.z - right_y[i]) < limit);
+      const bool near = (squared_distance(left.x / left.z - left_x[i], left.y / left.z - left_y[i], left_cos[i],
+                                          left_sin[i], half_length) < limit) &
+                        (squared_distance(right.x / right.z - right_x[i], right.y / right.z - right_y[i], right_cos[i],
+                                          right_sin[i], half_length) < limit);
       const bool along = same_direction(left, left_tangent, left_cos[i], left_sin[i], min_cosine) &
                          same_direction(right, right_tangent, right_cos[i], right_sin[i], min_cosine);
       passes[k] = in_front & near & along;

@@ -7,7 +7,6 @@
 #include "common/layouts.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/pi.hpp"
-#include "reference/edge_thinning.hpp"
 
 namespace quadedge::reference {
 namespace {
@@ -176,27 +175,6 @@ double scale_drift(const Derivatives& d, const std::array<double, 2>& gradient_f
   return std::clamp(-sigma * sigma * shift / fall, -longest, longest);
 }
 
-ReferenceEdges thin(const ReferenceEdges& edges) {
-  const std::vector<std::uint8_t> kept = kept_by_thinning(to_edge_set(edges));
-  ReferenceEdges result;
-  for (std::size_t row = 0; row + 1 < edges.row_first.size(); ++row) {
-    result.row_first.push_back(static_cast<std::int32_t>(result.size()));
-    for (auto i = static_cast<std::size_t>(edges.row_first[row]);
-         i < static_cast<std::size_t>(edges.row_first[row + 1]); ++i) {
-      if (!kept[i]) continue;
-      result.x.push_back(edges.x[i]);
-      result.y.push_back(edges.y[i]);
-      result.direction.push_back(edges.direction[i]);
-      result.strength.push_back(edges.strength[i]);
-      result.scale_drift.push_back(edges.scale_drift[i]);
-      result.cell_x.push_back(edges.cell_x[i]);
-      result.cell_y.push_back(edges.cell_y[i]);
-    }
-  }
-  result.row_first.push_back(static_cast<std::int32_t>(result.size()));
-  return result;
-}
-
 }  // namespace
 
 ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double threshold) {
@@ -227,12 +205,16 @@ ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double t
       edges.direction.push_back(direction > -kPi ? direction : kPi);
       edges.strength.push_back(probe.magnitude + 0.5 * b * shift);
       edges.scale_drift.push_back(scale_drift(d, f, config.sigma));
+      edges.gradient_x.push_back(probe.gx);
+      edges.gradient_y.push_back(probe.gy);
+      edges.peak_x.push_back(x);
+      edges.peak_y.push_back(y);
       edges.cell_x.push_back(cell_x);
       edges.cell_y.push_back(cell_y);
     }
   }
   edges.row_first.push_back(static_cast<std::int32_t>(edges.size()));
-  return config.thinning ? thin(edges) : edges;
+  return edges;
 }
 
 EdgeSet to_edge_set(const ReferenceEdges& edges) {

@@ -14,12 +14,14 @@ namespace quadedge::reference {
 
 /// Edges in scan order of the doubled grid, with the grid cell that won the maximum test.
 struct ReferenceEdges {
-  std::vector<double> x, y;                  ///< pixels
-  std::vector<double> direction;             ///< radians in (-pi, pi]; the bright side lies at (-sin, cos)
-  std::vector<double> strength;              ///< peak gradient magnitude, grey levels per pixel
-  std::vector<double> scale_drift;           ///< towards the bright side per unit of log(sigma), pixels
-  std::vector<std::int32_t> cell_x, cell_y;  ///< cell (2 i, 2 j) of the doubled grid is pixel (i, j)
-  std::vector<std::int32_t> row_first;       ///< as in EdgeSet, size 2 * height + 1
+  std::vector<double> x, y;                    ///< pixels
+  std::vector<double> direction;               ///< radians in (-pi, pi]; the bright side lies at (-sin, cos)
+  std::vector<double> strength;                ///< peak gradient magnitude, grey levels per pixel
+  std::vector<double> scale_drift;             ///< towards the bright side per unit of log(sigma), pixels
+  std::vector<double> gradient_x, gradient_y;  ///< unit gradient at the cell that won
+  std::vector<double> peak_x, peak_y;          ///< the parabola's peak, before the Newton step, pixels
+  std::vector<std::int32_t> cell_x, cell_y;    ///< cell (2 i, 2 j) of the doubled grid is pixel (i, j)
+  std::vector<std::int32_t> row_first;         ///< as in EdgeSet, size 2 * height + 1
 
   std::size_t size() const { return x.size(); }
 };

@@ -20,19 +20,19 @@ EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, co
   build(variants);
   const auto cells = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto capacity = static_cast<std::size_t>(config.max_edges);
-  winners_.ensure(context, 4 * cells);
-  counts_.ensure(context, 2 * static_cast<std::size_t>(height));
+  maxima_.in_cells = !strips_;
+  maxima_.winners.ensure(context, 4 * cells);
+  maxima_.counts.ensure(context, 2 * static_cast<std::size_t>(height));
   if (strips_) {
     line_ = kStripLineFront + round_up(width + 2 * kernel_radius(config.sigma) + 2 + 32, 16);
     const int strips = (2 * height + kStripRows - 1) / kStripRows;
     scratch_.ensure(context,
                     static_cast<std::size_t>(strips) * kStripLines * static_cast<std::size_t>(line_) + kStripLineFront);
   } else {
-    flags_.ensure(context, cells);
+    maxima_.flags.ensure(context, cells);
     compact_.ensure(context, 4 * capacity);
     rows_.ensure(context, capacity);
   }
-  if (config.thinning) thinning_.emplace(context, height, config.max_edges, variants);
 }
 
 void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
@@ -64,25 +64,32 @@ DetectionArguments EdgeDetection::arguments(const PaddedPlane& plane) const {
 }
 
 void EdgeDetection::run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges) {
-  if (!thinning_) return detect(plane, threshold, edges);
-  detect(plane, threshold, all_);
-  thinning_->run(all_, edges);
+  find_maxima(plane, threshold);
+  take_directions(plane, edges);
 }
 
-void EdgeDetection::detect(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges) {
+void EdgeDetection::find_maxima(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold) {
+  context_.begin_stage("edge_detection");
+  if (strips_) {
+    find_maxima_in_strips(plane, threshold);
+  } else {
+    find_maxima_in_tiles(plane, threshold);
+  }
+}
+
+void EdgeDetection::take_directions(const PaddedPlane& plane, DeviceEdges& edges) {
   context_.begin_stage("edge_detection");
   edges.reserve(context_, config_.max_edges);
   const DetectionArguments arguments = this->arguments(plane);
   const auto rows = static_cast<std::size_t>(2 * height_);
+  if (!strips_) tile_count_({rows * local_size_, local_size_}, maxima_.flags, 2 * width_, maxima_.counts);
+  scan_.run(maxima_.counts, 2 * height_, config_.max_edges, edges.row_first, edges.count);
   if (strips_) {
-    find_maxima_in_strips(plane, threshold);
-    scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
-    strip_directions_({rows, local_size_}, arguments, plane.pixels(), winners_, counts_, edges.row_first, edges.packed);
+    strip_directions_({rows, local_size_}, arguments, plane.pixels(), maxima_.winners, maxima_.counts, edges.row_first,
+                      edges.packed);
   } else {
-    find_maxima_in_tiles(plane, threshold);
-    scan_.run(counts_, 2 * height_, config_.max_edges, edges.row_first, edges.count);
-    tile_compact_({rows * local_size_, local_size_}, flags_, 2 * width_, winners_, edges.row_first, config_.max_edges,
-                  compact_, rows_);
+    tile_compact_({rows * local_size_, local_size_}, maxima_.flags, 2 * width_, maxima_.winners, edges.row_first,
+                  config_.max_edges, compact_, rows_);
     tile_directions_({8 * static_cast<std::size_t>(config_.max_edges), local_size_}, arguments, plane.pixels(),
                      compact_, rows_, edges.count, edges.packed);
   }
@@ -91,14 +98,13 @@ void EdgeDetection::detect(const PaddedPlane& plane, const opencl::Buffer<cl_flo
 void EdgeDetection::find_maxima_in_strips(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold) {
   const auto strips = static_cast<std::size_t>((2 * height_ + kStripRows - 1) / kStripRows);
   strip_maxima_({strips, local_size_}, arguments(plane), threshold, kStripRows, plane.pixels(), plane.taps(), scratch_,
-                line_, winners_, counts_);
+                line_, maxima_.winners, maxima_.counts);
 }
 
 void EdgeDetection::find_maxima_in_tiles(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold) {
   const auto tiles = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
   tile_maxima_({tiles * local_size_, local_size_}, arguments(plane), threshold, tiles_x_, plane.pixels(), plane.taps(),
-               winners_, flags_);
-  tile_count_({2 * static_cast<std::size_t>(height_) * local_size_, local_size_}, flags_, 2 * width_, counts_);
+               maxima_.winners, maxima_.flags);
 }
 
 }  // namespace quadedge::stages

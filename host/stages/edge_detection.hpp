@@ -2,13 +2,12 @@
 /// \file edge_detection.hpp  Stage 2b: third-order edges of one image on the device. doc/method.md section 1.
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
 #include "stages/device_edges.hpp"
-#include "stages/edge_thinning.hpp"
+#include "stages/edge_maxima.hpp"
 #include "stages/padded_plane.hpp"
 #include "stages/scan.hpp"
 
@@ -28,9 +27,15 @@ class EdgeDetection {
   /// `edges.count`. Call edges.read_count() before the number is needed on the host.
   void run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges);
 
+  /// The first half of run(): the maxima of the gradient.
+  void find_maxima(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
+  /// What the first half found; a selection may take maxima away before the second.
+  EdgeMaxima& maxima() { return maxima_; }
+  /// The second half: direction and position of the maxima.
+  void take_directions(const PaddedPlane& plane, DeviceEdges& edges);
+
  private:
   void build(const std::map<std::string, std::string>& variants);
-  void detect(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges);
   void find_maxima_in_strips(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
   void find_maxima_in_tiles(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
   DetectionArguments arguments(const PaddedPlane& plane) const;
@@ -59,13 +64,9 @@ class EdgeDetection {
   Scan scan_;
 
   opencl::Buffer<cl_float> scratch_;  ///< strips: lines of column sums and gradients
-  opencl::Buffer<cl_float> winners_;  ///< 4 floats per cell of the doubled grid
-  opencl::Buffer<cl_int> counts_;     ///< winners per row of the doubled grid
-  opencl::Buffer<cl_uchar> flags_;    ///< tiles: cells that won
+  EdgeMaxima maxima_;
   opencl::Buffer<cl_float> compact_;  ///< tiles: winners in scan order
   opencl::Buffer<cl_int> rows_;       ///< tiles: their rows
-  std::optional<EdgeThinning> thinning_;
-  DeviceEdges all_;  ///< the edges before thinning
 };
 
 }  // namespace quadedge::stages

@@ -1,0 +1,114 @@
+#include "reference/edge_selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadedge::reference {
+namespace {
+
+// Single precision on purpose: the device decides alike.
+constexpr float kHalfAnOctave = 0.70710678F;
+
+/// See kernels/edge_selection.cl.
+struct Crossing {
+  float row = 0, step = 0, sine = 0;
+};
+
+Crossing crossing(const SelectionArguments& arguments, const GradientMaxima& maxima, std::size_t i) {
+  const float x = maxima.x[i], y = maxima.y[i], gx = maxima.gradient_x[i], gy = maxima.gradient_y[i];
+  const bool steep = std::abs(gx) >= std::abs(gy);
+  const float ratio = steep ? gy / gx : gx / gy;
+  const float tangent_x = steep ? -ratio : 1.0F, tangent_y = steep ? 1.0F : -ratio;
+  const EpipolarRows& rows = arguments.rows;
+  const float depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;
+  Crossing result;
+  result.row = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;
+  const float by_x = (rows.across_x - result.row * rows.forward_x) / depth,
+              by_y = (rows.across_y - result.row * rows.forward_y) / depth;
+  const float rise = std::abs(tangent_x * by_x + tangent_y * by_y);
+  result.step = 0.5F * rise;
+  result.sine = rise / std::sqrt((1.0F + ratio * ratio) * (by_x * by_x + by_y * by_y));
+  return result;
+}
+
+float density_of(float sine) {
+  float density = 1.0F;
+  while (sine < kHalfAnOctave * density && density > 0.01F) density *= 0.5F;
+  return density;
+}
+
+bool meets(const Crossing& at, float spacing, float width) {
+  const float distance = at.row - spacing * std::rint(at.row / spacing), reach = 0.5F * width * at.step;
+  return distance >= -reach && distance < reach;
+}
+
+double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& maxima) {
+  double sum = 0;
+  for (std::size_t i = 0; i < maxima.x.size(); ++i) {
+    const Crossing at = crossing(arguments, maxima, i);
+    if (at.sine >= arguments.min_sine)
+      sum += static_cast<double>(std::rint(static_cast<float>(kSelectionUnit) * at.step / density_of(at.sine)));
+  }
+  return sum;
+}
+
+}  // namespace
+
+GradientMaxima maxima_of(const ReferenceEdges& edges) {
+  const auto to_float = [](const std::vector<double>& values) {
+    return std::vector<float>(values.begin(), values.end());
+  };
+  return {to_float(edges.peak_x), to_float(edges.peak_y), to_float(edges.gradient_x), to_float(edges.gradient_y)};
+}
+
+float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
+                        const SelectionArguments& right_arguments, const GradientMaxima& right, int budget) {
+  const double most = std::max(weight_of_all(left_arguments, left), weight_of_all(right_arguments, right));
+  const float wanted = static_cast<float>(most) / (static_cast<float>(kSelectionUnit) * static_cast<float>(budget));
+  return wanted > kClosestSelection ? wanted : 0.0F;
+}
+
+std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments, const GradientMaxima& maxima,
+                                            float spacing) {
+  std::vector<std::uint8_t> kept(maxima.x.size(), 1);
+  if (spacing == 0.0F) return kept;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const Crossing at = crossing(arguments, maxima, i);
+    const bool searched = arguments.slack > 1.0F;
+    bool chosen = meets(at, spacing * density_of(at.sine), searched ? kSearchedWidth : 1.0F);
+    if (searched) {
+      for (const float sine : {std::min(at.sine * arguments.slack, 1.0F), at.sine / arguments.slack})
+        chosen = chosen || meets(at, spacing * density_of(sine), kSearchedWidth);
+    }
+    kept[i] = at.sine >= arguments.min_sine && chosen ? 1 : 0;
+  }
+  return kept;
+}
+
+ReferenceEdges select_edges(const ReferenceEdges& edges, const std::vector<std::uint8_t>& kept) {
+  ReferenceEdges result;
+  const auto filter = [&](const auto& values, auto& chosen) {
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i] != 0) chosen.push_back(values[i]);
+  };
+  filter(edges.x, result.x);
+  filter(edges.y, result.y);
+  filter(edges.direction, result.direction);
+  filter(edges.strength, result.strength);
+  filter(edges.scale_drift, result.scale_drift);
+  filter(edges.gradient_x, result.gradient_x);
+  filter(edges.gradient_y, result.gradient_y);
+  filter(edges.peak_x, result.peak_x);
+  filter(edges.peak_y, result.peak_y);
+  filter(edges.cell_x, result.cell_x);
+  filter(edges.cell_y, result.cell_y);
+  std::int32_t count = 0;
+  std::size_t i = 0;
+  for (const auto first : edges.row_first) {
+    for (; i < static_cast<std::size_t>(first); ++i) count += kept[i];
+    result.row_first.push_back(count);
+  }
+  return result;
+}
+
+}  // namespace quadedge::reference

@@ -1,0 +1,51 @@
+#include "stages/edge_selection.hpp"
+
+#include "stages/padded_plane.hpp"
+
+namespace quadedge::stages {
+
+EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
+                             const SelectionArguments& right)
+    : context_(context), budget_(config.budget), local_size_(context.is_cpu() ? 1 : 64), left_(left), right_(right) {
+  spacing_.write(context, {0.0F});
+  if (budget_ == 0) return;
+  tally_.write(context, {0, 0});
+  const cl::Program program = context.program({"edge_detection.cl", "edge_selection.cl"}, gradient_defines(config));
+  weigh_rows_ = {context, program, "edge_selection_weigh_rows"};
+  weigh_cells_ = {context, program, "edge_selection_weigh_cells"};
+  space_ = {context, program, "edge_selection_spacing"};
+  choose_rows_ = {context, program, "edge_selection_rows"};
+  choose_cells_ = {context, program, "edge_selection_cells"};
+}
+
+void EdgeSelection::weigh(const SelectionArguments& arguments, const EdgeMaxima& maxima, cl_int image) {
+  const auto rows = 2 * static_cast<std::size_t>(arguments.height),
+             columns = 2 * static_cast<std::size_t>(arguments.width);
+  if (maxima.in_cells) {
+    weigh_cells_({rows * columns, local_size_}, arguments, maxima.winners, maxima.flags, image, tally_);
+  } else {
+    weigh_rows_({rows, local_size_}, arguments, maxima.winners, maxima.counts, image, tally_);
+  }
+}
+
+void EdgeSelection::choose(const SelectionArguments& arguments, EdgeMaxima& maxima) {
+  const auto rows = 2 * static_cast<std::size_t>(arguments.height),
+             columns = 2 * static_cast<std::size_t>(arguments.width);
+  if (maxima.in_cells) {
+    choose_cells_({rows * columns, local_size_}, arguments, spacing_, maxima.winners, maxima.flags);
+  } else {
+    choose_rows_({rows, local_size_}, arguments, spacing_, maxima.winners, maxima.counts);
+  }
+}
+
+void EdgeSelection::run(EdgeMaxima& left, EdgeMaxima& right) {
+  if (budget_ == 0) return;
+  context_.begin_stage("edge_selection");
+  weigh(left_, left, 0);
+  weigh(right_, right, 1);
+  space_({1, 1}, budget_, tally_, spacing_);
+  choose(left_, left);
+  choose(right_, right);
+}
+
+}  // namespace quadedge::stages

@@ -1,0 +1,49 @@
+#pragma once
+/// \file edge_selection.hpp  Stage 2c: which maxima become edges. doc/method.md section 1.
+
+#include "opencl/argument_structs.hpp"
+#include "quadedge/config.hpp"
+#include "stages/edge_maxima.hpp"
+
+namespace quadedge::stages {
+
+/// Thins out the maxima of a stereo pair to about edges.budget per image, where curves cross evenly spaced epipolar
+/// lines. Nothing waits: the spacing stays on the device.
+class EdgeSelection {
+ public:
+  /// \param left, right see selection_arguments()
+  EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
+                const SelectionArguments& right);
+
+  /// Enqueues the selection in both images. With edges.budget = 0 nothing happens.
+  void run(EdgeMaxima& left, EdgeMaxima& right);
+
+  /// Copies the spacing to host_spacing(); it is there after the next read() of any buffer.
+  void request() { spacing_.read_later(&host_spacing_, 1); }
+  /// Distance of the lines between which edges were left out in the frame that run() was called for last [px]; 0: none.
+  double host_spacing() const { return static_cast<double>(host_spacing_); }
+
+ private:
+  void weigh(const SelectionArguments& arguments, const EdgeMaxima& maxima, cl_int image);
+  void choose(const SelectionArguments& arguments, EdgeMaxima& maxima);
+
+  using In = opencl::In<cl_float>;
+  using InInt = opencl::In<cl_int>;
+  using OutInt = opencl::Out<cl_int>;
+  using Out = opencl::Out<cl_float>;
+
+  opencl::Context& context_;
+  cl_int budget_;
+  std::size_t local_size_;
+  SelectionArguments left_, right_;
+  opencl::Buffer<cl_int> tally_;  ///< weights of the left and the right image
+  opencl::Buffer<cl_float> spacing_;
+  cl_float host_spacing_ = 0;
+  opencl::Kernel<SelectionArguments, In, InInt, cl_int, OutInt> weigh_rows_;
+  opencl::Kernel<SelectionArguments, In, opencl::In<cl_uchar>, cl_int, OutInt> weigh_cells_;
+  opencl::Kernel<cl_int, OutInt, Out> space_;
+  opencl::Kernel<SelectionArguments, In, Out, OutInt> choose_rows_;
+  opencl::Kernel<SelectionArguments, In, In, opencl::Out<cl_uchar>> choose_cells_;
+};
+
+}  // namespace quadedge::stages
