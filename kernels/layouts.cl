@@ -149,7 +149,10 @@ typedef struct {
   float forward_x, forward_y, forward_1;
 } EpipolarRows;
 
-enum { kSelectionUnit = 256 };            // of the weights that edge_selection.cl adds up
+enum {
+  kSelectionUnit = 256,  // of the weights that edge_selection.cl adds up
+  kSelectionSample = 4   // every so many pairs of rows of the doubled grid are weighed
+};
 FLOAT_CONSTANT kSearchedWidth = 1.5f;     // of the maxima around a line that the searched image keeps, in steps
 FLOAT_CONSTANT kClosestSelection = 0.5f;  // px; maxima of a curve are not closer
 

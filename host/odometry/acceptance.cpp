@@ -12,6 +12,15 @@ namespace {
 /// to come.
 constexpr double kExplainedDistance = 1.0 / 3.0;
 
+/// Support that a wrong motion may find by chance, in fine texture.
+constexpr double kChanceSupport = 0.2;
+
+/// Of the support that motions have had lately: a motion with as much is as good as they.
+constexpr double kUsualSupport = 0.6;
+
+/// What is left per frame of the support that was reached.
+constexpr double kForgetting = 0.95;
+
 }  // namespace
 
 void Acceptance::test_support(const EdgePositions& predicted, MotionStep& step) const {
@@ -49,9 +58,17 @@ void Acceptance::measure_area(const EdgePositions& predicted, MotionStep& step) 
   step.explained_area = held > 0 ? sum / held : 0;
 }
 
+double Acceptance::confident_support() const {
+  return std::min(config_.temporal.confident_support, std::max(kChanceSupport, kUsualSupport * reached_support_));
+}
+
+void Acceptance::remember(const MotionStep& found) {
+  reached_support_ = found.ok() ? std::max(found.support, kForgetting * reached_support_) : kUnknownSupport;
+}
+
 bool Acceptance::is_confident(const MotionStep& step) const {
   const bool can_ask_further = config_.temporal.wide_edges > 0;
-  return step.ok() && (!can_ask_further || step.support >= config_.temporal.confident_support);
+  return step.ok() && (!can_ask_further || step.support >= confident_support());
 }
 
 bool Acceptance::is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step) {

@@ -31,20 +31,28 @@ class Acceptance {
   /// Whether a motion near the prediction is believed without asking further.
   bool is_confident(const MotionStep& step) const;
 
+  /// Takes note of the support of the motion that was found in the end; after a failure nothing is known.
+  void remember(const MotionStep& found);
+
   /// Whether edges found anywhere agree with a motion: in as many cells of the image as an estimate needs inliers. A
   /// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,
   /// count once.
   bool is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step);
 
  private:
+  /// temporal.confident_support, or less where the scene's edges do not let any motion reach as much.
+  double confident_support() const;
+
   struct Cell {
     double edges = 0, explained = 0;
   };
 
   Config config_;
   const DisparityOffset& offset_;
-  std::vector<Cell> cells_;           ///< kept for their memory, as are these
-  std::vector<std::uint8_t> agrees_;  ///< one per quad
+  static constexpr double kUnknownSupport = 1;
+  double reached_support_ = kUnknownSupport;  ///< lately
+  std::vector<Cell> cells_;                   ///< kept for their memory, as are these
+  std::vector<std::uint8_t> agrees_;          ///< one per quad
 };
 
 }  // namespace quadedge::odometry

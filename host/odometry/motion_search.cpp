@@ -23,6 +23,12 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, c
 }
 
 StepHandle MotionSearch::find(const MotionQuery& query) {
+  StepHandle found = search(query);
+  acceptance_.remember(*found);
+  return found;
+}
+
+StepHandle MotionSearch::search(const MotionQuery& query) {
   Evidence evidence;
   std::vector<Trial> trials;
   for (const auto& hypothesis : hypotheses_) {

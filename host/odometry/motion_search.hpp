@@ -26,6 +26,8 @@ class MotionSearch {
   StepHandle find(const MotionQuery& query);
 
  private:
+  StepHandle search(const MotionQuery& query);
+
   /// A hypothesis, what it proposed and what the confirmation made of it.
   struct Trial {
     const MotionHypothesis* hypothesis = nullptr;

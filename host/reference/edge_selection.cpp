@@ -33,7 +33,7 @@ Crossing crossing(const SelectionArguments& arguments, const GradientMaxima& max
 
 float density_of(float sine) {
   float density = 1.0F;
-  while (sine < kHalfAnOctave * density && density > 0.01F) density *= 0.5F;
+  while (sine < kHalfAnOctave * density && density > 0.0625F) density *= 0.5F;
   return density;
 }
 
@@ -42,12 +42,15 @@ bool meets(const Crossing& at, float spacing, float width) {
   return distance >= -reach && distance < reach;
 }
 
+/// Of a part of the rows, in place of all.
 double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& maxima) {
   double sum = 0;
   for (std::size_t i = 0; i < maxima.x.size(); ++i) {
+    if (maxima.cell_y[i] / 2 % kSelectionSample != 0) continue;
     const Crossing at = crossing(arguments, maxima, i);
     if (at.sine >= arguments.min_sine)
-      sum += static_cast<double>(std::rint(static_cast<float>(kSelectionUnit) * at.step / density_of(at.sine)));
+      sum += kSelectionSample *
+             static_cast<double>(std::rint(static_cast<float>(kSelectionUnit) * at.step / density_of(at.sine)));
   }
   return sum;
 }
@@ -58,7 +61,8 @@ GradientMaxima maxima_of(const ReferenceEdges& edges) {
   const auto to_float = [](const std::vector<double>& values) {
     return std::vector<float>(values.begin(), values.end());
   };
-  return {to_float(edges.peak_x), to_float(edges.peak_y), to_float(edges.gradient_x), to_float(edges.gradient_y)};
+  return {to_float(edges.peak_x), to_float(edges.peak_y), to_float(edges.gradient_x), to_float(edges.gradient_y),
+          edges.cell_y};
 }
 
 float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
@@ -77,7 +81,7 @@ std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments,
     const bool searched = arguments.slack > 1.0F;
     bool chosen = meets(at, spacing * density_of(at.sine), searched ? kSearchedWidth : 1.0F);
     if (searched) {
-      for (const float sine : {std::min(at.sine * arguments.slack, 1.0F), at.sine / arguments.slack})
+      for (const float sine : {at.sine * arguments.slack, at.sine / arguments.slack})
         chosen = chosen || meets(at, spacing * density_of(sine), kSearchedWidth);
     }
     kept[i] = at.sine >= arguments.min_sine && chosen ? 1 : 0;

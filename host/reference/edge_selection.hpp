@@ -9,9 +9,11 @@
 
 namespace quadedge::reference {
 
-/// Maxima of the gradient of one image: positions [px] and gradients of any length.
+/// Maxima of the gradient of one image.
 struct GradientMaxima {
-  std::vector<float> x, y, gradient_x, gradient_y;
+  std::vector<float> x, y;                    ///< px
+  std::vector<float> gradient_x, gradient_y;  ///< of any length
+  std::vector<std::int32_t> cell_y;           ///< row of the doubled grid
 };
 GradientMaxima maxima_of(const ReferenceEdges& edges);
 

@@ -24,7 +24,8 @@ void EdgeSelection::weigh(const SelectionArguments& arguments, const EdgeMaxima&
   if (maxima.in_cells) {
     weigh_cells_({rows * columns, local_size_}, arguments, maxima.winners, maxima.flags, image, tally_);
   } else {
-    weigh_rows_({rows, local_size_}, arguments, maxima.winners, maxima.counts, image, tally_);
+    weigh_rows_({(rows / 2 + kSelectionSample - 1) / kSelectionSample, local_size_}, arguments, maxima.winners,
+                maxima.counts, image, tally_);
   }
 }
 
