@@ -37,8 +37,8 @@ class Options {
   virtual void environment(const std::string& variable) = 0;
   /// Heading of the following options in the help; `only_in_full_help`: shown by --help-all alone.
   virtual void group(const std::string& heading, bool only_in_full_help = false) = 0;
-  /// `--config FILE.toml`: values for the options that neither command line nor environment gives. A key is the name of
-  /// an option without dashes.
+  /// `--preset NAME` and `--config FILE.toml`: values for the options that neither command line nor environment gives;
+  /// the file wins over the preset. A key is the name of an option without dashes.
   virtual void config_file() = 0;
 };
 

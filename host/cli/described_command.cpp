@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "data/presets.hpp"
+
 namespace quadedge::cli {
 namespace {
 
@@ -71,7 +73,11 @@ class Recorder : public Options {
   }
   void environment(const std::string& variable) override { list_.back().environment = variable; }
   void group(const std::string& heading, bool) override { heading_ = heading; }
-  void config_file() override { add("--config", "FILE", "options from a TOML file, same names as here", ""); }
+  void config_file() override {
+    add("--preset", "WORD", "fast, default or accurate: so many edges take part", "default");
+    list_.back().choices = data::preset_names();
+    add("--config", "FILE", "options from a TOML file, same names as here", "");
+  }
 
  private:
   void add(const std::string& names, const std::string& placeholder, const std::string& help,

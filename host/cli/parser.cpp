@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/nearest_word.hpp"
+#include "data/presets.hpp"
 #include "quadedge/error.hpp"
 #include "report/config_toml.hpp"
 
@@ -98,6 +99,10 @@ class ParserOptions : public Options {
     has_full_help_ = has_full_help_ || only_in_full_help;
   }
   void config_file() override {
+    app_.add_option("--preset", preset_, "how many edges take part: all of them with accurate, half as many with fast")
+        ->check(CLI::IsMember(data::preset_names()).description(""))
+        ->type_name(joined(data::preset_names()) + "=default")
+        ->group(group_);
     last_ =
         app_.add_option("--config", config_file_, "options from a TOML file, same names as here; the command line wins")
             ->group(group_)
@@ -108,9 +113,14 @@ class ParserOptions : public Options {
 
   /// Sets the options that the configuration file names and nobody has set yet; checks the others.
   void apply_config_file() const {
-    if (config_file_.empty()) return;
+    if (!preset_.empty()) apply(data::read_preset(preset_));
+    if (!config_file_.empty()) apply(data::read_toml(config_file_));
+  }
+
+ private:
+  void apply(const std::vector<data::TomlEntry>& entries) const {
     std::map<const CLI::Option*, std::string> seen;
-    for (const auto& entry : data::read_toml(config_file_)) {
+    for (const auto& entry : entries) {
       const auto setting = from_file_.find(entry.key);
       if (setting == from_file_.end()) data::refuse_key(entry, keys());
       const CLI::Option* option = setting->second.option;
@@ -120,7 +130,6 @@ class ParserOptions : public Options {
     }
   }
 
- private:
   /// Sets an option to an entry's value; `keep`: only checks it, for command line or environment have set it.
   using SetFromFile = std::function<void(const data::TomlEntry& entry, bool keep)>;
   struct FileSetting {
@@ -172,7 +181,7 @@ class ParserOptions : public Options {
   bool short_help_;
   bool has_full_help_ = false;
   std::string group_ = "Options";
-  std::string config_file_;
+  std::string preset_, config_file_;
   CLI::Option* last_ = nullptr;
   std::map<std::string, FileSetting> from_file_;
 };

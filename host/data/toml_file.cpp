@@ -92,10 +92,12 @@ std::int64_t whole(const TomlEntry& entry, std::int64_t low, std::int64_t high) 
 
 }  // namespace
 
-std::vector<TomlEntry> read_toml(const std::string& file) {
+std::vector<TomlEntry> read_toml(const std::string& file) { return read_toml_text(bounded_text(file), file); }
+
+std::vector<TomlEntry> read_toml_text(const std::string& text, const std::string& file) {
   toml::table table;
   try {
-    table = toml::parse(bounded_text(file));
+    table = toml::parse(text);
   } catch (const toml::parse_error& error) {
     throw UsageError(at_line(file, error.source().begin.line) + "no TOML: " + std::string(error.description()));
   }

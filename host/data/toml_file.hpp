@@ -22,6 +22,8 @@ struct TomlEntry {
 /// All keys of a file in the order of its lines. \throws UsageError for a file that cannot be read, is longer than
 /// 1 MB, is no TOML, or gives a key twice.
 std::vector<TomlEntry> read_toml(const std::string& file);
+/// The same of a text; complaints call it `name`.
+std::vector<TomlEntry> read_toml_text(const std::string& text, const std::string& name);
 
 /// \throws UsageError "FILE:LINE: KEY: expected EXPECTED, found ...".
 [[noreturn]] void refuse(const TomlEntry& entry, const std::string& expected);

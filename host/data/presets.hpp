@@ -1,0 +1,24 @@
+#pragma once
+/// \file presets.hpp  Named sets of constants: the files of config/ that the program carries with it.
+
+#include <string>
+#include <vector>
+
+#include "data/toml_file.hpp"
+
+namespace quadedge::data {
+
+struct Preset {
+  std::string name;
+  std::string text;  ///< TOML
+};
+
+/// From fast to accurate.
+const std::vector<Preset>& presets();
+
+std::vector<std::string> preset_names();
+
+/// The keys of a preset; complaints name it as "preset NAME". \throws UsageError for an unknown name.
+std::vector<TomlEntry> read_preset(const std::string& name);
+
+}  // namespace quadedge::data

@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/epipolar_rows.hpp"
+#include "devices.hpp"
+#include "edge_images.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/pi.hpp"
+#include "reference/edge_selection.hpp"
+#include "stages/edge_detection.hpp"
+#include "stages/edge_selection.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+StereoRig rectified_rig(int width, int height) {
+  StereoRig rig;
+  rig.left = rig.right = {0.9 * width, 0.9 * width, 0.5 * width, 0.5 * height, width, height};
+  rig.right_from_left = Eigen::Translation3d(-0.1, 0, 0) * Eigen::Isometry3d::Identity();
+  return rig;
+}
+
+/// Converging, rolled, of other focal length.
+StereoRig general_rig(int width, int height) {
+  StereoRig rig = rectified_rig(width, height);
+  rig.right.fx = rig.right.fy = 0.8 * width;
+  rig.right_from_left =
+      Eigen::Translation3d(-0.1, 0.02, 0.01) *
+      (Eigen::AngleAxisd(0.05, Eigen::Vector3d(0.3, 0.8, 0.5).normalized()) * Eigen::Isometry3d::Identity());
+  return rig;
+}
+
+/// Maxima as the device holds them, row by row, with their gradients unpacked.
+struct DeviceMaxima {
+  std::vector<std::vector<cl_float>> rows;  ///< 4 floats per maximum
+  reference::GradientMaxima maxima;
+};
+
+DeviceMaxima read(const stages::EdgeMaxima& maxima, int width, int height) {
+  DeviceMaxima result;
+  const auto columns = 2 * static_cast<std::size_t>(width);
+  const auto winners = maxima.winners.read(8 * columns * static_cast<std::size_t>(height));
+  std::vector<cl_int> counts;
+  std::vector<cl_uchar> flags;
+  if (maxima.in_cells) {
+    flags = maxima.flags.read(2 * columns * static_cast<std::size_t>(height));
+  } else {
+    counts = maxima.counts.read(2 * static_cast<std::size_t>(height));
+  }
+  for (std::size_t row = 0; row < 2 * static_cast<std::size_t>(height); ++row) {
+    result.rows.emplace_back();
+    const std::size_t most = maxima.in_cells ? columns : static_cast<std::size_t>(counts[row]);
+    for (std::size_t k = 0; k < most; ++k) {
+      if (maxima.in_cells && flags[row * columns + k] == 0) continue;
+      const cl_float* winner = winners.data() + 4 * (row * columns + k);
+      result.rows.back().insert(result.rows.back().end(), winner, winner + 4);
+      const float code = (winner[3] - std::floor(winner[3])) * 1024.0F;
+      const bool steep = code >= 512.0F;
+      const float ratio = (steep ? code - 512.0F : code) / 255.5F - 1.0F;
+      result.maxima.x.push_back(winner[0]);
+      result.maxima.y.push_back(winner[1]);
+      result.maxima.gradient_x.push_back(steep ? 1.0F : ratio);
+      result.maxima.gradient_y.push_back(steep ? ratio : 1.0F);
+      result.maxima.cell_y.push_back(static_cast<std::int32_t>(row));
+    }
+  }
+  return result;
+}
+
+std::vector<std::vector<cl_float>> kept_rows(const DeviceMaxima& all, const std::vector<std::uint8_t>& kept) {
+  std::vector<std::vector<cl_float>> rows(all.rows.size());
+  std::size_t i = 0;
+  for (std::size_t row = 0; row < all.rows.size(); ++row) {
+    for (std::size_t k = 0; k < all.rows[row].size(); k += 4, ++i) {
+      if (kept[i] == 0) continue;
+      rows[row].insert(rows[row].end(), all.rows[row].begin() + static_cast<std::ptrdiff_t>(k),
+                       all.rows[row].begin() + static_cast<std::ptrdiff_t>(k + 4));
+    }
+  }
+  return rows;
+}
+
+std::size_t count(const std::vector<std::uint8_t>& kept) {
+  return static_cast<std::size_t>(std::count(kept.begin(), kept.end(), 1));
+}
+
+/// A curve of maxima half a pixel apart in their longer coordinate, at `angle` to the x axis.
+reference::GradientMaxima straight_curve(double angle, double x, double y, double length) {
+  reference::GradientMaxima maxima;
+  const double step = 0.5 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+  for (double s = 0; s < length; s += step) {
+    maxima.x.push_back(static_cast<float>(x + s * std::cos(angle)));
+    maxima.y.push_back(static_cast<float>(y + s * std::sin(angle)));
+    maxima.gradient_x.push_back(static_cast<float>(-std::sin(angle)));
+    maxima.gradient_y.push_back(static_cast<float>(std::cos(angle)));
+    maxima.cell_y.push_back(static_cast<std::int32_t>(std::lround(2 * maxima.y.back())));
+  }
+  return maxima;
+}
+
+}  // namespace
+
+TEST_CASE("edge selection: devices keep exactly the maxima that the reference rule keeps",
+          "[edges][device][oclgrind]") {
+  const int width = 61, height = 47;
+  EdgesConfig config;
+  config.margin = 2;
+  config.budget = 150;
+  for (const auto& rig : {rectified_rig(width, height), general_rig(width, height)}) {
+    const SelectionArguments left = selection_arguments(rig, Side::left, {}),
+                             right = selection_arguments(rig, Side::right, {});
+    for (const auto& index : all_devices()) {
+      Device device(index);
+      opencl::Context& context = *device.context();
+      for (const auto& variant : opencl::all_variants()) {
+        if (variant.stage != "edge_detection") continue;
+        INFO(device.info().name << ", " << variant.name);
+        stages::EdgeDetection in_left(context, width, height, config, {{"edge_detection", variant.name}});
+        stages::EdgeDetection in_right(context, width, height, config, {{"edge_detection", variant.name}});
+        stages::PaddedPlane plane(context, width, height, config.sigma);
+        opencl::Buffer<cl_float> threshold;
+        threshold.write(context, {2.0F});
+        const auto find = [&](stages::EdgeDetection& detection, std::uint64_t seed) {
+          opencl::Buffer<cl_uchar> pixels;
+          pixels.write(context, textured_image(width, height, seed).pixels);
+          plane.prepare(pixels);
+          detection.find_maxima(plane, threshold);
+          return read(detection.maxima(), width, height);
+        };
+        const std::vector<DeviceMaxima> all = {find(in_left, 1), find(in_right, 2)};
+        const float spacing = reference::selection_spacing(left, all[0].maxima, right, all[1].maxima, config.budget);
+        REQUIRE(spacing > 0.6F);
+        const auto kept_left = reference::kept_by_selection(left, all[0].maxima, spacing),
+                   kept_right = reference::kept_by_selection(right, all[1].maxima, spacing);
+        REQUIRE(count(kept_left) < all[0].maxima.x.size() / 2);
+
+        stages::EdgeSelection selection(context, config, left, right);
+        selection.run(in_left.maxima(), in_right.maxima());
+        selection.request();
+        CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
+        CHECK(read(in_right.maxima(), width, height).rows == kept_rows(all[1], kept_right));
+        CHECK(selection.host_spacing() == static_cast<double>(spacing));
+        // Every frame is weighed anew.
+        find(in_left, 1);
+        find(in_right, 2);
+        selection.run(in_left.maxima(), in_right.maxima());
+        selection.request();
+        CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
+        CHECK(selection.host_spacing() == static_cast<double>(spacing));
+      }
+    }
+  }
+}
+
+TEST_CASE("edge selection: a straight curve keeps one maximum per line, evenly spaced at every angle", "[edges]") {
+  SelectionArguments arguments = selection_arguments(rectified_rig(400, 400), Side::left, {});
+  const float spacing = 3;
+  for (double degrees = 6; degrees < 174; degrees += 3.7) {
+    const double angle = degrees * kDegree, length = 240;
+    INFO(degrees << " degrees");
+    const auto curve = straight_curve(angle, degrees < 90 ? 30.13 : 350.13, 20.71, length);
+    const auto kept = reference::kept_by_selection(arguments, curve, spacing);
+    std::vector<double> at;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (kept[i] != 0) at.push_back(std::hypot(curve.x[i] - curve.x[0], curve.y[i] - curve.y[0]));
+    REQUIRE(at.size() > 2);
+    // Between 0.7 and 1.4 spacings apart, to the grid's half pixel on either side.
+    for (std::size_t k = 1; k < at.size(); ++k) {
+      CHECK(at[k] - at[k - 1] > 0.7 * 3 - 0.75);
+      CHECK(at[k] - at[k - 1] < 1.42 * 3 + 0.75);
+    }
+  }
+  // Along the epipolar lines nothing can be matched, so nothing is kept.
+  CHECK(count(reference::kept_by_selection(arguments, straight_curve(2 * kDegree, 30, 200, 240), spacing)) == 0);
+}
+
+TEST_CASE("edge selection: the counterpart of a kept edge is kept too", "[edges]") {
+  const StereoRig rig = general_rig(400, 300);
+  const SelectionArguments left = selection_arguments(rig, Side::left, {}),
+                           right = selection_arguments(rig, Side::right, {});
+  int chosen = 0, with_counterpart = 0;
+  // Curves on slanted planes, so that their direction differs between the images.
+  for (double degrees = 20; degrees < 160; degrees += 7) {
+    const auto project = [&](double s, bool in_right) -> Eigen::Vector2d {
+      const Eigen::Vector3d point(-0.6 + s * std::cos(degrees * kDegree), -0.5 + s * std::sin(degrees * kDegree),
+                                  2.5 + 0.4 * s);
+      return in_right ? rig.right.project(rig.right_from_left * point) : rig.left.project(point);
+    };
+    const auto curve = [&](bool in_right) {
+      reference::GradientMaxima maxima;
+      Eigen::Vector2d last = project(0, in_right);
+      for (double s = 0; s < 1.2; s += 1e-4) {
+        const Eigen::Vector2d here = project(s, in_right), tangent = project(s + 1e-4, in_right) - here;
+        if ((here - last).lpNorm<Eigen::Infinity>() < 0.5) continue;
+        last = here;
+        maxima.x.push_back(static_cast<float>(here.x()));
+        maxima.y.push_back(static_cast<float>(here.y()));
+        maxima.gradient_x.push_back(static_cast<float>(-tangent.y()));
+        maxima.gradient_y.push_back(static_cast<float>(tangent.x()));
+        maxima.cell_y.push_back(0);
+      }
+      return maxima;
+    };
+    const auto in_left = curve(false), in_right = curve(true);
+    const auto kept = reference::kept_by_selection(left, in_left, 4),
+               found = reference::kept_by_selection(right, in_right, 4);
+    const auto number = [](const EpipolarRows& rows, float x, float y) {
+      return (rows.across_x * x + rows.across_y * y + rows.across_1) /
+             (rows.forward_x * x + rows.forward_y * y + rows.forward_1);
+    };
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (kept[i] == 0) continue;
+      ++chosen;
+      const float row = number(left.rows, in_left.x[i], in_left.y[i]);
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        if (found[k] == 0 || std::abs(number(right.rows, in_right.x[k], in_right.y[k]) - row) > 0.5F) continue;
+        ++with_counterpart;
+        break;
+      }
+    }
+  }
+  REQUIRE(chosen > 300);
+  CHECK(with_counterpart > 0.97 * chosen);
+}
+
+TEST_CASE("edge selection: the epipolar planes of a rig have the same numbers in both images", "[edges]") {
+  const StereoRig rig = general_rig(640, 480);
+  const EpipolarRows left = epipolar_rows(rig, Side::left), right = epipolar_rows(rig, Side::right);
+  const auto number = [](const EpipolarRows& rows, const Eigen::Vector2d& pixel) {
+    const double x = pixel.x(), y = pixel.y();
+    return (static_cast<double>(rows.across_x) * x + static_cast<double>(rows.across_y) * y +
+            static_cast<double>(rows.across_1)) /
+           (static_cast<double>(rows.forward_x) * x + static_cast<double>(rows.forward_y) * y +
+            static_cast<double>(rows.forward_1));
+  };
+  for (const auto& point : {Eigen::Vector3d(0.3, -0.4, 2), Eigen::Vector3d(-1, 0.7, 5), Eigen::Vector3d(2, 1, 20)})
+    CHECK(number(left, rig.left.project(point)) ==
+          Approx(number(right, rig.right.project(rig.right_from_left * point))).margin(1e-3));
+  // On a rectified rig the number is the row.
+  const StereoRig rectified = rectified_rig(640, 480);
+  CHECK(number(epipolar_rows(rectified, Side::left), {100, 140}) == Approx(140 - rectified.left.cy).margin(1e-3));
+}

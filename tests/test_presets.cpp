@@ -1,0 +1,44 @@
+/// \file test_presets.cpp  config/fast.toml, default.toml and accurate.toml.
+#include <catch2/catch.hpp>
+
+#include "data/presets.hpp"
+#include "program.hpp"
+#include "quadedge/config_file.hpp"
+#include "quadedge/error.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+Config effective(const std::vector<std::string>& options) {
+  const TemporaryFolder folder;
+  std::vector<std::string> call = {"run", small_sequence(), "-o", folder / "out", "--frames", "0:2", "--quiet"};
+  call.insert(call.end(), options.begin(), options.end());
+  const auto run = run_program(call);
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  return read_config(folder / "out/config.toml");
+}
+
+}  // namespace
+
+TEST_CASE("presets: the default one says what the program does without any", "[cli]") {
+  const Config none, said = read_config(QUADEDGE_KERNELS "/../config/default.toml");
+  for (const auto& constant : constants()) CHECK(constant.text(said) == constant.text(none));
+  CHECK(data::preset_names() == std::vector<std::string>{"fast", "default", "accurate"});
+}
+
+TEST_CASE("presets: --preset sets what its file says; file and command line win over it", "[cli][device]") {
+  CHECK(effective({"--preset", "accurate"}).edges.budget == 0);
+  CHECK(effective({"--preset", "fast"}).edges.budget == 8000);
+  CHECK(effective({"--preset", "accurate", "--edges.budget", "9000"}).edges.budget == 9000);
+  const TemporaryFolder folder;
+  write_text(folder / "mine.toml", "[edges]\nbudget = 7000\n");
+  const Config both = effective({"--preset", "accurate", "--config", folder / "mine.toml"});
+  CHECK(both.edges.budget == 7000);
+  CHECK(both.temporal.ncc_min == 0.6);
+  const auto wrong = run_program({"run", small_sequence(), "-o", folder / "out", "--preset", "fastest"});
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Catch::Contains("--preset") && Catch::Contains("fastest"));
+  CHECK_THROWS_AS(data::read_preset("quick"), UsageError);
+}
