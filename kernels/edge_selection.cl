@@ -95,7 +95,7 @@ kernel void edge_selection_weigh_cells(const SelectionArguments args, global con
 kernel void edge_selection_spacing(const int budget, global int* tally, global float* spacing) {
   if (get_global_id(0) > 0) return;
   const float wanted = (float)max(tally[0], tally[1]) / ((float)kSelectionUnit / kSelectionSample * (float)budget);
-  spacing[0] = wanted > kClosestSelection ? wanted : 0.0f;
+  spacing[0] = wanted > kClosestSelection ? rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0f;
   tally[0] = tally[1] = 0;
 }
 

@@ -154,6 +154,7 @@ enum {
   kSelectionSample = 4   // every so many pairs of rows of the doubled grid are weighed
 };
 FLOAT_CONSTANT kSearchedWidth = 1.5f;     // of the maxima around a line that the searched image keeps, in steps
+FLOAT_CONSTANT kSelectionSteps = 32.0f;   // of the spacing per px, so that a maximum more or less changes nothing
 FLOAT_CONSTANT kClosestSelection = 0.5f;  // px; maxima of a curve are not closer
 
 // edge_selection.cl.

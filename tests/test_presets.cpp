@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "data/presets.hpp"
+#include "dataset_files.hpp"
 #include "program.hpp"
 #include "quadedge/config_file.hpp"
 #include "quadedge/error.hpp"
@@ -33,7 +34,7 @@ TEST_CASE("presets: --preset sets what its file says; file and command line win 
   CHECK(effective({"--preset", "fast"}).edges.budget == 8000);
   CHECK(effective({"--preset", "accurate", "--edges.budget", "9000"}).edges.budget == 9000);
   const TemporaryFolder folder;
-  write_text(folder / "mine.toml", "[edges]\nbudget = 7000\n");
+  dataset_files::write_text(folder / "mine.toml", "[edges]\nbudget = 7000\n");
   const Config both = effective({"--preset", "accurate", "--config", folder / "mine.toml"});
   CHECK(both.edges.budget == 7000);
   CHECK(both.temporal.ncc_min == 0.6);

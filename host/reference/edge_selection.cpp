@@ -9,6 +9,10 @@ namespace {
 // Single precision on purpose: the device decides alike.
 constexpr float kHalfAnOctave = 0.70710678F;
 
+/// The direction of a gradient is known in steps: direction_code() of kernels/edge_detection.cl.
+constexpr float kCodes = 255.5F;
+float code_of(float ratio) { return std::rint((ratio + 1.0F) * kCodes); }
+
 /// See kernels/edge_selection.cl.
 struct Crossing {
   float row = 0, step = 0, sine = 0;
@@ -58,18 +62,25 @@ double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& 
 }  // namespace
 
 GradientMaxima maxima_of(const ReferenceEdges& edges) {
-  const auto to_float = [](const std::vector<double>& values) {
-    return std::vector<float>(values.begin(), values.end());
-  };
-  return {to_float(edges.peak_x), to_float(edges.peak_y), to_float(edges.gradient_x), to_float(edges.gradient_y),
-          edges.cell_y};
+  GradientMaxima maxima;
+  maxima.cell_y = edges.cell_y;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    maxima.x.push_back(static_cast<float>(edges.peak_x[i]));
+    maxima.y.push_back(static_cast<float>(edges.peak_y[i]));
+    const double gx = edges.gradient_x[i], gy = edges.gradient_y[i];
+    const bool steep = std::abs(gx) >= std::abs(gy);
+    const float ratio = code_of(static_cast<float>(steep ? gy / gx : gx / gy)) / kCodes - 1.0F;
+    maxima.gradient_x.push_back(steep ? 1.0F : ratio);
+    maxima.gradient_y.push_back(steep ? ratio : 1.0F);
+  }
+  return maxima;
 }
 
 float selection_spacing(const SelectionArguments& left_arguments, const GradientMaxima& left,
                         const SelectionArguments& right_arguments, const GradientMaxima& right, int budget) {
   const double most = std::max(weight_of_all(left_arguments, left), weight_of_all(right_arguments, right));
   const float wanted = static_cast<float>(most) / (static_cast<float>(kSelectionUnit) * static_cast<float>(budget));
-  return wanted > kClosestSelection ? wanted : 0.0F;
+  return wanted > kClosestSelection ? std::rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0F;
 }
 
 std::vector<std::uint8_t> kept_by_selection(const SelectionArguments& arguments, const GradientMaxima& maxima,
