@@ -16,6 +16,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from stamped import stamped, write
+
 REPOSITORY = Path(__file__).resolve().parent.parent
 
 
@@ -67,16 +69,15 @@ def main():
     parser.add_argument("--quadedge", type=Path, default=REPOSITORY / "build" / "quadedge")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE")
     options = parser.parse_args()
-    result = {"size": options.size, "seeds": options.seeds, "rows": []}
+    result = stamped({"size": options.size, "seeds": options.seeds, "rows": []})
     for scene in options.scenes:
         row = summary(scene, [track(scene, seed, options) for seed in options.seeds])
         if options.before:
             row["before"] = summary(scene, [errors(options.before / f"{scene}_{seed}") for seed in options.seeds])
         result["rows"].append(row)
-    text = json.dumps(result, indent=1)
-    print(text)
+    print(json.dumps(result, indent=1))
     if options.output:
-        options.output.write_text(text + "\n", encoding="utf-8")
+        write(result, options.output)
     return 0
 
 

@@ -14,29 +14,14 @@ Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 
 import argparse
-import datetime
-import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import result_tables
 from measurements import PARTS, RECORDED, RENDERED, REPOSITORY, SCENES, SYSTEMS, Problem, Programs
 from plot_paths import plot
-
-
-def commit():
-    """Of the sources, with a "+" where they have changed since; the documentation does not count."""
-
-    def git(*arguments):
-        return subprocess.run(
-            ["git", "-C", REPOSITORY, *arguments], stdout=subprocess.PIPE, text=True, check=True
-        ).stdout.strip()
-
-    return git("rev-parse", "--short=7", "HEAD") + (
-        "+" if git("status", "--porcelain", "--", ".", ":!doc", ":!README.md") else ""
-    )
+from stamped import commit, stamped, write
 
 
 def parse():
@@ -91,12 +76,7 @@ def main():
         measured = commit()  # of the programs, whatever is committed while they run
         for part in options.only:
             rows = PARTS[part](programs)
-            result = {
-                "commit": measured,
-                "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
-                "rows": rows,
-            }
-            (options.out / f"{part}.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+            write(stamped({"rows": rows}, measured), options.out / f"{part}.json")
             if part == "accuracy":
                 try:
                     for scene in (scene for scene in SCENES if scene in options.sequences):

@@ -2,7 +2,7 @@
 
 import json
 
-import result_tables
+import tables
 from measurements import SYSTEMS
 
 
@@ -29,7 +29,7 @@ def plot(scene, rows, options):
     for row in rows:
         folder, name, color = (
             options.work / row["system"] / scene,
-            result_tables.SYSTEMS[row["system"]],
+            tables.SYSTEMS[row["system"]],
             f"C{SYSTEMS.index(row['system'])}",
         )
         above.plot(*positions(folder / "trajectory.txt"), color=color, linewidth=1, label=name)

@@ -23,6 +23,8 @@ from pathlib import Path
 
 import numpy as np
 
+from stamped import stamped, write
+
 STEPS = (1, 2, 5, 10, 20, 30, 50)  # frames
 NAMES = ("scale", "turn x", "turn y", "turn z", "position time", "arm x", "arm y", "arm z")
 LARGEST_OFFSET, OFFSET_STEP = 0.02, 0.0005  # s
@@ -143,11 +145,10 @@ def main():
     parser.add_argument("results", type=Path)
     parser.add_argument("-o", "--output", type=Path, metavar="FILE")
     options = parser.parse_args()
-    result = examine(options.sequence, options.results)
-    text = json.dumps(result, indent=1)
-    print(text)
+    result = stamped(examine(options.sequence, options.results))
+    print(json.dumps(result, indent=1))
     if options.output:
-        options.output.write_text(text + "\n", encoding="utf-8")
+        write(result, options.output)
     return 0
 
 

@@ -1,0 +1,319 @@
+"""The tables that scripts/result_tables.py writes: one function per table, from the JSON of doc/results to Markdown.
+
+`results`: part ("accuracy", "matching" ...) -> what doc/results/PART.json holds; scripts/measure.py, drift.py and
+truth_consistency.py say what that is.
+"""
+
+import disturbance_sweep
+
+SYSTEMS = {"default": "QuadEdge", "paper": "QuadEdge, paper.toml", "opencv": "OpenCV SIFT + PnP"}
+STEPS = "keyframes"  # judged step by step: errors over all its frames say nothing
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(str(cell) for cell in line) + " |\n" for line in lines)
+
+
+def number(value, digits=3):
+    return "-" if value is None else f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"
+
+
+def length(metres):
+    """In the unit that a reader would choose."""
+    if metres is None:
+        return "-"
+    return (
+        f"{number(metres)} m"
+        if metres >= 0.1
+        else f"{number(100 * metres)} cm" if metres >= 0.01 else f"{number(1000 * metres)} mm"
+    )
+
+
+def percent(value):
+    return "-" if value is None else f"{100 * value:.1f} %"
+
+
+def drift(row):
+    """In percent of the path; nothing of a camera at rest."""
+    return f"{number(row['end_drift_percent'], 2)} %" if row.get("path_length_m", 0) > 0.5 else "-"
+
+
+def stamp(result):
+    return f"Commit {result['commit']}, {result['date']}.\n"
+
+
+def command_list(rows):
+    """The commands behind each row."""
+    lines = [f"| {row['title']} | " + "<br>".join(f"`{command}`" for command in row["commands"]) + " |" for row in rows]
+    return "\n".join(["| what | commands |", "|---|---|", *lines]) + "\n"
+
+
+def on_other_path(row):
+    """A rendered scene on another path than the ellipse: these have a table of their own."""
+    return "-" in row["sequence"]
+
+
+def errors(results, systems):
+    """One row per sequence and system."""
+    rows, shown = [], None
+    for row in results["accuracy"]["rows"]:
+        if row["system"] not in systems or row["sequence"] == STEPS or on_other_path(row):
+            continue
+        cells = ["" if row["title"] == shown else row["title"]]
+        if len(systems) > 1:
+            cells.append(SYSTEMS[row["system"]])
+        cells += [
+            f"{row['tracked']} / {row['frames']}",
+            number(row.get("ape_rotation_deg")),
+            length(row.get("ape_translation_m")),
+            number(row.get("rpe_rotation_deg")),
+            length(row.get("rpe_translation_m")),
+            drift(row),
+        ]
+        rows.append(cells)
+        shown = row["title"]
+    return (
+        table(
+            [
+                "sequence",
+                *(["system"] if len(systems) > 1 else []),
+                "tracked",
+                "APE rotation [deg]",
+                "APE translation",
+                "RPE rotation [deg]",
+                "RPE translation",
+                "end drift",
+            ],
+            rows,
+        )
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+def accuracy(results):
+    return errors(results, ("default",))
+
+
+def systems(results):
+    return errors(results, tuple(SYSTEMS))
+
+
+def steps(results):
+    judged = [row for row in results["accuracy"]["rows"] if row["sequence"] == STEPS and "steps" in row]
+    rows = [[SYSTEMS[row["system"]], *(row["steps"][name] for name in ("right", "wrong", "lost"))] for row in judged]
+    return (
+        table(["EuRoC V1_01 key frames", "steps right", "wrong, reported as good", "said to be lost"], rows)
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+def paths(results):
+    """One row per rendered scene and path."""
+    rows = []
+    for row in results["accuracy"]["rows"]:
+        if row["sequence"] == STEPS or not row["title"].startswith("rendered"):
+            continue
+        steps_of = row.get("steps", {})
+        rows.append(
+            [
+                row["title"].removeprefix("rendered "),
+                SYSTEMS[row["system"]],
+                f"{row['tracked']} / {row['frames']}",
+                *(steps_of.get(name, "-") for name in ("right", "wrong", "lost")),
+                number(row.get("rpe_rotation_deg")),
+                length(row.get("rpe_translation_m")),
+                length(row.get("path_length_m")),
+                drift(row) if "end_drift_percent" in row else "-",
+            ]
+        )
+    head = ["scene, path", "system", "tracked", "steps right", "wrong", "lost"]
+    return (
+        table([*head, "RPE rotation [deg]", "RPE translation", "path", "end drift"], rows)
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+def step_error(row):
+    """Mean error in mm and what went wrong; nothing where a value was not measured."""
+    if row is None:
+        return ""
+    error = row["rpe_translation_m"]
+    notes = [f", {row[what]} {what}" for what in ("wrong", "lost") if row[what]]
+    return ("-" if error is None else f"{1e3 * error:.2f}") + "".join(notes)
+
+
+def disturbances(results):
+    """Mean error of a step, a block of rows per disturbance."""
+    rows, kept = [], results["disturbances"]["rows"]
+    width = max(len(values) for _, values, _ in disturbance_sweep.KINDS.values())
+    for kind, (label, values, _) in disturbance_sweep.KINDS.items():
+        if not any(row["kind"] == kind for row in kept):
+            continue
+        rows.append([label, "", *values, *[""] * (width - len(values))])
+        for scene in dict.fromkeys(row["scene"] for row in kept):
+            found = {row["value"]: row for row in kept if row["kind"] == kind and row["scene"] == scene}
+            cells = [step_error(found.get(value)) for value in values]
+            rows.append(["", scene, *cells, *[""] * (width - len(cells))])
+    frames = kept[0]["frames"]
+    return (
+        table(["mm", f"{frames - 1} steps each", *[""] * width], rows)
+        + "\n"
+        + stamp(results["disturbances"])
+    )
+
+
+def beside(results):
+    """QuadEdge and the OpenCV baseline side by side, for the README."""
+    by_title = {}
+    for row in results["accuracy"]["rows"]:
+        if row["sequence"] != STEPS and not on_other_path(row):
+            by_title.setdefault(row["title"], {})[row["system"]] = row
+    rows = []
+    for title, found in by_title.items():
+        cells = [title]
+        for system in ("default", "opencv"):
+            row = found.get(system, {})
+            judged = "rpe_translation_m" in row
+            error = f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if judged else "-"
+            cells += [error, drift(row)]
+        rows.append(cells)
+    return (
+        table(["recording", "QuadEdge: error per frame", "drift", "OpenCV SIFT + PnP: error per frame", "drift"], rows)
+        + "\n"
+        + stamp(results["accuracy"])
+    )
+
+
+POOL_RATES = ["paired: recall", "precision", "all: recall", "precision"]
+
+
+def pool_rates(row):
+    """Cells under POOL_RATES."""
+    return [percent(row[pool][name]) for pool in ("paired", "all") for name in ("recall", "precision")]
+
+
+def matching(results):
+    rows = [
+        [row["title"], *pool_rates(row), f"{row['disparity_median_px']:.3f} px", f"{row['across_median_px']:.3f} px"]
+        for row in results["matching"]["rows"]
+    ]
+    head = ["pair", *POOL_RATES, "disparity error, median", "across the edge"]
+    return table(head, rows) + "\n" + stamp(results["matching"])
+
+
+def quads(results):
+    rows = [[row["title"], *pool_rates(row["quads"])] for row in results["matching"]["rows"] if "quads" in row]
+    return table(["quads", *POOL_RATES], rows) + "\n" + stamp(results["matching"])
+
+
+def speed(results):
+    rows = [
+        [
+            row["title"],
+            f"{row['edges_per_image']:.0f}",
+            f"{row['median_ms']:.0f} ms",
+            f"{row['p90_ms']:.0f} ms",
+            f"{1000 / row['median_ms']:.1f}",
+            f"{row['frame_over_sift']:.2f}",
+            f"{row['edges_ms']:.1f} ms",
+            f"{row['edges_over_filters']:.2f}",
+            f"{row['host_peak_mb']:.0f} MB",
+        ]
+        for row in results["speed"]["rows"]
+    ]
+    first = results["speed"]["rows"][0]
+    return (
+        table(
+            [
+                "sequence",
+                "edges per image",
+                "frame, median",
+                "p90",
+                "frames/s",
+                "frame / S",
+                "edges of one image",
+                "/ N",
+                "host memory",
+            ],
+            rows,
+        )
+        + f"\n{first['platform']}, {first['device']}, {first['threads']} threads. "
+        + stamp(results["speed"])
+    )
+
+
+def light(results):
+    """Steps over contrast, light and gamma, with the fixed threshold of edges and the automatic one."""
+    kept = results["light"]["rows"]
+    runs = {(row["scene"], row["kind"], row["value"], row["threshold"] == 0): row for row in kept}
+    lines = []
+    for scene, kind, value, automatic in runs:
+        if not automatic:
+            continue
+        fixed, found = runs[scene, kind, value, False], runs[scene, kind, value, True]
+        cells = [f"{disturbance_sweep.LIGHT[kind][0]} {value:g}", scene]
+        for row in (fixed, found):
+            cells += [f"{row['right']}, {row['wrong']}, {row['lost']}", f"{row['edges']:.0f}"]
+        lines.append([*cells, number(found["edge_threshold"])])
+    head = ["", "scene", "fixed: right, wrong, lost", "edges", "automatic: right, wrong, lost", "edges", "threshold"]
+    return table(head, lines) + f"\n{kept[0]['frames'] - 1} steps each. " + stamp(results["light"])
+
+
+def peers(results):
+    """Other systems; QuadEdge's own time is the measured one."""
+    kept = results["peers"]
+    rows = [list(row) for row in kept["rows"]]
+    own = [row for row in results.get("speed", {}).get("rows", []) if row["title"].startswith("KITTI 06")]
+    for row in rows:
+        if row[1] == "measured":
+            row[1] = f"{own[0]['median_ms']:.0f} ms" if own else "-"
+    return table(kept["head"], rows)
+
+
+def drift_over_scenes(results):
+    """End errors after long rendered sequences, with those of another program beside them where there are any."""
+    rows = []
+    for row in results["drift"]["rows"]:
+        for name, found in (("before", row.get("before")), ("now", row)):
+            if found is None:
+                continue
+            ends = " ".join(number(run["end_mm"], 2) for run in found["runs"])
+            parts = ", ".join(f"{part:+.1f}" for part in found["mean_end_parts_mm"])
+            rows.append([row["scene"], name, f"{ends} mm", f"{found['end_percent']:.3f} %", f"({parts}) mm",
+                         f"{number(found['rms_mm'], 2)} mm"])
+    head = ["scene", "", "end error of each texture", "mean, of the way", "mean vector", "rms along the way"]
+    return table(head, rows) + "\n" + stamp(results["drift"])
+
+
+def truth(results):
+    """Errors of a recording before and after constants of its truth are taken away."""
+    found = results["truth"]
+    rows = [
+        [row["frames"], length(row["way_mm"] / 1e3),
+         *(length(row[name] / 1e3) for name in ("as_it_is_mm", "constants_removed_mm", "of_other_half_mm"))]
+        for row in found["rows"]
+    ]
+    head = ["frames", "way", "error, rms", "eight constants of the truth removed", "found on the other half"]
+    constants = ", ".join(f"{name} {value:+.4f}" for name, value in found["constants"].items())
+    return table(head, rows) + f"\nConstants (radians, seconds, metres): {constants}. " + stamp(found)
+
+
+TABLES = {
+    "accuracy": accuracy,
+    "systems": systems,
+    "steps": steps,
+    "beside": beside,
+    "paths": paths,
+    "disturbances": disturbances,
+    "matching": matching,
+    "quads": quads,
+    "speed": speed,
+    "light": light,
+    "peers": peers,
+    "drift": drift_over_scenes,
+    "truth": truth,
+}
