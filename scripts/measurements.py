@@ -1,6 +1,7 @@
 """What scripts/measure.py measures: accuracy, matching, speed and disturbances, in rows with their commands."""
 
 import argparse
+import itertools
 import json
 import shlex
 import shutil
@@ -39,7 +40,8 @@ JUDGED = (
     ),
 )
 STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)  # steps of some cm: 5 cm would hide any error
-SYSTEMS = ("default", "paper", "opencv")
+PRESETS = ("fast", "default", "accurate")
+SYSTEMS = ("default", "fast", "accurate", "paper", "opencv")
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 MATCHED = {
     "ETH3D terrace_2s": ("eth3d_two_view/two_view_training/terrace_2s",),
@@ -125,7 +127,10 @@ def track(system, run, programs):
             place = [scene, *(["--path", path] if path != "ellipse" else [])]
         command = [options.baseline, *place, "-o", output, *(["--frames", options.frames] if options.frames else [])]
     else:
-        method = ["--config", REPOSITORY / "config" / "paper.toml"] if system == "paper" else []
+        method = {
+            "default": [],
+            "paper": ["--config", REPOSITORY / "config" / "paper.toml"],
+        }.get(system, ["--preset", system])
         command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
     if output not in programs.tracked and not (options.keep and (output / COMPLETE).exists()):
         print(f"{system}: {run}", file=sys.stderr, flush=True)
@@ -180,7 +185,7 @@ def measure_accuracy(programs):
         judge(system, *entry, programs)
         for entry in judged
         for system in options.systems
-        if system != "paper" or entry[1] in RECORDED or entry[1] in SCENES
+        if system in ("default", "opencv") or entry[1] in RECORDED or entry[1] in SCENES
     ]
 
 
@@ -226,11 +231,11 @@ def measure_matching(programs):
 def measure_speed(programs):
     options = programs.options
     rows = []
-    for title, place in TIMED.items():
+    for (title, place), preset in itertools.product(TIMED.items(), PRESETS):
         if place not in SCENES and not options.data:
             continue
-        print(f"speed: {title}", file=sys.stderr, flush=True)
-        file = options.work / f"speed_{title.replace(' ', '_').replace(',', '')}.json"
+        print(f"speed: {title}, {preset}", file=sys.stderr, flush=True)
+        file = options.work / f"speed_{title.replace(' ', '_').replace(',', '')}_{preset}.json"
         command = [
             options.quadedge,
             "bench",
@@ -240,12 +245,14 @@ def measure_speed(programs):
             "--warm-up",
             3,
             "--baseline",
+            *(["--preset", preset] if preset != "default" else []),
         ]
         programs.call([*command, "--quiet", "--force", "--json", file])
         bench = json.loads(file.read_text(encoding="utf-8"))
         rows.append(
             {
                 "title": f"{title}, {bench['input']['width']}x{bench['input']['height']}",
+                "preset": preset,
                 "commands": [programs.text(command)],
                 "device": bench["device"]["name"],
                 "platform": bench["device"]["platform"],
@@ -254,6 +261,8 @@ def measure_speed(programs):
                 "frames": bench["frames_measured"],
                 "median_ms": bench["latency_ms"]["median"],
                 "p90_ms": bench["latency_ms"]["p90"],
+                "p99_ms": bench["latency_ms"]["p99"],
+                "processor_ms": bench["processor_ms"]["median"],
                 "frame_over_sift": bench["baseline"]["frame_ratio"],
                 "edges_ms": bench["edge_detection_ms"]["median"],
                 "edges_over_filters": bench["baseline"]["edges_ratio"],

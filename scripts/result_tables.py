@@ -19,7 +19,14 @@ from tables import TABLES, command_list
 REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
-PART_OF = {"beside": "accuracy", "paths": "accuracy", "systems": "accuracy", "steps": "accuracy", "quads": "matching"}
+PART_OF = {
+    "beside": "accuracy",
+    "paths": "accuracy",
+    "systems": "accuracy",
+    "steps": "accuracy",
+    "quads": "matching",
+    "presets": "accuracy",
+}
 # Part -> (title, what to know, tables)
 PAGES = {
     "accuracy": (

@@ -6,7 +6,14 @@ truth_consistency.py say what that is.
 
 import disturbance_sweep
 
-SYSTEMS = {"default": "QuadEdge", "paper": "QuadEdge, paper.toml", "opencv": "OpenCV SIFT + PnP"}
+PRESETS = ("fast", "default", "accurate")
+SYSTEMS = {
+    "default": "QuadEdge",
+    "fast": "QuadEdge, fast",
+    "accurate": "QuadEdge, accurate",
+    "paper": "QuadEdge, paper.toml",
+    "opencv": "OpenCV SIFT + PnP",
+}
 STEPS = "keyframes"  # judged step by step: errors over all its frames say nothing
 
 
@@ -40,7 +47,7 @@ def drift(row):
 
 
 def stamp(result):
-    return f"Commit {result['commit']}, {result['date']}.\n"
+    return f"Commit {result['commit']}, {result['date']}.\n" if "commit" in result else "The commit was not noted.\n"
 
 
 def command_list(rows):
@@ -214,9 +221,11 @@ def speed(results):
     rows = [
         [
             row["title"],
+            row.get("preset", "default"),
             f"{row['edges_per_image']:.0f}",
             f"{row['median_ms']:.0f} ms",
             f"{row['p90_ms']:.0f} ms",
+            *(f"{row[name]:.0f} ms" if name in row else "-" for name in ("p99_ms", "processor_ms")),
             f"{1000 / row['median_ms']:.1f}",
             f"{row['frame_over_sift']:.2f}",
             f"{row['edges_ms']:.1f} ms",
@@ -230,9 +239,12 @@ def speed(results):
         table(
             [
                 "sequence",
+                "preset",
                 "edges per image",
                 "frame, median",
                 "p90",
+                "p99",
+                "processor time",
                 "frames/s",
                 "frame / S",
                 "edges of one image",
@@ -243,6 +255,36 @@ def speed(results):
         )
         + f"\n{first['platform']}, {first['device']}, {first['threads']} threads. "
         + stamp(results["speed"])
+    )
+
+
+def presets(results):
+    """One row per preset: time of a frame, and errors from frame to frame on all sequences."""
+    if "speed" not in results:
+        return "*Not measured yet: `scripts/measure.py --only speed`.*\n"
+    times = {(row.get("preset", "default"), row["title"].rsplit(",", 1)[0]): row for row in results["speed"]["rows"]}
+    timed = list(dict.fromkeys(title for _, title in times))
+    errors_of = {}
+    for row in results["accuracy"]["rows"]:
+        if row["sequence"] != STEPS and not on_other_path(row) and "rpe_translation_m" in row:
+            errors_of.setdefault(row["title"], {})[row["system"]] = row
+    rows = []
+    for title in timed:
+        found = [times.get((preset, title)) for preset in PRESETS]
+        cells = [f"{row['median_ms']:.0f} ms, {row['frame_over_sift']:.2f} S" if row else "-" for row in found]
+        rows.append([f"frame, {title}", *cells])
+    for title, found in errors_of.items():
+        cells = [
+            f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if row else "-"
+            for row in (found.get(preset) for preset in PRESETS)
+        ]
+        rows.append([f"error per frame, {title}", *cells])
+    return (
+        table(["", *(f"`--preset {preset}`" for preset in PRESETS)], rows)
+        + "\nTimes: "
+        + stamp(results["speed"]).replace("Commit", "commit").rstrip()
+        + " Errors: "
+        + stamp(results["accuracy"]).replace("Commit", "commit")
     )
 
 
@@ -267,7 +309,11 @@ def peers(results):
     """Other systems; QuadEdge's own time is the measured one."""
     kept = results["peers"]
     rows = [list(row) for row in kept["rows"]]
-    own = [row for row in results.get("speed", {}).get("rows", []) if row["title"].startswith("KITTI 06")]
+    own = [
+        row
+        for row in results.get("speed", {}).get("rows", [])
+        if row["title"].startswith("KITTI 06") and row.get("preset", "default") == "default"
+    ]
     for row in rows:
         if row[1] == "measured":
             row[1] = f"{own[0]['median_ms']:.0f} ms" if own else "-"
@@ -312,6 +358,7 @@ TABLES = {
     "matching": matching,
     "quads": quads,
     "speed": speed,
+    "presets": presets,
     "light": light,
     "peers": peers,
     "drift": drift_over_scenes,
