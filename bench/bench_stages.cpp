@@ -59,8 +59,8 @@ void run_stage(benchmark::State& state, const std::string& stage, const std::str
     frontend->match(*warm.first, search, matches);
     frontend->match_anywhere(*warm.first, matches);
     double ms = 0;
-    for (const auto& [name, time] : device.context()->take_profile()) {
-      if (name == stage) ms += time;
+    for (const auto& row : device.context()->take_profile()) {
+      if (row.stage == stage) ms += row.kernel_ms;
     }
     if (ms == 0) return state.SkipWithError("this variant never runs the stage");
     state.SetIterationTime(ms * 1e-3);

@@ -1,4 +1,5 @@
-// point_index.cl: the stereo edges of both sides sorted by cells of the image, cells in rows, and within a cell by number.
+// point_index.cl: the stereo edges of both sides sorted by cells of the image, cells in rows, and within a cell by
+// number.
 //
 // Needs indexed_points.cl. In: packed edges of both sides. Out per side: `cells`, the first edge of every cell and the
 // end of the last one, then the number of every edge in the order of the index; `points`, positions and directions in

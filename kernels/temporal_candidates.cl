@@ -1,8 +1,8 @@
 // temporal_candidates.cl: filters 1 and 2 of the temporal cascade: displacement and orientation, for the left or the
 // right images.
 //
-// Needs edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in the current image
-// (NaN: none), the point index of the current stereo edges of that side. Row r belongs to base edge r * row_step.
+// Needs edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in the current
+// image (NaN: none), the point index of the current stereo edges of that side. Row r belongs to base edge r * row_step.
 // Out: candidate lists in compressed rows, targets are current stereo edges in the order of the point index.
 // One work-item = one row. Two launches: count, then (after an exclusive scan) fill.
 // Reference: host/reference/temporal_candidates.cpp.

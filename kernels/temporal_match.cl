@@ -2,8 +2,8 @@
 // best NCC in both images, agreement, the best and its rivals. The same as temporal_candidates.cl, candidate_filters.cl
 // without SIFT and temporal_quads.cl one after the other, without lists in global memory.
 //
-// Needs similarity.cl, edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in both
-// current images (NaN: none), the point indices of the current stereo edges of both sides, side patches, with the
+// Needs similarity.cl, edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in
+// both current images (NaN: none), the point indices of the current stereo edges of both sides, side patches, with the
 // number of each stereo edge's left patch; the right ones stand in the order of the stereo edges.
 // Out per row, which belongs to base edge row * row_step: kQuadRowInts ints (layouts.cl).
 // With LANES (16) a work-item tests as many points of the index at once, and asks for memory ahead: for CPUs.

@@ -82,6 +82,12 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
                               "/moved_mb_per_frame/to_device",
                               "/moved_mb_per_frame/to_host",
                               "/waits_per_frame",
+                              "/launches_per_frame",
+                              "/writes_per_frame",
+                              "/processor_ms/median",
+                              "/shares/host/percent",
+                              "/shares/stages/point_index/wall_ms",
+                              "/shares/stages/scan/launches",
                               "/counts/edges_left",
                               "/config/edges/threshold",
                               "/baseline/opencv_sift_both_ms",
@@ -105,6 +111,17 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   // Numbers of edges and of candidates, the stereo edges, and what each of at most two searches finds.
   CHECK(result["waits_per_frame"].get<double>() >= 4);
   CHECK(result["waits_per_frame"].get<double>() <= 5);
+  CHECK(result["launches_per_frame"].get<double>() > 20);
+  CHECK(result["processor_ms"]["median"].get<double>() > 0);
+  double percent = result["shares"]["host"]["percent"].get<double>();
+  CHECK(percent > 0);
+  for (const auto& stage : result["shares"]["stages"]) {
+    percent += stage["percent"].get<double>();
+    CHECK(stage["wall_ms"].get<double>() ==
+          Approx(stage["kernel_ms"].get<double>() + stage["transfer_ms"].get<double>() +
+                 stage["queue_ms"].get<double>()));
+  }
+  CHECK(percent == Approx(100));
   CHECK(result["memory_mb"]["frames"].get<double>() == Approx(4 * 2 * 160 * 100 / (1024.0 * 1024.0)));
   CHECK(result["baseline"]["frame_ratio"].get<double>() ==
         Approx(result["latency_ms"]["median"].get<double>() / result["baseline"]["opencv_sift_both_ms"].get<double>()));
@@ -147,6 +164,10 @@ TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise b
   CHECK(compare_with(slow_machine).code == 6);
   slow_machine["baseline"]["opencv_sift_both_ms"] = 1.5 * before["baseline"]["opencv_sift_both_ms"].get<double>();
   CHECK(compare_with(slow_machine).code == 0);
+
+  json bare = before;
+  bare.erase("baseline");
+  CHECK_THAT(compare_with(bare).out, Contains("--baseline"));
 
   json memory = before;
   memory["memory_mb"]["device_peak"] = 1.2 * before["memory_mb"]["device_peak"].get<double>();
@@ -195,7 +216,8 @@ TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][b
     changed[key] = 77;
     result = compare_with(changed);
     CHECK(result.code == 3);
-    CHECK_THAT(result.err, Contains("new.json: found " + std::string(key) + " 77, expected 1"));
+    CHECK_THAT(result.err, Contains("new.json: found " + std::string(key) + " 77, expected " +
+                                     std::to_string(key == std::string("schema") ? 1 : bench::kBenchSchema)));
   }
 
   const TemporaryFolder folder;

@@ -7,6 +7,7 @@
 #include "benchmark/variant_comparison.hpp"
 #include "benchmark/variants_file.hpp"
 #include "devices.hpp"
+#include "frontends.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
 
@@ -64,8 +65,8 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   REQUIRE(stage["variants"].size() == 3);
   int defaults = 0;
   for (const auto& variant : stage["variants"]) {
-    for (const char* key :
-         {"name", "default", "agrees", "median_ms", "ratio_to_default", "bandwidth_share", "arithmetic_share"}) {
+    for (const char* key : {"name", "default", "agrees", "median_ms", "p10_ms", "p90_ms", "ratio_to_default",
+                            "ratio_p90", "bandwidth_share", "arithmetic_share"}) {
       INFO(key);
       CHECK(variant.contains(key));
     }
@@ -171,7 +172,8 @@ TEST_CASE("compare: a variant with another result is refused, and never saved as
       compare_arguments({"--stage", "patches", "--json", folder / "compare.json", "--kernels", folder / "kernels"}));
   INFO(result.err << result.out);
   CHECK(result.code == 1);
-  CHECK_THAT(result.out, Contains("REFUSED: differs from the reference"));
+  CHECK_THAT(result.out,
+             Contains("REFUSED: differs from the reference") && Contains("first: stereo edge of the first frame"));
   const json stage = json::parse(read_text(folder / "compare.json"))["stages"][0];
   for (const auto& variant : stage["variants"]) {
     CHECK(variant["agrees"] == (variant["name"] == "edge"));
@@ -187,6 +189,7 @@ TEST_CASE("compare: the best variant agrees and is clearly faster than the defau
     result.is_default = by_default;
     result.agrees = agrees;
     result.median_ms = result.ratio_to_default = ratio;
+    result.ratio_p90 = 1.1 * ratio;
     return result;
   };
   bench::StageResult stage;
@@ -196,6 +199,51 @@ TEST_CASE("compare: the best variant agrees and is clearly faster than the defau
   stage.variants.push_back(variant("fast", false, true, 0.8));
   stage.variants.push_back(variant("faster", false, true, 0.7));
   CHECK(stage.best() == "faster");
+  stage.variants.push_back(variant("noisy", false, true, 0.6));
+  stage.variants.back().ratio_p90 = 1.05;  // slower than the default in one of ten repetitions
+  CHECK(stage.best() == "faster");
+}
+
+TEST_CASE("compare: every stage has a least work, above zero on a frame that runs it", "[bench][device]") {
+  const matching::RenderedScene scene("room", 161, 97, 2);
+  FramePrefetcher::Frame frames[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    frames[i].left = scene.left[i];
+    frames[i].right = scene.right[i];
+  }
+  Device device(all_devices().front());
+  const auto size =
+      bench::count_frame(*frontend::make_frontend(scene.rig, device, scene.config), frames[0], frames[1], scene.config);
+  CHECK(size.pixels == 2 * 161 * 97);
+  CHECK(size.stereo_candidates > size.refined);
+  CHECK(size.refined >= size.clusters);
+  CHECK(size.clusters >= size.stereo_edges);
+  CHECK(size.guided_candidates > 0);
+  for (const auto& stage : bench::stages_with_variants()) {
+    INFO(stage);
+    const auto work = bench::least_work(stage, size, scene.config);
+    CHECK(work.bytes > 0);
+    CHECK(work.operations > 0);
+  }
+  CHECK_THROWS_AS(bench::least_work("no stage", size, scene.config), UsageError);
+}
+
+TEST_CASE("compare: the first difference names stage, edge and value", "[bench]") {
+  bench::FrontendOutput a;
+  for (int i = 0; i < 5; ++i) {
+    a.left_edges.x.push_back(static_cast<float>(i));
+    a.current.ncc.push_back(0.5F);
+    a.quads.rivals.push_back(i);
+  }
+  CHECK(bench::first_difference(a, a).empty());
+  auto b = a;
+  b.quads.rivals[3] = 7;
+  CHECK(bench::first_difference(a, b) == "temporal_match, quad 3: rivals is 3 instead of 7");
+  b.current.ncc.pop_back();
+  CHECK(bench::first_difference(a, b) ==
+        "stereo_mutual, stereo edge of the second frame: 5 instead of 4 values of NCC");
+  b.left_edges.x[1] = 1.25F;
+  CHECK(bench::first_difference(a, b) == "edge_detection, left edge 1: x is 1 instead of 1.25");
 }
 
 TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {

@@ -24,6 +24,7 @@ struct BenchComparison {
   std::vector<ComparedFigure> figures;
   std::vector<std::string> notes;  ///< what else differs: commit, configuration, variants, command
   double drift = 1;  ///< how much slower the machine was for the newer result, by SIFT of both; 1 where one lacks it
+  bool has_yardsticks = false;  ///< both results; without, times are those of two moments of the machine
   bool regressed() const;
 };
 

@@ -15,7 +15,7 @@ constexpr double kRounds = 1024;     // of ceiling_fma, with 8 chains of kVector
 /// Kernel time of what was enqueued since the last call [ms].
 double kernel_ms(opencl::Context& context) {
   double sum = 0;
-  for (const auto& [stage, ms] : context.take_profile()) sum += ms;
+  for (const auto& stage : context.take_profile()) sum += stage.kernel_ms;
   return sum;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace quadedge::bench {
@@ -13,10 +15,15 @@ namespace {
 using Key = std::pair<long, long>;
 Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
 
-/// Fraction of the rows of `a` that `b` holds too: left positions and right column.
+/// Rows of `a` that `b` holds too: left positions and right column.
+struct Shared {
+  double fraction = 1;
+  std::optional<std::size_t> first_missing;
+};
 template <class Rows>
-double shared(const Rows& a, const Rows& b) {
-  if (a.size() == 0) return 1;
+Shared shared(const Rows& a, const Rows& b) {
+  Shared result;
+  if (a.size() == 0) return result;
   std::multimap<Key, float> known;
   for (std::size_t i = 0; i < b.size(); ++i) known.emplace(key(b.left_x[i], b.left_y[i]), b.right_x[i]);
   std::size_t found = 0;
@@ -30,27 +37,73 @@ double shared(const Rows& a, const Rows& b) {
       }
     }
     found += hit ? 1 : 0;
+    if (!hit && !result.first_missing) result.first_missing = i;
   }
-  return static_cast<double>(found) / static_cast<double>(a.size());
+  result.fraction = static_cast<double>(found) / static_cast<double>(a.size());
+  return result;
 }
 
+/// The smaller fraction of both ways. `first` tells the first row that one side lacks, unless it tells one already.
 template <class Rows>
-double both_ways(const Rows& a, const Rows& b) {
-  return std::min(shared(a, b), shared(b, a));
+double both_ways(const char* what, const Rows& a, const Rows& b, std::string& first) {
+  const Shared forth = shared(a, b), back = shared(b, a);
+  const auto tell = [&](const Rows& rows, const std::optional<std::size_t>& row, const char* whose) {
+    if (!row || !first.empty()) return;
+    char text[160];
+    std::snprintf(text, sizeof text, "%s %zu at (%.2f, %.2f), right column %.2f, is %s", what, *row, rows.left_x[*row],
+                  rows.left_y[*row], rows.right_x[*row], whose);
+    first = text;
+  };
+  tell(a, forth.first_missing, "not in the reference");
+  tell(b, back.first_missing, "in the reference alone");
+  return std::min(forth.fraction, back.fraction);
 }
 
-bool same(const EdgeSet& a, const EdgeSet& b) {
-  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
-         a.scale_drift == b.scale_drift && a.row_first == b.row_first;
+/// The first differing value of arrays that belong together.
+class Difference {
+ public:
+  /// \param stage that leaves the arrays \param row what a row of them is called
+  Difference(const char* stage, const char* row, std::string& found) : stage_(stage), row_(row), found_(found) {}
+
+  template <class T>
+  Difference& operator()(const char* value, const std::vector<T>& a, const std::vector<T>& b) {
+    if (!found_.empty() || a == b) return *this;
+    const std::size_t both = std::min(a.size(), b.size());
+    std::size_t i = 0;
+    while (i < both && a[i] == b[i]) ++i;
+    char text[160];
+    if (i == both) {
+      std::snprintf(text, sizeof text, "%s, %s: %zu instead of %zu values of %s", stage_, row_, a.size(), b.size(),
+                    value);
+    } else {
+      std::snprintf(text, sizeof text, "%s, %s %zu: %s is %.9g instead of %.9g", stage_, row_, i, value,
+                    static_cast<double>(a[i]), static_cast<double>(b[i]));
+    }
+    found_ = text;
+    return *this;
+  }
+
+ private:
+  const char *stage_, *row_;
+  std::string& found_;
+};
+
+void compare(const char* row, const EdgeSet& a, const EdgeSet& b, std::string& found) {
+  Difference("edge_detection", row, found)("x", a.x, b.x)("y", a.y, b.y)("direction", a.direction, b.direction)(
+      "strength", a.strength, b.strength)("scale drift", a.scale_drift, b.scale_drift);
+  Difference("edge_detection", "row start", found)("number", a.row_first, b.row_first);
 }
-bool same(const StereoEdges& a, const StereoEdges& b) {
-  return a.left_index == b.left_index && a.right_index == b.right_index && a.left_x == b.left_x &&
-         a.left_y == b.left_y && a.left_direction == b.left_direction && a.right_x == b.right_x &&
-         a.right_y == b.right_y && a.right_direction == b.right_direction && a.ncc == b.ncc;
+void compare(const char* row, const StereoEdges& a, const StereoEdges& b, std::string& found) {
+  Difference("stereo_mutual", row, found)("left edge", a.left_index, b.left_index)(
+      "right edge", a.right_index, b.right_index)("left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)(
+      "left direction", a.left_direction, b.left_direction)("right x", a.right_x, b.right_x)(
+      "right y", a.right_y, b.right_y)("right direction", a.right_direction, b.right_direction)("NCC", a.ncc, b.ncc);
 }
-bool same(const TemporalMatches& a, const TemporalMatches& b) {
-  return a.previous == b.previous && a.current == b.current && a.left_x == b.left_x && a.left_y == b.left_y &&
-         a.right_x == b.right_x && a.right_y == b.right_y && a.ncc == b.ncc && a.rivals == b.rivals;
+void compare(const char* stage, const char* row, const TemporalMatches& a, const TemporalMatches& b,
+             std::string& found) {
+  Difference(stage, row, found)("previous edge", a.previous, b.previous)("current edge", a.current, b.current)(
+      "left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)("right x", a.right_x, b.right_x)(
+      "right y", a.right_y, b.right_y)("NCC", a.ncc, b.ncc)("rivals", a.rivals, b.rivals);
 }
 
 }  // namespace
@@ -79,15 +132,27 @@ FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher:
   return output;
 }
 
-bool same_bytes(const FrontendOutput& a, const FrontendOutput& b) {
-  return same(a.left_edges, b.left_edges) && same(a.right_edges, b.right_edges) && same(a.previous, b.previous) &&
-         same(a.current, b.current) && same(a.coarse, b.coarse) && same(a.quads, b.quads) &&
-         same(a.anywhere, b.anywhere);
+std::string first_difference(const FrontendOutput& a, const FrontendOutput& b) {
+  std::string found;
+  compare("left edge", a.left_edges, b.left_edges, found);
+  compare("right edge", a.right_edges, b.right_edges, found);
+  compare("stereo edge of the first frame", a.previous, b.previous, found);
+  compare("stereo edge of the second frame", a.current, b.current, found);
+  compare("temporal_match", "quad of the coarse search", a.coarse, b.coarse, found);
+  compare("temporal_match", "quad", a.quads, b.quads, found);
+  compare("wide_matching", "quad found anywhere", a.anywhere, b.anywhere, found);
+  return found;
 }
 
 Agreement agreement(const FrontendOutput& a, const FrontendOutput& b) {
-  return {std::min(both_ways(a.previous, b.previous), both_ways(a.current, b.current)),
-          std::min(both_ways(a.coarse, b.coarse), both_ways(a.quads, b.quads))};
+  Agreement result;
+  const double previous = both_ways("stereo edge of the first frame", a.previous, b.previous, result.first),
+               current = both_ways("stereo edge of the second frame", a.current, b.current, result.first),
+               coarse = both_ways("quad of the coarse search", a.coarse, b.coarse, result.first),
+               quads = both_ways("quad", a.quads, b.quads, result.first);
+  result.stereo = std::min(previous, current);
+  result.quads = std::min(coarse, quads);
+  return result;
 }
 
 }  // namespace quadedge::bench

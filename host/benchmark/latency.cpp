@@ -83,17 +83,21 @@ void measure_latency(const Subject& subject, BenchRecord& record) {
       before = device.context()->traffic();
     report::FrameRecord frame;
     frame.start_ms = milliseconds_since(start);
+    const double processor = processor_ms();
     frame.result = odometry.track(subject.frames[i].view());
+    if (i > 0 && !is_warm_up(i, record)) record.processor_ms.push_back(processor_ms() - processor);
     if (!is_warm_up(i, record)) record.run.frames.push_back(std::move(frame));
     subject.progress("latency", static_cast<int>(i) + 1, total);
   }
   record.run.host_peak_mb = host_peak_mb();
   if (device.context() == nullptr) return;
-  const auto& moved = device.context()->traffic();
+  const auto& traffic = device.context()->traffic();
   const double frames = std::max(1, total - 1 - record.warm_up), scale = 1 / (kMegabyte * frames);
-  record.to_device_mb = static_cast<double>(moved.to_device - before.to_device) * scale;
-  record.waits = static_cast<double>(moved.waits - before.waits) / frames;
-  record.to_host_mb = static_cast<double>(moved.to_host - before.to_host) * scale;
+  record.to_device_mb = static_cast<double>(traffic.to_device - before.to_device) * scale;
+  record.launches = static_cast<double>(traffic.launches - before.launches) / frames;
+  record.writes = static_cast<double>(traffic.writes - before.writes) / frames;
+  record.waits = static_cast<double>(traffic.waits - before.waits) / frames;
+  record.to_host_mb = static_cast<double>(traffic.to_host - before.to_host) * scale;
   record.run.device_peak_mb = static_cast<double>(device.context()->peak_bytes()) / kMegabyte;
 }
 
@@ -123,6 +127,8 @@ void measure_kernels(const Subject& subject, BenchRecord& record) {
     for (const auto& stage : result.stages) {
       if (stage.stage.rfind(prefix, 0) == 0) kernels.push_back({stage.stage.substr(prefix.size()), stage.ms});
     }
+    if (i > 0 && !is_warm_up(i, record))
+      record.profiled.push_back({device.context()->last_profile(), result.latency_ms});
     if (!is_warm_up(i, record)) record.run.kernel_times.push_back(std::move(kernels));
     subject.progress("kernel times", static_cast<int>(i) + 1, static_cast<int>(subject.frames.size()));
   }

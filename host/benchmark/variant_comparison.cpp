@@ -25,7 +25,6 @@ constexpr double kWorthChanging = 0.97;                 // of the default's time
 /// The names under which the pipeline books the kernels of a stage with variants.
 std::vector<std::string> booked_as(const std::string& stage) {
   if (stage == kGuidedMatch) return {kGuidedMatch, "temporal_candidates", "candidate_filters", "temporal_quads"};
-  if (stage == "scan") return {"edge_detection", "stereo_candidates", "temporal_candidates"};  // the stages that use it
   return {stage};
 }
 
@@ -63,8 +62,9 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   candidate.frontend->match_anywhere(first);
   const auto names = booked_as(stage);
   double sum = kNaN;
-  for (const auto& [name, ms] : context.take_profile()) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) sum = std::isnan(sum) ? ms : sum + ms;
+  for (const auto& row : context.take_profile()) {
+    if (std::find(names.begin(), names.end(), row.stage) != names.end())
+      sum = std::isnan(sum) ? row.kernel_ms : sum + row.kernel_ms;
   }
   return sum;
 }
@@ -111,10 +111,11 @@ std::string ReferenceCheck::difference(Device& device, const std::map<std::strin
   const auto agreeing =
       agreement(run_frontend(*frontend, small_->frames[0], small_->frames[1], config), small_->expected);
   if (agreeing.good()) return {};
-  char text[128];
-  std::snprintf(text, sizeof text,
-                "differs from the reference: %.1f %% of the stereo edges and %.1f %% of the quads are the same",
-                100 * agreeing.stereo, 100 * agreeing.quads);
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "differs from the reference: %.1f %% of the stereo edges and %.1f %% of the quads are the same; first: %s",
+      100 * agreeing.stereo, 100 * agreeing.quads, agreeing.first.c_str());
   return text;
 }
 
@@ -124,7 +125,7 @@ std::string StageResult::best() const {
   for (const auto& variant : variants) {
     if (!variant.agrees || !std::isfinite(variant.median_ms)) continue;
     if (variant.is_default && best.empty()) best = variant.name;
-    if (variant.ratio_to_default < std::min(fastest, kWorthChanging)) {
+    if (variant.ratio_p90 < 1 && variant.ratio_to_default < std::min(fastest, kWorthChanging)) {
       best = variant.name;
       fastest = variant.ratio_to_default;
     }
@@ -144,7 +145,8 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     progress("checking " + stage + " " + variant.name);
     VariantResult row;
     row.name = variant.name;
-    row.median_ms = row.ratio_to_default = row.bandwidth_share = row.arithmetic_share = kNaN;
+    row.median_ms = row.p10_ms = row.p90_ms = row.ratio_to_default = row.ratio_p90 = row.bandwidth_share =
+        row.arithmetic_share = kNaN;
     Candidate candidate;
     candidate.device = std::make_unique<Device>(input.open_device());
     row.is_default = opencl::choose_variant(stage, *candidate.device->context(), {}).name == variant.name;
@@ -167,29 +169,34 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     auto& row = result.variants[i];
-    if (!row.agrees || !result.variants[by_default].agrees ||
-        same_bytes(candidates[i].output, candidates[by_default].output))
-      continue;
+    if (!row.agrees || !result.variants[by_default].agrees) continue;
+    const std::string first = first_difference(candidates[i].output, candidates[by_default].output);
+    if (first.empty()) continue;
     row.agrees = false;
-    row.why = "differs from the default's bytes";
+    row.why = "differs from the default's bytes; first: " + first;
   }
   for (int repetition = 0; repetition < input.repetitions; ++repetition) {
     progress("measuring " + stage);
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      // To and fro, so that no variant always comes after the same other one.
+      const std::size_t i = repetition % 2 == 0 ? k : candidates.size() - 1 - k;
       if (result.variants[i].agrees) candidates[i].times.push_back(measure_once(stage, input, candidates[i]));
     }
   }
-  const FrontendOutput& seen = candidates[by_default].output;
-  const FrameSize size{static_cast<double>(input.second.left.pixel_count() + input.second.right.pixel_count()),
-                       static_cast<double>(seen.left_edges.size() + seen.right_edges.size())};
-  const StageWork work = least_work(stage, size, input.config);
+  const StageWork work = least_work(stage, input.size, input.config);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     auto& row = result.variants[i];
     const bool timed = !candidates[i].times.empty() && std::isfinite(candidates[i].times.front());
     if (row.agrees && !timed) row.why = "this input never runs the stage";
     if (!timed) continue;
     row.median_ms = report::median(candidates[i].times);
-    row.ratio_to_default = row.median_ms / report::median(candidates[by_default].times);
+    row.p10_ms = report::percentile(candidates[i].times, 0.1);
+    row.p90_ms = report::percentile(candidates[i].times, 0.9);
+    std::vector<double> ratios;  // of what was measured one after the other
+    for (std::size_t k = 0; k < candidates[i].times.size(); ++k)
+      ratios.push_back(candidates[i].times[k] / candidates[by_default].times[k]);
+    row.ratio_to_default = report::median(ratios);
+    row.ratio_p90 = report::percentile(ratios, 0.9);
     row.bandwidth_share = work.bytes / (row.median_ms * 1e6) / ceilings.bandwidth_gb_s;
     row.arithmetic_share = work.operations / (row.median_ms * 1e6) / ceilings.arithmetic_gflop_s;
   }
@@ -228,7 +235,10 @@ std::string comparison_json(const DeviceInfo& device, const Ceilings& ceilings, 
                       {"agrees", variant.agrees},
                       {"why", variant.why},
                       {"median_ms", to_json(variant.median_ms)},
+                      {"p10_ms", to_json(variant.p10_ms)},
+                      {"p90_ms", to_json(variant.p90_ms)},
                       {"ratio_to_default", to_json(variant.ratio_to_default)},
+                      {"ratio_p90", to_json(variant.ratio_p90)},
                       {"bandwidth_share", to_json(variant.bandwidth_share)},
                       {"arithmetic_share", to_json(variant.arithmetic_share)}});
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark/ceilings.hpp"
+#include "benchmark/stage_work.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/device.hpp"
@@ -22,17 +23,19 @@ struct VariantResult {
   bool agrees = false;   ///< with the reference on a small input, and with the default's bytes on the measured one
   std::string why;       ///< empty, or why there is no time
   double median_ms = 0;  ///< of the stage in one frame by OpenCL events; NaN without a time
-  double ratio_to_default = 0;
+  double p10_ms = 0, p90_ms = 0;
+  double ratio_to_default = 0;  ///< median over the repetitions, each with the default's time beside it
+  double ratio_p90 = 0;         ///< 90th percentile of the same: below 1 the variant wins beyond the noise
   double bandwidth_share = 0,
-         arithmetic_share = 0;  ///< of the device's ceilings, for the least work; NaN where that is not known
+         arithmetic_share = 0;  ///< of the device's ceilings, for the least work; NaN without a time
 };
 
 /// All variants of one stage.
 struct StageResult {
   std::string stage;
   std::vector<VariantResult> variants;
-  /// The fastest one that agrees; the default unless another is at least 3 % faster. Empty where the input never runs
-  /// the stage.
+  /// The fastest one that agrees; the default unless another is at least 3 % faster, and faster in nine of ten
+  /// repetitions. Empty where the input never runs the stage.
   std::string best() const;
 };
 
@@ -44,6 +47,7 @@ struct VariantInput {
   Config config;                        ///< complete; its variants are those that all other stages run with
   std::function<Device()> open_device;  ///< with profiling
   int repetitions = 9;
+  FrameSize size;  ///< of the second frame, see count_frame()
 };
 
 /// A small input and what the plain C++ reference makes of it; serves all stages.

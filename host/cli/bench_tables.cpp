@@ -8,15 +8,35 @@
 namespace quadedge::cli {
 namespace {
 
-void print_stages(const char* title, const std::vector<report::StageSummary>& stages) {
-  if (stages.empty()) return;
-  double sum = 0;
-  std::printf("%s\n", title);
-  for (const auto& stage : stages) {
-    std::printf("  %-28s %9.2f ms  p90 %9.2f\n", stage.stage.c_str(), stage.median, stage.p90);
-    sum += stage.median;
+/// The host's phases, which follow one another.
+void print_phases(const std::vector<report::StageSummary>& phases, double frame_ms) {
+  std::printf("\nphases by the host's clock, median\n");
+  for (const auto& phase : phases) {
+    std::printf("  %-20s %9.2f ms %5.1f %%   p90 %9.2f\n", phase.stage.c_str(), phase.median,
+                100 * phase.median / frame_ms, phase.p90);
   }
-  std::printf("  %-28s %9.2f ms\n", "sum", sum);
+}
+
+/// Where the time of a frame goes, stage by stage.
+void print_shares(const bench::FrameShares& shares) {
+  if (shares.stages.empty()) return;
+  std::printf("\nstages of a frame by OpenCL events, in a pass of their own (%.2f ms per frame), mean [ms]\n",
+              shares.frame_ms);
+  std::printf("  %-20s %9s %7s %9s %9s %9s %9s\n", "", "wall", "share", "kernels", "transfers", "starting", "launches");
+  opencl::StageProfile sum;
+  for (const auto& stage : shares.stages) {
+    std::printf("  %-20s %9.2f %5.1f %% %9.2f %9.2f %9.2f %9d\n", stage.stage.c_str(), stage.wall_ms(),
+                100 * stage.wall_ms() / shares.frame_ms, stage.kernel_ms, stage.transfer_ms, stage.queue_ms,
+                stage.launches);
+    sum.kernel_ms += stage.kernel_ms;
+    sum.transfer_ms += stage.transfer_ms;
+    sum.queue_ms += stage.queue_ms;
+    sum.launches += stage.launches;
+  }
+  std::printf("  %-20s %9.2f %5.1f %%   the device waits for what the host computes, poses above all\n", "host",
+              shares.host_ms(), 100 * shares.host_ms() / shares.frame_ms);
+  std::printf("  %-20s %9.2f %5.1f %% %9.2f %9.2f %9.2f %9d\n", "frame", shares.frame_ms, 100.0, sum.kernel_ms,
+              sum.transfer_ms, sum.queue_ms, sum.launches);
 }
 
 double count(const report::RunRecord& run, const std::string& name) {
@@ -39,6 +59,9 @@ void print_benchmark(const bench::BenchRecord& record) {
   const auto latency = report::latency_summary(run.frames);
   std::printf("\nframe             median %.2f ms, p90 %.2f, p99 %.2f, max %.2f; first %.2f\n", latency.median,
               latency.p90, latency.p99, latency.max, latency.first);
+  const double processor = report::median(record.processor_ms);
+  std::printf("processor time    median %.2f ms per frame, %.2f of the wall time\n", processor,
+              processor / latency.median);
   if (!record.edges_ms.empty()) {
     std::printf("edge detection    median %.2f ms, p90 %.2f; one image\n", report::median(record.edges_ms),
                 report::percentile(record.edges_ms, 0.9));
@@ -47,10 +70,10 @@ void print_benchmark(const bench::BenchRecord& record) {
   std::printf("kernel build      %.0f ms of it\n", run.kernel_build_ms);
   std::printf("memory            host peak %.0f MB (%.0f MB of it recorded images), device peak %.0f MB\n",
               run.host_peak_mb, record.frames_mb, run.device_peak_mb);
-  std::printf("moved per frame   %.2f MB to the device, %.2f MB to the host; %.1f waits for results\n",
-              record.to_device_mb, record.to_host_mb, record.waits);
-  print_stages("\nhost stages, median", report::stage_summary(report::stage_times(run.frames)));
-  print_stages("\nkernels by OpenCL events, in a pass of their own, median", report::stage_summary(run.kernel_times));
+  std::printf("queue per frame   %.1f launches, %.1f writes of %.2f MB, %.2f MB read back, %.1f waits\n",
+              record.launches, record.writes, record.to_device_mb, record.to_host_mb, record.waits);
+  print_phases(report::stage_summary(report::stage_times(run.frames)), latency.median);
+  print_shares(record.shares());
   if (!record.yardsticks) return;
   std::printf("\nyardsticks with OpenCV, %d threads\n", record.yardsticks->threads);
   std::printf("  S: SIFT on both images       %9.2f ms   frame / S           %.3f\n",
@@ -69,6 +92,10 @@ void print_comparison(const bench::BenchComparison& comparison, double noise_per
                 : figure.judged ? ""
                                 : "(not judged)");
   }
+  if (!comparison.has_yardsticks)
+    std::printf(
+        "both times are absolute: measured with --baseline, results of a shared machine are compared by how much "
+        "slower OpenCV's SIFT was\n");
   for (const auto& note : comparison.notes) std::printf("differs: %s\n", note.c_str());
   if (comparison.drift != 1) {
     std::printf("times are compared after division by %.3f, as OpenCV's SIFT took so much longer\n", comparison.drift);

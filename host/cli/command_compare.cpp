@@ -32,7 +32,10 @@ void print_stage(const bench::StageResult& stage) {
   for (const auto& variant : stage.variants) {
     std::printf("%-20s %-10s %-8s", stage.stage.c_str(), variant.name.c_str(), variant.is_default ? "default" : "");
     print_number(variant.median_ms, " %9.3f ms", "         -   ");
+    print_number(variant.p10_ms, " %9.3f", "         -");
+    print_number(variant.p90_ms, " %9.3f", "         -");
     print_number(variant.ratio_to_default, " %7.2f", "       -");
+    print_number(variant.ratio_p90, " %7.2f", "       -");
     print_number(100 * variant.bandwidth_share, " %8.1f %%", "        -  ");
     print_number(100 * variant.arithmetic_share, " %8.1f %%", "        -  ");
     const char* mark = !variant.runs         ? "  CANNOT RUN: "
@@ -59,7 +62,7 @@ class CompareCommand : public Command {
     options.text("--stage", stage_, "only this stage (`quadedge variants`)", "STAGE");
     options.text("--size", size_, "images of the built-in sequence that is measured on [px]; default 942x489", "WxH");
     options.number("--edges", edges_, "choose edges.threshold for so many edges per image; 0: as configured");
-    options.number("--repetitions", repetitions_, "measurements of each variant; the median counts");
+    options.number("--repetitions", repetitions_, "measurements of each variant, in turn with the others");
     options.flag("--save", save_, "keep the fastest variants for this device; `run`, `demo` and `bench` then use them");
     options.text("--json", json_, "write all figures", "FILE");
     options.flag("--force", force_, "replace a file that exists");
@@ -91,11 +94,13 @@ class CompareCommand : public Command {
     const bench::Ceilings ceilings = bench::measure_ceilings(*device.context());
     std::printf("%s\n%.1f GB/s, %.1f GFLOP/s: the ceilings, measured by a copy and by multiply-adds\n",
                 info.name.c_str(), ceilings.bandwidth_gb_s, ceilings.arithmetic_gflop_s);
-    std::printf("\n%-20s %-10s %-8s %12s %7s %10s %10s\n", "stage", "variant", "", "time", "ratio", "bandwidth",
-                "arithmetic");
+    std::printf("\n%-20s %-10s %-8s %12s %9s %9s %7s %7s %10s %10s\n", "stage", "variant", "", "median", "p10", "p90",
+                "ratio", "p90", "bandwidth", "arithmetic");
 
+    const bench::FrameSize size =
+        bench::count_frame(*frontend::make_frontend(source->rig(), device, config), *first, *second, config);
     const bench::VariantInput input{source->rig(), *first, *second, config, [&] { return method_.open_device(true); },
-                                    repetitions_};
+                                    repetitions_,  size};
     StatusLine status(quiet_);
     std::vector<bench::StageResult> results;
     for (const auto& stage : stages) {

@@ -25,6 +25,9 @@ class MotionSearch {
   /// The motion of the query's current rig; its status says whether there is one. The search must outlive the handle.
   StepHandle find(const MotionQuery& query);
 
+  /// See StepBuilder::take_pose_ms().
+  double take_pose_ms() { return steps_.take_pose_ms(); }
+
  private:
   StepHandle search(const MotionQuery& query);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/run_cost.hpp"
+
 namespace quadedge::odometry {
 namespace {
 
@@ -18,11 +20,13 @@ StepHandle StepBuilder::take(const frontend::RigHandle& base) {
 
 void StepBuilder::estimate(const MotionQuery& query, const PoseConfig& limits,
                            const std::optional<Eigen::Isometry3d>& initial, MotionStep& step) {
+  const auto start = Clock::now();
   quad_builder_.build(calibration(), measured(*step.base), query.current->edges, step.matches,
                       pose::QuadLimits(config_), step.quads);
   step.quads.scoring.half_length =
       pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
   estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(), step.motion);
+  pose_ms_ += milliseconds_since(start);
 }
 
 const pose::MeasuredEdges& StepBuilder::measured(const frontend::Rig& rig) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <utility>
 
 #include "frontend/frontend.hpp"
 #include "odometry/disparity_offset.hpp"
@@ -25,6 +26,8 @@ class StepBuilder {
   /// The motion that the step's matches agree on. \param initial a hypothesis beside the samples, current_from_base
   void estimate(const MotionQuery& query, const PoseConfig& limits, const std::optional<Eigen::Isometry3d>& initial,
                 MotionStep& step);
+  /// Time that estimate() took since the last call [ms].
+  double take_pose_ms() { return std::exchange(pose_ms_, 0); }
 
   /// The rig's edges, measured with the calibration as far as it is known.
   const pose::MeasuredEdges& measured(const frontend::Rig& rig) const;
@@ -37,6 +40,7 @@ class StepBuilder {
   Pool<MotionStep> steps_;
   pose::QuadBuilder quad_builder_;
   pose::MotionEstimator estimator_;
+  double pose_ms_ = 0;
 };
 
 /// Limits for the motion of a few edges that an exact search is to confirm: it need not convince by itself.

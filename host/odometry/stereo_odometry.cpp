@@ -126,18 +126,20 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     start(result);
   } else {
     step_ = search(result);
-    result.stages.push_back({"temporal", clock.lap()});
+    const double pose_ms = motion_search_.take_pose_ms();
+    result.stages.push_back({"temporal", clock.lap() - pose_ms});
     if (step_->ok()) {
       locate(*step_, result);
     } else {
       lose(lost_status(step_->motion.status), pose::to_string(step_->motion.status), result);
     }
-    result.stages.push_back({"pose", clock.lap()});
+    result.stages.push_back({"pose", pose_ms + clock.lap()});
   }
   state_.world_from_last = result.world_from_left;
   result.latency_ms = latency.lap();
   if (device_.context() != nullptr && device_.context()->profiling()) {
-    for (const auto& [stage, ms] : device_.context()->take_profile()) result.stages.push_back({"device " + stage, ms});
+    for (const auto& row : device_.context()->take_profile())
+      result.stages.push_back({"device " + row.stage, row.kernel_ms});
   }
   return result;
 }

@@ -79,14 +79,15 @@ class Buffer {
   /// Sets the first `count` elements, on the device.
   void fill(T value, std::size_t count) {
     if (count == 0) return;
-    call("filling a buffer", [&] { context_->queue().enqueueFillBuffer(memory_, value, 0, count * sizeof(T)); });
+    call("filling a buffer",
+         [&] { context_->queue().enqueueFillBuffer(memory_, value, 0, count * sizeof(T), nullptr, watch()); });
   }
   /// Copies `count` elements from the same place of another buffer, on the device.
   void copy(const Buffer& source, std::size_t offset, std::size_t count) {
     if (count == 0) return;
     call("copying a buffer", [&] {
       context_->queue().enqueueCopyBuffer(source.memory_, memory_, offset * sizeof(T), offset * sizeof(T),
-                                          count * sizeof(T));
+                                          count * sizeof(T), nullptr, watch());
     });
   }
 
@@ -103,15 +104,18 @@ class Buffer {
     context_ = nullptr;
     capacity_ = 0;
   }
+  cl::Event* watch() const { return context_->watch(Context::Command::transfer); }
   void enqueue_write(const T* values, std::size_t count, cl_bool blocking) {
     context_->count_to_device(count * sizeof(T));
-    call("writing a buffer",
-         [&] { context_->queue().enqueueWriteBuffer(memory_, blocking, 0, count * sizeof(T), values); });
+    call("writing a buffer", [&] {
+      context_->queue().enqueueWriteBuffer(memory_, blocking, 0, count * sizeof(T), values, nullptr, watch());
+    });
   }
   void enqueue_read(T* values, std::size_t count, std::size_t offset, cl_bool blocking) const {
     context_->count_to_host(count * sizeof(T));
     call("reading a buffer", [&] {
-      context_->queue().enqueueReadBuffer(memory_, blocking, offset * sizeof(T), count * sizeof(T), values);
+      context_->queue().enqueueReadBuffer(memory_, blocking, offset * sizeof(T), count * sizeof(T), values, nullptr,
+                                          watch());
     });
   }
   template <class Function>

@@ -87,24 +87,33 @@ void Context::account(std::ptrdiff_t bytes) {
   peak_bytes_ = std::max(peak_bytes_, bytes_);
 }
 
-void Context::record(const cl::Event& event) { events_.emplace_back(stage_, event); }
+cl::Event* Context::watch(Command kind) {
+  if (!profiling_) return nullptr;
+  return &watched_.emplace_back(Watched{stage_, kind, cl::Event()}).event;
+}
 
-std::vector<std::pair<std::string, double>> Context::take_profile() {
+std::vector<StageProfile> Context::take_profile() {
   finish();
-  std::vector<std::pair<std::string, double>> stages;
-  for (const auto& [stage, event] : events_) {
-    const auto nanoseconds =
-        event.getProfilingInfo<CL_PROFILING_COMMAND_END>() - event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-    const auto found =
-        std::find_if(stages.begin(), stages.end(), [&name = stage](const auto& row) { return row.first == name; });
-    if (found == stages.end()) {
-      stages.emplace_back(stage, static_cast<double>(nanoseconds) * 1e-6);
-    } else {
-      found->second += static_cast<double>(nanoseconds) * 1e-6;
-    }
+  constexpr double kMilliseconds = 1e-6;  // per nanosecond
+  last_profile_.clear();
+  cl_ulong idle_since = 0;
+  for (const auto& [stage, kind, event] : watched_) {
+    if (event() == nullptr) continue;  // it could not be enqueued
+    const auto found = std::find_if(last_profile_.begin(), last_profile_.end(),
+                                    [&name = stage](const StageProfile& row) { return row.stage == name; });
+    StageProfile& row = found == last_profile_.end() ? last_profile_.emplace_back() : *found;
+    row.stage = stage;
+    const auto queued = event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>(),
+               start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>(),
+               end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    const auto ready = std::max(queued, idle_since);
+    if (start > ready) row.queue_ms += static_cast<double>(start - ready) * kMilliseconds;
+    (kind == Command::kernel ? row.kernel_ms : row.transfer_ms) += static_cast<double>(end - start) * kMilliseconds;
+    row.launches += kind == Command::kernel ? 1 : 0;
+    idle_since = end;
   }
-  events_.clear();
-  return stages;
+  watched_.clear();
+  return last_profile_;
 }
 
 }  // namespace quadedge::opencl

@@ -3,6 +3,7 @@
 
 #include <CL/opencl.hpp>
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +12,18 @@ namespace quadedge::opencl {
 
 /// Compile-time parameters of a program, in a fixed order.
 using Defines = std::map<std::string, std::string>;
+
+/// What the device spent on a stage between two calls of Context::take_profile() [ms]. A device that is busy with one
+/// command after the other spends nothing on waits.
+struct StageProfile {
+  std::string stage;
+  double kernel_ms = 0;    ///< running kernels
+  double transfer_ms = 0;  ///< copying to, from and on the device
+  double queue_ms = 0;     ///< idle although a command of the stage was enqueued: what the driver takes to start it
+  int launches = 0;        ///< kernels
+
+  double wall_ms() const { return kernel_ms + transfer_ms + queue_ms; }
+};
 
 /// Owns context, queue and programs. Not copyable; everything made from it must die before it.
 class Context {
@@ -60,12 +73,17 @@ class Context {
   void count_to_host(std::size_t bytes) { traffic_.to_host += bytes; }
   void count_wait() { ++traffic_.waits; }
 
-  /// The stage that the following launches belong to (profiling).
+  /// The stage that the following commands belong to (profiling).
   void begin_stage(const std::string& stage) { stage_ = stage; }
-  void record(const cl::Event& event);
-  /// Milliseconds of kernel time (START to END) per stage since the last call, in order of first launch; waits for the
-  /// queue.
-  std::vector<std::pair<std::string, double>> take_profile();
+  const std::string& stage() const { return stage_; }
+  enum class Command { kernel, transfer };
+  /// The event of the command that is enqueued next; null where nothing is profiled.
+  cl::Event* watch(Command kind);
+  /// What the commands since the last call took, by stage in order of first appearance, from the events' times; waits
+  /// for the queue.
+  std::vector<StageProfile> take_profile();
+  /// What take_profile() returned last.
+  const std::vector<StageProfile>& last_profile() const { return last_profile_; }
 
  private:
   std::string kernel_text(const std::string& file) const;
@@ -82,7 +100,13 @@ class Context {
   std::size_t bytes_ = 0, peak_bytes_ = 0;
   Traffic traffic_;
   std::string stage_ = "other";
-  std::vector<std::pair<std::string, cl::Event>> events_;
+  struct Watched {
+    std::string stage;
+    Command kind = Command::kernel;
+    cl::Event event;
+  };
+  std::deque<Watched> watched_;  ///< in the order of the queue; events stay where they are
+  std::vector<StageProfile> last_profile_;
 };
 
 }  // namespace quadedge::opencl

@@ -105,11 +105,9 @@ class Kernel {
       cl_uint index = 0;
       (set(index++, args), ...);
       context_->count_launch();
-      cl::Event event;
       context_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global_x, global_y),
                                              cl::NDRange(range.local_x, range.local_y), nullptr,
-                                             context_->profiling() ? &event : nullptr);
-      if (context_->profiling()) context_->record(event);
+                                             context_->watch(Context::Command::kernel));
     } catch (const cl::Error& error) {
       throw_device_error("launching kernel " + name_ + " over " + std::to_string(global_x) + "x" +
                              std::to_string(global_y) + " in groups of " + std::to_string(range.local_x) + "x" +

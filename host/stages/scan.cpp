@@ -27,8 +27,11 @@ void Scan::run(const opencl::Buffer<cl_int>& counts, int count, int capacity, op
   total.ensure(*context_, 2);
   const std::size_t groups = count <= kSmall ? 1 : kGroups;
   const opencl::Range range(groups * local_size_, local_size_);
+  const std::string user = context_->stage();
+  context_->begin_stage("scan");
   if (groups > 1) sums_(range, counts, count, group_sums_);
   write_(range, counts, count, group_sums_, capacity, first, total);
+  context_->begin_stage(user);
 }
 
 }  // namespace quadedge::stages
