@@ -15,8 +15,8 @@ constexpr double kExplainedDistance = 1.0 / 3.0;
 /// Support that a wrong motion may find by chance, in fine texture.
 constexpr double kChanceSupport = 0.2;
 
-/// Of the support that motions have had lately: a motion with as much is as good as they.
-constexpr double kUsualSupport = 0.6;
+/// Of the support that motions have had lately: a motion with as much of it is one of theirs.
+constexpr double kUsualSupport = 0.5;
 
 /// What is left per frame of the support that was reached.
 constexpr double kForgetting = 0.95;
