@@ -211,8 +211,8 @@ kernel void edges_strip_directions(const DetectionArguments args, global const f
       x[k] = winner.x;
       y[k] = winner.y;
       strengths[first + begin + k] = winner.z;
-      window_derivatives(plane, stride, AT_CELL ? 0.5f * floor(winner.w) : winner.x, AT_CELL ? 0.5f * (float)row : winner.y,
-                         derivatives + k);
+      window_derivatives(plane, stride, AT_CELL ? 0.5f * floor(winner.w) : winner.x,
+                         AT_CELL ? 0.5f * (float)row : winner.y, derivatives + k);
     }
     float8 d[DERIVATIVES], edge_x = vload8(0, x), edge_y = vload8(0, y), edge_drift;
     for (int j = 0; j < DERIVATIVES; ++j) d[j] = vload8(j, derivatives);

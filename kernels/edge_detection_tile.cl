@@ -127,7 +127,8 @@ kernel void edges_tile_directions(const DetectionArguments args, global const fl
   const int n = (int)get_global_id(0) >> 3, stride = args.plane_stride;
   const bool active = n < total[0];
   const float4 winner = active ? vload4(n, compact) : (float4)0.0f;
-  const float x = AT_CELL ? 0.5f * floor(winner.w) : winner.x, y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
+  const float x = AT_CELL ? 0.5f * floor(winner.w) : winner.x,
+              y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
   const int whole_x = (int)x, whole_y = (int)y;
   for (int k = lane; k < COLUMNS; k += 8) {
     float w[ORDERS];

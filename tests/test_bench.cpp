@@ -217,7 +217,7 @@ TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][b
     result = compare_with(changed);
     CHECK(result.code == 3);
     CHECK_THAT(result.err, Contains("new.json: found " + std::string(key) + " 77, expected " +
-                                     std::to_string(key == std::string("schema") ? 1 : bench::kBenchSchema)));
+                                    std::to_string(key == std::string("schema") ? 1 : bench::kBenchSchema)));
   }
 
   const TemporaryFolder folder;
