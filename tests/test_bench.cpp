@@ -3,10 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/bench_comparison.hpp"
+#include "benchmark/bench_record.hpp"
 #include "benchmark/latency.hpp"
 #include "frontends.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
+#include "report/json.hpp"
 
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -210,14 +212,14 @@ TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][b
                                  Contains("expected a number"));
     }
   }
-  for (const char* key : {"schema", "bench_schema"}) {
+  for (const auto& [key, known] :
+       {std::pair<std::string, int>{"schema", report::kReportSchema}, {"bench_schema", bench::kBenchSchema}}) {
     INFO(key);
     json changed = shared_bench().parsed();
     changed[key] = 77;
     result = compare_with(changed);
     CHECK(result.code == 3);
-    CHECK_THAT(result.err, Contains("new.json: found " + std::string(key) + " 77, expected " +
-                                    std::to_string(key == std::string("schema") ? 1 : bench::kBenchSchema)));
+    CHECK_THAT(result.err, Contains("new.json: found " + key + " 77, expected " + std::to_string(known)));
   }
 
   const TemporaryFolder folder;
