@@ -46,7 +46,7 @@ def examine(folder, late, arm, scale):
     position, turned = poses(time - late)
     position = (position + np.einsum("nij,j->ni", matrices(turned), arm)) * (1 + scale)
     (truth / "data.csv").write_text("#timestamp\n" + "".join(
-        f"{START + round(t * 1e9)},{p[0]:.12f},{p[1]:.12f},{p[2]:.12f},{q[3]:.12f},{q[0]:.12f},{q[1]:.12f},{q[2]:.12f}\n"
+        ",".join([str(START + round(t * 1e9)), *(f"{value:.12f}" for value in (*p, q[3], q[0], q[1], q[2]))]) + "\n"
         for t, p, q in zip(time, position, quaternion)))
     frames = np.arange(0, 6, 0.05)
     (results / "trajectory.txt").write_text("# stamp x y z qx qy qz qw\n" + "".join(
