@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "benchmark/bench_record.hpp"
 #include "report/json.hpp"
 #include "report/json_values.hpp"
@@ -20,24 +18,18 @@ FrameShares BenchRecord::shares() const {
   FrameShares mean;
   if (profiled.empty()) return mean;
   const double scale = 1 / static_cast<double>(profiled.size());
-  std::vector<double> launches_of;
   for (const auto& frame : profiled) {
     mean.frame_ms += frame.frame_ms * scale;
     for (const auto& stage : frame.stages) {
       std::size_t row = 0;
       while (row < mean.stages.size() && mean.stages[row].stage != stage.stage) ++row;
-      if (row == mean.stages.size()) {
-        mean.stages.emplace_back().stage = stage.stage;
-        launches_of.push_back(0);
-      }
+      if (row == mean.stages.size()) mean.stages.emplace_back().stage = stage.stage;
       mean.stages[row].kernel_ms += stage.kernel_ms * scale;
       mean.stages[row].transfer_ms += stage.transfer_ms * scale;
       mean.stages[row].queue_ms += stage.queue_ms * scale;
-      launches_of[row] += stage.launches * scale;
+      mean.stages[row].launches += stage.launches * scale;
     }
   }
-  for (std::size_t row = 0; row < mean.stages.size(); ++row)
-    mean.stages[row].launches = static_cast<int>(std::lround(launches_of[row]));
   return mean;
 }
 

@@ -25,7 +25,7 @@ void print_shares(const bench::FrameShares& shares) {
   std::printf("  %-20s %9s %7s %9s %9s %9s %9s\n", "", "wall", "share", "kernels", "transfers", "starting", "launches");
   opencl::StageProfile sum;
   for (const auto& stage : shares.stages) {
-    std::printf("  %-20s %9.2f %5.1f %% %9.2f %9.2f %9.2f %9d\n", stage.stage.c_str(), stage.wall_ms(),
+    std::printf("  %-20s %9.2f %5.1f %% %9.2f %9.2f %9.2f %9.1f\n", stage.stage.c_str(), stage.wall_ms(),
                 100 * stage.wall_ms() / shares.frame_ms, stage.kernel_ms, stage.transfer_ms, stage.queue_ms,
                 stage.launches);
     sum.kernel_ms += stage.kernel_ms;
@@ -35,7 +35,7 @@ void print_shares(const bench::FrameShares& shares) {
   }
   std::printf("  %-20s %9.2f %5.1f %%   the device waits for what the host computes, poses above all\n", "host",
               shares.host_ms(), 100 * shares.host_ms() / shares.frame_ms);
-  std::printf("  %-20s %9.2f %5.1f %% %9.2f %9.2f %9.2f %9d\n", "frame", shares.frame_ms, 100.0, sum.kernel_ms,
+  std::printf("  %-20s %9.2f %5.1f %% %9.2f %9.2f %9.2f %9.1f\n", "frame", shares.frame_ms, 100.0, sum.kernel_ms,
               sum.transfer_ms, sum.queue_ms, sum.launches);
 }
 

@@ -20,7 +20,7 @@ struct StageProfile {
   double kernel_ms = 0;    ///< running kernels
   double transfer_ms = 0;  ///< copying to, from and on the device
   double queue_ms = 0;     ///< idle although a command of the stage was enqueued: what the driver takes to start it
-  int launches = 0;        ///< kernels
+  double launches = 0;     ///< kernels; a fraction in a mean
 
   double wall_ms() const { return kernel_ms + transfer_ms + queue_ms; }
 };
