@@ -27,8 +27,9 @@ TEST_CASE("run: leaves every documented file behind", "[cli][device]") {
   const auto& run = shared_run();
   INFO(run.result.err);
   REQUIRE(run.result.code == 0);
-  for (const char* name : {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "report.json", "config.toml",
-                           "pictures/trajectory.png", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
+  for (const char* name :
+       {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "poses.csv", "report.json", "config.toml",
+        "pictures/trajectory.png", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
     INFO(name);
     CHECK(fs::file_size(run.out(name)) > 0);
   }
@@ -50,6 +51,40 @@ TEST_CASE("run: trajectories begin at the identity and have one row per tracked 
   REQUIRE(first);
   CHECK(stamp.size() - stamp.find('.') == 10);  // nine decimals
   CHECK((tx == 0 && ty == 0 && tz == 0 && qx == 0 && qy == 0 && qz == 0 && qw == 1));
+}
+
+TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[cli][device]") {
+  const auto rows = read_lines(shared_run().out("poses.csv"));
+  REQUIRE(rows.size() == 5);
+  const auto fields = [](const std::string& row) {
+    std::vector<std::string> values;
+    std::istringstream stream(row + ",");
+    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
+    return values;
+  };
+  const auto names = fields(rows[0]);
+  REQUIRE(names.size() == 4 + 7 + 7 + 21 + 21);
+  CHECK(names[18] == "covariance_x_x");
+  CHECK(names[39] == "reference_covariance_x_x");
+  CHECK(names[59] == "reference_covariance_rz_rz");
+  const auto tum = read_lines(shared_run().out("trajectory.txt"));
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto values = fields(rows[i]);
+    REQUIRE(values.size() == names.size());
+    std::istringstream pose(tum[i]);
+    std::string value;
+    pose >> value;
+    CHECK(value == values[1]);
+    for (std::size_t column = 4; column < 11 && pose >> value; ++column) CHECK(value == values[column]);
+    // What ROS calls a valid covariance: variances on the diagonal; the first pose is exact by definition.
+    for (const std::size_t first : {18, 39}) {
+      std::size_t column = first;
+      for (std::size_t length = 6; length > 0; column += length--) {
+        const double variance = std::stod(values[column]);
+        CHECK((i == 1 ? variance == 0 : variance > 0));
+      }
+    }
+  }
 }
 
 TEST_CASE("run: the report has every documented key", "[cli][device]") {

@@ -81,6 +81,11 @@ TEST_CASE("odometry: a rendered room is tracked, twice with the same bytes", "[o
       CHECK((result.covariance - result.covariance.transpose()).norm() < 1e-9 * result.covariance.norm());
       CHECK(solver.eigenvalues().minCoeff() > 0);
       CHECK(std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace()) < 0.02);
+      // In the world a pose is no more certain than its key rig is.
+      REQUIRE((result.covariance_in_world && reference.covariance_in_world && result.covariance_in_reference));
+      CHECK((*result.covariance_in_world - *reference.covariance_in_world).topLeftCorner<3, 3>().trace() > 0);
+      CHECK(result.covariance_in_reference->topLeftCorner<3, 3>().trace() ==
+            Approx(result.covariance.bottomRightCorner<3, 3>().trace()));
     }
   }
 }
@@ -169,10 +174,38 @@ TEST_CASE("odometry: in another place tracking goes on from the lost frame, and 
   CHECK(after.status == FrameStatus::tracked);
   CHECK(after.message.empty());
   for (const auto* result : {&relocalised, &after}) {
+    CHECK(result->covariance_in_reference);
+    CHECK_FALSE(result->covariance_in_world);  // nothing measured connects it with the first frame
     const auto& truth = room().world_from_left[result == &after ? 2 : 1];
     const Eigen::Isometry3d motion = lost.world_from_left.inverse() * result->world_from_left;
     CHECK((motion.translation() - truth.translation()).norm() < 4e-3);
     CHECK(turn_between(motion, truth) < 0.1 * kDegree);
+  }
+}
+
+TEST_CASE("odometry: images that do not fit the calibration are lost with a reason, doubts are told once",
+          "[odometry][rig][device]") {
+  const RenderedScene scene("room", 320, 200, 3);
+  Device device(all_devices().front());
+  StereoOdometry exchanged(scene.rig, device, scene.config);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const StereoFrame frame{static_cast<std::int64_t>(i) - 3, scene.right[i].view(), scene.left[i].view()};
+    const FrameResult result = exchanged.track(frame);
+    CHECK(result.status == FrameStatus::lost_rig_mismatch);
+    CHECK(result.message.find("are left and right exchanged") != std::string::npos);
+    CHECK(result.rig.negative_ratio > 0.9);
+  }
+  const FrameResult first = exchanged.track(scene.frame(0));  // and it begins where they do fit
+  CHECK(first.status == FrameStatus::first);
+  CHECK(exchanged.track(scene.frame(1)).status == FrameStatus::tracked);
+
+  StereoRig pitched = scene.rig;
+  pitched.right_from_left.linear() = Eigen::AngleAxisd(0.5 * kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  StereoOdometry doubtful(pitched, device, scene.config);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const FrameResult result = doubtful.track(scene.frame(i));
+    CHECK(is_tracked(result.status));
+    CHECK((result.warning.find("doubtful") != std::string::npos) == (i == 0));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/rig_check.hpp"
 #include "data/check_tree.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
@@ -31,7 +32,8 @@ class CheckCommand : public Command {
   }
   int run() override {
     if (is_tree()) return check_tree();
-    const DatasetCheck check = check_dataset(path_, options_);
+    DatasetCheck check = check_dataset(path_, options_);
+    if (check.errors.empty()) check_rig_evidence(open_dataset(path_, options_), check);
     if (!quiet_) {
       for (const auto& fact : check.facts) std::printf("%s\n", fact.c_str());
       for (const auto& warning : check.warnings) std::printf("warning: %s\n", warning.c_str());

@@ -19,6 +19,7 @@
 #include "report/errors_csv.hpp"
 #include "report/frames_csv.hpp"
 #include "report/json.hpp"
+#include "report/poses_csv.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -27,7 +28,10 @@ namespace {
 class GrowingFiles {
  public:
   explicit GrowingFiles(const std::string& folder)
-      : tum_(folder + "/trajectory.txt"), kitti_(folder + "/trajectory_kitti.txt"), frames_(folder + "/frames.csv") {
+      : tum_(folder + "/trajectory.txt"),
+        kitti_(folder + "/trajectory_kitti.txt"),
+        frames_(folder + "/frames.csv"),
+        poses_(folder + "/poses.csv") {
     tum_.append(data::tum_header());
   }
   void add(const FrameResult& result) {
@@ -35,11 +39,13 @@ class GrowingFiles {
     if (is_tracked(result.status)) tum_.append(data::tum_row(pose));
     kitti_.append(data::kitti_row(pose));
     frames_.add(result);
+    poses_.add(result);
   }
 
  private:
   report::AppendFile tum_, kitti_;
   report::FramesCsv frames_;
+  report::PosesCsv poses_;
 };
 
 /// Is this frame one of `count` that lie evenly among the frames after the first?
@@ -108,13 +114,22 @@ void end_if_interrupted(const Interruption& interruption, const FrameSource& sou
   const std::string frames = std::to_string(run.frames.size()) + " of " + std::to_string(run.input.frames) + " frames";
   const std::string kept = source.kept();
   if (!run.frames.empty()) {
-    note(options.quiet, "interrupted; trajectory.txt, trajectory_kitti.txt and frames.csv in " + options.output +
-                            " hold what was tracked, " + frames);
+    note(options.quiet, "interrupted; trajectory.txt, trajectory_kitti.txt, frames.csv and poses.csv in " +
+                            options.output + " hold what was tracked, " + frames);
   } else {
     note(options.quiet, "interrupted before the first frame was tracked");
   }
   if (!kept.empty()) note(options.quiet, kept);
   interruption.end_process();
+}
+
+/// Says what is doubtful about the recording, and why its first frame does not fit the calibration.
+void tell(const FrameResult& result, bool quiet, const report::RunRecord& run) {
+  const std::string frame = "frame " + std::to_string(run.frames.size()) + ": ";
+  if (!result.warning.empty()) note(quiet, "warning: " + frame + result.warning);
+  const bool is_mismatch = result.status == FrameStatus::lost_rig_mismatch;
+  if (is_mismatch && (run.frames.empty() || run.frames.back().result.status != FrameStatus::lost_rig_mismatch))
+    note(quiet, "warning: " + frame + result.message);
 }
 
 /// First pass: poses and latencies.
@@ -141,7 +156,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     record.start_ms = milliseconds_since(start);
     record.result = odometry.track(frame->view());
     files.add(record.result);
-    draw_frame(*frame, run.input.frames, source.rig(), odometry, options);
+    tell(record.result, options.quiet, run);
+    draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
     lost += is_tracked(record.result.status) ? 0 : 1;
     run.frames.push_back(std::move(record));
     char text[64];

@@ -8,9 +8,21 @@
 namespace quadedge::odometry {
 namespace {
 
-/// Of the inlier distance; in fine texture many an edge meets a wrong position by chance, the fewer the nearer it has
-/// to come.
-constexpr double kExplainedDistance = 1.0 / 3.0;
+/// A cell of the image shows something that moves otherwise where fewer of the edges that are found again are
+/// explained, and counts as found that ratio of the edges in view at least.
+constexpr double kHardlyExplained = 0.25, kFoundAtLeast = 0.1;
+
+/// Ratio of edges in such cells from which on another motion is looked for; still scenes stay below.
+constexpr double kMuchLeftOver = 0.15;
+
+/// Explained areas of two motions whose ratio is above this do not say which of them is the world's.
+constexpr double kNearlyAsMuch = 0.4;
+
+/// Where this ratio of the edges in view lies in cells that hardly follow it, a motion is a compromise or an accident.
+constexpr double kMostLeftOver = 0.5;
+
+/// Two motions that share more of the inliers are one.
+constexpr double kTheSameMotion = 0.7;
 
 /// Support that a wrong motion may find by chance, in fine texture.
 constexpr double kChanceSupport = 0.2;
@@ -42,20 +54,24 @@ void Acceptance::measure_area(const EdgePositions& predicted, MotionStep& step) 
   for (std::size_t i = 0; i < predicted.x.size(); ++i)
     if (Cell* cell = cell_of(i)) cell->edges += 1;
   pose::select_inliers(step.quads.scoring, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous),
-                       kExplainedDistance * config_.pose.inlier_distance, config_.pose.inlier_orientation_rad(),
-                       agrees_);
+                       kCloseAgreement * config_.pose.inlier_distance, config_.pose.inlier_orientation_rad(), agrees_);
   for (std::size_t q = 0; q < step.quads.size(); ++q) {
-    if (!agrees_[q]) continue;
     const auto edge = step.matches.previous[static_cast<std::size_t>(step.quads.match[q])];
-    if (Cell* cell = cell_of(static_cast<std::size_t>(edge))) cell->explained += 1;
+    Cell* cell = cell_of(static_cast<std::size_t>(edge));
+    if (cell == nullptr) continue;
+    cell->found += 1;
+    cell->explained += agrees_[q] != 0 ? 1 : 0;
   }
-  double sum = 0, held = 0;
+  double sum = 0, held = 0, in_view = 0, elsewhere = 0;
   for (const Cell& cell : cells_) {
     if (!(cell.edges > 0)) continue;
     sum += cell.explained / cell.edges;
     held += 1;
+    in_view += cell.edges;
+    if (cell.explained < kHardlyExplained * std::max(cell.found, kFoundAtLeast * cell.edges)) elsewhere += cell.edges;
   }
   step.explained_area = held > 0 ? sum / held : 0;
+  step.moving_ratio = in_view > 0 ? elsewhere / in_view : 0;
 }
 
 double Acceptance::confident_support() const {
@@ -69,6 +85,25 @@ void Acceptance::remember(const MotionStep& found) {
 bool Acceptance::is_confident(const MotionStep& step) const {
   const bool can_ask_further = config_.temporal.wide_edges > 0;
   return step.ok() && (!can_ask_further || step.support >= confident_support());
+}
+
+bool Acceptance::leaves_much_over(const MotionStep& step) { return step.moving_ratio > kMuchLeftOver; }
+
+bool Acceptance::leaves_most_over(const MotionStep& step) { return step.moving_ratio > kMostLeftOver; }
+
+bool Acceptance::are_rivals(const MotionStep& found, const MotionStep& other,
+                            const Eigen::Isometry3d& base_from_other) {
+  if (!found.ok() || !other.ok() || other.explained_area < kNearlyAsMuch * found.explained_area) return false;
+  const Eigen::Isometry3d motion = other.motion.current_from_previous * base_from_other.inverse();
+  pose::select_inliers(found.quads.scoring, pose::LaterCameras(offset_.rig(), motion), config_.pose.inlier_distance,
+                       config_.pose.inlier_orientation_rad(), agrees_);
+  int inliers = 0, shared = 0;
+  for (std::size_t q = 0; q < agrees_.size(); ++q) {
+    if (found.motion.inlier[q] == 0) continue;
+    ++inliers;
+    shared += agrees_[q];
+  }
+  return shared < kTheSameMotion * inliers;
 }
 
 bool Acceptance::is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step) {

@@ -24,8 +24,8 @@ class Acceptance {
   void test_support(const EdgePositions& predicted, MotionStep& step) const;
 
   /// Sets the step's explained area: the mean, over the image's cells, of the ratio of predicted edges whose quads
-  /// agree closely with the motion. A thing counts by the area that it covers, not by the edges that it is covered
-  /// with.
+  /// agree closely with the motion, and its moving ratio. A thing counts by the area that it covers, not by the edges
+  /// that it is covered with.
   void measure_area(const EdgePositions& predicted, MotionStep& step);
 
   /// Whether a motion near the prediction is believed without asking further.
@@ -33,6 +33,16 @@ class Acceptance {
 
   /// Takes note of the support of the motion that was found in the end; after a failure nothing is known.
   void remember(const MotionStep& found);
+
+  /// Whether so much of the image moves otherwise that it may hold the world's motion: another one has to be looked
+  /// for.
+  static bool leaves_much_over(const MotionStep& step);
+  /// Whether most of the image moves otherwise.
+  static bool leaves_most_over(const MotionStep& step);
+
+  /// Whether another motion explains nearly as large an area as the one found, and is none that a fit would have led
+  /// to as well. \param base_from_other between the rigs that both are measured against
+  bool are_rivals(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
 
   /// Whether edges found anywhere agree with a motion: in as many cells of the image as an estimate needs inliers. A
   /// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,
@@ -44,7 +54,7 @@ class Acceptance {
   double confident_support() const;
 
   struct Cell {
-    double edges = 0, explained = 0;
+    double edges = 0, found = 0, explained = 0;
   };
 
   Config config_;

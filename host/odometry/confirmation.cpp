@@ -10,15 +10,17 @@ constexpr int kSettledStep = 16;  ///< every so many edges tell it
 
 }  // namespace
 
-StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base) {
+StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely) {
+  PoseConfig limits = config_.pose;
+  if (closely) limits.inlier_distance *= kCloseAgreement;
   if (query.key) {
-    StepHandle step = match(query, query.key, current_from_base * query.base_from_key);
+    StepHandle step = match(query, query.key, limits, current_from_base * query.base_from_key);
     if (step->ok()) return step;
   }
-  return match(query, query.base, current_from_base);
+  return match(query, query.base, limits, current_from_base);
 }
 
-StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHandle& base,
+StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
                                Eigen::Isometry3d current_from_base) {
   const auto predict = [&](int every, TemporalSearch& search) {
     predict_positions(steps_.calibration(), base->edges, steps_.measured(*base), current_from_base,
@@ -28,7 +30,7 @@ StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHand
   StepHandle step = steps_.take(base);
   for (int round = 1;; ++round) {
     frontend_.match(*base, search_, step->matches);
-    steps_.estimate(query, config_.pose, current_from_base, *step);
+    steps_.estimate(query, limits, current_from_base, *step);
     acceptance_.test_support(search_.left, *step);
     if (!step->ok() || round == config_.temporal.rounds) break;
     current_from_base = step->motion.current_from_previous;

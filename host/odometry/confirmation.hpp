@@ -19,10 +19,12 @@ class Confirmation {
       : config_(config), frontend_(frontend), steps_(steps), acceptance_(acceptance) {}
 
   /// The motion since the key rig or, where that one is out of sight, since the base. \param current_from_base proposed
-  StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base);
+  /// \param closely inliers lie within a third of the usual distance
+  StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely = false);
 
  private:
-  StepHandle match(const MotionQuery& query, const frontend::RigHandle& base, Eigen::Isometry3d current_from_base);
+  StepHandle match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
+                   Eigen::Isometry3d current_from_base);
 
   Config config_;
   frontend::Frontend& frontend_;

@@ -9,6 +9,7 @@ namespace quadedge::odometry {
 /// What the hypotheses before this one have found of the same frame.
 struct Evidence {
   const MotionStep* found_anywhere = nullptr;  ///< edges found anywhere in the image; null unless looked for
+  const MotionStep* confirmed = nullptr;       ///< the first motion that all edges confirm; null unless there is one
 };
 
 /// Looks for a motion since the query's base with a part of the edges.
@@ -22,6 +23,10 @@ class MotionHypothesis {
   /// Whether it only looks near the prediction: what it finds may end the search, and else gives way to an equal motion
   /// that was found without it.
   virtual bool trusts_prediction() const { return false; }
+
+  /// Whether it competes with a motion a pixel or two apart: then a fit with the usual inlier distance would take in
+  /// the edges of both, and end between them.
+  virtual bool asks_for_close_agreement() const { return false; }
 };
 
 }  // namespace quadedge::odometry

@@ -4,7 +4,9 @@
 
 #include "odometry/coarse_search.hpp"
 #include "odometry/relocalisation.hpp"
+#include "odometry/remaining_motion.hpp"
 #include "odometry/second_motion.hpp"
+#include "odometry/still_camera.hpp"
 
 namespace quadedge::odometry {
 
@@ -14,12 +16,14 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, c
     hypotheses_.push_back(std::make_unique<decltype(hypothesis)>(std::move(hypothesis)));
   };
   add(CoarseSearch::near_prediction(frontend, steps_, config));
+  add(StillCamera(steps_));
   if (config.temporal.wide_edges > 0) {
     add(Relocalisation(frontend, steps_, config));
     add(SecondMotion(steps_, config));
   } else {
     add(CoarseSearch::wide(frontend, steps_, config, offset.rig().left.width));
   }
+  add(RemainingMotion(steps_, config));
 }
 
 StepHandle MotionSearch::find(const MotionQuery& query) {
@@ -34,12 +38,18 @@ StepHandle MotionSearch::search(const MotionQuery& query) {
   for (const auto& hypothesis : hypotheses_) {
     Trial trial = try_out(*hypothesis, query, evidence);
     if (!trial.proposed) continue;
-    if (hypothesis->trusts_prediction() && acceptance_.is_confident(*trial.outcome()))
+    const MotionStep& outcome = *trial.outcome();
+    if (hypothesis->trusts_prediction() && acceptance_.is_confident(outcome) && !Acceptance::leaves_much_over(outcome))
       return std::move(trial.outcome());
+    if (evidence.confirmed == nullptr && trial.confirmed && outcome.ok()) evidence.confirmed = &outcome;
     trials.push_back(std::move(trial));
   }
-  StepHandle found = std::move(best(trials).outcome());
-  if (found->ok() && evidence.found_anywhere != nullptr &&
+  Trial& chosen = best(trials);
+  const bool is_ambiguous = Acceptance::leaves_most_over(*chosen.outcome()) || has_rival(chosen, trials, query);
+  StepHandle found = std::move(chosen.outcome());
+  found->ambiguous = is_ambiguous;
+  const bool is_expected = chosen.hypothesis->trusts_prediction() && acceptance_.is_confident(*found);
+  if (found->ok() && !is_expected && evidence.found_anywhere != nullptr &&
       !acceptance_.is_seen(*evidence.found_anywhere, query, *found))
     found->motion.status = pose::MotionStatus::no_consensus;
   return found;
@@ -50,8 +60,22 @@ MotionSearch::Trial MotionSearch::try_out(MotionHypothesis& hypothesis, const Mo
   trial.hypothesis = &hypothesis;
   trial.proposed = hypothesis.propose(query, evidence);
   if (trial.proposed && trial.proposed->ok())
-    trial.confirmed = confirmation_.confirm(query, trial.proposed->motion.current_from_previous);
+    trial.confirmed = confirmation_.confirm(query, trial.proposed->motion.current_from_previous,
+                                            hypothesis.asks_for_close_agreement());
   return trial;
+}
+
+bool MotionSearch::has_rival(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query) {
+  const MotionStep& found = *chosen.outcome();
+  const auto from_key = [&](const MotionStep& step) -> Eigen::Isometry3d {
+    return query.key && step.base == query.base ? query.base_from_key : Eigen::Isometry3d::Identity();
+  };
+  for (Trial& trial : trials) {
+    const MotionStep& other = *trial.outcome();
+    if (&trial == &chosen || !trial.confirmed) continue;
+    if (acceptance_.are_rivals(found, other, from_key(found) * from_key(other).inverse())) return true;
+  }
+  return false;
 }
 
 /// The trial whose motion explains most of the image. Between equals, two failures for instance, one that was made

@@ -40,6 +40,8 @@ class MotionSearch {
   };
   Trial try_out(MotionHypothesis& hypothesis, const MotionQuery& query, Evidence& evidence);
   static Trial& best(std::vector<Trial>& trials);
+  /// Whether another motion that was confirmed could be the world's as well.
+  bool has_rival(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query);
 
   StepBuilder steps_;
   Acceptance acceptance_;

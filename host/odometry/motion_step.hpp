@@ -22,6 +22,10 @@ struct MotionQuery {
   std::uint64_t seed = 0;
 };
 
+/// Of the inlier distance. In fine texture many an edge meets a wrong position by chance, the fewer the nearer it has
+/// to come; and of two motions a pixel or two apart only one holds up.
+constexpr double kCloseAgreement = 1.0 / 3.0;
+
 /// Quads between an earlier rig and the current one, and the motion they agree on.
 struct MotionStep {
   frontend::RigHandle base;  ///< the earlier rig
@@ -30,6 +34,8 @@ struct MotionStep {
   pose::MotionEstimate motion;
   double support = 0;         ///< inliers, ratio to the base's edges that the motion brings into view
   double explained_area = 0;  ///< the same as a mean over the cells of the image that such edges fall into
+  double moving_ratio = 0;    ///< edges in view in cells where few that are found again move like this, of all in view
+  bool ambiguous = false;     ///< another motion explains nearly as much of the image
 
   bool ok() const { return motion.status == pose::MotionStatus::ok; }
   /// Lets go of the rig and keeps the memory.
@@ -37,7 +43,8 @@ struct MotionStep {
     base = nullptr;
     matches.clear();
     motion.status = pose::MotionStatus::too_few_quads;
-    support = explained_area = 0;
+    support = explained_area = moving_ratio = 0;
+    ambiguous = false;
   }
 };
 

@@ -1,14 +1,17 @@
 /// \file stereo_odometry.cpp  The way of a frame (doc/design.md section 1), from two images to a pose.
 #include <chrono>
+#include <set>
 #include <utility>
 
 #include "common/image_check.hpp"
 #include "frontend/frontend.hpp"
 #include "odometry/constant_velocity.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "odometry/equal_scale.hpp"
 #include "odometry/key_rig.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/relative_pose.hpp"
+#include "odometry/rig_evidence.hpp"
 #include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
@@ -63,6 +66,7 @@ const char* to_string(FrameStatus status) {
     case FrameStatus::lost_too_few_edges: return "lost_too_few_edges";
     case FrameStatus::lost_too_few_quads: return "lost_too_few_quads";
     case FrameStatus::lost_no_consensus: return "lost_no_consensus";
+    case FrameStatus::lost_rig_mismatch: return "lost_rig_mismatch";
   }
   return "unknown";
 }
@@ -70,16 +74,21 @@ const char* to_string(FrameStatus status) {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoRig& rig, Device& device, const Config& config)
-      : rig_(rig),
+      : recorded_{rig.left, rig.right, {}, {}, {}, rig.white},
+        left_any_size_(!rig.left_undistortion.empty()),
+        right_any_size_(!rig.right_undistortion.empty()),
+        rig_(odometry::with_equal_scales(rig)),
         device_(device),
         config_(config),
-        frontend_(frontend::make_frontend(rig, device, config)),
-        offset_(rig, config.pose),
-        motion_search_(config, *frontend_, offset_) {}
+        frontend_(frontend::make_frontend(rig_, device, config)),
+        offset_(rig_, config.pose),
+        motion_search_(config, *frontend_, offset_),
+        rig_watch_(rig_, config) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
 
+  const StereoRig& rig() const { return rig_; }
   frontend::Frontend& frontend() const { return *frontend_; }
   Device& device() const { return device_; }
   const Config& config() const { return config_; }
@@ -90,13 +99,17 @@ class StereoOdometry::Implementation {
   odometry::StepHandle search(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
+  void warn(const std::string& doubt, FrameResult& result);
 
-  StereoRig rig_;
+  StereoRig recorded_;  ///< the images' sizes, without tables
+  bool left_any_size_, right_any_size_;
+  StereoRig rig_;  ///< what edges are found in
   Device& device_;
   Config config_;
   std::unique_ptr<frontend::Frontend> frontend_;
   odometry::DisparityOffset offset_;
   odometry::MotionSearch motion_search_;
+  odometry::RigWatch rig_watch_;
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
@@ -104,11 +117,12 @@ class StereoOdometry::Implementation {
   odometry::StepHandle step_;    ///< its motion; null where none was looked for
   std::optional<std::int64_t> last_stamp_ns_;
   std::vector<double> distances_;  ///< buffer of median_parallax()
+  std::set<std::string> told_;     ///< kinds of doubts: their words before the first number
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
-  check_image(frame.left, rig_.left, rig_.white, !rig_.left_undistortion.empty(), "left");
-  check_image(frame.right, rig_.right, rig_.white, !rig_.right_undistortion.empty(), "right");
+  check_image(frame.left, recorded_.left, recorded_.white, left_any_size_, "left");
+  check_image(frame.right, recorded_.right, recorded_.white, right_any_size_, "right");
   if (last_stamp_ns_ && frame.stamp_ns < *last_stamp_ns_) {
     throw DataError("the stamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
                     std::to_string(*last_stamp_ns_) + " ns, that of the frame before");
@@ -119,9 +133,13 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   result.stamp_ns = frame.stamp_ns;
 
   process(frame, result);
+  const odometry::RigFindings findings = rig_watch_.judge(frame, current_->edges, result.counts.edges_left, result.rig);
+  for (const auto& doubt : findings.doubts) warn(doubt, result);
   result.stages.push_back({"stereo", clock.lap()});
   if (result.counts.stereo_edges < config_.pose.min_inliers) {
     lose(FrameStatus::lost_too_few_edges, std::to_string(result.counts.stereo_edges) + " stereo edges", result);
+  } else if (!findings.mismatch.empty()) {
+    lose(FrameStatus::lost_rig_mismatch, findings.mismatch, result);
   } else if (!state_.has_started()) {
     start(result);
   } else {
@@ -165,7 +183,9 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   result.world_from_left = state_.world_from_last;
   result.new_key_rig = true;
   result.reference_frame = current_->frame;
-  state_.set_key(current_, result.world_from_left);
+  result.covariance_in_reference = result.covariance_in_world = PoseCovariance::Zero();
+  for (const auto& doubt : odometry::implausible_numbers(rig_)) warn(doubt, result);
+  state_.set_key(current_, {result.world_from_left, result.covariance_in_world});
 }
 
 /// The motion since the base; after a loss, else the one since the lost frame, which becomes the key rig.
@@ -186,7 +206,7 @@ odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result)
     odometry::StepHandle relocalised = motion_search_.find(query);
     if (relocalised->ok()) {
       step = std::move(relocalised);
-      state_.set_key(state_.lost->rig, state_.lost->world_from_left, odometry::PoseOrigin::predicted);
+      state_.set_key(state_.lost->rig, {state_.lost->world_from_left, std::nullopt}, odometry::PoseOrigin::predicted);
       add_message(
           "relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose is a prediction",
           result);
@@ -204,6 +224,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   const bool by_key = step.base == state_.key.rig();
   odometry::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
+  warn(rig_watch_.observe_motion(step.base->edges, step.base->frame, current_->edges, current_->frame, step.matches),
+       result);
   velocity_.observe(current_from_key.transform * state_.base.from_key.transform.inverse(),
                     current_->frame - state_.base.rig->frame);
 
@@ -217,12 +239,20 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
   result.disparity_offset = offset_.value() + step.motion.offset;
+  result.ambiguous_motion = step.ambiguous;
+  result.moving_ratio = step.moving_ratio;
+  if (step.ambiguous)
+    add_message("the motion may not be the world's: another one, or none, explains much of the image", result);
   result.base_frame = step.base->frame;
   result.search = step.matches.search;
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
   result.covariance = current_from_key.covariance;
-  result.world_from_left = state_.key.world_from_left() * current_from_key.transform.inverse();
+  const odometry::UncertainPose key_from_current = odometry::pose_in_earlier(current_from_key);
+  const odometry::UncertainPose world_from_current = state_.key.pose() * key_from_current;
+  result.covariance_in_reference = key_from_current.covariance;
+  result.covariance_in_world = world_from_current.covariance;
+  result.world_from_left = world_from_current.fixed_from_camera;
   result.new_key_rig = !config_.odometry.key_rig || !by_key || state_.key.needs_replacement(fitness, config_.odometry);
 
   state_.lost = std::nullopt;
@@ -230,7 +260,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
     // All frames of a key rig are measured against its disparities: together they tell no more than the last one, the
     // farthest away.
     offset_.update(step.motion.offset, step.motion.offset_variance, fitness.frames);
-    state_.set_key(current_, result.world_from_left);
+    state_.set_key(current_, world_from_current);
   } else {
     state_.base = {current_, current_from_key};
   }
@@ -245,9 +275,16 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   const auto repeated = velocity_.predict(1);
   result.world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
   result.reference_frame = state_.key.frame();
-  if (status == FrameStatus::lost_too_few_edges) return;
+  if (status == FrameStatus::lost_too_few_edges || status == FrameStatus::lost_rig_mismatch) return;
   if (!state_.base_is_key()) state_.set_key(state_.base.rig, state_.world_from_base());
   state_.lost = odometry::LostRig{current_, result.world_from_left};
+}
+
+/// Every kind of doubt is told once.
+void StereoOdometry::Implementation::warn(const std::string& doubt, FrameResult& result) {
+  if (doubt.empty() || !told_.insert(doubt.substr(doubt.find_first_of("abcdefghijklmnopqrstuvwxyz"), 25)).second)
+    return;
+  result.warning += (result.warning.empty() ? "" : "; ") + doubt;
 }
 
 FrameDetails StereoOdometry::Implementation::details() const {
@@ -274,6 +311,7 @@ StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Confi
 StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
+const StereoRig& StereoOdometry::rig() const { return implementation_->rig(); }
 void StereoOdometry::set_tap(Tap* tap) { implementation_->frontend().set_tap(tap); }
 std::size_t StereoOdometry::device_bytes() const { return implementation_->frontend().device_bytes(); }
 

@@ -32,12 +32,11 @@ struct TrackingState {
 
   bool has_started() const { return base.rig != nullptr; }
   bool base_is_key() const { return base.rig == key.rig(); }
-  Eigen::Isometry3d world_from_base() const { return key.world_from_left() * base.from_key.transform.inverse(); }
+  UncertainPose world_from_base() const { return key.pose() * pose_in_earlier(base.from_key); }
 
   /// A rig becomes key rig and base.
-  void set_key(frontend::RigHandle rig, const Eigen::Isometry3d& world_from_left,
-               PoseOrigin origin = PoseOrigin::found) {
-    key = KeyRig(rig, world_from_left, origin);
+  void set_key(frontend::RigHandle rig, const UncertainPose& pose, PoseOrigin origin = PoseOrigin::found) {
+    key = KeyRig(rig, pose, origin);
     base = {std::move(rig), {}};
   }
 };

@@ -1,6 +1,7 @@
 #include "report/frames_csv.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "data/text.hpp"
@@ -15,7 +16,9 @@ std::string milliseconds(double value) {
   return text;
 }
 
-std::string grey_levels(double value) {
+/// Empty where there is none.
+std::string four_digits(double value) {
+  if (!std::isfinite(value)) return {};
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -74,16 +77,18 @@ std::string FramesCsv::header() const {
     (void)unused;
     text += "," + name;
   }
-  text += ",latency_ms";
+  text += ",matched_ratio,epipolar_residual,moving_ratio,ambiguous_motion,latency_ms";
   for (const auto& stage : stages_) text += "," + stage + "_ms";
-  return text + ",message\n";
+  return text + ",warning,message\n";
 }
 
 std::string FramesCsv::row(const FrameResult& result) const {
   std::string text = std::to_string(frames_) + "," + data::format_seconds(result.stamp_ns) + "," +
                      to_string(result.status) + "," + std::to_string(result.reference_frame) + "," +
-                     (result.new_key_rig ? "1" : "0") + "," + grey_levels(result.edge_threshold);
+                     (result.new_key_rig ? "1" : "0") + "," + four_digits(result.edge_threshold);
   for (const auto& [name, count] : named_counts(result.counts)) text += "," + std::to_string(count);
+  text += "," + four_digits(result.rig.matched_ratio) + "," + four_digits(result.rig.epipolar_residual) + "," +
+          four_digits(result.moving_ratio) + "," + (result.ambiguous_motion ? "1" : "0");
   text += "," + milliseconds(result.latency_ms);
   for (const auto& name : stages_) {
     double sum = 0;
@@ -95,7 +100,9 @@ std::string FramesCsv::row(const FrameResult& result) const {
     }
     text += "," + (seen ? milliseconds(sum) : std::string());
   }
-  return text + "," + (result.message.empty() ? "" : quoted_field(result.message)) + "\n";
+  for (const std::string* words : {&result.warning, &result.message})
+    text += "," + (words->empty() ? std::string() : quoted_field(*words));
+  return text + "\n";
 }
 
 }  // namespace quadedge::report

@@ -35,10 +35,11 @@ Json configuration(Config config) {
 }  // namespace
 
 std::string report_json(const RunRecord& run) {
-  int key_rigs = 0, overflows = 0;
+  int key_rigs = 0, overflows = 0, ambiguous = 0;
   for (const auto& frame : run.frames) {
     key_rigs += frame.result.new_key_rig ? 1 : 0;
     overflows += frame.result.overflow ? 1 : 0;
+    ambiguous += frame.result.ambiguous_motion ? 1 : 0;
   }
   Json report;
   report["schema"] = kReportSchema;
@@ -55,6 +56,12 @@ std::string report_json(const RunRecord& run) {
   report["frames_lost"] = static_cast<int>(run.frames.size()) - run.tracked();
   report["frames_overflowed"] = overflows;
   report["key_rigs"] = key_rigs;
+  report["frames_ambiguous"] = ambiguous;
+  report["warnings"] = Json::array();
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const std::string& warning = run.frames[i].result.warning;
+    if (!warning.empty()) report["warnings"].push_back({{"frame", i}, {"text", warning}});
+  }
   report["latency_ms"] = to_json(latency_summary(run.frames));
   report["stages_ms"] = stages(stage_times(run.frames));
   if (!run.kernel_times.empty()) report["kernels_ms"] = stages(run.kernel_times);

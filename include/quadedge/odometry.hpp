@@ -13,6 +13,8 @@
 #include "quadedge/device.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/pose_covariance.hpp"
+#include "quadedge/rig_evidence.hpp"
 
 namespace quadedge {
 
@@ -23,6 +25,7 @@ enum class FrameStatus {
   lost_too_few_edges,  ///< not enough stereo edges in this frame
   lost_too_few_quads,  ///< edges, but not enough quads with a frame before
   lost_no_consensus,   ///< quads, but no motion that enough of them share
+  lost_rig_mismatch,   ///< the images do not belong to the calibration
 };
 const char* to_string(FrameStatus status);
 inline bool is_tracked(FrameStatus status) { return status == FrameStatus::first || status == FrameStatus::tracked; }
@@ -54,6 +57,11 @@ struct FrameResult {
   /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current
   /// left frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Of the pose in the reference's left camera frame, the inverse of current_from_reference; nothing for a lost frame.
+  std::optional<PoseCovariance> covariance_in_reference;
+  /// Of world_from_left, composed over the key stereo rigs; nothing for a lost frame, and from where tracking went on
+  /// from a predicted pose.
+  std::optional<PoseCovariance> covariance_in_world;
   double edge_threshold = 0;    ///< that the gradient of both images' edges exceeds [grey levels per px]
   double disparity_offset = 0;  ///< found so far, added to every disparity [px]
   int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first one
@@ -64,6 +72,13 @@ struct FrameResult {
   bool new_key_rig = false;  ///< this frame becomes the key stereo rig of the following ones
   bool overflow = false;     ///< a capacity ran out (edges or candidates); the message says which
   std::string message;       ///< empty, or one sentence for a person
+  /// Empty, or what is doubtful about the whole recording; each doubt is told once per run.
+  std::string warning;
+  RigEvidence rig;
+  /// Another motion than the one taken explains nearly as much of the image; which is the world's cannot be told.
+  bool ambiguous_motion = false;
+  /// Edges in view in cells of the image that move otherwise than the camera says, of all edges in view.
+  double moving_ratio = 0;
   FrameCounts counts;
   std::vector<StageTime> stages;  ///< host-side stages always; device stages when the device profiles
   double latency_ms = 0;          ///< images in host memory to pose on the host, steady clock
@@ -92,6 +107,10 @@ class StereoOdometry {
 
   /// Details of the frame tracked last (reads back from the device); empty before the first one.
   FrameDetails details() const;
+
+  /// The cameras whose pixels edges are given in: the rig of the constructor, or where one camera has at least one and
+  /// a half times the other's resolution, with that one reduced.
+  const StereoRig& rig() const;
 
   /// Observes all filters of the following frames; null stops. The tap cannot change anything.
   void set_tap(Tap* tap);

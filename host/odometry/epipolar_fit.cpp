@@ -1,0 +1,58 @@
+#include "odometry/epipolar_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace quadedge::odometry {
+namespace {
+
+constexpr std::size_t kMinSpots = 12;
+constexpr int kRounds = 8;
+constexpr double kLeastScale = 0.02;  // px
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+EpipolarFit fit_across(const std::vector<ProbedSpot>& spots, int width, int height) {
+  EpipolarFit fit;
+  if (spots.size() < kMinSpots) return fit;
+  fit.samples = static_cast<int>(spots.size());
+  std::vector<double> distances;
+  for (const auto& spot : spots) distances.push_back(std::abs(spot.across));
+  fit.residual = median(distances);
+  distances.clear();
+  for (const auto& spot : spots) distances.push_back(spot.across);
+  Eigen::Vector3d terms(median(distances), 0, 0);
+  const auto row = [&](const ProbedSpot& spot) {
+    return Eigen::Vector3d(1, spot.left.x() / width - 0.5, spot.left.y() / height - 0.5);
+  };
+  for (int round = 0; round <= kRounds; ++round) {
+    distances.clear();
+    for (const auto& spot : spots) distances.push_back(std::abs(spot.across - row(spot).dot(terms)));
+    fit.scatter = median(distances);
+    if (round == kRounds) break;
+    const double scale = std::max(2 * fit.scatter, kLeastScale);
+    Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+    for (const auto& spot : spots) {
+      const Eigen::Vector3d along = row(spot);
+      const double distance = (spot.across - along.dot(terms)) / scale;
+      const double weight = 1 / (1 + distance * distance);
+      normal += weight * along * along.transpose();
+      right_side += weight * along * spot.across;
+    }
+    terms = normal.ldlt().solve(right_side);
+  }
+  fit.offset = terms[0];
+  fit.slope_x = terms[1];
+  fit.slope_y = terms[2];
+  return fit;
+}
+
+}  // namespace quadedge::odometry

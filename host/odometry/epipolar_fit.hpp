@@ -1,0 +1,21 @@
+#pragma once
+/// \file epipolar_fit.hpp  How the distances from the epipolar lines change over the image.
+
+#include <vector>
+
+#include "odometry/epipolar_probe.hpp"
+
+namespace quadedge::odometry {
+
+/// across = offset + slope_x u + slope_y v, where u and v run from -1/2 to 1/2 over the left image.
+struct EpipolarFit {
+  double offset = 0, slope_x = 0, slope_y = 0;  ///< [px]
+  double residual = 0;                          ///< median distance from the lines, nothing taken off [px]
+  double scatter = 0;                           ///< median distance from the fit [px]
+  int samples = 0;
+};
+
+/// Robust fit (iterated least squares with Cauchy weights); all zero for fewer than 12 spots.
+EpipolarFit fit_across(const std::vector<ProbedSpot>& spots, int width, int height);
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,223 @@
+#include "odometry/epipolar_probe.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "odometry/patch_search.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+constexpr int kAlignedSpots = 240;
+constexpr int kHalf = 5, kSide = 2 * kHalf + 1, kWithBorder = kSide + 2;  // patches of 11 x 11 samples
+constexpr int kSteps = 10;
+constexpr double kSettled = 0.01;  // px
+constexpr double kLongestWay = 4;  // px from where a refinement starts
+constexpr double kMinCorrelation = 0.8;
+constexpr double kMinRoundness = 0.03;  // determinant over squared trace of the structure tensor; 0.25 is a blob
+constexpr double kMaxSigma = 0.2;       // px; what says nothing across the line is left out
+constexpr double kAlong = 0.25, kAcross = 0.1;  // reach of the search, ratios of the left image's width and height
+constexpr double kCoarseWidth = 320;            // px
+
+/// Samples of a patch, from -kHalf - 1 to kHalf + 1 in both directions.
+using Samples = std::array<float, static_cast<std::size_t>(kWithBorder* kWithBorder)>;
+
+std::size_t at(int column, int row) {
+  return static_cast<std::size_t>((row + kHalf + 1) * kWithBorder + column + kHalf + 1);
+}
+
+Samples cut(const PinholeView& view, const Eigen::Vector2d& centre, const Eigen::Matrix2d& steps) {
+  Samples samples;
+  for (int row = -kHalf - 1; row <= kHalf + 1; ++row) {
+    for (int column = -kHalf - 1; column <= kHalf + 1; ++column) {
+      const Eigen::Vector2d place = centre + steps * Eigen::Vector2d(column, row);
+      samples[at(column, row)] = view.at(place.x(), place.y());
+    }
+  }
+  return samples;
+}
+
+/// Mean of the inner samples, and the norm of what differs from it.
+struct Level {
+  double mean = 0, norm = 0;
+};
+
+template <class Body>
+void for_inner(const Body& body) {
+  for (int row = -kHalf; row <= kHalf; ++row)
+    for (int column = -kHalf; column <= kHalf; ++column) body(column, row);
+}
+
+Level level_of(const Samples& samples) {
+  Level level;
+  for_inner([&](int column, int row) { level.mean += static_cast<double>(samples[at(column, row)]); });
+  level.mean /= kSide * kSide;
+  for_inner([&](int column, int row) {
+    const double difference = static_cast<double>(samples[at(column, row)]) - level.mean;
+    level.norm += difference * difference;
+  });
+  level.norm = std::sqrt(level.norm);
+  return level;
+}
+
+/// Normal equations of the move that makes one patch of another, both at equal contrast.
+struct Alignment {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right_side = Eigen::Vector2d::Zero();
+  double cost = 0;  ///< squared difference of both at norm 1: 2 (1 - correlation)
+};
+
+Alignment compare(const Samples& wanted, const Level& wanted_level, const Samples& found, const Level& found_level) {
+  Alignment sums;
+  for_inner([&](int column, int row) {
+    const double difference = (static_cast<double>(wanted[at(column, row)]) - wanted_level.mean) / wanted_level.norm -
+                              (static_cast<double>(found[at(column, row)]) - found_level.mean) / found_level.norm;
+    const Eigen::Vector2d slope(
+        static_cast<double>(found[at(column + 1, row)] - found[at(column - 1, row)]) / (2 * found_level.norm),
+        static_cast<double>(found[at(column, row + 1)] - found[at(column, row - 1)]) / (2 * found_level.norm));
+    sums.normal += slope * slope.transpose();
+    sums.right_side += slope * difference;
+    sums.cost += difference * difference;
+  });
+  return sums;
+}
+
+/// The pixel that a given right image has where the calibration means `at`.
+Eigen::Vector2d turned(const Eigen::Vector2d& at, ImageTurn turn, const PinholeCamera& camera) {
+  const Eigen::Vector2d middle(0.5 * (camera.width - 1), 0.5 * (camera.height - 1)), from = at - middle;
+  switch (turn) {
+    case ImageTurn::none: return at;
+    case ImageTurn::mirrored: return middle + Eigen::Vector2d(-from.x(), from.y());
+    case ImageTurn::half: return middle - from;
+    case ImageTurn::quarter: return middle + Eigen::Vector2d(-from.y(), from.x());
+    case ImageTurn::three_quarters: return middle + Eigen::Vector2d(from.y(), -from.x());
+  }
+  return at;
+}
+
+}  // namespace
+
+EpipolarProbe::EpipolarProbe(const StereoRig& rig, double max_disparity)
+    : rig_(rig),
+      max_disparity_(max_disparity),
+      h_(rig.right.matrix() * rig.right_from_left.linear() * rig.left.matrix().inverse()),
+      t_(rig.right.matrix() * rig.right_from_left.translation()) {}
+
+std::optional<Eigen::Vector2d> EpipolarProbe::at_infinity(const Eigen::Vector2d& left) const {
+  const Eigen::Vector3d seen = h_ * left.homogeneous();
+  if (!(seen.z() > 1e-6)) return std::nullopt;
+  return seen.hnormalized();
+}
+
+std::optional<EpipolarProbe::Line> EpipolarProbe::line(const Eigen::Vector2d& left) const {
+  const auto infinity = at_infinity(left);
+  if (!infinity) return std::nullopt;
+  const Eigen::Vector2d towards = t_.head<2>() - *infinity * t_.z();
+  if (!(towards.norm() > 0)) return std::nullopt;
+  const Eigen::Vector2d direction = towards.normalized();
+  return Line{*infinity, direction, {direction.y(), -direction.x()}};
+}
+
+std::optional<ProbedSpot> EpipolarProbe::refine(const PinholeView& left, const PinholeView& right,
+                                                const Eigen::Vector2d& spot, Eigen::Vector2d place) const {
+  const auto its_line = line(spot);
+  const auto here = at_infinity(spot), beside = at_infinity(spot + Eigen::Vector2d::UnitX()),
+             below = at_infinity(spot + Eigen::Vector2d::UnitY());
+  if (!its_line || !here || !beside || !below || !left.holds(spot, kHalf + 1)) return std::nullopt;
+  Eigen::Matrix2d steps;  // how a patch that is a square in the left image lies in the right one
+  steps << *beside - *here, *below - *here;
+  const Samples wanted = cut(left, spot, Eigen::Matrix2d::Identity());
+  const Level wanted_level = level_of(wanted);
+  const double reach = (kHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
+  const Eigen::Vector2d start = place;
+  Alignment sums;
+  for (int step = 0; step < kSteps; ++step) {
+    if (!right.holds(place, reach) || (place - start).norm() > kLongestWay) return std::nullopt;
+    const Samples found = cut(right, place, steps);
+    const Level found_level = level_of(found);
+    if (!(wanted_level.norm > 0 && found_level.norm > 0)) return std::nullopt;
+    sums = compare(wanted, wanted_level, found, found_level);
+    const double determinant = sums.normal.determinant(), trace = sums.normal.trace();
+    if (!(determinant > kMinRoundness * trace * trace)) return std::nullopt;  // an edge alone
+    const Eigen::Vector2d move = steps * sums.normal.inverse() * sums.right_side;
+    place += move;
+    if (move.norm() < kSettled) break;
+  }
+  const Eigen::Matrix2d covariance =
+      sums.cost / (kSide * kSide - 2) * steps * sums.normal.inverse() * steps.transpose();
+  const double sigma = std::sqrt(its_line->normal.dot(covariance * its_line->normal));
+  if (1 - sums.cost / 2 < kMinCorrelation || sigma > kMaxSigma) return std::nullopt;
+  const Eigen::Vector2d from_infinity = place - its_line->infinity;
+  return ProbedSpot{
+      spot, from_infinity.dot(its_line->direction), from_infinity.dot(its_line->normal), sigma, its_line->normal, -1};
+}
+
+void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<ProbedSpot>& spots) const {
+  const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
+      right(frame.right, rig_.right_undistortion, rig_.right);
+  spots.clear();
+  const std::size_t step = std::max<std::size_t>(edges.size() / kAlignedSpots, 1);
+  for (std::size_t i = step / 2; i < edges.size(); i += step) {
+    const auto spot = refine(left, right, {edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]});
+    if (!spot) continue;
+    spots.push_back(*spot);
+    spots.back().edge = static_cast<int>(i);
+  }
+}
+
+ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) const {
+  const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
+      right(frame.right, rig_.right_undistortion, rig_.right);
+  const double scale = std::max(1.0, std::round(rig_.left.width / kCoarseWidth));  // left pixels per coarse one
+  const auto in_left = [&](double x, double y) {
+    return Eigen::Vector2d((x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
+  };
+  const int width = static_cast<int>(rig_.left.width / scale), height = static_cast<int>(rig_.left.height / scale);
+  // Both as the left camera would see what lies at infinity, so that a disparity is all that is left.
+  const GreyPlane before = sample_plane(width, height, [&](double x, double y) {
+    const Eigen::Vector2d place = in_left(x, y);
+    return left.at(place.x(), place.y());
+  });
+  const GreyPlane after = sample_plane(width, height, [&](double x, double y) {
+    const auto place = at_infinity(in_left(x, y));
+    if (!place) return 0.0F;
+    const Eigen::Vector2d given = turned(*place, turn, rig_.right);
+    return right.at(given.x(), given.y());
+  });
+  ProbeSearch result;
+  result.max_disparity = max_disparity_;
+  const double along = std::min(0.5 * rig_.left.width, std::max(kAlong * rig_.left.width, 1.25 * max_disparity_)),
+               across = kAcross * rig_.left.height;
+  for (const Eigen::Vector2i& corner : find_corners(before)) {
+    const Eigen::Vector2d spot = in_left(corner.x(), corner.y());
+    const auto its_line = line(spot);
+    if (!its_line) continue;
+    // The line's direction among coarse pixels.
+    const Eigen::Vector3d ahead = h_.inverse() * (its_line->infinity + its_line->direction).homogeneous();
+    const Eigen::Vector2d direction = (ahead.hnormalized() - spot).normalized();
+    const SearchBox box{static_cast<int>((std::abs(direction.x()) * along + std::abs(direction.y()) * across) / scale),
+                        static_cast<int>((std::abs(direction.y()) * along + std::abs(direction.x()) * across) / scale)};
+    ++result.sought;
+    const auto there = best_match(before, after, corner, box);
+    if (!there) continue;
+    const Eigen::Vector2i landed = there->at.array().round().cast<int>().matrix();
+    const auto back = best_match(after, before, landed, box);
+    if (!back || (back->at - corner.cast<double>()).norm() > 1.5) continue;
+    if (there->correlation < 0) {
+      ++result.negative;
+      continue;
+    }
+    const auto place = at_infinity(in_left(there->at.x(), there->at.y()));
+    if (!place) continue;
+    const auto fine = turn == ImageTurn::none ? refine(left, right, spot, *place) : std::nullopt;
+    const Eigen::Vector2d from_infinity = *place - its_line->infinity;
+    result.found.push_back(fine ? *fine
+                                : ProbedSpot{spot, from_infinity.dot(its_line->direction),
+                                             from_infinity.dot(its_line->normal), 0.3 * scale, its_line->normal, -1});
+  }
+  return result;
+}
+
+}  // namespace quadedge::odometry

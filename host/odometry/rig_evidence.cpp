@@ -1,0 +1,150 @@
+#include "odometry/rig_evidence.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "common/epipolar_geometry.hpp"
+
+namespace quadedge::odometry {
+namespace {
+
+constexpr int kSearchPeriod = 50;      // frames
+constexpr double kFewerMatched = 0.7;  // of the matched ratio at the last search
+constexpr double kMoreResidual = 0.2;  // px more than at the last search
+constexpr double kTurnedFound = 0.4;   // of the spots, in a right image that is turned back
+
+double largest_disparity(const StereoRig& rig, const Config& config) {
+  const EpipolarLine line = epipolar_line(make_epipolar_geometry(rig, config.stereo), static_cast<float>(rig.left.cx),
+                                          static_cast<float>(rig.left.cy));
+  return static_cast<double>(line.s_max);
+}
+
+/// A number that two different images hardly share.
+std::uint64_t fingerprint(const ImageView& image) {
+  std::uint64_t hash = 1469598103934665603U;
+  const std::size_t bytes = bytes_per_pixel(image.white) * static_cast<std::size_t>(image.width);
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = image.pixels + y * image.stride;
+    for (std::size_t i = 0; i < bytes; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, row + i, std::min(sizeof word, bytes - i));
+      hash = (hash ^ word) * 1099511628211U;
+      hash ^= hash >> 29U;
+    }
+  }
+  return hash;
+}
+
+/// How the right image is turned where a search in a turned one finds most spots; empty where none does.
+std::string find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
+  const std::pair<ImageTurn, const char*> turns[] = {{ImageTurn::mirrored, "mirrored"},
+                                                     {ImageTurn::half, "turned by 180 degrees"},
+                                                     {ImageTurn::quarter, "turned by 90 degrees"},
+                                                     {ImageTurn::three_quarters, "turned by -90 degrees"}};
+  for (const auto& [turn, name] : turns) {
+    const ProbeSearch search = probe.search(frame, turn);
+    if (static_cast<double>(search.found.size()) > kTurnedFound * search.sought) return name;
+  }
+  return {};
+}
+
+RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const StereoFrame& frame,
+                             RigEvidence& evidence) {
+  const ProbeSearch search = probe.search(frame);
+  const EpipolarFit fit = fit_across(search.found, rig.left.width, rig.left.height);
+  take_search(search, fit, evidence);
+  return judge_search(search, fit, evidence, finds_little(search, evidence) ? find_turn(probe, frame) : "");
+}
+
+}  // namespace
+
+RigWatch::RigWatch(const StereoRig& rig, const Config& config)
+    : rig_(rig), probe_(rig, largest_disparity(rig, config)) {}
+
+std::string RigWatch::find_frozen(const StereoFrame& frame) {
+  const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
+  const bool same_left = last_left_ == left, same_right = last_right_ == right;
+  last_left_ = left;
+  last_right_ = right;
+  if (same_left == same_right) return {};
+  return std::string("the ") + (same_left ? "left" : "right") + " image is the same as in the frame before, the " +
+         (same_left ? "right" : "left") + " one is not: does the " + (same_left ? "left" : "right") +
+         " camera stand still?";
+}
+
+bool RigWatch::has_reason_to_search(const RigEvidence& evidence) const {
+  if (!searched_ || !fits_ || frames_since_search_ >= kSearchPeriod) return true;
+  return evidence.matched_ratio < kFewerMatched * searched_->matched_ratio ||
+         evidence.epipolar_residual > searched_->epipolar_residual + kMoreResidual;
+}
+
+RigFindings RigWatch::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, RigEvidence& evidence) {
+  if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
+  probe_.align(frame, edges, spots_);
+  if (const EpipolarFit fit = fit_across(spots_, rig_.left.width, rig_.left.height); fit.samples > 0) {
+    evidence.epipolar_residual = fit.residual;
+    evidence.epipolar_offset = fit.offset;
+    evidence.epipolar_slope_x = fit.slope_x;
+    evidence.epipolar_slope_y = fit.slope_y;
+    evidence.epipolar_samples = fit.samples;
+  }
+  RigFindings findings;
+  findings.mismatch = find_frozen(frame);
+  ++frames_since_search_;
+  if (!findings.mismatch.empty() || left_edges == 0 || !has_reason_to_search(evidence)) return findings;
+  findings = search_and_judge(probe_, rig_, frame, evidence);
+  frames_since_search_ = 0;
+  searched_ = evidence;
+  fits_ = findings.mismatch.empty();
+  return findings;
+}
+
+std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now, int frame,
+                                     const TemporalMatches& matches) {
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  if (base_frame == frame - 1) {
+    last_x_ = base.left_x;
+    last_y_ = base.left_y;
+  } else if (base_frame != base_frame_ || last_frame_ != frame - 1) {
+    last_x_.assign(base.size(), kNowhere);
+    last_y_.assign(base.size(), kNowhere);
+  }
+  base_frame_ = base_frame;
+  last_frame_ = frame;
+  sampled_.assign(now.size(), -1);
+  for (std::size_t i = 0; i < spots_.size(); ++i)
+    sampled_[static_cast<std::size_t>(spots_[i].edge)] = static_cast<int>(i);
+  next_x_.assign(base.size(), kNowhere);
+  next_y_.assign(base.size(), kNowhere);
+  for (std::size_t m = 0; m < matches.size(); ++m) {
+    const auto before = static_cast<std::size_t>(matches.previous[m]);
+    next_x_[before] = matches.left_x[m];
+    next_y_[before] = matches.left_y[m];
+    const int at = sampled_[static_cast<std::size_t>(matches.current[m])];
+    if (at < 0 || std::isnan(last_x_[before])) continue;
+    const ProbedSpot& spot = spots_[static_cast<std::size_t>(at)];
+    const Eigen::Vector2d motion = spot.left - Eigen::Vector2d(last_x_[before], last_y_[before]);
+    synchronisation_.add(spot.left.x() / rig_.left.width - 0.5, spot.left.y() / rig_.left.height - 0.5, spot.across,
+                         motion.dot(spot.normal));
+  }
+  last_x_.swap(next_x_);
+  last_y_.swap(next_y_);
+  const double late = synchronisation_.lateness();
+  if (late == 0) return {};
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "distances from the epipolar lines follow the motion of the image: does the %s camera record %.1f frames "
+      "later than the other one?",
+      late > 0 ? "right" : "left", std::abs(late));
+  return text;
+}
+
+RigFindings examine_frame(const StereoRig& rig, const StereoFrame& frame, double max_disparity, RigEvidence& evidence) {
+  return search_and_judge(EpipolarProbe(rig, max_disparity), rig, frame, evidence);
+}
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,143 @@
+#include "odometry/rig_findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace quadedge::odometry {
+namespace {
+
+constexpr int kMinSought = 20, kMinFound = 12;
+constexpr double kNothingFound = 0.2;   // of the sought spots; sound recordings have 0.7 to 0.95, in heavy noise 0.25
+constexpr double kHardlyMatched = 0.1;  // of the left edges; sound recordings have more than 0.4, in heavy noise 0.13
+constexpr double kMost = 0.5;
+constexpr double kSome = 0.1;  // sound recordings have up to 0.03 beyond either end
+/// Beyond this distance from its line an edge no longer lies on the patches that the cascade compares, whose half side
+/// is 3.5 px. [px]
+constexpr double kLostResidual = 3;
+/// The cascade looks this far from the line; sound recordings have up to 0.4. [px]
+constexpr double kDoubtfulResidual = 0.5;
+
+std::string number(double value, int decimals) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string percent(double ratio) { return number(100 * ratio, 0) + " %"; }
+
+std::string matched(const RigEvidence& evidence) {
+  if (!(evidence.matched_ratio >= 0)) return {};
+  return percent(evidence.matched_ratio) + " of the left edges find a partner, ";
+}
+
+std::string seen_across(const EpipolarFit& fit) {
+  return "spots lie " + number(fit.residual, 1) + " px beside their epipolar lines (" + number(fit.offset, 1) +
+         " px in the middle of the image, changing by " + number(fit.slope_x, 1) + " px over its width and " +
+         number(fit.slope_y, 1) + " px over its height)";
+}
+
+/// The likely cause of distances from the lines.
+std::string cause_across(const EpipolarFit& fit) {
+  const double x = std::abs(fit.slope_x) / 2, y = std::abs(fit.slope_y) / 2, middle = std::abs(fit.offset);
+  if (fit.scatter > kMost * fit.residual) {
+    return "is the direction between the cameras or the right camera's yaw wrong, or are the images distorted while "
+           "the "
+           "calibration takes them for pinhole images?";
+  }
+  if (y >= x && y >= middle) return "do the focal lengths of the cameras differ from what the calibration says?";
+  if (x >= middle) return "is one camera rolled against what the calibration says?";
+  return "is one camera pitched against what the calibration says, is its principal point wrong, or are left and right "
+         "exchanged?";
+}
+
+}  // namespace
+
+std::vector<std::string> implausible_numbers(const StereoRig& rig) {
+  std::vector<std::string> found;
+  const double baseline = rig.baseline();
+  if (baseline > 5) found.push_back("the baseline is " + number(baseline, 3) + " m: are these millimetres?");
+  if (baseline < 0.005) found.push_back("the baseline is " + number(baseline, 6) + " m: is it in metres?");
+  for (const bool is_left : {true, false}) {
+    const PinholeCamera& camera = is_left ? rig.left : rig.right;
+    const std::string name = is_left ? "the left camera's " : "the right camera's ";
+    const double widths = camera.fx / camera.width, shape = camera.fx / camera.fy;
+    if (widths < 0.2 || widths > 20)
+      found.push_back(name + "focal length is " + number(widths, 2) + " image widths: is it in pixels?");
+    if (shape < 1 / 1.5 || shape > 1.5)
+      found.push_back(name + "fx is " + number(shape, 2) + " times its fy: are its pixels that far from squares?");
+    if (!(camera.cx >= 0 && camera.cx < camera.width && camera.cy >= 0 && camera.cy < camera.height))
+      found.push_back(name + "principal point (" + number(camera.cx, 1) + ", " + number(camera.cy, 1) +
+                      ") lies outside its image");
+  }
+  return found;
+}
+
+void take_search(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence& evidence) {
+  if (search.sought == 0) return;
+  evidence.found_ratio = static_cast<double>(search.found.size()) / search.sought;
+  evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
+  if (search.found.empty()) return;
+  int on_line = 0, negative = 0, beyond = 0;
+  for (const ProbedSpot& spot : search.found) {
+    negative += spot.along < -1 - 2 * spot.sigma ? 1 : 0;
+    beyond += spot.along > search.max_disparity + 1 + 2 * spot.sigma ? 1 : 0;
+    on_line += std::abs(spot.across) < 1 + 2 * spot.sigma ? 1 : 0;
+  }
+  const auto found = static_cast<double>(search.found.size());
+  evidence.on_line_ratio = on_line / found;
+  evidence.negative_ratio = negative / found;
+  evidence.beyond_ratio = beyond / found;
+}
+
+bool finds_little(const ProbeSearch& search, const RigEvidence& evidence) {
+  return search.sought >= kMinSought && evidence.found_ratio < kNothingFound &&
+         !(evidence.matched_ratio > kHardlyMatched);
+}
+
+RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, const RigEvidence& evidence,
+                         const std::string& turned) {
+  RigFindings findings;
+  const auto does_not_fit = [&](const std::string& seen, const std::string& cause) {
+    findings.mismatch = "the images do not fit the calibration: " + matched(evidence) + seen + "; " + cause;
+  };
+  if (finds_little(search, evidence)) {
+    const std::string seen = percent(evidence.found_ratio) + " of " + std::to_string(search.sought) +
+                             " spots of the left image are found in the right one";
+    if (search.negative > kMost * search.sought) {
+      does_not_fit(seen + " as they are and " + percent(static_cast<double>(search.negative) / search.sought) +
+                       " as their negative",
+                   "is one image a negative?");
+    } else if (!turned.empty()) {
+      does_not_fit(seen + ", and most where it is " + turned, "is the right image " + turned + "?");
+    } else {
+      does_not_fit(seen, "do both cameras show the same scene at the same time, is one image mirrored or turned?");
+    }
+    return findings;
+  }
+  if (search.found.size() < static_cast<std::size_t>(kMinFound)) return findings;
+  if (evidence.negative_ratio > kMost) {
+    does_not_fit(
+        percent(evidence.negative_ratio) + " of the disparities are negative",
+        "are left and right exchanged, are the images mirrored, is the sign of the baseline wrong, or the right "
+        "camera's yaw?");
+  } else if (fit.residual > kLostResidual) {
+    does_not_fit(seen_across(fit), cause_across(fit));
+  } else if (fit.residual > kDoubtfulResidual) {
+    findings.doubts.push_back("the calibration is doubtful: " + matched(evidence) + seen_across(fit) + "; " +
+                              cause_across(fit));
+  }
+  if (!findings.mismatch.empty()) return findings;
+  if (evidence.beyond_ratio > kSome) {
+    findings.doubts.push_back(percent(evidence.beyond_ratio) + " of the spots have more than the largest disparity, " +
+                              number(search.max_disparity, 1) +
+                              " px: is stereo.max_disparity too small, or stereo.min_depth too large?");
+  }
+  if (evidence.negative_ratio > kSome) {
+    findings.doubts.push_back(percent(evidence.negative_ratio) +
+                              " of the disparities are negative: is the right camera's yaw or principal point wrong?");
+  }
+  return findings;
+}
+
+}  // namespace quadedge::odometry

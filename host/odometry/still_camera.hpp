@@ -1,0 +1,20 @@
+#pragma once
+/// \file still_camera.hpp  Hypothesis: nothing moved but things before the camera.
+
+#include "odometry/motion_hypothesis.hpp"
+#include "odometry/step_builder.hpp"
+
+namespace quadedge::odometry {
+
+/// Proposes that the camera is where it was at the base.
+class StillCamera : public MotionHypothesis {
+ public:
+  explicit StillCamera(StepBuilder& steps) : steps_(steps) {}
+  StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
+  bool asks_for_close_agreement() const override { return true; }
+
+ private:
+  StepBuilder& steps_;
+};
+
+}  // namespace quadedge::odometry

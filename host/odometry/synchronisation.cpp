@@ -1,0 +1,34 @@
+#include "odometry/synchronisation.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace quadedge::odometry {
+namespace {
+
+constexpr int kMinSamples = 200;
+constexpr double kSigmas = 10;          // neighbours err together
+constexpr double kLeastLateness = 0.3;  // frame intervals; hardware triggers stay below a hundredth
+
+}  // namespace
+
+void Synchronisation::add(double u, double v, double across, double motion) {
+  Terms row;
+  row << 1, u, v, u * u, u * v, v * v, -motion;
+  normal_ += row * row.transpose();
+  right_side_ += row * across;
+  squares_ += across * across;
+  ++count_;
+}
+
+double Synchronisation::lateness() const {
+  if (count_ < kMinSamples) return 0;
+  const Eigen::FullPivLU<Eigen::Matrix<double, 7, 7>> solver(normal_);
+  if (!solver.isInvertible()) return 0;
+  const Terms terms = solver.solve(right_side_);
+  const double variance = (squares_ - terms.dot(right_side_)) / (count_ - 7);
+  const double sigma = std::sqrt(std::fmax(variance, 0) * solver.inverse()(6, 6));
+  return std::abs(terms[6]) > kLeastLateness && std::abs(terms[6]) > kSigmas * sigma ? terms[6] : 0;
+}
+
+}  // namespace quadedge::odometry

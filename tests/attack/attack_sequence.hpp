@@ -1,0 +1,52 @@
+#pragma once
+/// \file attack_sequence.hpp  Sequences that attacks are made of: rendered or recorded frames in memory, and what can
+/// be done to them.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/image.hpp"
+
+namespace attack {
+
+/// A sequence with its calibration, as the odometry is told it, and its true poses.
+struct Sequence {
+  quadedge::StereoRig rig;
+  quadedge::Config config;
+  std::vector<quadedge::Image> left, right;
+  std::vector<Eigen::Isometry3d> world_from_left;
+
+  std::size_t size() const { return left.size(); }
+  quadedge::StereoFrame frame(std::size_t i) const {
+    return {static_cast<std::int64_t>(i) * 50'000'000, left[i].view(), right[i].view()};
+  }
+};
+
+/// What is done to a sequence.
+using Alteration = std::function<void(Sequence&)>;
+
+/// Frames of a built-in scene, 480 x 249 px, every `step`-th; rendered once per process.
+const Sequence& rendered(const std::string& scene, int frames, int step = 1, double blur = 0, double light = 1,
+                         double noise = 1.5);
+
+/// The first frames of a recording below the folder QUADEDGE_DATA; empty where there is none.
+const Sequence& recorded(const std::string& path, int frames);
+
+/// An image whose pixel (x, y) is that of `image` at from(x, y), bilinear; black outside.
+quadedge::Image warp(const quadedge::Image& image, int width, int height,
+                     const std::function<Eigen::Vector2d(double, double)>& from);
+
+/// A still camera before which a board moves.
+struct Board {
+  double area = 0.3;         ///< of the left image that it covers, in the middle of its way
+  double speed = 4;          ///< [px per frame]
+  double disparity = 11;     ///< nearer than the scene [px]
+  bool fine = false;         ///< texture: a mosaic of squares, or else blobs
+  bool still_camera = true;  ///< the scene is that of the first frame, with camera noise of its own
+};
+void add_board(Sequence& sequence, const Board& board);
+
+}  // namespace attack

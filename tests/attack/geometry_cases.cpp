@@ -1,0 +1,259 @@
+#include "geometry_cases.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "quadedge/odometry.hpp"
+#include "quadedge/pi.hpp"
+
+namespace attack {
+using namespace quadedge;
+namespace {
+
+Sequence room() { return rendered("room", 10); }
+Sequence cables() { return rendered("cables", 10); }
+Sequence facade() { return rendered("facade", 10); }
+Sequence flight() { return recorded("euroc_mh_01_easy", 12); }
+Sequence drive() { return recorded("kitti_odometry/sequences/06", 8); }
+
+void exchange(Sequence& s) { std::swap(s.left, s.right); }
+
+/// Warps every right image.
+Alteration right_image(std::function<Eigen::Vector2d(const Sequence&, double, double)> from) {
+  return [from](Sequence& s) {
+    for (auto& image : s.right)
+      image = warp(image, image.width, image.height, [&](double x, double y) { return from(s, x, y); });
+  };
+}
+
+/// The calibration says that the right camera is turned by so many degrees; it is not.
+Alteration right_turned(double degrees, const Eigen::Vector3d& axis) {
+  return [=](Sequence& s) {
+    s.rig.right_from_left.linear() =
+        Eigen::AngleAxisd(degrees * kDegree, axis).toRotationMatrix() * s.rig.right_from_left.linear();
+  };
+}
+
+Eigen::Vector2d turned_by(const Sequence& s, double x, double y, int quarters) {
+  const Eigen::Vector2d middle(0.5 * (s.rig.right.width - 1), 0.5 * (s.rig.right.height - 1));
+  Eigen::Vector2d from = Eigen::Vector2d(x, y) - middle;
+  for (int k = 0; k < quarters; ++k) from = Eigen::Vector2d(-from.y(), from.x());
+  return middle + from;
+}
+
+Eigen::Vector2d barrel(const PinholeCamera& camera, double x, double y) {
+  const double u = (x - camera.cx) / camera.fx, v = (y - camera.cy) / camera.fy, r2 = u * u + v * v;
+  const double factor = 1 + 0.25 * r2;  // what a lens with k1 of about -0.25 does
+  return {camera.cx + camera.fx * u * factor, camera.cy + camera.fy * v * factor};
+}
+
+void distort(Sequence& s) {
+  for (auto& image : s.left)
+    image = warp(image, image.width, image.height, [&](double x, double y) { return barrel(s.rig.left, x, y); });
+  for (auto& image : s.right)
+    image = warp(image, image.width, image.height, [&](double x, double y) { return barrel(s.rig.right, x, y); });
+}
+
+void mirror(std::vector<Image>& images) {
+  for (auto& image : images)
+    image = warp(image, image.width, image.height,
+                 [&](double x, double y) { return Eigen::Vector2d(image.width - 1 - x, y); });
+}
+
+void negate(Image& image) {
+  for (auto& value : image.pixels) value = static_cast<std::uint8_t>(255 - value);
+}
+
+void halve_right(Sequence& s) {
+  for (auto& image : s.right) {
+    Image half(image.width / 2, image.height / 2);
+    for (int y = 0; y < half.height; ++y)
+      for (int x = 0; x < half.width; ++x) {
+        const auto view = image.view();
+        half.set(x, y,
+                 (view.value(2 * x, 2 * y) + view.value(2 * x + 1, 2 * y) + view.value(2 * x, 2 * y + 1) +
+                  view.value(2 * x + 1, 2 * y + 1) + 2) /
+                     4);
+      }
+    image = half;
+  }
+  PinholeCamera& camera = s.rig.right;
+  camera.fx /= 2;
+  camera.fy /= 2;
+  camera.cx = 0.5 * camera.cx - 0.25;
+  camera.cy = 0.5 * camera.cy - 0.25;
+  camera.width /= 2;
+  camera.height /= 2;
+}
+
+Alteration boards(double area, double speed, bool fine) {
+  return [=](Sequence& s) { add_board(s, {area, speed, 11, fine, true}); };
+}
+
+void nothing(Sequence&) {}
+
+std::vector<GeometryCase> make_cases() {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  std::vector<GeometryCase> cases = {
+      {"room", Demand::sound, room, nothing},      {"cables", Demand::sound, cables, nothing},
+      {"facade", Demand::sound, facade, nothing},  {"EuRoC flight", Demand::sound, flight, nothing},
+      {"KITTI 06", Demand::sound, drive, nothing},
+  };
+  const auto add = [&](const char* name, Demand demand, Sequence (*source)(), const Alteration& alteration) {
+    cases.push_back({name, demand, source, alteration});
+  };
+  // The rig does not fit.
+  add("left and right exchanged", Demand::told, room, exchange);
+  add("left and right exchanged, cables", Demand::told, cables, exchange);
+  add("left and right exchanged, facade", Demand::told, facade, exchange);
+  add("left and right exchanged, EuRoC", Demand::told, flight, exchange);
+  add("left and right exchanged, KITTI", Demand::told, drive, exchange);
+  add("sign of the baseline", Demand::told, room,
+      [](Sequence& s) { s.rig.right_from_left.translation() = -s.rig.right_from_left.translation(); });
+  add("both images mirrored", Demand::told, room, [](Sequence& s) { mirror(s.left), mirror(s.right); });
+  add("right image mirrored", Demand::told, room, [](Sequence& s) { mirror(s.right); });
+  add("right image a negative", Demand::told, room,
+      [](Sequence& s) { std::for_each(s.right.begin(), s.right.end(), negate); });
+  add("right image turned by 90 degrees", Demand::told, room,
+      right_image([](const Sequence& s, double u, double v) { return turned_by(s, u, v, 1); }));
+  add("right image turned by 180 degrees", Demand::told, room,
+      right_image([](const Sequence& s, double u, double v) { return turned_by(s, u, v, 2); }));
+  add("left focal length 20 % up", Demand::told, room, [](Sequence& s) { s.rig.left.fx *= 1.2, s.rig.left.fy *= 1.2; });
+  add("left focal length 20 % up, cables", Demand::told, cables,
+      [](Sequence& s) { s.rig.left.fx *= 1.2, s.rig.left.fy *= 1.2; });
+  add("right pitch 1 degree", Demand::told, room, right_turned(1, x));
+  add("right pitch 1 degree, cables", Demand::told, cables, right_turned(1, x));
+  add("right pitch 1 degree, EuRoC", Demand::told, flight, right_turned(1, x));
+  add("right pitch 3 degrees", Demand::told, room, right_turned(3, x));
+  add("right pitch 3 degrees, KITTI", Demand::told, drive, right_turned(3, x));
+  add("right yaw 2 degrees", Demand::told, room, right_turned(2, y));
+  add("right yaw -2 degrees", Demand::told, room, right_turned(-2, y));
+  add("right yaw 2 degrees, EuRoC", Demand::told, flight, right_turned(2, y));
+  add("right yaw -2 degrees, EuRoC", Demand::told, flight, right_turned(-2, y));
+  add("right roll 2 degrees", Demand::told, room, right_turned(2, z));
+  add("fy halved", Demand::told, room, [](Sequence& s) { s.rig.left.fy /= 2, s.rig.right.fy /= 2; });
+  add("right camera frozen", Demand::told, room,
+      [](Sequence& s) { std::fill(s.right.begin(), s.right.end(), Image(s.right.front())); });
+  add("left camera frozen", Demand::told, room,
+      [](Sequence& s) { std::fill(s.left.begin(), s.left.end(), Image(s.left.front())); });
+  add("right camera frozen, EuRoC", Demand::told, flight,
+      [](Sequence& s) { std::fill(s.right.begin(), s.right.end(), Image(s.right.front())); });
+  const auto late = [](Sequence& s) {
+    s.right.pop_back();
+    s.left.erase(s.left.begin());
+    s.world_from_left.erase(s.world_from_left.begin());
+  };
+  add("right camera a frame late", Demand::told, room, late);
+  add("right camera a frame late, cables", Demand::told, cables, late);
+  add("right camera a frame late, EuRoC", Demand::told, flight, late);
+  add("distorted images as pinhole", Demand::told, room, distort);
+  add("distorted images as pinhole, facade", Demand::told, facade, distort);
+  add("distorted images as pinhole, EuRoC", Demand::told, flight,
+      [](Sequence& s) { s.rig.left_undistortion = s.rig.right_undistortion = {}; });
+  add("max_disparity a third", Demand::told, room, [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
+  add("max_disparity a third, EuRoC", Demand::told, flight, [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
+  add("max_disparity 2 px", Demand::told, room, [](Sequence& s) { s.config.stereo.max_disparity = 2; });
+  add("min_depth 20 m", Demand::told, room,
+      [](Sequence& s) { s.config.stereo.max_disparity = 0, s.config.stereo.min_depth = 20; });
+  add("baseline three times", Demand::scale, room, [](Sequence& s) { s.rig.right_from_left.translation() *= 3; });
+  // What must go on working.
+  add("right camera of half the resolution", Demand::right, room, halve_right);
+  add("right camera of half the resolution, cables", Demand::right, cables, halve_right);
+  add("both focal lengths 20 % up", Demand::right, room, [](Sequence& s) {
+    for (auto* camera : {&s.rig.left, &s.rig.right}) camera->fx *= 1.2, camera->fy *= 1.2;
+  });
+  add("both principal points off by 20 px", Demand::right, room, [](Sequence& s) {
+    for (auto* camera : {&s.rig.left, &s.rig.right}) camera->cx += 20, camera->cy += 20;
+  });
+  add("right pitch 0.5 degrees", Demand::right, room, right_turned(0.5, x));
+  add("salt and pepper, 5 %", Demand::right, room, [](Sequence& s) {
+    unsigned state = 1;
+    for (auto* images : {&s.left, &s.right})
+      for (auto& image : *images)
+        for (auto& value : image.pixels) {
+          state = state * 1664525U + 1013904223U;
+          if ((state >> 8U) % 1000 < 50) value = (state & 0x80000000U) != 0 ? 255 : 0;
+        }
+  });
+  add("shuffled frames", Demand::told, room, [](Sequence& s) {
+    const Sequence ordered = s;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const std::size_t j = i * 7 % s.size();
+      s.left[i] = ordered.left[j], s.right[i] = ordered.right[j], s.world_from_left[i] = ordered.world_from_left[j];
+    }
+  });
+  // What moves is not the world.
+  for (const double area : {0.1, 0.2, 0.4, 0.6})
+    for (const double speed : {2.0, 4.0, 8.0})
+      for (const bool fine : {false, true})
+        cases.push_back({"still camera, board over " + std::to_string(static_cast<int>(100 * area)) + " %, " +
+                             std::to_string(static_cast<int>(speed)) + " px" + (fine ? ", mosaic" : ""),
+                         area < 0.5 ? Demand::right : Demand::told, room, boards(area, speed, fine)});
+  return cases;
+}
+
+}  // namespace
+
+const std::vector<GeometryCase>& geometry_cases() {
+  static const std::vector<GeometryCase> cases = make_cases();
+  return cases;
+}
+
+Verdict judge(const Sequence& sequence, const std::string& device_name, bool print_evidence) {
+  Device device(device_name);
+  StereoOdometry odometry(sequence.rig, device, sequence.config);
+  std::vector<FrameResult> results;
+  Verdict verdict;
+  int undecided = 0;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    results.push_back(odometry.track(sequence.frame(i)));
+    const FrameResult& result = results.back();
+    verdict.has_warning = verdict.has_warning || !result.warning.empty();
+    for (const std::string* text : {&result.warning, &result.message})
+      if (verdict.words.empty()) verdict.words = *text;
+    if (print_evidence) {
+      const RigEvidence& rig = result.rig;
+      std::printf(
+          "  %zu %-18s matched %.3f residual %.2f (%+.2f %+.2f x %+.2f y; %d) found %.2f line %.2f neg %.2f beyond "
+          "%.2f inl %d/%d moving %.2f%s %s %s\n",
+          i, to_string(result.status), rig.matched_ratio, rig.epipolar_residual, rig.epipolar_offset,
+          rig.epipolar_slope_x, rig.epipolar_slope_y, rig.epipolar_samples, rig.found_ratio, rig.on_line_ratio,
+          rig.negative_ratio, rig.beyond_ratio, result.counts.inliers, result.counts.quads, result.moving_ratio,
+          result.ambiguous_motion ? " AMBIGUOUS" : "", result.message.c_str(), result.warning.c_str());
+    }
+    if (i == 0) continue;
+    const FrameResult& before = results[i - 1];
+    if (!is_tracked(result.status) || !is_tracked(before.status)) {
+      ++verdict.lost;
+      continue;
+    }
+    const Eigen::Isometry3d truth = sequence.world_from_left[i - 1].inverse() * sequence.world_from_left[i];
+    const Eigen::Isometry3d error = truth.inverse() * (before.world_from_left.inverse() * result.world_from_left);
+    const bool right =
+        error.translation().norm() < 0.005 + 0.2 * truth.translation().norm() &&
+        Eigen::AngleAxisd(error.linear()).angle() < 0.3 * kDegree + 0.2 * Eigen::AngleAxisd(truth.linear()).angle();
+    if (right)
+      ++verdict.right;
+    else if (result.ambiguous_motion || before.ambiguous_motion)
+      ++verdict.warned;
+    else
+      ++undecided;
+  }
+  (verdict.has_warning ? verdict.warned : verdict.wrong) += undecided;
+  return verdict;
+}
+
+bool is_met(Demand demand, const Verdict& verdict) {
+  const int steps = verdict.right + verdict.wrong + verdict.warned + verdict.lost;
+  switch (demand) {
+    case Demand::sound: return verdict.right == steps && !verdict.has_warning;
+    case Demand::right: return verdict.wrong + verdict.warned == 0 && 2 * verdict.right > steps;
+    case Demand::told: return verdict.wrong == 0;
+    case Demand::scale: return true;
+  }
+  return false;
+}
+
+}  // namespace attack

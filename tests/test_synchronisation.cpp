@@ -1,0 +1,42 @@
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "odometry/synchronisation.hpp"
+
+using quadedge::odometry::Synchronisation;
+
+namespace {
+
+/// Frames whose image rolls and nods by up to 4 px, seen by a right camera that is `late` frames late, with a rig whose
+/// calibration is off by up to 0.6 px.
+Synchronisation watched(double late, double calibration) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 0.1);
+  std::uniform_real_distribution<double> place(-0.5, 0.5);
+  Synchronisation synchronisation;
+  for (int frame = 0; frame < 12; ++frame) {
+    for (int i = 0; i < 100; ++i) {
+      const double u = place(random), v = place(random);
+      const double motion = 3 * std::sin(0.7 * frame) + 2 * u * std::cos(1.1 * frame);
+      synchronisation.add(u, v, calibration * (0.3 + u * v - v * v) - late * motion + noise(random), motion);
+    }
+  }
+  return synchronisation;
+}
+
+}  // namespace
+
+TEST_CASE("synchronisation: a late camera is told by how much, early ones too", "[odometry][rig]") {
+  CHECK(watched(1, 0).lateness() == Approx(1).margin(0.02));
+  CHECK(watched(1, 2).lateness() == Approx(1).margin(0.02));
+  CHECK(watched(-0.5, 0).lateness() == Approx(-0.5).margin(0.02));
+}
+
+TEST_CASE("synchronisation: errors of the calibration and few samples say nothing", "[odometry][rig]") {
+  CHECK(watched(0, 0).lateness() == 0);
+  CHECK(watched(0, 2).lateness() == 0);
+  CHECK(watched(0.05, 0).lateness() == 0);  // within what one does not warn about
+  Synchronisation still;                    // nothing moves: late or not cannot be told
+  for (int i = 0; i < 1000; ++i) still.add(0.001 * (i % 100), 0.01 * (i % 7), 0.5, 0);
+  CHECK(still.lateness() == 0);
+}
