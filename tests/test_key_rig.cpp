@@ -106,6 +106,6 @@ TEST_CASE("key rig: with a pose that was only predicted it is replaced by the fi
   fitness.quads = 1000;
   KeyRig found = key_rig(3);
   CHECK_FALSE(found.needs_replacement(fitness, config));
-  KeyRig predicted(found.rig(), found.world_from_left(), odometry::PoseOrigin::predicted);
+  KeyRig predicted(found.rig(), {found.world_from_left(), std::nullopt}, odometry::PoseOrigin::predicted);
   CHECK(predicted.needs_replacement(fitness, config));
 }

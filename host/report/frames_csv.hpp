@@ -9,8 +9,8 @@
 
 namespace quadedge::report {
 
-/// Columns: frame, stamp_s, status, key_rig, new_key_rig, edge_threshold, the counts, matched_ratio, epipolar_residual, moving_ratio,
-/// ambiguous_motion, latency_ms, one NAME_ms per stage, warning, message.
+/// Columns: frame, stamp_s, status, key_rig, new_key_rig, edge_threshold, the counts, matched_ratio, epipolar_residual,
+/// moving_ratio, ambiguous_motion, latency_ms, one NAME_ms per stage, warning, message.
 class FramesCsv {
  public:
   /// \throws DataError when the file cannot be written.
