@@ -56,8 +56,10 @@ TEST_CASE("rig evidence: nothing speaks against the right calibration", "[odomet
     CHECK(findings.mismatch.empty());
     CHECK(findings.doubts.empty());
     CHECK(evidence.found_ratio > 0.5);
-    CHECK(evidence.on_line_ratio > 0.8);
-    CHECK(evidence.searched_residual < 0.4);
+    if (name != std::string("cables")) {  // along a cable a spot may lie anywhere
+      CHECK(evidence.on_line_ratio > 0.9);
+      CHECK(evidence.searched_residual < 0.1);
+    }
     CHECK(evidence.negative_ratio < 0.1);
   }
 }

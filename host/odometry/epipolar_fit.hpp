@@ -13,6 +13,7 @@ struct EpipolarFit {
   double residual = 0;                          ///< median distance from the lines, nothing taken off [px]
   double scatter = 0;                           ///< median distance from the fit [px]
   int samples = 0;
+  bool is_coarse = false;  ///< of spots that were found among coarse pixels alone
 };
 
 /// Robust fit (iterated least squares with Cauchy weights); all zero for fewer than 12 spots.

@@ -17,7 +17,7 @@ constexpr double kSettled = 0.01;  // px
 constexpr double kLongestWay = 4;  // px from where a refinement starts
 constexpr double kMinCorrelation = 0.8;
 constexpr double kMinRoundness = 0.03;  // determinant over squared trace of the structure tensor; 0.25 is a blob
-constexpr double kMaxSigma = 0.2;       // px; what says nothing across the line is left out
+constexpr double kMaxSigma = 0.1;       // px; what says nothing across the line is left out
 constexpr double kAlong = 0.25, kAcross = 0.1;  // reach of the search, ratios of the left image's width and height
 constexpr double kCoarseWidth = 320;            // px
 
@@ -151,7 +151,8 @@ std::optional<ProbedSpot> EpipolarProbe::refine(const PinholeView& left, const P
   if (1 - sums.cost / 2 < kMinCorrelation || sigma > kMaxSigma) return std::nullopt;
   const Eigen::Vector2d from_infinity = place - its_line->infinity;
   return ProbedSpot{
-      spot, from_infinity.dot(its_line->direction), from_infinity.dot(its_line->normal), sigma, its_line->normal, -1};
+      spot, from_infinity.dot(its_line->direction), from_infinity.dot(its_line->normal), sigma, true, its_line->normal,
+      -1};
 }
 
 void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<ProbedSpot>& spots) const {
@@ -215,7 +216,8 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
     const Eigen::Vector2d from_infinity = *place - its_line->infinity;
     result.found.push_back(fine ? *fine
                                 : ProbedSpot{spot, from_infinity.dot(its_line->direction),
-                                             from_infinity.dot(its_line->normal), 0.3 * scale, its_line->normal, -1});
+                                             from_infinity.dot(its_line->normal), 0.3 * scale, false, its_line->normal,
+                                             -1});
   }
   return result;
 }

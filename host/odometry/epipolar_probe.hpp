@@ -16,10 +16,11 @@ namespace quadedge::odometry {
 
 /// A spot of the left image, found in the right one.
 struct ProbedSpot {
-  Eigen::Vector2d left;  ///< [px]
-  double along = 0;      ///< position along the epipolar line from the point at infinity on [px]: the disparity
-  double across = 0;     ///< distance from the line [px]
-  double sigma = 0;      ///< standard deviation of `across` by the contrast of the patch [px]
+  Eigen::Vector2d left;    ///< [px]
+  double along = 0;        ///< position along the epipolar line from the point at infinity on [px]: the disparity
+  double across = 0;       ///< distance from the line [px]
+  double sigma = 0;        ///< standard deviation of `across` by the contrast of the patch [px]
+  bool is_aligned = true;  ///< to a part of a pixel; else it was found among coarse pixels alone
   Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the line, in the direction of a growing `across`
   int edge = -1;                                      ///< the stereo edge, where it is one
 };

@@ -1,8 +1,10 @@
 #include "odometry/rig_evidence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -54,7 +56,15 @@ std::string find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
 RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const StereoFrame& frame,
                              RigEvidence& evidence) {
   const ProbeSearch search = probe.search(frame);
-  const EpipolarFit fit = fit_across(search.found, rig.left.width, rig.left.height);
+  // Along a thin curve a coarse place says little of the distance from the line.
+  std::vector<ProbedSpot> aligned;
+  std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
+               [](const ProbedSpot& spot) { return spot.is_aligned; });
+  EpipolarFit fit = fit_across(aligned, rig.left.width, rig.left.height);
+  if (fit.samples == 0) {
+    fit = fit_across(search.found, rig.left.width, rig.left.height);
+    fit.is_coarse = true;
+  }
   take_search(search, fit, evidence);
   return judge_search(search, fit, evidence, finds_little(search, evidence) ? find_turn(probe, frame) : "");
 }

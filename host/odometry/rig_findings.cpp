@@ -78,14 +78,15 @@ void take_search(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence&
   evidence.found_ratio = static_cast<double>(search.found.size()) / search.sought;
   evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
   if (search.found.empty()) return;
-  int on_line = 0, negative = 0, beyond = 0;
+  int aligned = 0, on_line = 0, negative = 0, beyond = 0;
   for (const ProbedSpot& spot : search.found) {
     negative += spot.along < -1 - 2 * spot.sigma ? 1 : 0;
     beyond += spot.along > search.max_disparity + 1 + 2 * spot.sigma ? 1 : 0;
-    on_line += std::abs(spot.across) < 1 + 2 * spot.sigma ? 1 : 0;
+    aligned += spot.is_aligned ? 1 : 0;
+    on_line += spot.is_aligned && std::abs(spot.across) < 1 ? 1 : 0;
   }
   const auto found = static_cast<double>(search.found.size());
-  evidence.on_line_ratio = on_line / found;
+  if (aligned > 0) evidence.on_line_ratio = static_cast<double>(on_line) / aligned;
   evidence.negative_ratio = negative / found;
   evidence.beyond_ratio = beyond / found;
 }
@@ -123,7 +124,7 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
         "camera's yaw?");
   } else if (fit.residual > kLostResidual) {
     does_not_fit(seen_across(fit), cause_across(fit));
-  } else if (fit.residual > kDoubtfulResidual) {
+  } else if (!fit.is_coarse && fit.residual > kDoubtfulResidual) {
     findings.doubts.push_back("the calibration is doubtful: " + matched(evidence) + seen_across(fit) + "; " +
                               cause_across(fit));
   }

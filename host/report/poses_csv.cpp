@@ -29,7 +29,7 @@ std::string pose_fields(const Eigen::Isometry3d& pose) {
   rotation.normalize();
   if (rotation.w() < 0) rotation.coeffs() *= -1;
   std::string text;
-  for (int i = 0; i < 3; ++i) text += "," + data::format_exact(pose.translation()[i]);
+  for (int i = 0; i < 3; ++i) text += "," + data::format_exact(pose.translation()[i] + 0.0);  // no negative zero
   for (int i = 0; i < 4; ++i) text += "," + data::format_exact(rotation.coeffs()[i]);
   return text;
 }

@@ -22,7 +22,7 @@ struct RigEvidence {
   // Of a search far around the epipolar lines, which only some frames have:
   double found_ratio = kUnknown;        ///< sought spots that are found, left to right and back to the same one
   double searched_residual = kUnknown;  ///< median distance of the found ones from their lines [px]
-  double on_line_ratio = kUnknown;      ///< found ones that lie within 1 px of their line
+  double on_line_ratio = kUnknown;      ///< of those found exactly, those within 1 px of their line
   double negative_ratio = kUnknown;     ///< found ones with a disparity below -1 px
   double beyond_ratio = kUnknown;       ///< found ones with more than the largest disparity + 1 px
   bool is_searched() const { return found_ratio == found_ratio; }
