@@ -147,9 +147,9 @@ std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, co
   char text[200];
   std::snprintf(
       text, sizeof text,
-      "distances from the epipolar lines follow the motion of the image: does the %s camera record %.1f frames "
-      "later than the other one?",
-      late > 0 ? "right" : "left", std::abs(late));
+      "distances from the epipolar lines follow the motion of the image: do the cameras record at different times, "
+      "some %.1f frames apart?",
+      std::abs(late));
   return text;
 }
 
