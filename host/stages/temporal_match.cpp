@@ -81,9 +81,9 @@ std::optional<AliveRows> TemporalMatch::run(const DevicePositions& predicted, co
                                          limits.ncc_nearly_best,
                                          quad_choice(config_, search)};
   const auto launch = [&](const auto& kernel, auto&&... of_tap) {
-    kernel({rows, local_size_}, arguments, left_predicted.packed, left.points, left.cells, right.points,
-           right.cells, base.left_patches, base.left_index, base.right_patches, current.left_patches,
-           current.left_index, current.right_patches, current.packed, result_, of_tap...);
+    kernel({rows, local_size_}, arguments, left_predicted.packed, left.points, left.cells, right.points, right.cells,
+           base.left_patches, base.left_index, base.right_patches, current.left_patches, current.left_index,
+           current.right_patches, current.packed, result_, of_tap...);
   };
   if (tapped == nullptr) {
     launch(kernel_);
