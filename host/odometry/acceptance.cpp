@@ -96,6 +96,10 @@ bool Acceptance::leaves_most_over(const MotionStep& step) { return step.moving_r
 bool Acceptance::are_rivals(const MotionStep& found, const MotionStep& other,
                             const Eigen::Isometry3d& base_from_other) {
   if (!found.ok() || !other.ok() || other.explained_area < kNearlyAsMuch * found.explained_area) return false;
+  return !are_one(found, other, base_from_other);
+}
+
+bool Acceptance::are_one(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other) {
   const Eigen::Isometry3d motion = other.motion.current_from_previous * base_from_other.inverse();
   pose::select_inliers(found.quads.scoring, pose::LaterCameras(offset_.rig(), motion), config_.pose.inlier_distance,
                        config_.pose.inlier_orientation_rad(), agrees_);
@@ -105,7 +109,7 @@ bool Acceptance::are_rivals(const MotionStep& found, const MotionStep& other,
     ++inliers;
     shared += agrees_[q];
   }
-  return shared < kTheSameMotion * inliers;
+  return shared >= kTheSameMotion * inliers;
 }
 
 bool Acceptance::is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step) {

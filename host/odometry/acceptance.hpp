@@ -43,6 +43,8 @@ class Acceptance {
   /// Whether another motion explains nearly as large an area as the one found, and is none that a fit would have led
   /// to as well. \param base_from_other between the rigs that both are measured against
   bool are_rivals(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
+  /// Whether most inliers of the motion found agree with another one as well.
+  bool are_one(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
 
   /// Whether edges found anywhere agree with a motion: in as many cells of the image as an estimate needs inliers. A
   /// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 #include "odometry/patch_search.hpp"
 
@@ -158,14 +159,16 @@ std::optional<ProbedSpot> EpipolarProbe::refine(const PinholeView& left, const P
 void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<ProbedSpot>& spots) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
-  spots.clear();
-  const std::size_t step = std::max<std::size_t>(edges.size() / kAlignedSpots, 1);
-  for (std::size_t i = step / 2; i < edges.size(); i += step) {
+  const std::size_t step = std::max<std::size_t>(edges.size() / kAlignedSpots, 1), first = step / 2;
+  spots.resize(edges.size() > first ? (edges.size() - first + step - 1) / step : 0);
+  tbb::parallel_for(std::size_t{0}, spots.size(), [&](std::size_t k) {
+    const std::size_t i = first + k * step;
     const auto spot = refine(left, right, {edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]});
-    if (!spot) continue;
-    spots.push_back(*spot);
-    spots.back().edge = static_cast<int>(i);
-  }
+    spots[k] = spot.value_or(ProbedSpot());
+    spots[k].edge = spot ? static_cast<int>(i) : -1;
+  });
+  spots.erase(std::remove_if(spots.begin(), spots.end(), [](const ProbedSpot& spot) { return spot.edge < 0; }),
+              spots.end());
 }
 
 ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) const {

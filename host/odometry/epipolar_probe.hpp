@@ -16,7 +16,7 @@ namespace quadedge::odometry {
 
 /// A spot of the left image, found in the right one.
 struct ProbedSpot {
-  Eigen::Vector2d left;    ///< [px]
+  Eigen::Vector2d left = Eigen::Vector2d::Zero();  ///< [px]
   double along = 0;        ///< position along the epipolar line from the point at infinity on [px]: the disparity
   double across = 0;       ///< distance from the line [px]
   double sigma = 0;        ///< standard deviation of `across` by the contrast of the patch [px]

@@ -44,7 +44,7 @@ StepHandle MotionSearch::search(const MotionQuery& query) {
     if (evidence.confirmed == nullptr && trial.confirmed && outcome.ok()) evidence.confirmed = &outcome;
     trials.push_back(std::move(trial));
   }
-  Trial& chosen = best(trials);
+  Trial& chosen = with_all_inliers(best(trials), trials, query);
   const bool is_ambiguous = Acceptance::leaves_most_over(*chosen.outcome()) || has_rival(chosen, trials, query);
   StepHandle found = std::move(chosen.outcome());
   found->ambiguous = is_ambiguous;
@@ -65,15 +65,34 @@ MotionSearch::Trial MotionSearch::try_out(MotionHypothesis& hypothesis, const Mo
   return trial;
 }
 
-bool MotionSearch::has_rival(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query) {
-  const MotionStep& found = *chosen.outcome();
+Eigen::Isometry3d MotionSearch::base_from_base(const MotionStep& found, const MotionStep& other,
+                                               const MotionQuery& query) {
   const auto from_key = [&](const MotionStep& step) -> Eigen::Isometry3d {
     return query.key && step.base == query.base ? query.base_from_key : Eigen::Isometry3d::Identity();
   };
+  return from_key(found) * from_key(other).inverse();
+}
+
+/// A motion that was confirmed by its closest quads alone is measured by fewer of them than it has. Where another trial
+/// came to the same motion with all of them, that one.
+MotionSearch::Trial& MotionSearch::with_all_inliers(Trial& chosen, std::vector<Trial>& trials,
+                                                    const MotionQuery& query) {
+  const MotionStep& found = *chosen.outcome();
+  if (!chosen.hypothesis->asks_for_close_agreement() || !found.ok()) return chosen;
+  for (Trial& trial : trials) {
+    const MotionStep& other = *trial.outcome();
+    if (trial.hypothesis->asks_for_close_agreement() || !trial.confirmed || !other.ok()) continue;
+    if (acceptance_.are_one(found, other, base_from_base(found, other, query))) return trial;
+  }
+  return chosen;
+}
+
+bool MotionSearch::has_rival(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query) {
+  const MotionStep& found = *chosen.outcome();
   for (Trial& trial : trials) {
     const MotionStep& other = *trial.outcome();
     if (&trial == &chosen || !trial.confirmed) continue;
-    if (acceptance_.are_rivals(found, other, from_key(found) * from_key(other).inverse())) return true;
+    if (acceptance_.are_rivals(found, other, base_from_base(found, other, query))) return true;
   }
   return false;
 }
