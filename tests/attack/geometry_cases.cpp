@@ -191,6 +191,25 @@ std::vector<GeometryCase> make_cases() {
         cases.push_back({"still camera, board over " + std::to_string(static_cast<int>(100 * area)) + " %, " +
                              std::to_string(static_cast<int>(speed)) + " px" + (fine ? ", mosaic" : ""),
                          area < 0.5 ? Demand::right : Demand::told, room, boards(area, speed, fine)});
+  // What is not solved. The counts are what was measured when the row was made; a change that mends a fault lowers
+  // them.
+  const std::pair<const char*, int> open[] = {
+      {"right camera a frame late", 3},
+      {"right camera a frame late, cables", 5},
+      {"right pitch 0.5 degrees", 0},
+      {"still camera, board over 20 %, 2 px", 1},
+      {"still camera, board over 20 %, 2 px, mosaic", 1},
+      {"still camera, board over 20 %, 4 px", 0},
+      {"still camera, board over 40 %, 2 px", 3},
+      {"still camera, board over 40 %, 2 px, mosaic", 2},
+      {"still camera, board over 40 %, 4 px, mosaic", 0},
+      {"still camera, board over 60 %, 2 px", 4},
+      {"still camera, board over 60 %, 2 px, mosaic", 6},
+      {"still camera, board over 60 %, 4 px, mosaic", 3},
+  };
+  for (const auto& [name, steps] : open)
+    for (auto& row : cases)
+      if (row.name == name) row.open = steps;
   return cases;
 }
 

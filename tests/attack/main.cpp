@@ -1,6 +1,6 @@
 /// \file main.cpp  Runs the attacks on the geometry and prints what became of them:
 ///   quadedge_attack [--device NAME] [--evidence] [PART OF A NAME]
-/// Exit code 1 where a demand is not met.
+/// Exit code 1 where a demand is not met that is not known to be open.
 #include <cstdio>
 #include <cstring>
 
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
       part = argv[i];
   }
   const char* const demands[] = {"sound", "right", "told", "scale"};
-  int right = 0, wrong = 0, warned = 0, lost = 0, runs = 0, failed = 0, skipped = 0, scaled = 0;
+  int right = 0, wrong = 0, warned = 0, lost = 0, runs = 0, failed = 0, open = 0, skipped = 0, scaled = 0;
   std::printf("%-50s %-6s %6s %6s %6s %6s  says\n", "case", "demand", "right", "wrong", "warned", "lost");
   for (const auto& row : attack::geometry_cases()) {
     if (row.name.find(part) == std::string::npos) continue;
@@ -32,19 +32,24 @@ int main(int argc, char** argv) {
     const attack::Verdict verdict = attack::judge(sequence, device, evidence);
     const bool met = attack::is_met(row.demand, verdict);
     ++runs;
-    failed += met ? 0 : 1;
+    const bool is_open = !met && row.open != attack::kSolved && verdict.wrong <= row.open;
+    failed += met || is_open ? 0 : 1;
+    open += is_open ? 1 : 0;
     right += verdict.right;
     (row.demand == attack::Demand::scale ? scaled : wrong) += verdict.wrong;
     warned += verdict.warned;
     lost += verdict.lost;
     std::printf("%-50s %-6s %6d %6d %6d %6d  %s%s\n", row.name.c_str(), demands[static_cast<int>(row.demand)],
                 verdict.right, verdict.wrong, verdict.warned, verdict.lost,
-                met ? "" : "NOT MET: ", verdict.words.c_str());
+                met       ? ""
+                : is_open ? "open: "
+                          : "NOT MET: ",
+                verdict.words.c_str());
     std::fflush(stdout);
   }
   std::printf(
       "%d runs: %d steps right, %d wrong without a word, %d wrong and warned about, %d lost; %d wrong by the "
-      "baseline alone; %d demands not met, %d runs without their data\n",
-      runs, right, wrong, warned, lost, scaled, failed, skipped);
+      "baseline alone; %d demands are open, %d others not met, %d runs without their data\n",
+      runs, right, wrong, warned, lost, scaled, open, failed, skipped);
   return failed == 0 ? 0 : 1;
 }
