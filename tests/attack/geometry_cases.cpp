@@ -94,6 +94,7 @@ Alteration boards(double area, double speed, bool fine) {
 
 void nothing(Sequence&) {}
 
+/// LONG: a table, one statement per row.
 std::vector<GeometryCase> make_cases() {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
   std::vector<GeometryCase> cases = {
