@@ -27,6 +27,8 @@ class MotionHypothesis {
   /// Whether it competes with a motion a pixel or two apart: then a fit with the usual inlier distance would take in
   /// the edges of both, and end between them.
   virtual bool asks_for_close_agreement() const { return false; }
+  /// Takes as long as all the rest of a frame: asked only where cheaper ones leave a doubt.
+  virtual bool is_costly() const { return false; }
 };
 
 }  // namespace quadedge::odometry

@@ -35,21 +35,34 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
 StepHandle MotionSearch::search(const MotionQuery& query) {
   Evidence evidence;
   std::vector<Trial> trials;
-  for (const auto& hypothesis : hypotheses_) {
-    Trial trial = try_out(*hypothesis, query, evidence);
-    if (!trial.proposed) continue;
+  trials.reserve(hypotheses_.size());
+  const auto try_hypothesis = [&](MotionHypothesis& hypothesis) {
+    Trial trial = try_out(hypothesis, query, evidence);
+    if (!trial.proposed) return;
     const MotionStep& outcome = *trial.outcome();
-    if (hypothesis->trusts_prediction() && acceptance_.is_confident(outcome) && !Acceptance::leaves_much_over(outcome))
-      return std::move(trial.outcome());
     if (evidence.confirmed == nullptr && trial.confirmed && outcome.ok()) evidence.confirmed = &outcome;
     trials.push_back(std::move(trial));
+  };
+  const auto choose = [&]() -> Trial& { return with_all_inliers(best(trials), trials, query); };
+  const auto is_expected = [&](Trial& trial) {
+    return trial.hypothesis->trusts_prediction() && acceptance_.is_confident(*trial.outcome());
+  };
+  for (const auto& hypothesis : hypotheses_) {
+    // Where a part of the image moves otherwise than predicted, what costs little is tried beside the prediction.
+    if (hypothesis->is_costly() && !trials.empty() && is_expected(trials.front())) continue;
+    try_hypothesis(*hypothesis);
+    if (trials.size() == 1 && is_expected(trials.front()) && !Acceptance::leaves_much_over(*trials.front().outcome()))
+      return std::move(trials.front().outcome());
   }
-  Trial& chosen = with_all_inliers(best(trials), trials, query);
+  if (is_expected(trials.front()) && !is_expected(choose()))
+    for (const auto& hypothesis : hypotheses_)
+      if (hypothesis->is_costly()) try_hypothesis(*hypothesis);
+  Trial& chosen = choose();
   const bool is_ambiguous = Acceptance::leaves_most_over(*chosen.outcome()) || has_rival(chosen, trials, query);
   StepHandle found = std::move(chosen.outcome());
   found->ambiguous = is_ambiguous;
-  const bool is_expected = chosen.hypothesis->trusts_prediction() && acceptance_.is_confident(*found);
-  if (found->ok() && !is_expected && evidence.found_anywhere != nullptr &&
+  const bool was_expected = chosen.hypothesis->trusts_prediction() && acceptance_.is_confident(*found);
+  if (found->ok() && !was_expected && evidence.found_anywhere != nullptr &&
       !acceptance_.is_seen(*evidence.found_anywhere, query, *found))
     found->motion.status = pose::MotionStatus::no_consensus;
   return found;

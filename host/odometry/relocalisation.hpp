@@ -11,6 +11,7 @@ class Relocalisation : public MotionHypothesis {
  public:
   Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config);
   StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
+  bool is_costly() const override { return true; }
 
  private:
   frontend::Frontend& frontend_;

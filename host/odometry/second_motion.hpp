@@ -15,6 +15,7 @@ class SecondMotion : public MotionHypothesis {
  public:
   SecondMotion(StepBuilder& steps, const Config& config);
   StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
+  bool is_costly() const override { return true; }
 
  private:
   StepBuilder& steps_;
