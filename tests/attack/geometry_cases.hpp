@@ -17,6 +17,8 @@ enum class Demand {
 };
 
 constexpr int kSolved = -1;
+/// Steps by which an open row may differ on another processor: which of two motions wins hangs on little there.
+constexpr int kChance = 2;
 
 /// One attack.
 struct GeometryCase {
