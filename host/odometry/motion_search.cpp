@@ -47,14 +47,18 @@ StepHandle MotionSearch::search(const MotionQuery& query) {
   const auto is_expected = [&](Trial& trial) {
     return trial.hypothesis->trusts_prediction() && acceptance_.is_confident(*trial.outcome());
   };
+  const auto stands = [&](Trial& trial) {
+    return is_expected(trial) && !Acceptance::leaves_most_over(*trial.outcome());
+  };
   for (const auto& hypothesis : hypotheses_) {
-    // Where a part of the image moves otherwise than predicted, what costs little is tried beside the prediction.
-    if (hypothesis->is_costly() && !trials.empty() && is_expected(trials.front())) continue;
+    // Where a part of the image moves otherwise than predicted, what costs little is tried beside the prediction; where
+    // most of it does, all.
+    if (hypothesis->is_costly() && !trials.empty() && stands(trials.front())) continue;
     try_hypothesis(*hypothesis);
     if (trials.size() == 1 && is_expected(trials.front()) && !Acceptance::leaves_much_over(*trials.front().outcome()))
       return std::move(trials.front().outcome());
   }
-  if (is_expected(trials.front()) && !is_expected(choose()))
+  if (stands(trials.front()) && !is_expected(choose()))
     for (const auto& hypothesis : hypotheses_)
       if (hypothesis->is_costly()) try_hypothesis(*hypothesis);
   Trial& chosen = choose();
