@@ -306,7 +306,7 @@ def light(results):
 
 
 def peers(results):
-    """Other systems; QuadEdge's own time is the measured one."""
+    """Other systems; QuadEdge's own time and drift are the measured ones."""
     kept = results["peers"]
     rows = [list(row) for row in kept["rows"]]
     own = [
@@ -317,6 +317,9 @@ def peers(results):
     for row in rows:
         if row[1] == "measured":
             row[1] = f"{own[0]['median_ms']:.0f} ms" if own else "-"
+        if row[2] == "measured":
+            drifts = {found["scene"]: f"{found['end_percent']:.2f} %" for found in results["drift"]["rows"]}
+            row[2] = f"{drifts['room']}, {drifts['cables']}"
     return table(kept["head"], rows)
 
 
@@ -324,7 +327,7 @@ def drift_over_scenes(results):
     """End errors after long rendered sequences, with those of another program beside them where there are any."""
     rows = []
     for row in results["drift"]["rows"]:
-        for name, found in (("before", row.get("before")), ("now", row)):
+        for name, found in (("before", row.get("before")), ("all edges", row.get("all_edges")), ("now", row)):
             if found is None:
                 continue
             ends = " ".join(number(run["end_mm"], 2) for run in found["runs"])

@@ -66,6 +66,70 @@ TEST_CASE("acceptance: a thing counts by the area that it covers, not by its edg
   CHECK(seen.area_of(shift(3, 3)) < 0.05);
 }
 
+TEST_CASE("acceptance: what moves otherwise is a ratio of the image, and two motions are not one", "[odometry]") {
+  generated::Problem thing, scene;
+  thing.quads = 600;
+  thing.width_ratio = 0.1;
+  thing.motion = shift(0.6, 0);
+  thing.near = thing.far = 8;
+  scene.quads = 300;
+  scene.motion = shift(0, -1);
+  TwoMotions seen(thing, scene);
+  // The thing holds two thirds of the edges: that many lie where few move as the scene does, the rest the other way.
+  seen.area_of(scene.motion);
+  CHECK(seen.step.moving_ratio > 0.5);
+  CHECK(Acceptance::leaves_most_over(seen.step));
+  seen.area_of(thing.motion);
+  CHECK(seen.step.moving_ratio > 0.2);
+  CHECK(seen.step.moving_ratio < 0.4);
+  CHECK_FALSE(Acceptance::leaves_most_over(seen.step));
+
+  thing.motion = scene.motion;
+  TwoMotions alike(thing, scene);
+  alike.area_of(scene.motion);
+  CHECK(alike.step.moving_ratio < 0.02);
+  CHECK_FALSE(Acceptance::leaves_much_over(alike.step));
+
+  const Config config;
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  Acceptance acceptance(config, offset);
+  MotionStep near = alike.step, other = alike.step;
+  alike.step.motion.inlier.assign(alike.step.quads.size(), 1);
+  near.motion.current_from_previous = shift(0.005, 0) * scene.motion;
+  other.motion.current_from_previous = shift(0.6, 0);
+  const Eigen::Isometry3d same_base = Eigen::Isometry3d::Identity();
+  CHECK(acceptance.are_one(alike.step, near, same_base));
+  CHECK_FALSE(acceptance.are_rivals(alike.step, near, same_base));
+  CHECK_FALSE(acceptance.are_one(alike.step, other, same_base));
+  CHECK(acceptance.are_rivals(alike.step, other, same_base));
+  other.explained_area = 0.1 * alike.step.explained_area;  // a small thing is no rival
+  CHECK_FALSE(acceptance.are_rivals(alike.step, other, same_base));
+}
+
+TEST_CASE("acceptance: what support is enough follows from what motions have reached lately", "[odometry]") {
+  const Config config;
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  Acceptance acceptance(config, offset);
+  const auto with = [](double support) {
+    MotionStep step;
+    step.motion.status = pose::MotionStatus::ok;
+    step.support = support;
+    return step;
+  };
+  CHECK(acceptance.is_confident(with(0.36)));
+  CHECK_FALSE(acceptance.is_confident(with(0.34)));  // temporal.confident_support, as long as nothing is known
+  for (int frame = 0; frame < 100; ++frame) acceptance.remember(with(0.5));
+  CHECK(acceptance.is_confident(with(0.26)));
+  CHECK_FALSE(acceptance.is_confident(with(0.24)));
+  acceptance.remember(with(0.9));  // more is never asked for
+  CHECK(acceptance.is_confident(with(0.36)));
+  for (int frame = 0; frame < 100; ++frame) acceptance.remember(with(0.1));
+  CHECK(acceptance.is_confident(with(0.21)));  // nor less than what chance may find
+  CHECK_FALSE(acceptance.is_confident(with(0.19)));
+  acceptance.remember(MotionStep());  // lost
+  CHECK_FALSE(acceptance.is_confident(with(0.34)));
+}
+
 TEST_CASE("acceptance: without enough support among the edges in view there is no consensus", "[odometry]") {
   Config config;
   config.temporal.min_support = 0.06;

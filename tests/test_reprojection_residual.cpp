@@ -68,6 +68,11 @@ TEST_CASE("Reprojection residuals vanish at the true motion and count in standar
   const NoiseModel noise(config);
   CHECK(noise.on_epipolar_line(1.0) == Approx(config.sigma_across));
   CHECK(noise.on_epipolar_line(0.0) == Approx(config.sigma_along));
+  // A piece of 3 px to both sides has a uniform distribution's deviation of 3 / sqrt(3), whatever the scale of the
+  // rest.
+  CHECK(noise.along_in_time(0, 1) == Approx(config.sigma_along));
+  CHECK(noise.along_in_time(3, 1) == Approx(std::hypot(config.sigma_along, std::sqrt(3.0))));
+  CHECK(noise.along_in_time(3, 0.25) == Approx(std::hypot(config.sigma_along, 4 * std::sqrt(3.0))));
 
   generated::Problem problem = generated::near_problem();
   const auto exact = generated::generate(problem, 22);

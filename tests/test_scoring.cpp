@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
@@ -7,6 +8,13 @@
 using namespace quadedge::pose;
 
 namespace {
+
+/// Squared distance from the piece of curve of `half_length` px to both sides of an edge at `at`.
+double from_piece(const Eigen::Vector2d& point, const Eigen::Vector2d& at, const Eigen::Vector2d& direction,
+                  double half_length) {
+  const double along = std::clamp((point - at).dot(direction), -half_length, half_length);
+  return (point - at - along * direction).squaredNorm();
+}
 
 /// Plain double-precision twin of truncated_cost, straight from the definition.
 double plain_cost(const generated::Generated& g, const quadedge::StereoRig& rig, const Eigen::Isometry3d& motion,
@@ -18,8 +26,11 @@ double plain_cost(const generated::Generated& g, const quadedge::StereoRig& rig,
     double cost = threshold * threshold;
     if (left.z() > 0 && right.z() > 0) {
       const auto& s = g.quads.scoring;
-      const double a = (rig.left.project(left) - Eigen::Vector2d(s.left_x[i], s.left_y[i])).squaredNorm();
-      const double b = (rig.right.project(right) - Eigen::Vector2d(s.right_x[i], s.right_y[i])).squaredNorm();
+      const auto half_length = static_cast<double>(s.half_length);
+      const double a =
+          from_piece(rig.left.project(left), {s.left_x[i], s.left_y[i]}, {s.left_cos[i], s.left_sin[i]}, half_length);
+      const double b = from_piece(rig.right.project(right), {s.right_x[i], s.right_y[i]},
+                                  {s.right_cos[i], s.right_sin[i]}, half_length);
       cost = std::min(cost, std::max(a, b));
     }
     sum += cost;
@@ -41,10 +52,13 @@ TEST_CASE("The score is the truncated quadratic of the worse image, at any numbe
     for (int count : {1, 7, 8, 63, 64, 65, 300}) {
       problem.quads = count;
       problem.motion = random.motion(0.02, 0.3);
-      const auto g = generated::generate(problem, 12);
+      auto g = generated::generate(problem, 12);
       const Eigen::Isometry3d guess = random.motion(0.001, 0.01) * problem.motion;
-      CHECK(truncated_cost(g.quads.scoring, LaterCameras(rig, guess), 1.5) ==
-            Approx(plain_cost(g, rig, guess, 1.5)).margin(1e-3));
+      for (const float half_length : {0.0F, 1.4F}) {
+        g.quads.scoring.half_length = half_length;
+        CHECK(truncated_cost(g.quads.scoring, LaterCameras(rig, guess), 1.5) ==
+              Approx(plain_cost(g, rig, guess, 1.5)).margin(1e-3));
+      }
     }
   }
   CHECK(truncated_cost({}, LaterCameras(problem.rig, problem.motion), 1.5) == 1.0);

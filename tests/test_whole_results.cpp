@@ -22,6 +22,9 @@ TEST_CASE("whole results: every file that is cut, damaged or missing is named", 
   write_kitti(place + "/trajectory_kitti.txt", poses);
   write_text(place + "/errors.csv", report::errors_csv(*run.accuracy));
   write_text(place + "/config.toml", "seed = 42\n");
+  std::string rows = "frame,stamp_s\n";
+  for (std::size_t i = 0; i < run.frames.size(); ++i) rows += std::to_string(i) + ",0\n";
+  write_text(place + "/poses.csv", rows);
   REQUIRE_NOTHROW(report::check_whole(place));
   const auto check = [&](const std::string& name, const std::string& text) {
     INFO(name << ": " << text.size() << " bytes");
@@ -32,8 +35,8 @@ TEST_CASE("whole results: every file that is cut, damaged or missing is named", 
     write_text(place + "/" + name, good);
     CHECK_NOTHROW(report::check_whole(place));
   };
-  for (const char* name : {"report.json", "frames.csv", "trajectory.txt", "trajectory_kitti.txt", "groundtruth.txt",
-                           "errors.csv", "config.toml"}) {
+  for (const char* name : {"report.json", "frames.csv", "poses.csv", "trajectory.txt", "trajectory_kitti.txt",
+                           "groundtruth.txt", "errors.csv", "config.toml"}) {
     const std::string good = read_text(place + "/" + name);
     const bool is_report = name == std::string("report.json");
     check(name, "");
@@ -43,7 +46,7 @@ TEST_CASE("whole results: every file that is cut, damaged or missing is named", 
     const bool has_rows = name != std::string("config.toml") && name != std::string("groundtruth.txt");
     if (has_rows) check(name, good.substr(0, last_line));
   }
-  for (const char* name : {"report.json", "frames.csv", "trajectory.txt", "config.toml", "errors.csv"}) {
+  for (const char* name : {"report.json", "frames.csv", "poses.csv", "trajectory.txt", "config.toml", "errors.csv"}) {
     INFO(name);
     std::filesystem::rename(place + "/" + name, folder / "aside");
     CHECK_THROWS_WITH(report::check_whole(place), Contains(name));

@@ -50,6 +50,13 @@ StageWork threshold_work(const FrameSize& frame) {
   return {points * 9 * sizeof(float), points * (gradient + noise + bin)};
 }
 
+/// doc/method.md section 1: a maximum's line and angle, and whether it is the nearest; in the searched image for three
+/// angles. At least the edges that stay have been maxima.
+StageWork selection_work(const FrameSize& frame) {
+  const double maximum = 4 * sizeof(float), crossing = 35, nearest = 10;
+  return {frame.edges * 2 * maximum, frame.edges * (crossing + 2 * nearest)};
+}
+
 /// One candidate's similarity: the better of two pairs of patches.
 constexpr double kSimilarity = 2 * 2 * kPatchSamples + 5;
 constexpr double kTurned = 4;  // difference of two directions, compared
@@ -171,6 +178,7 @@ StageWork least_work(const std::string& stage, const FrameSize& frame, const Con
   // The lists of candidates and of stereo edges: both have a count per left edge.
   if (stage == "scan") return {2 * 2 * frame.left_edges * sizeof(int), 2 * frame.left_edges};
   if (stage == "edge_threshold") return threshold_work(frame);
+  if (stage == "edge_selection") return selection_work(frame);
   if (stage == "edge_detection") return edges_work(frame, config.edges);
   if (stage == "patches") return patches_work(frame);
   if (stage == "sift") return sift_work(frame);

@@ -1,26 +1,13 @@
 #include "odometry/equal_scale.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "odometry/bilinear.hpp"
 
 namespace quadedge::odometry {
 namespace {
 
 constexpr double kMuchFiner = 1.5;
-
-/// Value of a table at the corner or in the middle of its pixels, bilinear.
-float sample(const UndistortionTable& table, const std::vector<float>& values, double x, double y) {
-  const int i = std::clamp(static_cast<int>(x), 0, std::max(table.width - 2, 0)),
-            j = std::clamp(static_cast<int>(y), 0, std::max(table.height - 2, 0));
-  const auto a = static_cast<float>(x - i), b = static_cast<float>(y - j);
-  const auto at = [&](int column, int row) {
-    column = std::min(column, table.width - 1);
-    row = std::min(row, table.height - 1);
-    return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(table.width) +
-                  static_cast<std::size_t>(column)];
-  };
-  return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) + b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
-}
 
 /// Every `factor` x `factor` pixels become one.
 void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
@@ -31,9 +18,9 @@ void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
     for (int x = 0; x < smaller.width; ++x) {
       const double from_x = (x + 0.5) * factor - 0.5, from_y = (y + 0.5) * factor - 0.5;
       smaller.source_x.push_back(table.empty() ? static_cast<float>(from_x)
-                                               : sample(table, table.source_x, from_x, from_y));
+                                               : bilinear(table, table.source_x, from_x, from_y));
       smaller.source_y.push_back(table.empty() ? static_cast<float>(from_y)
-                                               : sample(table, table.source_y, from_x, from_y));
+                                               : bilinear(table, table.source_y, from_x, from_y));
     }
   }
   table = std::move(smaller);

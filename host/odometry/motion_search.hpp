@@ -29,6 +29,7 @@ class MotionSearch {
   double take_pose_ms() { return steps_.take_pose_ms(); }
 
  private:
+  /// find() but for what is remembered of it.
   StepHandle search(const MotionQuery& query);
 
   /// A hypothesis, what it proposed and what the confirmation made of it.
@@ -40,10 +41,10 @@ class MotionSearch {
   };
   Trial try_out(MotionHypothesis& hypothesis, const MotionQuery& query, Evidence& evidence);
   static Trial& best(std::vector<Trial>& trials);
-  /// Whether another motion that was confirmed could be the world's as well.
   Trial& with_all_inliers(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query);
   /// From the base of another step to that of the one found; one of them may be the key rig.
   static Eigen::Isometry3d base_from_base(const MotionStep& found, const MotionStep& other, const MotionQuery& query);
+  /// Whether another motion that was confirmed could be the world's as well.
   bool has_rival(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query);
 
   StepBuilder steps_;

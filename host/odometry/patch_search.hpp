@@ -1,5 +1,6 @@
 #pragma once
-/// \file patch_search.hpp  Corners of a small image, and where in another one a patch around them lies.
+/// \file patch_search.hpp  Corners of a small image, and where in another one a patch around them lies. The core
+/// library does without OpenCV, which has both.
 
 #include <Eigen/Core>
 #include <optional>

@@ -42,8 +42,7 @@ std::string cause_across(const EpipolarFit& fit) {
   const double x = std::abs(fit.slope_x) / 2, y = std::abs(fit.slope_y) / 2, middle = std::abs(fit.offset);
   if (fit.scatter > kMost * fit.residual) {
     return "is the direction between the cameras or the right camera's yaw wrong, or are the images distorted while "
-           "the "
-           "calibration takes them for pinhole images?";
+           "the calibration takes them for pinhole images?";
   }
   if (y >= x && y >= middle) return "do the focal lengths of the cameras differ from what the calibration says?";
   if (x >= middle) return "is one camera rolled against what the calibration says?";

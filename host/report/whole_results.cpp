@@ -26,17 +26,18 @@ void check_whole(const std::string& folder) {
   const SummaryRow row = read_summary_row(folder, "", 0);
   if (row.status != MemberStatus::done) throw DataError(row.member.message);
   const std::string tum = folder + "/trajectory.txt", kitti = folder + "/trajectory_kitti.txt",
-                    frames = folder + "/frames.csv", config = folder + "/config.toml",
+                    frames = folder + "/frames.csv", poses = folder + "/poses.csv", config = folder + "/config.toml",
                     truth = folder + "/groundtruth.txt", errors = folder + "/errors.csv";
-  for (const auto* file : {&tum, &kitti, &frames, &config}) check_end(*file);
+  for (const auto* file : {&tum, &kitti, &frames, &poses, &config}) check_end(*file);
   check_count(tum, read_tum(tum).size(), row.tracked);
   check_count(kitti, read_kitti(kitti).size(), row.frames);
   check_count(frames, read_frames_table(frames).stamp_s.size(), row.frames);
+  // One line more than frames, or than poses: the heading.
+  check_count(poses, data::data_lines(poses).size(), row.frames + 1);
   if (!row.accuracy) return;
   check_end(truth);
   read_tum(truth);
   check_end(errors);
-  // One line more than poses: the heading.
   check_count(errors, data::data_lines(errors).size(), row.accuracy->matched + 1);
 }
 
