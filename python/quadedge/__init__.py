@@ -1,0 +1,47 @@
+"""QuadEdge: stereo images in, camera trajectory out.
+
+    import quadedge
+
+    rig = quadedge.Rig.from_file("camchain.yaml")
+    odometry = quadedge.Odometry(rig)
+    result = odometry.track(stamp_ns, left, right)     # numpy arrays, height x width
+    print(result.status, result.world_from_left)
+
+Images, edges and poses come from the compiled module ``quadedge._quadedge``, which is loaded when the first of its names
+is used; ``quadedge.report`` needs none of it. ``quadedge.bag`` reads recordings of ROS (``pip install quadedge[bag]``),
+``quadedge.view`` shows results (``pip install quadedge[view]``). Lengths are metres, angles radians, stamps nanoseconds,
+image positions pixels with the centre of the top-left pixel at (0, 0). Camera frames: x right, y down, z forward.
+"""
+
+import importlib
+from typing import TYPE_CHECKING
+
+from .errors import DataError, DeviceError, Error, UsageError
+
+if TYPE_CHECKING:
+    from ._quadedge import *  # noqa: F403
+
+_ERRORS = ("DataError", "DeviceError", "Error", "UsageError")
+_COMPILED = ()
+
+__all__ = [*_ERRORS, *_COMPILED]
+
+
+def __getattr__(name: str):
+    """Loads the compiled module with the first name that needs it."""
+    if name in _COMPILED:
+        try:
+            compiled = importlib.import_module("._quadedge", __name__)
+        except ImportError as error:
+            raise ImportError(
+                f"quadedge.{name} needs the compiled part of the package, which cannot be loaded ({error}); "
+                "`pip install .` in the repository builds it"
+            ) from error
+        for known in _COMPILED:
+            globals()[known] = getattr(compiled, known)
+        return globals()[name]
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})
