@@ -31,6 +31,14 @@ void check_table(const UndistortionTable& table, const PinholeCamera& camera, co
   }
 }
 
+void check_mask(const PixelMask& mask, const PinholeCamera& camera, const std::string& where) {
+  const std::size_t expected = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  if (mask.empty() || (mask.width == camera.width && mask.height == camera.height && mask.hidden.size() == expected))
+    return;
+  throw DataError(where + ": found a mask of " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
+                  ", expected " + std::to_string(camera.width) + " x " + std::to_string(camera.height));
+}
+
 }  // namespace
 
 void check_rig(const StereoRig& rig, const char* source) {
@@ -52,6 +60,8 @@ void check_rig(const StereoRig& rig, const char* source) {
   }
   check_table(rig.left_undistortion, rig.left, where + " (left camera)");
   check_table(rig.right_undistortion, rig.right, where + " (right camera)");
+  check_mask(rig.left_mask, rig.left, where + " (left camera)");
+  check_mask(rig.right_mask, rig.right, where + " (right camera)");
 }
 
 }  // namespace quadedge

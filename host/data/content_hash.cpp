@@ -31,6 +31,11 @@ void add_table(ContentHash& hash, const UndistortionTable& table) {
   }
 }
 
+void add_mask(ContentHash& hash, const PixelMask& mask) {
+  hash.add({static_cast<double>(mask.width), static_cast<double>(mask.height)});
+  hash.add({reinterpret_cast<const char*>(mask.hidden.data()), mask.hidden.size()});
+}
+
 /// Name, size and both ends of an image file.
 void add_image(ContentHash& hash, const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
@@ -83,6 +88,8 @@ std::string dataset_hash(const Dataset& dataset) {
   add_pose(hash, dataset.rig.right_from_left);
   add_table(hash, dataset.rig.left_undistortion);
   add_table(hash, dataset.rig.right_undistortion);
+  add_mask(hash, dataset.rig.left_mask);
+  add_mask(hash, dataset.rig.right_mask);
   hash.add({dataset.max_disparity});
   for (const auto& frame : dataset.frames) {
     hash.add(std::to_string(frame.stamp_ns));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "data/calibration_formats.hpp"
 #include "data/image_file.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -67,6 +68,29 @@ void check_disparities(const Dataset& dataset) {
   fail(calibration_of(dataset), found.str(), "pixels and metres that give at most 10000 px");
 }
 
+/// \throws DataError where the first images have other sizes than the calibration says.
+void set_sizes_from_images(StereoCalibration& calibration, const Dataset& dataset) {
+  const FrameFiles& first = dataset.frames.front();
+  set_image_sizes(calibration, image_size(first.left), image_size(first.right), first.left + ", " + first.right);
+}
+
+/// What the user says of the cameras, instead of the layout's own calibration or on top of it.
+void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
+  if (!options.calibration.empty()) {
+    dataset.calibration = read_calibration(options.calibration);
+    set_sizes_from_images(*dataset.calibration, dataset);
+  }
+  if (options.fov != 0 && !dataset.calibration) {
+    throw UsageError("--fov: " + dataset.path +
+                     " says nothing of lenses; give a --calibration, or leave the field of view as it is");
+  }
+  if (dataset.calibration && (!options.calibration.empty() || options.fov != 0)) {
+    dataset.rig = make_rig(*dataset.calibration, options.fov);
+    dataset.max_disparity = usual_max_disparity(dataset.rig);
+  }
+  if (!options.mask.empty()) mask_rig(dataset.rig, options.mask);
+}
+
 /// Largest value of an image's pixels. What is wrong with the image is said by who reads it.
 int white_of(const std::string& file) {
   try {
@@ -87,6 +111,7 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
     if (findings.errors().empty()) findings.error(dataset.path, "no stereo frame", "at least one");
   } else {
     cut_frames(dataset, options);
+    findings.attempt([&] { apply_users_cameras(dataset, options); });
     dataset.rig.white = white_of(dataset.frames.front().left);
   }
   findings.attempt([&] {
@@ -97,7 +122,7 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
 }
 
 std::string calibration_of(const Dataset& dataset) {
-  if (dataset.format == "euroc") return dataset.path + " (cam0/sensor.yaml, cam1/sensor.yaml)";
+  if (dataset.calibration) return dataset.calibration->files;
   if (dataset.format == "eth3d-slam") return dataset.path + " (calibration.txt, calibration2.txt, extrinsics_1_2.txt)";
   return fs::exists(fs::path(dataset.path) / "calib.txt") ? dataset.path + "/calib.txt" : dataset.path;
 }

@@ -74,7 +74,7 @@ const char* to_string(FrameStatus status) {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoRig& rig, Device& device, const Config& config)
-      : recorded_{rig.left, rig.right, {}, {}, {}, rig.white},
+      : recorded_{rig.left, rig.right, {}, {}, {}, {}, {}, rig.white},
         left_any_size_(!rig.left_undistortion.empty()),
         right_any_size_(!rig.right_undistortion.empty()),
         rig_(odometry::with_equal_scales(rig)),
@@ -101,7 +101,7 @@ class StereoOdometry::Implementation {
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
   void warn(const std::string& doubt, FrameResult& result);
 
-  StereoRig recorded_;  ///< the images' sizes, without tables
+  StereoRig recorded_;  ///< the images' sizes, without tables and masks
   bool left_any_size_, right_any_size_;
   StereoRig rig_;  ///< what edges are found in
   Device& device_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 namespace quadedge {
@@ -37,12 +38,21 @@ struct UndistortionTable {
   bool empty() const { return source_x.empty(); }
 };
 
+/// Pixels of a pinhole image that show nothing of the world: what the recorded image does not reach, or what the user
+/// masks (a car's bonnet).
+struct PixelMask {
+  int width = 0, height = 0;         ///< size of the pinhole image
+  std::vector<std::uint8_t> hidden;  ///< height x width, row-major, 1 where a pixel is masked
+  bool empty() const { return hidden.empty(); }
+};
+
 /// Two cameras fixed to one another. Images of different sizes are allowed, nothing needs to be rectified.
 struct StereoRig {
   PinholeCamera left, right;
   /// Gamma_right = right_from_left * Gamma_left, metres (paper Eq. 1). Rectified: identity and (-baseline, 0, 0).
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
   UndistortionTable left_undistortion, right_undistortion;  ///< empty where the recorded images are pinhole images
+  PixelMask left_mask, right_mask;                          ///< no edges within edges.margin of them; empty: none
 
   int white = 255;  ///< largest value of the recorded images' pixels, see ImageView
 

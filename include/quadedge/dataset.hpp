@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "quadedge/camera.hpp"
+#include "quadedge/calibration.hpp"
 #include "quadedge/image.hpp"
 #include "quadedge/trajectory.hpp"
 
@@ -26,6 +26,7 @@ struct Dataset {
   std::string path;    ///< the sequence's own folder
   std::string name;    ///< short name for tables
   StereoRig rig;
+  std::optional<StereoCalibration> calibration;  ///< what the rig was made of, where lenses are told of
   std::vector<FrameFiles> frames;
   /// Largest disparity that this kind of data holds [px], measured from a point at infinity: f x baseline / nearest
   /// depth. Where the principal points differ (doffs of Middlebury) the plain difference of columns is smaller by that.
@@ -45,6 +46,9 @@ struct DatasetOptions {
   std::string sequence;         ///< KITTI: the sequence's name when `path` holds several
   int first_frame = 0;          ///< half-open range of frames
   int last_frame = -1;          ///< -1: to the end
+  std::string calibration;      ///< files of read_calibration(); empty: what the layout says
+  double fov = 0;               ///< of make_rig(), for recordings with a calibration of lenses
+  std::string mask;             ///< files of mask_rig(); empty: none
 };
 
 /// The names that DatasetOptions::format takes besides "auto".

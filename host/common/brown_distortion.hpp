@@ -1,0 +1,35 @@
+#pragma once
+/// \file brown_distortion.hpp  OpenCV's radial and tangential distortion on the plane at unit depth, with 0 to 14
+/// coefficients: k1 k2 p1 p2, k3, k4 k5 k6 (rational), s1 to s4 (thin prism), tau_x tau_y (tilted sensor).
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+namespace quadedge {
+
+/// One set of coefficients.
+class BrownDistortion {
+ public:
+  /// `coefficients`: the first `count` of the fourteen, the others are zero.
+  BrownDistortion(const double* coefficients, std::size_t count);
+
+  /// Where a point is seen, without regard to radius_limit().
+  Eigen::Vector2d distort(const Eigen::Vector2d& place) const;
+  /// The point within radius_limit() that is seen at `place`; nothing where there is none.
+  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& place) const;
+  /// Largest radius up to which points further out are seen further out: where the polynomial turns, the image folds.
+  double radius_limit() const { return limit_; }
+
+ private:
+  double radial(double square) const;
+  bool grows(double square) const;
+  double find_limit() const;
+  Eigen::Vector2d start_of_search(const Eigen::Vector2d& place) const;
+
+  std::array<double, 14> k_{};
+  Eigen::Matrix3d tilt_, untilt_;
+  double limit_;
+};
+
+}  // namespace quadedge

@@ -1,0 +1,89 @@
+/// \file calibrated_rig.cpp  From lenses to pinhole cameras: the view, the undistortion tables, the masks.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/lens_mapping.hpp"
+#include "quadedge/calibration.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
+
+namespace quadedge {
+namespace {
+
+/// Beyond 60 degrees from the axis a pinhole image stretches what it shows four times and more.
+constexpr double kWidestView = 120;  // degrees
+/// As close as things come to a camera in the hand or on a small robot.
+constexpr double kNearestDepth = 0.5;  // m
+
+/// The pinhole camera whose images stand for the lens's: the same size and principal point.
+PinholeCamera view_of(const Lens& lens, double fov) {
+  PinholeCamera view = lens.camera;
+  const double scale = LensMapping(lens).axial_scale();
+  const double widest = 0.5 * view.width / std::tan(0.5 * (fov > 0 ? fov : kWidestView) * kDegree);
+  if (fov == 0 && view.fx * scale >= widest) {
+    view.fx *= scale;
+    view.fy *= scale;
+  } else {
+    view.fy *= widest / view.fx;
+    view.fx = widest;
+  }
+  return view;
+}
+
+/// Where a direction would be seen that the lens does not show: on the rim, on the same side. Nothing is computed from
+/// it but the surroundings of what is shown.
+Eigen::Vector2d on_the_rim(const LensMapping& mapping, const Eigen::Vector3d& ray) {
+  double inside = 0, outside = 1;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (mapping.project({middle * ray.x(), middle * ray.y(), ray.z()}) ? inside : outside) = middle;
+  }
+  return mapping.project({inside * ray.x(), inside * ray.y(), ray.z()}).value_or(Eigen::Vector2d::Zero());
+}
+
+/// Fills the table of a view, and its mask where some pixel is not shown by the recorded image.
+void add_table(const Lens& lens, const PinholeCamera& view, UndistortionTable& table, PixelMask& mask) {
+  const LensMapping mapping(lens);
+  const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
+  table = {view.width, view.height, std::vector<float>(pixels), std::vector<float>(pixels)};
+  mask = {view.width, view.height, std::vector<std::uint8_t>(pixels)};
+  std::size_t at = 0;
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x, ++at) {
+      const Eigen::Vector3d ray = view.ray(Eigen::Vector2d(x, y));
+      const auto seen = mapping.project(ray);
+      const Eigen::Vector2d place = seen ? *seen : on_the_rim(mapping, ray);
+      table.source_x[at] = static_cast<float>(place.x());
+      table.source_y[at] = static_cast<float>(place.y());
+      const bool recorded = seen && place.x() >= 0 && place.y() >= 0 && place.x() <= lens.camera.width - 1 &&
+                            place.y() <= lens.camera.height - 1;
+      mask.hidden[at] = recorded ? 0 : 1;
+    }
+  }
+  if (std::count(mask.hidden.begin(), mask.hidden.end(), 1) == 0) mask = {};
+}
+
+}  // namespace
+
+StereoRig make_rig(const StereoCalibration& calibration, double fov) {
+  if (!(fov >= 0 && fov < 180))
+    throw UsageError("--fov " + std::to_string(fov) + ": expected degrees above 0 and below 180");
+  const auto see = [&](const Lens& lens, PinholeCamera& camera, UndistortionTable& table, PixelMask& mask) {
+    if (lens.camera.width <= 0 || lens.camera.height <= 0)
+      throw DataError(calibration.files + ": found no size of the recorded images, expected columns and rows");
+    camera = view_of(lens, fov);
+    const bool unchanged = lens.is_pinhole() && camera.fx == lens.camera.fx;
+    if (!unchanged) add_table(lens, camera, table, mask);
+  };
+  StereoRig rig;
+  see(calibration.left, rig.left, rig.left_undistortion, rig.left_mask);
+  see(calibration.right, rig.right, rig.right_undistortion, rig.right_mask);
+  rig.right_from_left = calibration.right_from_left;
+  return rig;
+}
+
+double usual_max_disparity(const StereoRig& rig) { return rig.left.fx * rig.baseline() / kNearestDepth; }
+
+}  // namespace quadedge

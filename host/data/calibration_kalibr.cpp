@@ -1,0 +1,52 @@
+/// \file calibration_kalibr.cpp  Kalibr's camera chain, camchain.yaml: cam0, cam1 ... with T_cn_cnm1, the transform of
+/// points from the camera before into this one, or T_cam_imu (from the IMU into the camera), or T_imu_cam, which
+/// OpenVINS writes instead. The first two cameras are taken, left first.
+
+#include <sstream>
+
+#include "data/calibration_formats.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// By how much two ways of writing the same transform may differ: Kalibr estimates them together.
+constexpr double kTolerance = 1e-3;  // m and rad
+
+std::optional<Eigen::Isometry3d> camera_from_imu(const YamlMap& camera) {
+  if (camera.has("T_cam_imu")) return camera.transform("T_cam_imu");
+  if (camera.has("T_imu_cam")) return camera.transform("T_imu_cam").inverse();
+  return std::nullopt;
+}
+
+void check_agreement(const Eigen::Isometry3d& chain, const Eigen::Isometry3d& over_imu, const YamlMap& right) {
+  const Eigen::Isometry3d rest = chain.inverse() * over_imu;
+  const double metres = rest.translation().norm(), radians = Eigen::AngleAxisd(rest.linear()).angle();
+  if (metres <= kTolerance && radians <= kTolerance) return;
+  std::ostringstream found;
+  found << "a transform that differs from the one over the IMU by " << metres << " m and " << radians << " rad";
+  right.complain("T_cn_cnm1", found.str(), "T_cam_imu of cam1 times the inverse of cam0's: is the order right?");
+}
+
+}  // namespace
+
+StereoCalibration read_kalibr_chain(const YamlMap& chain) {
+  const YamlMap left = chain.map("cam0"), right = chain.map("cam1");
+  StereoCalibration calibration;
+  calibration.left = read_worded_lens(left, "distortion_coeffs");
+  calibration.right = read_worded_lens(right, "distortion_coeffs");
+  const auto left_from_imu = camera_from_imu(left), right_from_imu = camera_from_imu(right);
+  if (left_from_imu) calibration.body_from_left = left_from_imu->inverse();
+  if (right.has("T_cn_cnm1")) {
+    calibration.right_from_left = right.transform("T_cn_cnm1");
+    if (left_from_imu && right_from_imu)
+      check_agreement(calibration.right_from_left, *right_from_imu * left_from_imu->inverse(), right);
+  } else if (left_from_imu && right_from_imu) {
+    calibration.right_from_left = *right_from_imu * left_from_imu->inverse();
+  } else {
+    fail(chain.file(), "neither cam1.T_cn_cnm1 nor T_cam_imu (or T_imu_cam) of both cameras", "one of them");
+  }
+  return calibration;
+}
+
+}  // namespace quadedge::data

@@ -1,0 +1,84 @@
+/// \file calibration_native.cpp  The program's own calibration file: ten entries, exact numbers.
+
+#include <charconv>
+
+#include "data/atomic_file.hpp"
+#include "data/calibration_formats.hpp"
+#include "data/text.hpp"
+
+namespace quadedge {
+namespace data {
+namespace {
+
+constexpr LensModel kModels[] = {LensModel::radial_tangential, LensModel::equidistant, LensModel::field_of_view,
+                                 LensModel::double_sphere, LensModel::omnidirectional};
+
+Lens read_lens(const YamlMap& file, const std::string& side) {
+  const std::string model = file.word(side + "model");
+  Lens lens;
+  const auto* found =
+      std::find_if(std::begin(kModels), std::end(kModels), [&](LensModel each) { return model == to_string(each); });
+  if (found == std::end(kModels))
+    file.complain(side + "model", in_quotes(model), "radtan, equidistant, fov, double-sphere or omni");
+  lens.model = *found;
+  const ImageSize size = file.size(side + "size");
+  const auto k = file.numbers(side + "intrinsics", 4);
+  lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
+  lens.parameters = file.numbers(side + "coefficients");
+  check_lens(lens, file.file() + " (" + side + "coefficients)");
+  return lens;
+}
+
+Eigen::Vector3d read_vector(const YamlMap& file, const std::string& key) {
+  const auto values = file.numbers(key, 3);
+  return {values[0], values[1], values[2]};
+}
+
+/// The fewest digits that read back as the same double.
+std::string shortest(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+std::string list(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? ", " : "") + shortest(value);
+  return text + "]\n";
+}
+
+std::string lens_lines(const Lens& lens, const std::string& side) {
+  const PinholeCamera& camera = lens.camera;
+  return side + "model: " + to_string(lens.model) + "\n" + side + "size: [" + std::to_string(camera.width) + ", " +
+         std::to_string(camera.height) + "]\n" + side +
+         "intrinsics: " + list({camera.fx, camera.fy, camera.cx, camera.cy}) + side +
+         "coefficients: " + list(lens.parameters);
+}
+
+}  // namespace
+
+StereoCalibration read_native_calibration(const YamlMap& file) {
+  StereoCalibration calibration;
+  calibration.left = read_lens(file, "left_");
+  calibration.right = read_lens(file, "right_");
+  calibration.right_from_left.linear() = rotation_of_vector(read_vector(file, "rotation"), file.file() + " (rotation)");
+  calibration.right_from_left.translation() = read_vector(file, "translation");
+  return calibration;
+}
+
+}  // namespace data
+
+void write_calibration(const std::string& file, const StereoCalibration& calibration) {
+  const Eigen::AngleAxisd turn(calibration.right_from_left.linear());
+  const Eigen::Vector3d rotation = data::rounded(Eigen::Vector3d(turn.angle() * turn.axis())),
+                        translation = data::rounded(Eigen::Vector3d(calibration.right_from_left.translation()));
+  data::write_atomically(
+      file,
+      "# Stereo calibration: pixels, metres, radians. Intrinsics fx fy cx cy; x_right = R x_left + translation, R "
+      "the rotation by a vector.\n" +
+          data::lens_lines(calibration.left, "left_") + data::lens_lines(calibration.right, "right_") +
+          "rotation: " + data::list({rotation.x(), rotation.y(), rotation.z()}) +
+          "translation: " + data::list({translation.x(), translation.y(), translation.z()}));
+}
+
+}  // namespace quadedge

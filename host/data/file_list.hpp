@@ -1,0 +1,18 @@
+#pragma once
+/// \file file_list.hpp  "LEFT,RIGHT" on the command line.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace quadedge::data {
+
+/// The one or two files that an option names, with a comma between two. A file whose name has a comma is one.
+inline std::vector<std::string> file_list(const std::string& files) {
+  const auto comma = files.find(',');
+  std::error_code ignored;
+  if (comma == std::string::npos || std::filesystem::exists(files, ignored)) return {files};
+  return {files.substr(0, comma), files.substr(comma + 1)};
+}
+
+}  // namespace quadedge::data

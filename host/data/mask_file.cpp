@@ -1,0 +1,51 @@
+/// \file mask_file.cpp  Masks that users draw over a recorded image, carried over to the pinhole image.
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/file_list.hpp"
+#include "data/image_file.hpp"
+#include "data/text.hpp"
+#include "quadedge/calibration.hpp"
+#include "quadedge/dataset.hpp"
+
+namespace quadedge {
+namespace {
+
+/// Hides every pixel of the view that takes part of its grey level from a black one of the mask.
+void hide(const Image& drawn, const PinholeCamera& camera, const UndistortionTable& table, PixelMask& mask) {
+  if (mask.empty()) {
+    mask = {camera.width, camera.height, {}};
+    mask.hidden.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  }
+  const ImageView view = drawn.view();
+  for (std::size_t i = 0; i < mask.hidden.size(); ++i) {
+    const auto width = static_cast<std::size_t>(camera.width);
+    const float x = table.empty() ? static_cast<float>(i % width) : table.source_x[i];
+    const float y = table.empty() ? static_cast<float>(i / width) : table.source_y[i];
+    const auto within = [](float place, int last) { return std::clamp(static_cast<int>(place), 0, last); };
+    for (const float row : {std::floor(y), std::ceil(y)})
+      for (const float column : {std::floor(x), std::ceil(x)})
+        if (view.value(within(column, view.width - 1), within(row, view.height - 1)) == 0) mask.hidden[i] = 1;
+  }
+}
+
+}  // namespace
+
+void mask_rig(StereoRig& rig, const std::string& files) {
+  const auto list = data::file_list(files);
+  const auto apply = [](const std::string& file, const PinholeCamera& camera, const UndistortionTable& table,
+                        PixelMask& mask) {
+    const Image drawn = read_grey_image(file);
+    if (drawn.width != camera.width || drawn.height != camera.height)
+      data::fail(file, "a mask of " + data::to_string({drawn.width, drawn.height}) + " pixels",
+                 data::to_string({camera.width, camera.height}) + ", the size of the images");
+    hide(drawn, camera, table, mask);
+    if (std::count(mask.hidden.begin(), mask.hidden.end(), 0) == 0)
+      data::fail(file, "a mask that is black everywhere", "black where no edges are wanted, white elsewhere");
+  };
+  apply(list.front(), rig.left, rig.left_undistortion, rig.left_mask);
+  apply(list.back(), rig.right, rig.right_undistortion, rig.right_mask);
+}
+
+}  // namespace quadedge

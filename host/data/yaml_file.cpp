@@ -1,0 +1,139 @@
+#include "data/yaml_file.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "data/layout.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// \throws DataError for a key that stands twice in one map: readers of YAML differ in which one counts. Looks no more
+/// than `levels` maps deep, which is all that is read; aliases could make it endless.
+void check_keys(const YAML::Node& node, const std::string& file, int levels = 2) {
+  if (levels == 0 || !node.IsMap()) return;
+  std::set<std::string> keys;
+  for (const auto& entry : node) {
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : std::string();
+    if (!keys.insert(key).second) fail(file, entry.first.Mark().line + 1, "a second entry " + key, "each entry once");
+    check_keys(entry.second, file, levels - 1);
+  }
+}
+
+}  // namespace
+
+YamlMap::YamlMap(const std::string& file, const std::string& what) : file_(file), what_(what) {
+  std::string text = read_text(file);
+  if (text.rfind("%YAML:", 0) == 0) text[0] = '#';  // no directive of YAML, which would be "%YAML 1.0"
+  try {
+    node_ = YAML::Load(text);
+    check_keys(node_, file);
+  } catch (const YAML::Exception& problem) {
+    fail(file, problem.mark.line + 1, "text that is no YAML (" + problem.msg + ")", what);
+  }
+  if (!node_.IsMap()) fail(file, "no entries", what);
+}
+
+YamlMap YamlMap::as(const std::string& what) const { return {node_, file_, what, prefix_}; }
+
+std::vector<std::string> YamlMap::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& entry : node_)
+    if (entry.first.IsScalar()) keys.push_back(entry.first.Scalar());
+  return keys;
+}
+
+void YamlMap::complain(const std::string& key, const std::string& found, const std::string& expected) const {
+  fail(file_, line(key), found + " for " + name(key), expected);
+}
+
+YAML::Node YamlMap::entry(const std::string& key) const {
+  if (!has(key)) fail(file_, "no entry " + name(key), what_);
+  return node_[key];
+}
+
+YamlMap YamlMap::map(const std::string& key) const {
+  const YAML::Node node = entry(key);
+  if (!node.IsMap()) complain(key, "no entries", "a map");
+  return {node, file_, what_, name(key) + "."};
+}
+
+std::string YamlMap::word(const std::string& key) const {
+  const YAML::Node word = entry(key);
+  return word.IsScalar() ? word.Scalar() : std::string();
+}
+
+/// Reads without yaml-cpp's conversion, which would depend on the locale.
+void YamlMap::add_numbers(const YAML::Node& list, const std::string& expected, std::vector<double>& values) const {
+  for (const YAML::Node& item : list) {
+    const std::string token = item.IsScalar() ? item.Scalar() : std::string();
+    values.push_back(parse_number(token, file_, item.Mark().line + 1, expected));
+  }
+}
+
+std::vector<double> YamlMap::numbers(const std::string& key) const {
+  const YAML::Node list = entry(key);
+  const std::string expected = name(key) + ": [numbers]";
+  if (!list.IsSequence()) fail(file_, line(key), "no list for " + name(key), expected);
+  std::vector<double> values;
+  add_numbers(list, expected, values);
+  return values;
+}
+
+std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) const {
+  const std::string expected = name(key) + ": [" + std::to_string(count) + " numbers]";
+  if (!entry(key).IsSequence()) fail(file_, line(key), "no list for " + name(key), expected);
+  const auto values = numbers(key);
+  if (values.size() != count) complain(key, std::to_string(values.size()) + " numbers", expected);
+  return values;
+}
+
+ImageSize YamlMap::checked_size(double columns, double rows, const std::string& key) const {
+  for (const double side : {columns, rows}) {
+    if (side >= 1 && side <= kLargestImageSide && side == std::floor(side)) continue;
+    fail(file_, line(key), "a " + name(key) + " of " + format_exact(columns) + " x " + format_exact(rows),
+         "whole numbers of pixels from 1 to " + std::to_string(kLargestImageSide));
+  }
+  return {static_cast<int>(columns), static_cast<int>(rows)};
+}
+
+ImageSize YamlMap::size(const std::string& key) const {
+  const auto sides = numbers(key, 2);
+  return checked_size(sides[0], sides[1], key);
+}
+
+ImageSize YamlMap::size(const std::string& columns, const std::string& rows) const {
+  const auto side = [&](const std::string& key) { return parse_number(word(key), file_, line(key), name(key)); };
+  const double width = side(columns), height = side(rows);
+  return checked_size(width, height, columns);
+}
+
+Eigen::Isometry3d YamlMap::transform(const std::string& key) const {
+  const YAML::Node list = entry(key);
+  const std::string expected = name(key) + ": a 4 x 4 matrix, row by row";
+  std::vector<double> values;
+  if (!list.IsSequence()) complain(key, "no list", expected);
+  if (list.size() > 0 && list[0].IsSequence()) {
+    for (const YAML::Node& row : list) {
+      if (!row.IsSequence() || row.size() != 4) complain(key, "a row that has not four numbers", expected);
+      add_numbers(row, expected, values);
+    }
+  } else {
+    add_numbers(list, expected, values);
+  }
+  if (values.size() != 16) complain(key, std::to_string(values.size()) + " numbers", expected);
+  if (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1)
+    complain(key, "a last row other than 0 0 0 1", expected);
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 3; ++i) {
+    const auto first = static_cast<std::size_t>(4 * i);
+    rotation.row(i) << values[first], values[first + 1], values[first + 2];
+    transform.translation()[i] = values[first + 3];
+  }
+  transform.linear() = nearest_rotation(rotation, file_ + ":" + std::to_string(line(key)) + " (" + name(key) + ")");
+  return transform;
+}
+
+}  // namespace quadedge::data
