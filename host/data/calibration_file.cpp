@@ -47,7 +47,7 @@ std::pair<std::string, StereoCalibration> read_any_calibration(const std::vector
   fail(files[0], first_keys(maps[0]), kFormats);
 }
 
-Eigen::Isometry3d rounded(const Eigen::Isometry3d& transform) {
+Eigen::Isometry3d rounded_transform(const Eigen::Isometry3d& transform) {
   const Eigen::AngleAxisd turn(transform.linear());
   const Eigen::Vector3d rotation = rounded(Eigen::Vector3d(turn.angle() * turn.axis()));
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
@@ -88,7 +88,7 @@ StereoCalibration finished(StereoCalibration calibration, const std::string& for
   calibration.format = format;
   calibration.files = files;
   check_baseline(calibration);
-  calibration.right_from_left = rounded(calibration.right_from_left);
+  calibration.right_from_left = rounded_transform(calibration.right_from_left);
   return calibration;
 }
 
