@@ -175,6 +175,9 @@ def judge(system, title, run, first, programs):
     row["se3_ape_translation_m"] = accuracy["se3_aligned"]["ape_translation_m"]["mean"]
     row.update(path_length_m=accuracy["path_length_m"], end_drift_percent=accuracy["end_drift_percent"])
     row["steps"] = {name: evaluation["steps"][name] for name in ("right", "wrong", "lost")}
+    if system == "default" and first == 0:
+        report = json.loads((output / "report.json").read_text(encoding="utf-8"))
+        row["consistency"] = report.get("accuracy", {}).get("consistency", [])
     return row
 
 

@@ -338,15 +338,36 @@ def drift_over_scenes(results):
     return table(head, rows) + "\n" + stamp(results["drift"])
 
 
+def consistency(results):
+    """What the covariances promise of motions over several lengths, and what the errors are."""
+    rows, shown = [], None
+    for row in results["accuracy"]["rows"]:
+        if row["sequence"] == STEPS or on_other_path(row):
+            continue
+        for step in row.get("consistency", []):
+            if step["frames"] not in (1, 10, 20, 40, 100):
+                continue
+            squares = [step[f"normalised_error_squared{by}"]["pose"] for by in ("_by_edges", "")]
+            rows.append(["" if row["title"] == shown else row["title"], step["frames"], length(step["error_m"]),
+                         length(step["promised_m"]), number(step["error_deg"]), number(step["promised_deg"]),
+                         *(number(value) for value in squares)])
+            shown = row["title"]
+    head = ["sequence", "frames", "translation: error, rms", "promised", "rotation: error [deg]", "promised",
+            "NEES, edges alone", "NEES, with the rig"]
+    return table(head, rows) + "\n" + stamp(results["accuracy"])
+
+
 def truth(results):
     """Errors of a recording before and after constants of its truth are taken away."""
     found = results["truth"]
     rows = [
         [row["frames"], length(row["way_mm"] / 1e3),
-         *(length(row[name] / 1e3) for name in ("as_it_is_mm", "constants_removed_mm", "of_other_half_mm"))]
+         *(length(row[name] / 1e3) for name in ("as_it_is_mm", "constants_removed_mm", "of_other_half_mm",
+                                                "promised_mm"))]
         for row in found["rows"]
     ]
-    head = ["frames", "way", "error, rms", "eight constants of the truth removed", "found on the other half"]
+    head = ["frames", "way", "error, rms", "eight constants of the truth removed", "found on the other half",
+            "promised"]
     constants = ", ".join(f"{name} {value:+.4f}" for name, value in found["constants"].items())
     return table(head, rows) + f"\nConstants (radians, seconds, metres): {constants}. " + stamp(found)
 
@@ -364,6 +385,7 @@ TABLES = {
     "presets": presets,
     "light": light,
     "peers": peers,
+    "consistency": consistency,
     "drift": drift_over_scenes,
     "truth": truth,
 }

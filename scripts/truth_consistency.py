@@ -3,14 +3,16 @@
 
     truth_consistency.py SEQUENCE RESULTS [-o FILE]
 
-SEQUENCE holds mav0, RESULTS the trajectory.txt of `quadedge run` over it. Printed, and written to FILE as JSON:
+SEQUENCE holds mav0, RESULTS what `quadedge run` leaves of it (trajectory.txt, report.json). Printed, and written to FILE
+as JSON:
 
 - the time offset between truth and images by rotation: the one that makes the angles from frame to frame agree best;
 - the errors of motions over 1 to 50 frames as they are, and after eight constants of the truth are fitted to them over
   all step lengths at once: the scale of its positions, a turn between positions and orientations, a time offset of the
   positions, and the arm from the tracked prism to the body's origin. What a prism, a tracker with its own clock and a
   hand-eye calibration can leave, odometry cannot: its errors grow with the way.
-- the same with the constants found on one half of the sequence and judged on the other, both ways round.
+- the same with the constants found on one half of the sequence and judged on the other, both ways round;
+- what the covariances promise of these motions (report.json).
 
 Needs numpy. Exit code: 0 done, 2 wrong usage.
 """
@@ -25,7 +27,7 @@ import numpy as np
 
 from stamped import stamped, write
 
-STEPS = (1, 2, 5, 10, 20, 30, 50)  # frames
+STEPS = (1, 2, 5, 10, 20, 40, 50, 100)  # frames
 NAMES = ("scale", "turn x", "turn y", "turn z", "position time", "arm x", "arm y", "arm z")
 LARGEST_OFFSET, OFFSET_STEP = 0.02, 0.0005  # s
 SPEED_WINDOW = 0.02  # s to either side
@@ -123,10 +125,12 @@ def examine(sequence, results):
     truth = Truth(sequence, stamps[0])
     time, position, rotation = (stamps - stamps[0]) * 1e-9, values[:, :3], rotations(values[:, 3:])
     offset, difference = rotation_offset(truth, time, rotation)
-    steps = {n: errors_and_causes(truth, time, rotation, position, n) for n in STEPS if n < len(time) // 2}
+    steps = {n: errors_and_causes(truth, time, rotation, position, n) for n in STEPS if n < len(time) - 10}
     constants = fit(steps, lambda error: slice(None))
     halves = [fit(steps, lambda error: slice(None, len(error) // 2)),
               fit(steps, lambda error: slice(len(error) // 2, None))]
+    report = json.loads((results / "report.json").read_text())
+    promised = {step["frames"]: 1e3 * step["promised_m"] for step in report["accuracy"]["consistency"]}
     rows = []
     for n, (error, causes, ways) in steps.items():
         middle = len(error) // 2
@@ -134,7 +138,7 @@ def examine(sequence, results):
                                   error[:middle] - causes[:middle] @ halves[1]])
         rows.append({"frames": n, "way_mm": 1e3 * float(ways.mean()), "as_it_is_mm": 1e3 * rms(error),
                      "constants_removed_mm": 1e3 * rms(error - causes @ constants),
-                     "of_other_half_mm": 1e3 * rms(crossed)})
+                     "of_other_half_mm": 1e3 * rms(crossed), "promised_mm": promised[n]})
     return {"sequence": sequence.name, "rotation_offset_ms": 1e3 * offset, "rotation_rms_deg": float(difference),
             "constants": dict(zip(NAMES, (float(value) for value in constants))), "rows": rows}
 

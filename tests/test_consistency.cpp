@@ -2,7 +2,9 @@
 #include <random>
 
 #include "evaluation/consistency.hpp"
+#include "pose/pose_covariance.hpp"
 #include "pose/refinement.hpp"
+#include "pose/rig_uncertainty.hpp"
 
 using namespace quadedge;
 
@@ -78,4 +80,47 @@ TEST_CASE("consistency: lost frames, frames without covariance and those without
   run.truth.erase(run.truth.begin() + 6);
   CHECK(evaluation::judge_covariances(run.results, run.truth).poses == 6);
   CHECK(evaluation::judge_covariances(run.results, {}).poses == 0);
+}
+
+TEST_CASE("consistency: over longer motions a wrong baseline shows, and the rig's uncertainty covers it",
+          "[evaluation]") {
+  // Every frame is a key rig; 0.1 m each, and a baseline that is longer by its standard deviation.
+  const PoseConfig config;
+  std::vector<FrameResult> results;
+  Trajectory truth;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0, 1e-4);
+  for (int i = 0; i < 101; ++i) {
+    const Eigen::Isometry3d place(Eigen::Translation3d(0, 0, 0.1 * i));
+    truth.push_back({50'000'000LL * i, place});
+    FrameResult result;
+    result.stamp_ns = truth.back().stamp_ns;
+    result.status = i == 0 ? FrameStatus::first : FrameStatus::tracked;
+    result.reference_frame = std::max(0, i - 1);
+    result.covariance_in_reference = PoseCovariance::Zero();
+    if (i > 0) {
+      Eigen::Vector3d way(noise(random), noise(random), noise(random));
+      way.z() -= 0.1 * (1 + config.rig_sigma_length);
+      result.current_from_reference = Eigen::Translation3d(way);
+      result.covariance = 1e-8 * Matrix6d::Identity();
+      result.rig_sensitivity = pose::rig_sensitivity(result.current_from_reference.inverse(), 0.1);
+      result.covariance_in_reference = pose::rig_covariance(result.rig_sensitivity, config);
+    }
+    results.push_back(result);
+  }
+  const auto steps = evaluation::judge_steps(results, truth, config);
+  REQUIRE(steps.size() == 7);  // 1, 2, 5, 10, 20, 50 frames; one second is 20, two are 40, five have no motions enough
+  CHECK(steps[5].frames == 40);
+  for (const auto& step : steps) {
+    const double length = 0.1 * step.frames;
+    CHECK(step.error_m == Approx(config.rig_sigma_length * length).epsilon(0.2));
+    CHECK(step.with_rig.translation < 1.5);
+    CHECK(step.with_rig.translation > 0.2);  // one of three directions errs, by its standard deviation
+    if (step.frames >= 10) CHECK(step.edges.translation > 50);
+  }
+  CHECK(evaluation::judge_steps(results, {}, config).empty());
+  results[50].covariance_in_reference = std::nullopt;  // lost: nothing connects what comes before and after
+  results[50].status = FrameStatus::lost_no_consensus;
+  const auto broken = evaluation::judge_steps(results, truth, config);
+  CHECK(broken[0].edges.poses == 98);
 }

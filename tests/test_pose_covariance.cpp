@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 
-#include "odometry/pose_covariance.hpp"
+#include "pose/pose_covariance.hpp"
 
 using namespace quadedge;
-using odometry::RelativePose;
-using odometry::UncertainPose;
+using pose::RelativePose;
+using pose::UncertainPose;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 namespace {
@@ -52,7 +52,7 @@ TEST_CASE("pose covariance: of a motion's inverse it is what small errors of the
   RelativePose motion;
   motion.transform = some_transform(0.8, {1, -2, 0.5}, {0.4, 2, -1});
   motion.covariance = some_covariance(1e-4);
-  const UncertainPose pose = odometry::pose_in_earlier(motion);
+  const UncertainPose pose = pose::pose_in_earlier(motion);
   CHECK(pose.fixed_from_camera.isApprox(motion.transform.inverse()));
   Eigen::Matrix<double, 6, 6> jacobian;
   for (int i = 0; i < 6; ++i) {
@@ -83,6 +83,19 @@ TEST_CASE("pose covariance: of a chain it is what small errors of both links bec
       of_key * *key.covariance * of_key.transpose() + of_current * *current.covariance * of_current.transpose();
   REQUIRE(chain.covariance);
   CHECK((*chain.covariance - expected).norm() < 1e-5 * expected.norm());
+}
+
+TEST_CASE("pose covariance: there and back it is what small errors become", "[odometry]") {
+  const UncertainPose there{some_transform(0.4, {1, 2, 3}, {0.5, -1, 2}), some_covariance(1e-4), {}};
+  const UncertainPose back = inverse(there);
+  Eigen::Matrix<double, 6, 6> jacobian;
+  for (int i = 0; i < 6; ++i) {
+    const Vector6 change = kSmall * Vector6::Unit(i);
+    jacobian.col(i) = error_of(erring(there.fixed_from_camera, change).inverse(), back.fixed_from_camera) / kSmall;
+  }
+  const PoseCovariance expected = jacobian * *there.covariance * jacobian.transpose();
+  REQUIRE(back.covariance);
+  CHECK((*back.covariance - expected).norm() < 1e-5 * expected.norm());
 }
 
 TEST_CASE("pose covariance: of what hangs on a predicted pose there is none", "[odometry]") {

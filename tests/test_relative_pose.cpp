@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "odometry/relative_pose.hpp"
+#include "pose/relative_pose.hpp"
 
-using quadedge::odometry::RelativePose;
+using quadedge::pose::RelativePose;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 

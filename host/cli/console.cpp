@@ -1,5 +1,6 @@
 #include "cli/console.hpp"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -43,6 +44,30 @@ std::string rate_and_rest(int done, int total, const std::string& unit, std::chr
   const double rate = done / seconds;
   std::snprintf(text, sizeof text, "%.*f%s%s/s", rate < 10 ? 1 : 0, rate, unit.empty() ? "" : " ", unit.c_str());
   return done < total ? std::string(text) + ", " + duration_text((total - done) / rate) + " left" : text;
+}
+
+/// Errors beside what was promised of them, over motions of several lengths.
+void print_consistency(const std::vector<evaluation::StepConsistency>& steps) {
+  std::printf(
+      "\nerrors of motions and what was promised, root mean squares; their ratio squared per degree of freedom:\n");
+  std::printf("by the edges' covariances alone, and with the uncertainty of the rig (pose.rig_sigma_*)\n");
+  std::printf("%-8s %11s %11s %11s %11s %9s %9s\n", "frames", "error [mm]", "promised", "error [deg]", "promised",
+              "edges", "with rig");
+  for (const auto& step : steps) {
+    std::printf("%-8d %11.3f %11.3f %11.4f %11.4f %9.2f %9.2f\n", step.frames, 1e3 * step.error_m,
+                1e3 * step.promised_m, step.error_deg, step.promised_deg, step.edges.pose, step.with_rig.pose);
+  }
+  // Over ten times as many frames an error of odometry grows threefold; noise of single poses stays as it is.
+  const auto ten = std::find_if(steps.begin(), steps.end(), [](const auto& step) { return step.frames == 10; });
+  if (steps.front().frames != 1 || ten == steps.end()) return;
+  const bool metres = ten->error_m < 2 * steps.front().error_m, degrees = ten->error_deg < 2 * steps.front().error_deg;
+  if (metres || degrees) {
+    std::printf(
+        "the %s hardly with the length of the motion: noise of single poses decides, that of the ground truth's too\n",
+        metres && degrees ? "errors grow"
+        : metres          ? "translation's error grows"
+                          : "rotation's error grows");
+  }
 }
 
 }  // namespace
@@ -140,12 +165,7 @@ void print_run(const report::RunRecord& run, const std::string& output) {
     }
   }
   if (run.accuracy) print_evaluation(*run.accuracy);
-  if (run.consistency.poses > 0) {
-    std::printf("\nnormalised error squared per degree of freedom (1: the covariances are consistent), %d poses\n",
-                run.consistency.poses);
-    std::printf("pose %.3f, rotation %.3f, translation %.3f\n", run.consistency.pose, run.consistency.rotation,
-                run.consistency.translation);
-  }
+  if (!run.step_consistency.empty()) print_consistency(run.step_consistency);
   std::printf("\nresults in %s\n", output.c_str());
 }
 

@@ -220,6 +220,7 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
     std::vector<FrameResult> results;
     for (const auto& frame : run.frames) results.push_back(frame.result);
     run.consistency = evaluation::judge_covariances(results, source.truth());
+    run.step_consistency = evaluation::judge_steps(results, source.truth(), run.config.pose);
     data::write_atomically(options.output + "/errors.csv", report::errors_csv(*run.accuracy));
     const int missing = run.accuracy->estimate_poses - run.accuracy->matched;
     if (missing > 0) {

@@ -31,12 +31,9 @@ std::size_t at(int column, int row) {
 
 Samples cut(const PinholeView& view, const Eigen::Vector2d& centre, const Eigen::Matrix2d& steps) {
   Samples samples;
-  for (int row = -kHalf - 1; row <= kHalf + 1; ++row) {
-    for (int column = -kHalf - 1; column <= kHalf + 1; ++column) {
-      const Eigen::Vector2d place = centre + steps * Eigen::Vector2d(column, row);
-      samples[at(column, row)] = view.at(place.x(), place.y());
-    }
-  }
+  const PinholeView::Patch patch = view.patch(centre, steps);
+  for (int row = -kHalf - 1; row <= kHalf + 1; ++row)
+    for (int column = -kHalf - 1; column <= kHalf + 1; ++column) samples[at(column, row)] = patch.at(column, row);
   return samples;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frontend/rig.hpp"
-#include "odometry/pose_covariance.hpp"
+#include "pose/pose_covariance.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 
@@ -33,7 +33,7 @@ class KeyRig {
  public:
   /// There is none yet.
   KeyRig() = default;
-  KeyRig(frontend::RigHandle rig, UncertainPose pose, PoseOrigin origin = PoseOrigin::found)
+  KeyRig(frontend::RigHandle rig, pose::UncertainPose pose, PoseOrigin origin = PoseOrigin::found)
       : rig_(std::move(rig)), pose_(std::move(pose)), origin_(origin) {}
 
   const frontend::RigHandle& rig() const { return rig_; }
@@ -41,7 +41,7 @@ class KeyRig {
   int frame() const { return rig_ ? rig_->frame : -1; }
   const Eigen::Isometry3d& world_from_left() const { return pose_.fixed_from_camera; }
   /// The same with its covariance.
-  const UncertainPose& pose() const { return pose_; }
+  const pose::UncertainPose& pose() const { return pose_; }
 
   /// Whether the current frame should become the key rig, doc/method.md section 7. The first frame judged sets the mark
   /// for the quads' number. A pose that was only predicted serves for one frame.
@@ -49,7 +49,7 @@ class KeyRig {
 
  private:
   frontend::RigHandle rig_;
-  UncertainPose pose_;  ///< in the world
+  pose::UncertainPose pose_;  ///< in the world
   PoseOrigin origin_ = PoseOrigin::found;
   int first_quads_ = -1;  ///< of the first frame judged
 };

@@ -38,6 +38,13 @@ struct MotionStep {
   bool ambiguous = false;     ///< another motion explains nearly as much of the image
 
   bool ok() const { return motion.status == pose::MotionStatus::ok; }
+  /// Mean over the inliers, in the earlier left camera [1/m]; 0 without inliers.
+  double mean_inverse_depth() const {
+    double sum = 0;
+    for (std::size_t q = 0; q < motion.inlier.size(); ++q)
+      if (motion.inlier[q] != 0) sum += static_cast<double>(quads.scoring.inverse_depth[q]);
+    return motion.inliers > 0 ? sum / motion.inliers : 0;
+  }
   /// Lets go of the rig and keeps the memory.
   void clear() {
     base = nullptr;

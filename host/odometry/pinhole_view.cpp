@@ -4,11 +4,39 @@
 
 namespace quadedge::odometry {
 
+namespace {
+
+float grey_at(const ImageView& recorded, double x, double y) {
+  return bilinear(recorded.width, recorded.height, x, y, [&](int column, int row) { return recorded.at(column, row); });
+}
+
+}  // namespace
+
+Eigen::Vector2d PinholeView::recorded_position(const Eigen::Vector2d& position) const {
+  if (table_.empty()) return position;
+  return {static_cast<double>(bilinear(table_, table_.source_x, position.x(), position.y())),
+          static_cast<double>(bilinear(table_, table_.source_y, position.x(), position.y()))};
+}
+
 float PinholeView::at(double x, double y) const {
-  const auto grey = [&](int column, int row) { return recorded_.at(column, row); };
-  if (table_.empty()) return bilinear(recorded_.width, recorded_.height, x, y, grey);
-  return bilinear(recorded_.width, recorded_.height, static_cast<double>(bilinear(table_, table_.source_x, x, y)),
-                  static_cast<double>(bilinear(table_, table_.source_y, x, y)), grey);
+  const Eigen::Vector2d position = recorded_position({x, y});
+  return grey_at(recorded_, position.x(), position.y());
+}
+
+PinholeView::Patch PinholeView::patch(const Eigen::Vector2d& position, const Eigen::Matrix2d& steps) const {
+  if (table_.empty()) return {recorded_, position, steps};
+  constexpr double kStep = 4;  // px; the lens's slope around the position
+  Eigen::Matrix2d slope;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(axis);
+    slope.col(axis) = (recorded_position(position + step) - recorded_position(position - step)) / (2 * kStep);
+  }
+  return {recorded_, recorded_position(position), slope * steps};
+}
+
+float PinholeView::Patch::at(int column, int row) const {
+  const Eigen::Vector2d position = middle_ + steps_ * Eigen::Vector2d(column, row);
+  return grey_at(recorded_, position.x(), position.y());
 }
 
 }  // namespace quadedge::odometry

@@ -23,11 +23,31 @@ class PinholeView {
   }
   /// Grey level at a position, bilinear; what lies outside is replicated from the border. [px]
   float at(double x, double y) const;
+  /// What is seen around a position: grey levels at `position + steps * (column, row)`. Over a patch the lens is taken
+  /// as affine; a sample 6 px from the middle of EuRoC's moves by 0.03 px at most for that, in both cameras alike.
+  class Patch;
+  Patch patch(const Eigen::Vector2d& position, const Eigen::Matrix2d& steps) const;
 
  private:
+  Eigen::Vector2d recorded_position(const Eigen::Vector2d& position) const;
+
   ImageView recorded_;
   const UndistortionTable& table_;
   int width_, height_;
+};
+
+class PinholeView::Patch {
+ public:
+  float at(int column, int row) const;
+
+ private:
+  friend class PinholeView;
+  Patch(const ImageView& recorded, const Eigen::Vector2d& middle, const Eigen::Matrix2d& steps)
+      : recorded_(recorded), middle_(middle), steps_(steps) {}
+
+  const ImageView& recorded_;
+  Eigen::Vector2d middle_;  ///< in the recorded image
+  Eigen::Matrix2d steps_;   ///< recorded pixels per column and row
 };
 
 }  // namespace quadedge::odometry

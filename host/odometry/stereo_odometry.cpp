@@ -10,11 +10,12 @@
 #include "odometry/equal_scale.hpp"
 #include "odometry/key_rig.hpp"
 #include "odometry/motion_search.hpp"
-#include "odometry/relative_pose.hpp"
 #include "odometry/rig_evidence.hpp"
 #include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
+#include "pose/relative_pose.hpp"
+#include "pose/rig_uncertainty.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
@@ -185,7 +186,7 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   result.reference_frame = current_->frame;
   result.covariance_in_reference = result.covariance_in_world = PoseCovariance::Zero();
   for (const auto& doubt : odometry::implausible_numbers(rig_)) warn(doubt, result);
-  state_.set_key(current_, {result.world_from_left, result.covariance_in_world});
+  state_.set_key(current_, {result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
 /// The motion since the base; after a loss, else the one since the lost frame, which becomes the key rig.
@@ -206,7 +207,8 @@ odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result)
     odometry::StepHandle relocalised = motion_search_.find(query);
     if (relocalised->ok()) {
       step = std::move(relocalised);
-      state_.set_key(state_.lost->rig, {state_.lost->world_from_left, std::nullopt}, odometry::PoseOrigin::predicted);
+      state_.set_key(state_.lost->rig, {state_.lost->world_from_left, std::nullopt, RigSensitivity::Zero()},
+                     odometry::PoseOrigin::predicted);
       add_message(
           "relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose is a prediction",
           result);
@@ -222,7 +224,7 @@ odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result)
 /// rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == state_.key.rig();
-  odometry::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
+  pose::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
   warn(rig_watch_.observe_motion(step.base->edges, step.base->frame, current_->edges, current_->frame, step.matches),
        result);
@@ -248,10 +250,12 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
   result.covariance = current_from_key.covariance;
-  const odometry::UncertainPose key_from_current = odometry::pose_in_earlier(current_from_key);
-  const odometry::UncertainPose world_from_current = state_.key.pose() * key_from_current;
-  result.covariance_in_reference = key_from_current.covariance;
-  result.covariance_in_world = world_from_current.covariance;
+  pose::UncertainPose key_from_current = pose::pose_in_earlier(current_from_key);
+  key_from_current.by_rig = pose::rig_sensitivity(key_from_current.fixed_from_camera, step.mean_inverse_depth());
+  const pose::UncertainPose world_from_current = state_.key.pose() * key_from_current;
+  result.rig_sensitivity = key_from_current.by_rig;
+  result.covariance_in_reference = pose::whole_covariance(key_from_current, config_.pose);
+  result.covariance_in_world = pose::whole_covariance(world_from_current, config_.pose);
   result.world_from_left = world_from_current.fixed_from_camera;
   result.new_key_rig = !config_.odometry.key_rig || !by_key || state_.key.needs_replacement(fitness, config_.odometry);
 
@@ -262,7 +266,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
     offset_.update(step.motion.offset, step.motion.offset_variance, fitness.frames);
     state_.set_key(current_, world_from_current);
   } else {
-    state_.base = {current_, current_from_key};
+    state_.base = {current_, current_from_key, key_from_current};
   }
 }
 

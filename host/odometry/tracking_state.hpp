@@ -7,14 +7,16 @@
 
 #include "frontend/rig.hpp"
 #include "odometry/key_rig.hpp"
-#include "odometry/relative_pose.hpp"
+#include "pose/pose_covariance.hpp"
+#include "pose/relative_pose.hpp"
 
 namespace quadedge::odometry {
 
 /// The rig that the next frame is matched with: that of the last frame with a pose. It may be the key rig.
 struct BaseRig {
-  frontend::RigHandle rig;  ///< null before the first frame with edges
-  RelativePose from_key;    ///< base_from_key, left cameras
+  frontend::RigHandle rig;      ///< null before the first frame with edges
+  pose::RelativePose from_key;  ///< base_from_key, left cameras
+  pose::UncertainPose in_key;   ///< the same motion as key_from_base
 };
 
 /// The newest frame that has edges and whose pose was not found.
@@ -32,12 +34,12 @@ struct TrackingState {
 
   bool has_started() const { return base.rig != nullptr; }
   bool base_is_key() const { return base.rig == key.rig(); }
-  UncertainPose world_from_base() const { return key.pose() * pose_in_earlier(base.from_key); }
+  pose::UncertainPose world_from_base() const { return key.pose() * base.in_key; }
 
   /// A rig becomes key rig and base.
-  void set_key(frontend::RigHandle rig, const UncertainPose& pose, PoseOrigin origin = PoseOrigin::found) {
+  void set_key(frontend::RigHandle rig, const pose::UncertainPose& pose, PoseOrigin origin = PoseOrigin::found) {
     key = KeyRig(rig, pose, origin);
-    base = {std::move(rig), {}};
+    base = {std::move(rig), {}, {}};
   }
 };
 

@@ -16,6 +16,23 @@ Json accuracy(const TrajectoryEvaluation& evaluation) {
           {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
 }
 
+Json normalised(const evaluation::Consistency& consistency) {
+  return {{"pose", to_json(consistency.pose)},
+          {"rotation", to_json(consistency.rotation)},
+          {"translation", to_json(consistency.translation)}};
+}
+
+Json consistency(const evaluation::StepConsistency& step) {
+  return {{"frames", step.frames},
+          {"motions", step.edges.poses},
+          {"error_m", to_json(step.error_m)},
+          {"promised_m", to_json(step.promised_m)},
+          {"error_deg", to_json(step.error_deg)},
+          {"promised_deg", to_json(step.promised_deg)},
+          {"normalised_error_squared_by_edges", normalised(step.edges)},
+          {"normalised_error_squared", normalised(step.with_rig)}};
+}
+
 Json stages(const std::vector<std::vector<StageTime>>& frames) {
   Json object = Json::object();
   for (const auto& row : stage_summary(frames))
@@ -73,11 +90,10 @@ std::string report_json(const RunRecord& run) {
     report["accuracy"] = accuracy(*run.accuracy);
     report["accuracy"]["truth_file"] = run.truth_file;
     if (run.consistency.poses > 0) {
-      report["accuracy"]["normalised_error_squared"] = {{"poses", run.consistency.poses},
-                                                        {"pose", to_json(run.consistency.pose)},
-                                                        {"rotation", to_json(run.consistency.rotation)},
-                                                        {"translation", to_json(run.consistency.translation)}};
+      report["accuracy"]["normalised_error_squared"] = normalised(run.consistency);
+      report["accuracy"]["normalised_error_squared"]["poses"] = run.consistency.poses;
     }
+    for (const auto& step : run.step_consistency) report["accuracy"]["consistency"].push_back(consistency(step));
   }
   report["config"] = configuration(run.config);
   return json_text(report);

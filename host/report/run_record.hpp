@@ -39,9 +39,10 @@ struct RunRecord {
   double host_peak_mb = 0, device_peak_mb = 0;
   /// Kernel times of a second pass with a profiling queue: one list per frame, empty when not asked for.
   std::vector<std::vector<StageTime>> kernel_times;
-  std::string truth_file;                        ///< empty without ground truth
-  std::optional<TrajectoryEvaluation> accuracy;  ///< only with ground truth
-  evaluation::Consistency consistency;           ///< no poses without ground truth
+  std::string truth_file;                                     ///< empty without ground truth
+  std::optional<TrajectoryEvaluation> accuracy;               ///< only with ground truth
+  evaluation::Consistency consistency;                        ///< no poses without ground truth
+  std::vector<evaluation::StepConsistency> step_consistency;  ///< empty without ground truth
 
   int tracked() const {
     int count = 0;

@@ -57,11 +57,14 @@ struct FrameResult {
   /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current
   /// left frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /// Of the pose in the reference's left camera frame, the inverse of current_from_reference; nothing for a lost frame.
+  /// Of the pose in the reference's left camera frame, the inverse of current_from_reference, with what the rig's
+  /// calibration may have wrong (`pose.rig_sigma_*`); nothing for a lost frame.
   std::optional<PoseCovariance> covariance_in_reference;
-  /// Of world_from_left, composed over the key stereo rigs; nothing for a lost frame, and from where tracking went on
-  /// from a predicted pose.
+  /// Of world_from_left, composed over the key stereo rigs: errors of the edges as independent from one to the next,
+  /// those of the rig as the same; nothing for a lost frame, and from where tracking went on from a predicted pose.
   std::optional<PoseCovariance> covariance_in_world;
+  /// How the pose in the reference's frame errs with the rig.
+  RigSensitivity rig_sensitivity = RigSensitivity::Zero();
   double edge_threshold = 0;    ///< that the gradient of both images' edges exceeds [grey levels per px]
   double disparity_offset = 0;  ///< found so far, added to every disparity [px]
   int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first one

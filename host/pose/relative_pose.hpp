@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace quadedge::odometry {
+namespace quadedge::pose {
 
 /// `transform` is b_from_a [m]; its covariance is that of a left perturbation in b's frame: (rotation [rad^2],
 /// translation [m^2]). The default is a frame seen from itself, which is exact.
@@ -15,4 +15,4 @@ struct RelativePose {
 /// c_from_a from c_from_b and b_from_a, whose errors are taken as independent.
 RelativePose operator*(const RelativePose& c_from_b, const RelativePose& b_from_a);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::pose

@@ -1,6 +1,6 @@
-#include "odometry/relative_pose.hpp"
+#include "pose/relative_pose.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::pose {
 namespace {
 
 /// How a left perturbation before `transform` shows after it.
@@ -23,4 +23,4 @@ RelativePose operator*(const RelativePose& c_from_b, const RelativePose& b_from_
           c_from_b.covariance + carried * b_from_a.covariance * carried.transpose()};
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::pose
