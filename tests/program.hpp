@@ -32,9 +32,11 @@ inline std::vector<std::string> read_lines(const std::string& path) {
 
 /// Settings in front of a shell command: what the user has saved (device, kernel variants, rendered frames) does not
 /// reach the program, and is not changed by it; only the kernels that the driver has compiled stay where they are.
+/// Pages take a Python, which tests name that look at them.
 inline std::string environment_of_tests() {
   static const TemporaryFolder folder;
-  return "env -u QUADEDGE_DEVICE POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/pocl/kcache}\""
+  return "env -u QUADEDGE_DEVICE QUADEDGE_PYTHON=no_python "
+         "POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/pocl/kcache}\""
          " XDG_CONFIG_HOME='" +
          (folder / "configuration") + "' XDG_CACHE_HOME='" + (folder / "cache") + "'";
 }

@@ -72,6 +72,31 @@ TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
   CHECK(result.per_pose[3].rpe_translation_m == Approx(0.02));
   CHECK(result.per_pose[3].ape_rotation_deg == Approx(1.5));
   CHECK(std::isnan(result.se3_aligned.ape_translation_m.mean));  // a straight line leaves a turn open
+  CHECK_THAT(result.se3_open_rotation, Catch::Matchers::Contains("straight line"));
+}
+
+TEST_CASE("evaluation: a path that hardly bends, or hardly moves, leaves the rotation of its alignment open",
+          "[evaluation]") {
+  // Truth along z with a bend of some size; the estimate is off by 10 mm to alternating sides.
+  const auto evaluate = [](double length, double bend) {
+    Trajectory truth, estimate;
+    for (int i = 0; i < 20; ++i) {
+      const double s = i / 19.0;
+      truth.push_back({i, Eigen::Isometry3d(Eigen::Translation3d(bend * s * s, 0, length * s))});
+      estimate.push_back(truth.back());
+      estimate.back().world_from_left.translation() += 0.01 * Eigen::Vector3d(i % 2, (i / 2) % 2, (i / 4) % 2);
+    }
+    return evaluate_trajectory(estimate, truth, 0, 0);
+  };
+  const auto straight = evaluate(20, 0.02), bent = evaluate(20, 5), still = evaluate(0.001, 0.001);
+  CHECK(std::isnan(straight.se3_aligned.ape_rotation_deg.mean));
+  CHECK_THAT(straight.se3_open_rotation, Catch::Matchers::Contains("around a straight line"));
+  CHECK(straight.se3_aligned.ape_translation_m.rmse < 0.01);
+  CHECK(straight.se3_aligned.rpe_rotation_deg.max == Approx(0).margin(1e-9));
+  CHECK(bent.se3_open_rotation.empty());
+  CHECK(bent.se3_aligned.ape_rotation_deg.mean < 1);
+  CHECK_THAT(still.se3_open_rotation, Catch::Matchers::Contains("around one point"));
+  CHECK(std::isfinite(still.origin_aligned.ape_rotation_deg.mean));
 }
 
 TEST_CASE("evaluation: the SE(3) alignment spreads what the origin alignment accumulates", "[evaluation]") {

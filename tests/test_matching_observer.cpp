@@ -162,7 +162,7 @@ TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time 
   CHECK(second.temporal->quads_all.recall() == 0.5);
   CHECK(second.temporal->quads_all.precision() == Approx(2.0 / 3));
   MatchingResult sequence{"paper", {first, second}, {}, {}};
-  CHECK(summarise({sequence}).quads_ambiguity_mean == Approx((3 + 1) / 2.0));
+  CHECK(summarise({sequence}).quads_paired.ambiguity_mean == Approx((3 + 1) / 2.0));
   // Pairs are drawn from the quads 0, 1 and 3; one of three has two true ones.
   const auto& pairs = second.temporal->pairs.table[0];
   CHECK(static_cast<double>(pairs.veridical) / static_cast<double>(pairs.pairs) == Approx(1.0 / 3).margin(0.01));

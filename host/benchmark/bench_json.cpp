@@ -61,9 +61,8 @@ double BenchRecord::edges_ratio() const {
 
 std::string bench_json(const BenchRecord& record) {
   Json json = Json::parse(report::report_json(record.run));
+  report::add_origin(json, record.command);
   json["bench_schema"] = kBenchSchema;
-  json["command"] = record.command;
-  json["commit"] = *source_commit() == '\0' ? Json(nullptr) : Json(source_commit());
   json["frames_measured"] = record.run.frames.empty() ? 0 : static_cast<int>(record.run.frames.size()) - 1;
   json["warm_up"] = record.warm_up;
   json["threads"] = record.threads;

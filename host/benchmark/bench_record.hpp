@@ -54,8 +54,4 @@ struct BenchRecord {
 /// report.json's keys, and those of a benchmark.
 std::string bench_json(const BenchRecord& record);
 
-/// Commit that this program was built from, with a "+" where the sources had changed; empty when built outside a
-/// checkout.
-const char* source_commit();
-
 }  // namespace quadedge::bench

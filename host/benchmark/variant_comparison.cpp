@@ -217,14 +217,8 @@ std::string comparison_json(const DeviceInfo& device, const Ceilings& ceilings, 
   using report::to_json;
   Json json;
   json["schema"] = kBenchSchema;
-  json["version"] = QUADEDGE_VERSION;
-  json["commit"] = *source_commit() == '\0' ? Json(nullptr) : Json(source_commit());
-  json["command"] = command;
-  json["device"] = {{"name", device.name},
-                    {"platform", device.platform},
-                    {"driver", device.driver},
-                    {"opencl", device.opencl},
-                    {"type", device.type}};
+  report::add_origin(json, command);
+  json["device"] = report::to_json(device);
   json["ceilings"] = {{"bandwidth_gb_s", ceilings.bandwidth_gb_s}, {"arithmetic_gflop_s", ceilings.arithmetic_gflop_s}};
   json["stages"] = Json::array();
   for (const auto& stage : stages) {

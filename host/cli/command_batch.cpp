@@ -6,11 +6,12 @@
 #include "cli/batch_plan.hpp"
 #include "cli/batch_run.hpp"
 #include "cli/command.hpp"
+#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/folder_lock.hpp"
+#include "cli/page_maker.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
-#include "report/batch_report.hpp"
 #include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
 
@@ -161,17 +162,22 @@ class BatchCommand : public Command {
     note(batch_.quiet, sentence);
   }
 
-  /// Writes the summary of what is there; the worst exit code.
+  /// Writes the summary of what is there, and its page where Python can make it; the worst exit code.
   int summarise(const std::vector<data::FoundSequence>& sequences) const {
     std::vector<std::string> names;
     for (const auto& sequence : sequences) names.push_back(sequence.name);
-    const auto summary = report::summarise(batch_.output, names, batch_.min_tracked);
+    auto summary = report::summarise(batch_.output, names, batch_.min_tracked);
+    summary.command = command_line();
+    summary.input = input_;
+    summary.config = method_.config();
     data::write_atomically((output() / "summary.csv").string(), report::summary_csv(summary));
     data::write_atomically((output() / "summary.json").string(), report::summary_json(summary));
     data::write_atomically((output() / "summary.md").string(), report::summary_markdown(summary));
-    data::write_atomically((output() / "report.html").string(), report::batch_report_html(batch_.output, "", {}));
     print_summary(summary);
-    return summary.exit_code;
+    // Nobody asked for the page: where Python is missing, the line that says so is enough.
+    const int page = make_page({batch_.output, "--output", (output() / "report.html").string(), "--quiet"});
+    const bool made = page == 0 || page == static_cast<int>(ExitCode::usage);
+    return made ? summary.exit_code : report::worse_exit_code(summary.exit_code, page);
   }
 
   void print_summary(const report::BatchSummary& summary) const {

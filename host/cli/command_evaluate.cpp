@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cli/command.hpp"
+#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "data/atomic_file.hpp"
@@ -104,7 +105,8 @@ class EvaluateTrajectoryCommand : public Command {
       std::printf("\nsteps      %d right, %d wrong, %d lost of %d\n", steps->right, steps->wrong, steps->lost,
                   steps->steps());
     }
-    if (!json_.empty()) data::write_atomically(json_, report::evaluation_json(result, estimate_, truth_, steps));
+    if (!json_.empty())
+      data::write_atomically(json_, report::evaluation_json(result, estimate_, truth_, command_line(), steps));
     return 0;
   }
 

@@ -1,20 +1,22 @@
 /// \file command_evaluate_matching.cpp  quadedge evaluate matching: what every filter keeps and loses.
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 
 #include "cli/command.hpp"
+#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/matching_tables.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/page_maker.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/sweep.hpp"
 #include "data/atomic_file.hpp"
 #include "evaluation/matching_evaluation.hpp"
 #include "quadedge/error.hpp"
 #include "report/match_drawings.hpp"
-#include "report/matching_html.hpp"
 #include "report/matching_json.hpp"
 
 namespace quadedge::cli {
@@ -41,7 +43,10 @@ class EvaluateMatchingCommand : public Command {
     options.number("--tolerance", tolerance_.position, "a match this near to the true position is veridical [px]");
     options.text("--sweep", sweep_, "only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
     options.text("--json", json_, "also write the tables to a file", "FILE");
-    options.text("--html", html_, "also write a report with tables, plots and drawings to one file", "FILE");
+    options.text("--html", html_,
+                 "also make a page with tables, plots and drawings; its figures and drawings are kept beside it, as "
+                 "--json and --draw write them",
+                 "FILE");
     options.text("--draw", draw_, "also write drawings of the last frame of each pair or sequence to a folder, as PNG",
                  "DIR");
     options.flag("--force", force_, "replace files that exist");
@@ -56,8 +61,9 @@ class EvaluateMatchingCommand : public Command {
     if (!sweep_.empty() && !(json_.empty() && html_.empty() && draw_.empty())) {
       throw UsageError("--sweep prints lines only; run without it for --json, --html or --draw");
     }
-    check_output_file(json_, force_);
     check_output_file(html_, force_);
+    place_data_of_page();
+    check_output_file(json_, force_);
     refuse_full_folder(draw_, force_);
     const Config config = method_.config();
     open_sources();
@@ -68,14 +74,22 @@ class EvaluateMatchingCommand : public Command {
       for (const auto& result : results) print_matching(result.name, evaluation::summarise({result}));
     }
     print_matching(results.size() > 1 ? "all" : results[0].name, evaluation::summarise(results));
-    if (!json_.empty()) data::write_atomically(json_, report::matching_json(results));
-    if (!html_.empty())
-      data::write_atomically(html_, report::matching_html(results, {device.info(), config, tolerance_}));
-    if (!draw_.empty()) report::write_match_drawings(draw_, results, tolerance_);
-    return 0;
+    report::MatchingFacts facts{command_line(), paths_, device.info(), config, tolerance_, {}};
+    if (!draw_.empty()) facts.drawings = report::write_match_drawings(draw_, results, tolerance_);
+    if (!json_.empty()) data::write_atomically(json_, report::matching_json(results, facts));
+    return html_.empty() ? 0 : make_page({json_, "--output", html_, "--quiet"});
   }
 
  private:
+  /// A page is made from files: where the user names none, they stand beside it.
+  void place_data_of_page() {
+    if (html_.empty()) return;
+    const std::filesystem::path page = html_;
+    if (json_.empty()) json_ = std::filesystem::path(page).replace_extension(".json").string();
+    if (draw_.empty()) draw_ = (page.parent_path() / (page.stem().string() + "_drawings")).string();
+    if (json_ == html_) throw UsageError("--html " + html_ + ": that is where its figures go; expected a name.html");
+  }
+
   void open_sources() {
     for (const auto& path : paths_) {
       if (is_scene(path)) {

@@ -1,63 +1,104 @@
-/// \file command_report.cpp  quadedge report: the HTML page of a batch.
+/// \file command_report.cpp  quadedge report: the page of a run, of a batch or of an evaluation of the matching.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "cli/command.hpp"
+#include "cli/command_line.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/page_maker.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
-#include "report/batch_report.hpp"
+#include "report/comparison.hpp"
 
 namespace quadedge::cli {
+namespace fs = std::filesystem;
 namespace {
 
 class ReportCommand : public Command {
  public:
   std::string name() const override { return "report"; }
-  std::string about() const override { return "draw the results of a batch on one HTML page"; }
+  std::string about() const override { return "make a page of the results of a run, a batch or a matching evaluation"; }
   std::string examples() const override {
-    return "  quadedge report results\n"
+    return "  quadedge report results --latex tables --figures figures\n"
            "  quadedge report results --baseline yesterday --peer ORB-SLAM3=trajectories/orbslam3 -o comparison.html";
   }
   void declare(Options& options) override {
-    options.positional("OUT", batch_, "folder of a batch");
+    options.positional("OUT", results_, "folder of a run or of a batch, or a file of `evaluate matching --json`");
     options.text("--baseline", baseline_, "another batch; differences to it stand beside each figure", "OTHER");
     options.repeated("--peer", peers_,
                      "another system's trajectories of the left camera, FOLDER/SEQUENCE.txt (TUM); repeatable",
                      "NAME=FOLDER");
-    options.text("-o,--output", output_, "file of the page; default: OUT/report.html, which is replaced", "FILE");
+    options.text("-o,--output", output_,
+                 "file of the page; default: OUT/report.html, or OUT with .html in place of .json, which is replaced",
+                 "FILE");
+    options.text("--csv", csv_, "also write every table as CSV", "DIR");
+    options.text("--latex", latex_, "also write every table for LaTeX (booktabs)", "DIR");
+    options.text("--figures", figures_, "also write every figure as SVG and PDF", "DIR");
     options.flag("--force", force_, "replace FILE");
   }
   int run() override {
-    std::vector<report::Peer> peers;
-    for (const auto& text : peers_) peers.push_back(peer(text));
-    for (std::size_t i = 0; i < peers.size(); ++i) {
-      const auto same = [&](const report::Peer& other) { return other.name == peers[i].name; };
-      const auto before = peers.begin() + static_cast<std::ptrdiff_t>(i);
-      if (same({"QuadEdge", ""}) || same({"baseline", ""}) || std::any_of(peers.begin(), before, same)) {
-        throw UsageError("--peer " + peers_[i] + ": the name is taken");
-      }
+    const bool is_batch = fs::is_regular_file(fs::path(results_) / "summary.json");
+    const bool is_file = fs::is_regular_file(results_);
+    if (!is_batch && !is_file && !fs::is_regular_file(fs::path(results_) / "report.json")) {
+      throw DataError(results_ +
+                      ": neither summary.json nor report.json; expected the folder of a batch or of a run, " +
+                      "or a file of `evaluate matching --json`");
     }
+    const auto peers = named_peers();
+    const bool compares = !peers.empty() || !baseline_.empty();
+    if (compares && !is_batch) throw UsageError("--baseline and --peer compare batches, and " + results_ + " is none");
     check_output_file(output_, force_);
-    const std::string file = output_.empty() ? (std::filesystem::path(batch_) / "report.html").string() : output_;
-    data::write_atomically(file, report::batch_report_html(batch_, baseline_, peers));
-    std::printf("%s\n", file.c_str());
-    return 0;
+    const fs::path page = output_.empty() ? default_page(is_file) : fs::path(output_);
+    std::vector<std::string> arguments = {results_, "--output", page.string()};
+    if (compares) {
+      const fs::path figures = output_.empty() ? fs::path(results_) / "comparison.json" : data_beside(page);
+      data::write_atomically(figures.string(), report::comparison_json(results_, baseline_, peers, command_line()));
+      arguments.insert(arguments.end(), {"--comparison", figures.string()});
+    }
+    for (const auto& [option, folder] : {std::pair("--csv", &csv_), {"--latex", &latex_}, {"--figures", &figures_}}) {
+      if (!folder->empty()) arguments.insert(arguments.end(), {option, *folder});
+    }
+    return make_page(arguments);
   }
 
  private:
-  static report::Peer peer(const std::string& text) {
+  fs::path default_page(bool is_file) const {
+    return is_file ? fs::path(results_).replace_extension(".html") : fs::path(results_) / "report.html";
+  }
+
+  /// comparison.html is made from comparison.json. \throws UsageError for a page of that name.
+  fs::path data_beside(const fs::path& page) const {
+    const fs::path figures = fs::path(page).replace_extension(".json");
+    if (figures == page)
+      throw UsageError("--output " + output_ + ": that is where its figures go; expected a name.html");
+    check_output_file(figures.string(), force_);
+    return figures;
+  }
+
+  std::vector<report::Peer> named_peers() const {
+    std::vector<report::Peer> peers;
+    for (const auto& text : peers_) {
+      const report::Peer peer = named_peer(text);
+      const auto same = [&](const report::Peer& other) { return other.name == peer.name; };
+      if (peer.name == "QuadEdge" || peer.name == "baseline" || std::any_of(peers.begin(), peers.end(), same))
+        throw UsageError("--peer " + text + ": the name is taken");
+      peers.push_back(peer);
+    }
+    return peers;
+  }
+
+  static report::Peer named_peer(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) throw UsageError("--peer " + text + ": expected NAME=FOLDER");
     report::Peer peer{text.substr(0, equals), text.substr(equals + 1)};
     std::error_code ignored;
-    if (!std::filesystem::is_directory(peer.folder, ignored))
+    if (!fs::is_directory(peer.folder, ignored))
       throw DataError("--peer " + text + ": " + peer.folder + " is no folder");
     return peer;
   }
 
-  std::string batch_, baseline_, output_;
+  std::string results_, baseline_, output_, csv_, latex_, figures_;
   std::vector<std::string> peers_;
   bool force_ = false;
 };

@@ -43,6 +43,9 @@ what
 .B \-\-device
 says where it is not given
 .TP
+.B QUADEDGE_PYTHON
+the Python that makes pages; it must have the module quadedge.report
+.TP
 .B XDG_CONFIG_HOME
 folder of the kernel variants that
 .B quadedge compare \-\-save

@@ -127,7 +127,7 @@ void print_matching(const std::string& title, const evaluation::MatchingSummary&
     print_quads("paired:", summary.quads_paired);
     print_quads("all:", summary.quads_all);
     std::printf("quads, paired: ambiguity %s +- %s (further matches per quad)\n",
-                decimal(summary.quads_ambiguity_mean, 3).c_str(),
+                decimal(summary.quads_paired.ambiguity_mean, 3).c_str(),
                 decimal(summary.quads_paired.std.ambiguity, 3).c_str());
   }
   print_constraints(summary);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/saved_variants.hpp"
@@ -237,6 +238,7 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
 report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                                const Interruption& interruption) {
   report::RunRecord run;
+  run.command = command_line();
   run.input = source.facts();
   run.config = method.config();
   complete(run.config, source);

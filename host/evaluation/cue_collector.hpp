@@ -12,7 +12,7 @@
 
 namespace quadedge::evaluation {
 
-/// What decides whether a candidate is veridical. Candidates are counted in rows of the paired pool.
+/// What decides whether a candidate is veridical, and to which pools its row belongs.
 struct CandidateTruth {
   const TruePositions& truth;
   const Pools& pools;

@@ -24,7 +24,7 @@ struct Range {
 CueDistribution make_cue(CueTable table, int order, const std::string& cue, const std::string& unit, bool keeps_small,
                          const std::vector<double>& thresholds, const Range& range, bool sampled = false) {
   const Histogram empty(range.low, range.high, range.bins);
-  return {table, order, cue, unit, keeps_small, sampled, thresholds, empty, empty};
+  return {table, order, cue, unit, keeps_small, sampled, thresholds, empty, empty, empty, empty};
 }
 
 const Range kNcc{kSimilarityLow, kSimilarityHigh, 100}, kSift{0, kSiftHigh, 100}, kRatio{0, 1, 100};
@@ -126,6 +126,8 @@ void add(std::vector<CueDistribution>& sum, const std::vector<CueDistribution>& 
     if (own == nullptr) throw UsageError("cues of different filters cannot be pooled");
     own->veridical.add(cue.veridical);
     own->other.add(cue.other);
+    own->veridical_all.add(cue.veridical_all);
+    own->other_all.add(cue.other_all);
     for (const double threshold : cue.thresholds) {
       auto& known = own->thresholds;
       if (std::find(known.begin(), known.end(), threshold) == known.end()) known.push_back(threshold);

@@ -31,8 +31,7 @@ struct Histogram {
 enum class CueTable { stereo, temporal_left, temporal_right, constraints };
 inline constexpr const char* kCueTableNames[] = {"stereo", "temporal_left", "temporal_right", "constraints"};
 
-/// The values of one cue over the pairs that reach the filter which judges it, before it does. Edges of the paired pool
-/// alone.
+/// The values of one cue over the pairs that reach the filter which judges it, before it does.
 struct CueDistribution {
   CueTable table;
   int order;              ///< of the filter (Tables 1 and 2) or constraint (Table 3)
@@ -41,7 +40,8 @@ struct CueDistribution {
   bool sampled;           ///< the other pairs are a drawn sample: there are too many to look at
   std::vector<double>
       thresholds;  ///< of the configuration; several where pooled data have several, none where it depends on the edge
-  Histogram veridical, other;
+  Histogram veridical, other;          ///< edges of the paired pool
+  Histogram veridical_all, other_all;  ///< edges of the pool `all`; empty for constraints, which judge found quads
 };
 
 /// All cues, without values. `config` is the effective one: with the limit of the disparity that the data set brings.

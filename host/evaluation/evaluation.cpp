@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "data/text.hpp"
@@ -105,6 +106,32 @@ std::optional<Pose> se3_alignment(const std::vector<Match>& matches) {
   return alignment;
 }
 
+/// "25.3 mm" or "1.27 m".
+std::string length_text(double metres) {
+  char text[32];
+  const bool small = metres < 0.1;
+  std::snprintf(text, sizeof text, small ? "%.3g mm" : "%.3g m", small ? 1000 * metres : metres);
+  return text;
+}
+
+/// Is the turn of the alignment open? Off the main direction of the path the positions extend by the second of their
+/// three root mean square extents; errors of a quarter of that turn the alignment by some 14 degrees.
+std::string open_rotation(const std::vector<Match>& matches, double residual) {
+  constexpr double kLargestRatio = 0.25;
+  const auto count = static_cast<Eigen::Index>(matches.size());
+  Eigen::Matrix3Xd truth(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) truth.col(i) = matches[static_cast<std::size_t>(i)].truth.translation();
+  truth.colwise() -= truth.rowwise().mean().eval();
+  const Eigen::Vector3d extents =
+      Eigen::JacobiSVD<Eigen::Matrix3d>(truth * truth.transpose() / static_cast<double>(count)).singularValues();
+  const double along = std::sqrt(extents[0]), across = std::sqrt(extents[1]);
+  if (residual <= kLargestRatio * across) return {};
+  const bool still = residual > kLargestRatio * along;
+  return "the positions extend " + length_text(still ? along : across) +
+         (still ? " around one point" : " around a straight line") + " and stay " + length_text(residual) +
+         " apart (root mean squares), which leaves a turn open";
+}
+
 PoseErrors undefined() {
   const ErrorStatistics nothing{kNan, kNan, kNan, kNan};
   return {nothing, nothing, nothing, nothing};
@@ -136,6 +163,10 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
   evaluation.origin_aligned = origin.summary();
   const auto alignment = se3_alignment(matches);
   evaluation.se3_aligned = alignment ? Errors(matches, *alignment).summary() : undefined();
+  evaluation.se3_open_rotation = alignment
+                                     ? open_rotation(matches, evaluation.se3_aligned.ape_translation_m.rmse)
+                                     : std::string("the positions lie on one straight line, which leaves a turn open");
+  if (!evaluation.se3_open_rotation.empty()) evaluation.se3_aligned.ape_rotation_deg = {kNan, kNan, kNan, kNan};
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (i > 0) evaluation.path_length_m += (matches[i].truth.translation() - matches[i - 1].truth.translation()).norm();
     evaluation.per_pose.push_back({matches[i].stamp_ns, origin.ape_rotation[i], origin.ape_translation[i],

@@ -29,8 +29,8 @@ struct EdgeCensus {
 struct TemporalMatching {
   FilterTable left, right;  ///< Table 2
   FilterCounts quads_paired, quads_all;
-  std::int64_t quad_rivals = 0;  ///< further clusters that the paired quads' edges had
-  PairMeasurement pairs;         ///< Table 3 and Figure 7
+  std::int64_t rivals_paired = 0, rivals_all = 0;  ///< further clusters that the quads' edges of a pool had
+  PairMeasurement pairs;                           ///< Table 3 and Figure 7
 
   FilterTable& table(Side side) { return side == Side::left ? left : right; }
 };
@@ -75,6 +75,7 @@ struct PooledRow {
 /// Quads of one pool. Ambiguity is rivals per quad: further clusters of the quad's previous edge.
 struct PooledQuads {
   FilterCounts counts;
+  double ambiguity_mean = 0;  ///< NaN without quads
   FilterSpread std;
 };
 
@@ -88,7 +89,6 @@ struct PooledConstraint {
 struct MatchingSummary {
   std::vector<PooledRow> stereo, temporal_left, temporal_right;
   PooledQuads quads_paired, quads_all;
-  double quads_ambiguity_mean = 0;  ///< rivals per quad of the paired pool; NaN without quads
   std::array<PooledConstraint, kConstraintNames.size()> constraints{};
   double disparity_median = 0,
          disparity_p90 = 0;                  ///< of the absolute error [px]; NaN without stereo edges of known truth

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "quadedge/config.hpp"
 #include "quadedge/evaluation.hpp"
 #include "report/member_record.hpp"
 #include "report/run_record.hpp"
@@ -18,6 +19,7 @@ const char* to_string(MemberStatus status);
 /// The accuracy of a run, or of several together.
 struct SummaryAccuracy {
   PoseErrors origin_aligned, se3_aligned;  ///< NaN where an alignment is not defined
+  std::string se3_open_rotation;           ///< as TrajectoryEvaluation says it; of one run
   int matched = 0;                         ///< poses compared
   double path_length_m = 0, end_drift_percent = 0;
 };
@@ -42,6 +44,9 @@ struct BatchSummary {
   std::optional<SummaryAccuracy> pooled;
   /// The same figures averaged over the sequences: every sequence counts the same.
   std::optional<SummaryAccuracy> average;
+  /// What the command line adds: which command made the batch, of what, and with which configuration.
+  std::string command, input;
+  std::optional<Config> config;
   int exit_code = 0;       ///< the worst of all sequences
   double min_tracked = 0;  ///< fewer tracked frames are too few [percent]
 };

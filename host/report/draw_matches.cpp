@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "quadedge/error.hpp"
 #include "report/canvas.hpp"
+#include "report/disparity_colours.hpp"
 #include "report/match_view.hpp"
 
 namespace quadedge::report {
@@ -17,8 +17,17 @@ using evaluation::FinalMatch;
 using evaluation::MatchClass;
 
 const cv::Scalar kWhite(255, 255, 255), kFrame(255, 255, 255);
-const cv::Scalar kClassColours[] = {
-    {90, 220, 60}, {0, 200, 255}, {70, 70, 255}, {255, 120, 220}};  // BGR, in the order of MatchClass
+/// Colour and shape of every class, in the order of MatchClass: blue, orange, magenta and white, which colour-blind
+/// readers can tell apart. Correct matches are too many for anything but strokes.
+struct ClassMark {
+  cv::Scalar colour;  ///< BGR
+  int marker;         ///< of cv::drawMarker; kStroke: along the edge
+};
+constexpr int kStroke = -1;
+const ClassMark kClassMarks[] = {{{255, 160, 60}, kStroke},
+                                 {{0, 159, 255}, cv::MARKER_TRIANGLE_UP},
+                                 {{220, 60, 255}, cv::MARKER_TILTED_CROSS},
+                                 {{255, 255, 255}, cv::MARKER_SQUARE}};
 
 std::string limit(double px) { return fixed(px, px == std::round(px) ? 0 : 2) + " px"; }
 
@@ -47,6 +56,7 @@ cv::Scalar own_colour(std::size_t index) {
 struct Strokes {
   std::vector<std::size_t> chosen;  ///< indices into the frame's matches
   std::vector<cv::Scalar> colours;  ///< one per chosen match
+  std::vector<int> markers;         ///< one per chosen match; empty: strokes
   bool with_truth = false;          ///< link the true position
   bool by_class = false;            ///< neighbours have one colour, so that thin strokes do
   double half_length = 0.6;         ///< px of the image
@@ -59,6 +69,11 @@ void draw_strokes(const DrawnFrame& frame, const Strokes& strokes, MatchView& le
     const cv::Scalar& colour = strokes.colours[n];
     if (strokes.with_truth && match.kind != MatchClass::correct && std::isfinite(match.true_x)) {
       right.link(match.right_x, match.right_y, match.true_x, match.true_y, colour);
+    }
+    if (!strokes.markers.empty() && strokes.markers[n] != kStroke) {
+      left.mark(match.left_x, match.left_y, strokes.markers[n], colour);
+      right.mark(match.right_x, match.right_y, strokes.markers[n], colour);
+      continue;
     }
     left.stroke(match.left_x, match.left_y, match.left_direction, strokes.half_length, strokes.dot, colour);
     right.stroke(match.right_x, match.right_y, match.right_direction, strokes.half_length, strokes.dot, colour);
@@ -98,11 +113,16 @@ cv::Mat draw_match_class(const DrawnFrame& frame, MatchClass kind, const std::st
                          double wrong) {
   Strokes strokes;
   strokes.with_truth = kind != MatchClass::correct;
+  std::vector<double> disparities;
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {
-    if (frame.matches[i].kind != kind) continue;
-    strokes.colours.push_back(own_colour(strokes.chosen.size()));
+    const FinalMatch& match = frame.matches[i];
+    if (match.kind != kind) continue;
     strokes.chosen.push_back(i);
+    disparities.push_back(std::hypot(match.left_x - match.right_x, match.left_y - match.right_y));
   }
+  const DisparityColours scale(disparities);
+  for (std::size_t n = 0; n < disparities.size(); ++n)
+    strokes.colours.push_back(strokes.with_truth ? own_colour(n) : scale.of(disparities[n]));
   const std::string what = name + ": " + std::to_string(strokes.chosen.size()) + " " +
                            evaluation::kMatchClassNames[static_cast<std::size_t>(kind)] + " stereo edges, " +
                            meaning(kind, tolerance, wrong) + " (frame " + std::to_string(frame.number) + ")";
@@ -110,7 +130,8 @@ cv::Mat draw_match_class(const DrawnFrame& frame, MatchClass kind, const std::st
       frame, strokes,
       {what, strokes.with_truth ? "One colour per correspondence in both views; in the right view a line leads "
                                   "from the match to a ring at the true position."
-                                : "One colour per correspondence, the same in both views."});
+                                : "Coloured by disparity, bright for " + fixed(scale.largest(), 1) +
+                                      " px and more, the same in both views."});
 }
 
 cv::Mat draw_all_matches(const DrawnFrame& frame, const std::string& name, double tolerance, double wrong) {
@@ -123,7 +144,8 @@ cv::Mat draw_all_matches(const DrawnFrame& frame, const std::string& name, doubl
       if (static_cast<std::size_t>(frame.matches[i].kind) != kind) continue;
       ++counts[kind];
       strokes.chosen.push_back(i);
-      strokes.colours.push_back(kClassColours[kind]);
+      strokes.colours.push_back(kClassMarks[kind].colour);
+      strokes.markers.push_back(kClassMarks[kind].marker);
     }
   }
   cv::Mat picture = compose(frame, strokes,
@@ -134,7 +156,12 @@ cv::Mat draw_all_matches(const DrawnFrame& frame, const std::string& name, doubl
   const int y = 2 * kLegendLine - 8;
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
     const std::string text = std::to_string(counts[kind]) + " " + evaluation::kMatchClassNames[kind] + limits[kind];
-    cv::line(picture, {x, y - 5}, {x + 22, y - 5}, kClassColours[kind], 3);
+    const auto& [colour, marker] = kClassMarks[kind];
+    if (marker == kStroke) {
+      cv::line(picture, {x, y - 5}, {x + 22, y - 5}, colour, 3);
+    } else {
+      cv::drawMarker(picture, {x + 11, y - 5}, colour, marker, kMarkerSize, 2, cv::LINE_AA);
+    }
     x = put_text(picture, text, x + 28, y, kWhite) + 22;
   }
   return picture;
@@ -156,23 +183,6 @@ std::vector<MatchDrawing> draw_matches(const DrawnFrame& frame, const std::strin
                         draw_match_class(frame, kind, name, tolerance, wrong)});
   }
   return drawings;
-}
-
-std::vector<std::uint8_t> encode_jpeg(const cv::Mat& picture, std::size_t max_bytes) {
-  constexpr int kBest = 88, kWorst = 58, kStep = 10;
-  std::vector<std::uint8_t> bytes;
-  cv::Mat smaller = picture;
-  for (;;) {
-    for (int quality = kBest; quality >= kWorst; quality -= kStep) {
-      if (!cv::imencode(".jpg", smaller, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
-        throw DataError("a picture cannot be encoded as JPEG");
-      }
-      if (bytes.size() <= max_bytes || smaller.cols < 64) return bytes;
-    }
-    cv::Mat next;
-    cv::resize(smaller, next, {}, 0.8, 0.8, cv::INTER_AREA);
-    smaller = next;
-  }
 }
 
 }  // namespace quadedge::report

@@ -1,7 +1,6 @@
 #pragma once
 /// \file draw_matches.hpp  Final stereo edges over their image pair, as the paper's Figures 8 and 9 show them.
 
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -11,13 +10,13 @@
 namespace quadedge::report {
 
 /// The correspondences of one class over both images side by side, with up to three zoomed details below, whose
-/// positions the images show as numbered frames. Every correspondence has a colour of its own, the same in both views;
-/// inaccurate and wrong ones are linked, in the right view, with a ring at their true position. `tolerance` and
-/// `wrong`: limits of the classes [px].
+/// positions the images show as numbered frames. Correct ones are coloured by their disparity; of the others every one
+/// has a colour of its own, the same in both views, and is linked, in the right view, with a ring at their true
+/// position. `tolerance` and `wrong`: limits of the classes [px].
 cv::Mat draw_match_class(const evaluation::DrawnFrame& frame, evaluation::MatchClass kind, const std::string& name,
                          double tolerance, double wrong);
 
-/// All correspondences of known truth, coloured by class, the same way.
+/// All correspondences of known truth the same way, each class with a colour and a shape.
 cv::Mat draw_all_matches(const evaluation::DrawnFrame& frame, const std::string& name, double tolerance, double wrong);
 
 /// Files and their pictures of one frame: all classes in one, and each class that occurs.
@@ -28,8 +27,5 @@ struct MatchDrawing {
 };
 std::vector<MatchDrawing> draw_matches(const evaluation::DrawnFrame& frame, const std::string& name, double tolerance,
                                        double wrong);
-
-/// JPEG of at most `max_bytes`: quality first, then size is given up until it fits.
-std::vector<std::uint8_t> encode_jpeg(const cv::Mat& picture, std::size_t max_bytes);
 
 }  // namespace quadedge::report

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "report/canvas.hpp"
+#include "report/disparity_colours.hpp"
 #include "report/drawing.hpp"
-#include "report/statistics.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -15,19 +15,6 @@ constexpr double kBrightness = 0.45;
 constexpr int kThumbnailWidth = 480;  // px
 constexpr int kCell = 16;             // px of the image; one motion is drawn per cell
 const cv::Scalar kWhite(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
-
-/// Colours from small (dark) to large (bright) values.
-std::vector<cv::Scalar> colour_scale() {
-  cv::Mat levels(1, 256, CV_8UC1), bgr;
-  for (int i = 0; i < 256; ++i) levels.at<unsigned char>(0, i) = static_cast<unsigned char>(i);
-  cv::applyColorMap(levels, bgr, cv::COLORMAP_VIRIDIS);
-  std::vector<cv::Scalar> colours;
-  for (int i = 0; i < 256; ++i) {
-    const auto colour = bgr.at<cv::Vec3b>(0, i);
-    colours.emplace_back(colour[0], colour[1], colour[2]);
-  }
-  return colours;
-}
 
 /// Length of the way between the two positions of a stereo edge, which is the disparity for a rectified rig [px].
 double disparity(const StereoEdges& stereo, std::size_t i) {
@@ -47,20 +34,19 @@ std::vector<std::size_t> one_per_cell(const TemporalMatches& quads) {
   return chosen;
 }
 
-/// The disparity that gets the brightest colour: a few wrong matches must not stretch the scale [px].
-double colour_range(const FrameDetails& details) {
+/// The colours of the frame's stereo edges.
+DisparityColours colours_of(const FrameDetails& details) {
   std::vector<double> disparities;
   for (std::size_t i = 0; i < details.stereo.size(); ++i) disparities.push_back(disparity(details.stereo, i));
-  return disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3);
+  return DisparityColours(disparities);
 }
 
 /// Stereo edges and quads into the image part of the canvas.
-void paint(Canvas& canvas, const FrameDetails& details, const std::vector<cv::Scalar>& colours, double largest) {
+void paint(Canvas& canvas, const FrameDetails& details, const DisparityColours& colours) {
   const int radius = std::max(1, canvas.scale() / 2) << kPositionShift;
   for (std::size_t i = 0; i < details.stereo.size(); ++i) {
-    const auto level = static_cast<std::size_t>(std::clamp(disparity(details.stereo, i) / largest, 0.0, 1.0) * 255);
     cv::circle(canvas.picture(), canvas.position(details.stereo.left_x[i], details.stereo.left_y[i]), radius,
-               colours[level], cv::FILLED, cv::LINE_AA, kPositionShift);
+               colours.of(disparity(details.stereo, i)), cv::FILLED, cv::LINE_AA, kPositionShift);
   }
   for (const std::size_t i : one_per_cell(details.quads)) {
     const auto previous = static_cast<std::size_t>(details.quads.previous[i]);
@@ -77,7 +63,7 @@ void paint(Canvas& canvas, const FrameDetails& details, const std::vector<cv::Sc
 
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details) {
   Canvas canvas(left, kBrightness, 0);
-  paint(canvas, details, colour_scale(), colour_range(details));
+  paint(canvas, details, colours_of(details));
   const cv::Mat image = canvas.picture()(cv::Rect(0, 0, left.width * canvas.scale(), left.height * canvas.scale()));
   const double reduction = static_cast<double>(kThumbnailWidth) / image.cols;
   cv::Mat small;
@@ -88,18 +74,17 @@ void draw_quads_thumbnail(const std::string& path, const ImageView& left, const 
 
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details) {
   Canvas canvas(left, kBrightness, 2);
-  const auto colours = colour_scale();
-  const double largest = colour_range(details);
-  paint(canvas, details, colours, largest);
+  const DisparityColours colours = colours_of(details);
+  paint(canvas, details, colours);
   const auto inliers =
       std::count_if(details.quad_inlier.begin(), details.quad_inlier.end(), [](auto flag) { return flag != 0; });
 
   cv::Mat& picture = canvas.picture();
   int y = canvas.legend_y(0);
   int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kWhite) + 6;
-  for (int i = 0; i < 256; ++i, ++x) cv::line(picture, {x, y - 12}, {x, y + 2}, colours[static_cast<std::size_t>(i)]);
-  put_text(picture, fixed(largest, 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)", x + 6, y,
-           kWhite);
+  x = colours.draw_bar(picture, x, y + 2);
+  put_text(picture, fixed(colours.largest(), 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)",
+           x + 6, y, kWhite);
   y = canvas.legend_y(1);
   x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kWhite) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);

@@ -7,13 +7,15 @@ namespace quadedge::report {
 namespace {
 
 Json accuracy(const TrajectoryEvaluation& evaluation) {
-  return {{"origin_aligned", to_json(evaluation.origin_aligned)},
-          {"se3_aligned", to_json(evaluation.se3_aligned)},
-          {"matched_poses", evaluation.matched},
-          {"estimate_poses", evaluation.estimate_poses},
-          {"truth_poses", evaluation.truth_poses},
-          {"path_length_m", to_json(evaluation.path_length_m)},
-          {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
+  Json json = {{"origin_aligned", to_json(evaluation.origin_aligned)},
+               {"se3_aligned", to_json(evaluation.se3_aligned)},
+               {"matched_poses", evaluation.matched},
+               {"estimate_poses", evaluation.estimate_poses},
+               {"truth_poses", evaluation.truth_poses},
+               {"path_length_m", to_json(evaluation.path_length_m)},
+               {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
+  if (!evaluation.se3_open_rotation.empty()) json["se3_open_rotation"] = evaluation.se3_open_rotation;
+  return json;
 }
 
 Json normalised(const evaluation::Consistency& consistency) {
@@ -40,15 +42,6 @@ Json stages(const std::vector<std::vector<StageTime>>& frames) {
   return object;
 }
 
-Json configuration(Config config) {
-  Json object = Json::object();
-  for (const Constant& constant : constants()) {
-    Json& target = constant.section.empty() ? object[constant.name] : object[constant.section][constant.name];
-    std::visit([&](const auto* value) { target = *value; }, constant.field(config));
-  }
-  return object;
-}
-
 }  // namespace
 
 std::string report_json(const RunRecord& run) {
@@ -60,12 +53,8 @@ std::string report_json(const RunRecord& run) {
   }
   Json report;
   report["schema"] = kReportSchema;
-  report["version"] = QUADEDGE_VERSION;
-  report["device"] = {{"name", run.device.name},
-                      {"platform", run.device.platform},
-                      {"driver", run.device.driver},
-                      {"opencl", run.device.opencl},
-                      {"type", run.device.type}};
+  add_origin(report, run.command);
+  report["device"] = to_json(run.device);
   report["variants"] = Json(run.variants);
   report["input"] = {{"path", run.input.path},     {"format", run.input.format}, {"name", run.input.name},
                      {"frames", run.input.frames}, {"width", run.input.width},   {"height", run.input.height}};
@@ -95,15 +84,16 @@ std::string report_json(const RunRecord& run) {
     }
     for (const auto& step : run.step_consistency) report["accuracy"]["consistency"].push_back(consistency(step));
   }
-  report["config"] = configuration(run.config);
+  add_configuration(report, run.config);
   return json_text(report);
 }
 
 std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate,
-                            const std::string& truth, const std::optional<evaluation::StepJudgement>& steps) {
+                            const std::string& truth, const std::string& command,
+                            const std::optional<evaluation::StepJudgement>& steps) {
   Json json;
   json["schema"] = kReportSchema;
-  json["version"] = QUADEDGE_VERSION;
+  add_origin(json, command);
   json["estimate"] = estimate;
   json["truth"] = truth;
   json["accuracy"] = accuracy(evaluation);
@@ -156,7 +146,8 @@ std::string trace_json(const RunRecord& run) {
   }
   Json trace;
   trace["displayTimeUnit"] = "ms";
-  trace["otherData"] = {{"version", QUADEDGE_VERSION}, {"device", run.device.name}, {"input", run.input.path}};
+  trace["otherData"] = {{"device", run.device.name}, {"input", run.input.path}};
+  add_origin(trace["otherData"], run.command);
   trace["traceEvents"] = std::move(events);
   return json_text(trace);
 }

@@ -19,7 +19,7 @@ std::string report_json(const RunRecord& run);
 /// Result of `evaluate trajectory`: the accuracy of report.json with the errors of every pose, and the steps where they
 /// were judged.
 std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate,
-                            const std::string& truth,
+                            const std::string& truth, const std::string& command,
                             const std::optional<evaluation::StepJudgement>& steps = std::nullopt);
 
 /// Chrome's trace format (chrome://tracing, ui.perfetto.dev): one event per frame, with its stages one after another

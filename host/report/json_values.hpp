@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "quadedge/config.hpp"
+#include "quadedge/device.hpp"
 #include "quadedge/evaluation.hpp"
 #include "report/run_record.hpp"
 
@@ -38,6 +40,21 @@ inline Json to_json(const LatencySummary& latency) {
           {"max", to_json(latency.max)},
           {"first", to_json(latency.first)}};
 }
+
+inline Json to_json(const DeviceInfo& device) {
+  return {{"name", device.name},
+          {"platform", device.platform},
+          {"driver", device.driver},
+          {"opencl", device.opencl},
+          {"type", device.type}};
+}
+
+/// Adds what every result says of where it comes from: `version`, `commit` (null outside a checkout), `date` (UTC) and
+/// `command`.
+void add_origin(Json& json, const std::string& command);
+
+/// Adds `config`, every constant in its section, and `config_changed`, those that are not at their defaults.
+void add_configuration(Json& json, const Config& config);
 
 /// The way back: null is NaN. \throws nlohmann::json::exception for a missing key or another type.
 inline double to_number(const Json& json) {

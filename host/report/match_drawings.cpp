@@ -23,8 +23,10 @@ std::string file_name_of(const std::string& name) {
 
 }  // namespace
 
-void write_match_drawings(const std::string& folder, const std::vector<evaluation::MatchingResult>& results,
-                          const evaluation::MatchingTolerance& tolerance) {
+std::vector<WrittenDrawing> write_match_drawings(const std::string& folder,
+                                                 const std::vector<evaluation::MatchingResult>& results,
+                                                 const evaluation::MatchingTolerance& tolerance) {
+  std::vector<WrittenDrawing> written;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw DataError(folder + ": the folder cannot be made: " + error.message());
@@ -34,9 +36,12 @@ void write_match_drawings(const std::string& folder, const std::vector<evaluatio
     std::string name = file_name_of(result.name);
     if (const int number = ++used[name]; number > 1) name += "_" + std::to_string(number);
     for (const auto& drawing : draw_matches(*result.drawn, result.name, tolerance.position, tolerance.wrong)) {
-      write_png((std::filesystem::path(folder) / (name + "_" + drawing.file)).string(), drawing.picture);
+      const std::string file = (std::filesystem::absolute(folder) / (name + "_" + drawing.file)).string();
+      write_png(file, drawing.picture);
+      written.push_back({result.name, file, drawing.caption});
     }
   }
+  return written;
 }
 
 }  // namespace quadedge::report

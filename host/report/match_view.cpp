@@ -51,6 +51,10 @@ void MatchView::stroke(double x, double y, double direction, double half_length,
            kPositionShift);
 }
 
+void MatchView::mark(double x, double y, int marker, const cv::Scalar& colour) {
+  cv::drawMarker(view_, position(x, y) / (1 << kPositionShift), colour, marker, kMarkerSize, 2, cv::LINE_AA);
+}
+
 void MatchView::link(double x, double y, double true_x, double true_y, const cv::Scalar& colour) {
   cv::line(view_, position(x, y), position(true_x, true_y), colour, 1, cv::LINE_AA, kPositionShift);
   cv::circle(view_, position(true_x, true_y), (scale_ > 3 ? 4 : 3) << kPositionShift, colour, 1, cv::LINE_AA,

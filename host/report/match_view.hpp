@@ -12,6 +12,8 @@
 
 namespace quadedge::report {
 
+constexpr int kMarkerSize = 11;  // px of the picture
+
 /// A region of an image, enlarged and darkened, within a picture. Positions are those of the whole image [px].
 class MatchView {
  public:
@@ -21,6 +23,8 @@ class MatchView {
   /// An edge: a stroke along its direction [rad], `half_length` px of the image to either side, or a dot of `dot` px
   /// where the view is too small for strokes.
   void stroke(double x, double y, double direction, double half_length, int dot, const cv::Scalar& colour);
+  /// A marker of cv::drawMarker, kMarkerSize wide.
+  void mark(double x, double y, int marker, const cv::Scalar& colour);
   /// From a match to a ring at its true position.
   void link(double x, double y, double true_x, double true_y, const cv::Scalar& colour);
   /// The outline of a region of the image, with a number beside it.

@@ -1,43 +1,61 @@
 #include "report/matching_json.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "quadedge/filters.hpp"
+#include "report/json_values.hpp"
+#include "report/motion_accuracy.hpp"
 
 namespace quadedge::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// Orders of the filters that take SIFT.
+constexpr std::array<int, 2> kSiftStereo = {order_of(StereoFilter::sift), order_of(StereoFilter::nearly_best_sift)};
+constexpr std::array<int, 2> kSiftTemporal = {order_of(TemporalFilter::sift),
+                                              order_of(TemporalFilter::nearly_best_sift)};
 
-/// JSON has no NaN: a value that does not exist is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// A filter without a limit lets everything pass: the row is that of the filter before.
+bool is_off(const std::vector<evaluation::PooledRow>& rows, std::size_t i, const std::array<int, 2>& sift) {
+  if (i == 0 || std::find(sift.begin(), sift.end(), rows[i].row.order) == sift.end()) return false;
+  const auto same = [](const evaluation::FilterCounts& a, const evaluation::FilterCounts& b) {
+    return a.candidates == b.candidates && a.veridical == b.veridical && a.alive == b.alive;
+  };
+  return same(rows[i].row.paired, rows[i - 1].row.paired) && same(rows[i].row.all, rows[i - 1].row.all);
+}
 
-Json table(const std::vector<evaluation::PooledRow>& rows, bool all) {
+Json table(const std::vector<evaluation::PooledRow>& rows, bool all, const std::array<int, 2>& sift) {
   Json list = Json::array();
-  for (const auto& pooled : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& pooled = rows[i];
     const auto& counts = all ? pooled.row.all : pooled.row.paired;
     const auto& spread = all ? pooled.all_std : pooled.paired_std;
     list.push_back({{"order", pooled.row.order},
                     {"filter", pooled.row.filter},
-                    {"recall", number(counts.recall())},
-                    {"precision", number(counts.precision())},
-                    {"ambiguity_mean", number(counts.ambiguity_mean())},
-                    {"ambiguity_max", number(counts.ambiguity_max())},
+                    {"recall", to_json(counts.recall())},
+                    {"precision", to_json(counts.precision())},
+                    {"ambiguity_mean", to_json(counts.ambiguity_mean())},
+                    {"ambiguity_max", to_json(counts.ambiguity_max())},
                     {"kept", counts.candidates},
                     {"edges", counts.pool},
-                    {"recall_std", number(spread.recall)},
-                    {"precision_std", number(spread.precision)},
-                    {"ambiguity_std", number(spread.ambiguity)}});
+                    {"recall_std", to_json(spread.recall)},
+                    {"precision_std", to_json(spread.precision)},
+                    {"ambiguity_std", to_json(spread.ambiguity)}});
+    if (is_off(rows, i, sift)) list.back()["off"] = true;
   }
   return list;
 }
 
 Json quads(const evaluation::PooledQuads& quads) {
-  return {{"recall", number(quads.counts.recall())},
-          {"precision", number(quads.counts.precision())},
+  return {{"recall", to_json(quads.counts.recall())},
+          {"precision", to_json(quads.counts.precision())},
           {"edges", quads.counts.pool},
           {"kept", quads.counts.candidates},
-          {"recall_std", number(quads.std.recall)},
-          {"precision_std", number(quads.std.precision)}};
+          {"recall_std", to_json(quads.std.recall)},
+          {"precision_std", to_json(quads.std.precision)},
+          {"ambiguity_mean", to_json(quads.ambiguity_mean)},
+          {"ambiguity_std", to_json(quads.std.ambiguity)}};
 }
 
 Json constraints(const evaluation::MatchingSummary& summary) {
@@ -48,11 +66,11 @@ Json constraints(const evaluation::MatchingSummary& summary) {
     const double veridical = static_cast<double>(row.counts.veridical);
     list.push_back({{"order", order},
                     {"constraint", evaluation::kConstraintNames[order]},
-                    {"recall", number(veridical / first)},
-                    {"precision", number(veridical / static_cast<double>(row.counts.pairs))},
+                    {"recall", to_json(veridical / first)},
+                    {"precision", to_json(veridical / static_cast<double>(row.counts.pairs))},
                     {"pairs", row.counts.pairs},
-                    {"recall_std", number(row.recall_std)},
-                    {"precision_std", number(row.precision_std)}});
+                    {"recall_std", to_json(row.recall_std)},
+                    {"precision_std", to_json(row.precision_std)}});
   }
   return list;
 }
@@ -69,14 +87,44 @@ Json distributions(const std::vector<evaluation::CueDistribution>& cues) {
                     {"order", cue.order},
                     {"cue", cue.cue},
                     {"unit", cue.unit},
+                    {"keeps_small", cue.keeps_small},
                     {"thresholds", cue.thresholds},
                     {"low", cue.veridical.low},
                     {"high", cue.veridical.high},
                     {"other_is_sample", cue.sampled},
                     {"veridical", histogram(cue.veridical)},
                     {"other", histogram(cue.other)}});
+    if (cue.veridical_all.total() + cue.other_all.total() == 0) continue;
+    list.back()["veridical_all"] = histogram(cue.veridical_all);
+    list.back()["other_all"] = histogram(cue.other_all);
   }
   return list;
+}
+
+/// What the pairs of quads give after each constraint, in the order of the table of constraints.
+Json pairs(const evaluation::PairMeasurement& measured) {
+  Json list = Json::array();
+  for (std::size_t order = 0; order < measured.table.size(); ++order) {
+    const auto& counts = measured.table[order];
+    list.push_back({{"precision", to_json(static_cast<double>(counts.veridical) / static_cast<double>(counts.pairs))},
+                    {"rotation_error_deg", to_json(measured.accuracy[order].rotation_deg)},
+                    {"translation_error_m", to_json(measured.accuracy[order].translation_m)}});
+  }
+  return list;
+}
+
+/// Found minus true disparity of the final stereo edges that are visible in both views [px].
+Json disparity_errors(const std::vector<evaluation::MatchingResult>& results) {
+  constexpr double kRange = 1.5;
+  evaluation::Histogram errors(-kRange, kRange, 300);
+  for (const auto& result : results) {
+    for (const auto& frame : result.frames) {
+      for (const float error : frame.disparity_error) errors.add(error);
+    }
+  }
+  Json json = {{"low", errors.low}, {"high", errors.high}};
+  json.update(histogram(errors));
+  return json;
 }
 
 Json per_frame(const evaluation::MatchingResult& result) {
@@ -95,6 +143,7 @@ Json per_frame(const evaluation::MatchingResult& result) {
       entry["rotation_error_deg"] = frame.motion->rotation_deg;
       entry["translation_error_m"] = frame.motion->translation_m;
     }
+    if (frame.temporal) entry["pairs"] = pairs(frame.temporal->pairs);
     list.push_back(entry);
   }
   return list;
@@ -110,19 +159,18 @@ Json everything(const evaluation::MatchingSummary& summary) {
   for (std::size_t kind = 0; kind < summary.classes.size(); ++kind) {
     json["stereo_edges"][evaluation::kMatchClassNames[kind]] = summary.classes[kind];
   }
-  json["stereo"] = table(summary.stereo, false);
-  json["stereo_all"] = table(summary.stereo, true);
-  json["disparity_error_px"] = {{"median", number(summary.disparity_median)},
-                                {"p90", number(summary.disparity_p90)},
-                                {"bias", number(summary.disparity_bias)}};
-  json["across_error_px"] = {{"median", number(summary.across_median)}, {"p90", number(summary.across_p90)}};
+  json["stereo"] = table(summary.stereo, false, kSiftStereo);
+  json["stereo_all"] = table(summary.stereo, true, kSiftStereo);
+  json["disparity_error_px"] = {{"median", to_json(summary.disparity_median)},
+                                {"p90", to_json(summary.disparity_p90)},
+                                {"bias", to_json(summary.disparity_bias)}};
+  json["across_error_px"] = {{"median", to_json(summary.across_median)}, {"p90", to_json(summary.across_p90)}};
   if (summary.temporal_frames > 0) {
-    json["temporal_left"] = table(summary.temporal_left, false);
-    json["temporal_right"] = table(summary.temporal_right, false);
-    json["temporal_left_all"] = table(summary.temporal_left, true);
-    json["temporal_right_all"] = table(summary.temporal_right, true);
+    json["temporal_left"] = table(summary.temporal_left, false, kSiftTemporal);
+    json["temporal_right"] = table(summary.temporal_right, false, kSiftTemporal);
+    json["temporal_left_all"] = table(summary.temporal_left, true, kSiftTemporal);
+    json["temporal_right_all"] = table(summary.temporal_right, true, kSiftTemporal);
     json["quads"] = quads(summary.quads_paired);
-    json["quads"]["ambiguity_mean"] = number(summary.quads_ambiguity_mean);
     json["quads_all"] = quads(summary.quads_all);
     json["constraints"] = constraints(summary);
   }
@@ -131,8 +179,18 @@ Json everything(const evaluation::MatchingSummary& summary) {
 
 }  // namespace
 
-std::string matching_json(const std::vector<evaluation::MatchingResult>& results) {
+std::string matching_json(const std::vector<evaluation::MatchingResult>& results, const MatchingFacts& facts) {
   Json json;
+  json["schema"] = kMatchingSchema;
+  add_origin(json, facts.command);
+  json["device"] = to_json(facts.device);
+  json["input"] = facts.inputs;
+  json["tolerance_px"] = facts.tolerance.position;
+  json["wrong_px"] = facts.tolerance.wrong;
+  add_configuration(json, facts.config);
+  json["drawings"] = Json::array();
+  for (const auto& drawing : facts.drawings)
+    json["drawings"].push_back({{"name", drawing.name}, {"file", drawing.file}, {"caption", drawing.caption}});
   json["pairs"] = Json::array();
   for (const auto& result : results) {
     Json pair = {{"name", result.name}, {"frames", result.frames.size()}, {"counts", per_frame(result)}};
@@ -142,7 +200,12 @@ std::string matching_json(const std::vector<evaluation::MatchingResult>& results
   const auto summary = evaluation::summarise(results);
   json["pooled"] = everything(summary);
   json["pooled"]["distributions"] = distributions(summary.cues);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  json["pooled"]["disparity_error_histogram"] = disparity_errors(results);
+  const MotionCorrelation correlation = motion_correlation(results);
+  json["pooled"]["motion_rank_correlation"] = {{"points", correlation.points},
+                                               {"rotation", to_json(correlation.rotation)},
+                                               {"translation", to_json(correlation.translation)}};
+  return json_text(json);
 }
 
 }  // namespace quadedge::report

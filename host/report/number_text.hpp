@@ -9,10 +9,6 @@ namespace quadedge::report {
 /// does not exist.
 std::string significant(double value);
 
-/// The value, and in brackets by how much it differs from `baseline`, with its sign and as many decimals as the value;
-/// "=" where these decimals show no difference. `separator` stands between the two.
-std::string with_difference(double value, double baseline, const std::string& separator = " ");
-
 /// "58 / 86 (67.4 %)"; a dash for none of none.
 std::string share_text(int part, int whole);
 

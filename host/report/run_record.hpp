@@ -29,6 +29,7 @@ struct FrameRecord {
 
 /// One run.
 struct RunRecord {
+  std::string command;  ///< line that started it
   InputFacts input;
   DeviceInfo device;
   Config config;                                ///< effective

@@ -5,6 +5,7 @@
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
 #include "report/json_values.hpp"
+#include "report/summary_values.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -20,14 +21,6 @@ Json read_json(const std::string& file, const char* expected) {
   }
 }
 
-Json accuracy_json(const SummaryAccuracy& accuracy) {
-  return {{"origin_aligned", to_json(accuracy.origin_aligned)},
-          {"se3_aligned", to_json(accuracy.se3_aligned)},
-          {"matched_poses", accuracy.matched},
-          {"path_length_m", to_json(accuracy.path_length_m)},
-          {"end_drift_percent", to_json(accuracy.end_drift_percent)}};
-}
-
 /// Takes over what a run reported. \throws nlohmann::json::exception.
 void take_report(SummaryRow& row, const Json& report) {
   row.frames = report.at("input").at("frames");
@@ -38,11 +31,24 @@ void take_report(SummaryRow& row, const Json& report) {
   if (!report.contains("accuracy")) return;
   const Json& accuracy = report.at("accuracy");
   row.accuracy = SummaryAccuracy{to_pose_errors(accuracy.at("origin_aligned")),
-                                 to_pose_errors(accuracy.at("se3_aligned")), accuracy.at("matched_poses").get<int>(),
-                                 to_number(accuracy.at("path_length_m")), to_number(accuracy.at("end_drift_percent"))};
+                                 to_pose_errors(accuracy.at("se3_aligned")),
+                                 accuracy.value("se3_open_rotation", std::string()),
+                                 accuracy.at("matched_poses").get<int>(),
+                                 to_number(accuracy.at("path_length_m")),
+                                 to_number(accuracy.at("end_drift_percent"))};
 }
 
 }  // namespace
+
+Json to_json(const SummaryAccuracy& accuracy) {
+  Json json = {{"origin_aligned", to_json(accuracy.origin_aligned)},
+               {"se3_aligned", to_json(accuracy.se3_aligned)},
+               {"matched_poses", accuracy.matched},
+               {"path_length_m", to_json(accuracy.path_length_m)},
+               {"end_drift_percent", to_json(accuracy.end_drift_percent)}};
+  if (!accuracy.se3_open_rotation.empty()) json["se3_open_rotation"] = accuracy.se3_open_rotation;
+  return json;
+}
 
 SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked) {
   SummaryRow row;
@@ -90,7 +96,9 @@ SummaryRow damaged(SummaryRow row, const std::string& complaint) {
 std::string summary_json(const BatchSummary& summary) {
   Json json;
   json["schema"] = kSummarySchema;
-  json["version"] = QUADEDGE_VERSION;
+  add_origin(json, summary.command);
+  json["input"] = summary.input;
+  if (summary.config) add_configuration(json, *summary.config);
   json["exit_code"] = summary.exit_code;
   json["min_tracked_percent"] = summary.min_tracked;
   json["sequences"] = Json::array();
@@ -105,7 +113,7 @@ std::string summary_json(const BatchSummary& summary) {
       entry["frames_tracked"] = row.tracked;
       entry["tracked_fraction"] = row.frames > 0 ? Json(static_cast<double>(row.tracked) / row.frames) : Json(nullptr);
       entry["key_rigs"] = row.key_rigs;
-      if (row.accuracy) entry["accuracy"] = accuracy_json(*row.accuracy);
+      if (row.accuracy) entry["accuracy"] = to_json(*row.accuracy);
       entry["latency_ms"] = to_json(row.latency);
     }
     json["sequences"].push_back(std::move(entry));
@@ -115,8 +123,8 @@ std::string summary_json(const BatchSummary& summary) {
   all["frames_tracked"] = summary.tracked;
   all["tracked_fraction"] =
       summary.frames > 0 ? Json(static_cast<double>(summary.tracked) / summary.frames) : Json(nullptr);
-  if (summary.pooled) all["pooled"] = accuracy_json(*summary.pooled);
-  if (summary.average) all["average"] = accuracy_json(*summary.average);
+  if (summary.pooled) all["pooled"] = to_json(*summary.pooled);
+  if (summary.average) all["average"] = to_json(*summary.average);
   all["latency_ms"] = to_json(summary.latency);
   return json_text(json);
 }

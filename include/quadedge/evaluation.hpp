@@ -23,7 +23,10 @@ struct PoseErrors {
 struct TrajectoryEvaluation {
   PoseErrors origin_aligned;  ///< first matched poses made equal (the paper's choice; `evo --align_origin`)
   PoseErrors se3_aligned;     ///< Umeyama without scale (`evo --align`)
-  int matched = 0;            ///< poses compared
+  /// Why the positions leave the rotation of the SE(3) alignment open, whose ape_rotation_deg then is NaN; empty where
+  /// they determine it. Positions of a straight or still path do not tell a turn from errors.
+  std::string se3_open_rotation;
+  int matched = 0;  ///< poses compared
   int estimate_poses = 0, truth_poses = 0;
   double path_length_m = 0;      ///< of the matched truth
   double end_drift_percent = 0;  ///< origin-aligned end point error over the path length

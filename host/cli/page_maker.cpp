@@ -1,0 +1,74 @@
+#include "cli/page_maker.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli/child_process.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+constexpr const char* kVariable = "QUADEDGE_PYTHON";
+
+/// Runs a program, found on PATH where its name has no slash, with nothing to read. `quiet`: what it prints is dropped.
+/// Its exit code; ExitCode::internal where it cannot be started or a signal ends it.
+int run_program(const std::vector<std::string>& words, bool quiet) {
+  std::vector<char*> pointers;
+  for (const auto& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (quiet) {
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  }
+  pid_t process = 0;
+  const int problem = posix_spawnp(&process, pointers[0], &files, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  int status = 0;
+  if (problem != 0 || waitpid(process, &status, 0) != process || !WIFEXITED(status))
+    return static_cast<int>(ExitCode::internal);
+  return WEXITSTATUS(status);
+}
+
+/// The interpreters to try, in their order.
+std::vector<std::string> interpreters() {
+  if (const char* chosen = std::getenv(kVariable); chosen != nullptr && *chosen != '\0') return {chosen};
+  std::vector<std::string> names;
+  std::error_code error;
+  const auto beside = std::filesystem::read_symlink(kProgramFile, error).parent_path() / "venv/bin/python3";
+  if (!error && std::filesystem::exists(beside, error)) names.push_back(beside.string());
+  names.emplace_back("python3");
+  return names;
+}
+
+}  // namespace
+
+int make_page(const std::vector<std::string>& arguments) {
+  setenv("PYTHONSAFEPATH", "1", 1);  // a folder named quadedge where the user stands is not the module
+  std::string tried;
+  for (const auto& python : interpreters()) {
+    if (run_program({python, "-c", "import quadedge.report"}, true) != 0) {
+      tried += (tried.empty() ? "" : ", ") + python;
+      continue;
+    }
+    std::vector<std::string> words = {python, "-m", "quadedge.report"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::fflush(stdout);
+    return run_program(words, false);
+  }
+  std::fprintf(stderr,
+               "quadedge: no page: %s has no module quadedge.report; install it with `python3 -m pip install "
+               "'.[report]'` in a clone of QuadEdge, or name another Python in %s\n",
+               tried.c_str(), kVariable);
+  return static_cast<int>(ExitCode::usage);
+}
+
+}  // namespace quadedge::cli

@@ -1,0 +1,34 @@
+#include "report/json_values.hpp"
+
+#include <ctime>
+
+#include "report/source_commit.hpp"
+
+namespace quadedge::report {
+
+void add_origin(Json& json, const std::string& command) {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char date[32];
+  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  json["version"] = QUADEDGE_VERSION;
+  json["commit"] = *source_commit() == '\0' ? Json(nullptr) : Json(source_commit());
+  json["date"] = date;
+  json["command"] = command;
+}
+
+void add_configuration(Json& json, const Config& config) {
+  const Config defaults;
+  Config copy = config;  // a constant's field can be written, too
+  json["config"] = Json::object();
+  json["config_changed"] = Json::object();
+  for (const Constant& constant : constants()) {
+    Json& section = constant.section.empty() ? json["config"] : json["config"][constant.section];
+    std::visit([&](const auto* value) { section[constant.name] = *value; }, constant.field(copy));
+    const std::string text = constant.text(config);
+    if (text != constant.text(defaults)) json["config_changed"][constant.key()] = text;
+  }
+}
+
+}  // namespace quadedge::report

@@ -1,0 +1,54 @@
+"""Pages of QuadEdge's results: one file each, with tables, interactive plots and pictures, that needs no network.
+
+Made from the files that `quadedge run`, `quadedge batch` and `quadedge evaluate matching --json` write; nothing is
+computed from images here. Needs jinja2, plotly and matplotlib, and no compiled part of the package.
+"""
+
+import importlib.util
+from pathlib import Path
+
+from .page import Page, smallest_loss, write_atomically, write_figures, write_tables
+from .results import DamagedResults
+
+if importlib.util.find_spec("plotly") is None:  # its source is only read, which takes no import
+    raise ModuleNotFoundError("No module named 'plotly'", name="plotly")
+
+__all__ = ["DamagedResults", "Page", "make_page"]
+
+
+def make_page(results: str | Path, output: str | Path | None = None, *, comparison: str | Path | None = None,
+              csv: str | Path | None = None, latex: str | Path | None = None,
+              figures: str | Path | None = None) -> Path:
+    """Makes the page of the folder of a run or a batch, or of a file of `evaluate matching --json`.
+
+    `output`: file of the page; by default `report.html` in the folder, or the file with .html in place of .json.
+    `comparison`: what `quadedge report --baseline --peer` writes about a batch. `csv`, `latex`: folders for every
+    table; `figures`: folder for every figure as SVG and PDF. Returns the page's file. Raises DamagedResults for
+    results that cannot be read as a whole; one damaged sequence of a batch is said on its page. Raises OSError where
+    something cannot be written.
+    """
+    from .batch_page import batch_page, read_batch
+    from .matching_page import matching_page, read_matching
+    from .results import read_run
+    from .run_page import run_page
+
+    results = Path(results)
+    if results.is_file():
+        output = Path(output or results.with_suffix(".html"))
+        matching = read_matching(results)
+        page, text = smallest_loss(lambda detail: matching_page(matching, detail))
+    elif (results / "summary.json").is_file():
+        output = Path(output or results / "report.html")
+        batch = read_batch(results, comparison and Path(comparison))
+        page, text = smallest_loss(lambda detail: batch_page(batch, detail))
+    else:
+        output = Path(output or results / "report.html")
+        run = read_run(results)
+        page, text = smallest_loss(lambda detail: run_page(run, detail))
+    write_atomically(output, text)
+    for folder, ending in ((csv, "csv"), (latex, "tex")):
+        if folder:
+            write_tables(page, Path(folder), ending)
+    if figures:
+        write_figures(page, Path(figures))
+    return output

@@ -1,0 +1,204 @@
+"""The page of a batch: tables over all sequences, and the figures of each."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .error_tables import ALIGNMENTS, ErrorRow, error_table
+from .numbers import difference, length_text, share_of, significant
+from .origin import origin
+from .page import Detail, Facts, Figures, Page, Section, Text
+from .results import DamagedResults, Errors, Run, aligned, numbers, read_json, read_run, read_tum
+from .run_page import LATENCY, picture_blocks
+from .figure import FEWEST_FRAMES
+from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
+from .table import Cell, Table
+
+RAN = ("done", "too few tracked")
+MOST_OPEN = 8  # with more sequences each is folded
+
+
+@dataclass
+class Sequence:
+    """One sequence of the batch. `run` is None where it failed or its results are damaged, and `message` says why."""
+
+    entry: dict
+    compared: dict
+    run: Run | None = None
+    message: str = ""
+    others: list[Other] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        return self.entry["name"]
+
+    @property
+    def accuracy(self) -> dict | None:
+        return self.entry.get("accuracy")
+
+
+@dataclass
+class Batch:
+    """The results of a batch, and the comparison with others where there is one."""
+
+    folder: Path
+    summary: dict
+    compared: dict
+    sequences: list[Sequence]
+
+
+def read_batch(folder: Path, comparison: Path | None) -> Batch:
+    """The results in `folder`, with those of its sequences that are whole. Raises DamagedResults for a summary or a
+    comparison that cannot be read."""
+    summary = read_json(folder / "summary.json", "the summary of a batch")
+    if "sequences" not in summary or "all" not in summary:
+        raise DamagedResults(f"{folder / 'summary.json'}: no `sequences`; expected the summary of a batch")
+    compared = read_json(comparison, "the comparison of a batch") if comparison else {"sequences": [], "all": []}
+    by_name = {entry["name"]: entry for entry in compared["sequences"]}
+    sequences = [_read(folder, entry, by_name.get(entry["name"], {})) for entry in summary["sequences"]]
+    return Batch(folder, summary, compared, sequences)
+
+
+def batch_page(batch: Batch, detail: Detail) -> Page:
+    """The page of a batch. A damaged sequence is said and the others are shown."""
+    page = Page(f"QuadEdge batch {batch.folder.resolve().name}", _facts(batch))
+    page.sections.append(Section("Overview", _overview(batch.summary, batch.compared, batch.sequences)))
+    for sequence in batch.sequences:
+        page.sections.append(Section(sequence.name, _sequence_blocks(sequence, detail), fold=True,
+                                     open=len(batch.sequences) <= MOST_OPEN))
+    return page
+
+
+def _read(folder: Path, entry: dict, compared: dict) -> Sequence:
+    sequence = Sequence(entry, compared, notes=list(compared.get("notes", [])))
+    if entry["status"] not in RAN:
+        sequence.message = f"{entry['status']}: {entry['message']}"
+        return sequence
+    try:
+        sequence.run = read_run(folder / "sequences" / entry["name"], entry["name"])
+    except DamagedResults as problem:
+        sequence.message = f"its results are damaged: {problem}"
+        return sequence
+    reference = sequence.run.truth or sequence.run.estimate
+    for system in compared.get("systems", []):
+        try:
+            poses = aligned(read_tum(Path(system["file"])), reference)
+        except DamagedResults as problem:
+            sequence.notes.append(f"{system['name']}: {problem}")
+            continue
+        if poses is None:
+            sequence.notes.append(f"{system['name']}: no pose has a time of this sequence")
+            continue
+        sequence.others.append(Other(system["name"], poses, _errors(system.get("per_pose"))))
+    return sequence
+
+
+def _errors(columns: dict | None) -> Errors | None:
+    if not columns:
+        return None
+    names = ("stamp_s", "ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
+    return Errors(*[numbers(["" if value is None else str(value) for value in columns[name]], Path(name))
+                    for name in names])
+
+
+def _facts(batch: Batch) -> Facts:
+    summary, compared, sequences = batch.summary, batch.compared, batch.sequences
+    ran = [sequence.entry for sequence in sequences if sequence.entry["status"] in RAN]
+    devices = ", ".join(dict.fromkeys(entry["device"] for entry in ran))
+    facts = origin(summary, devices, summary.get("input") or str(batch.folder))
+    facts.append(("Sequences", f"{len(ran)} of {len(sequences)} finished"))
+    facts.append(("Frames tracked", share_of(summary["all"]["frames_tracked"], summary["all"]["frames"])))
+    if compared.get("baseline"):
+        facts.append(("Baseline", f"{compared['baseline']}; differences to it stand in brackets, (=) is none in these "
+                                  "digits"))
+    for peer in compared.get("peers", []):
+        facts.append(("Compared with", f"{peer['name']} ({peer['folder']})"))
+    return Facts(facts)
+
+
+def _overview(summary: dict, compared: dict, sequences: list[Sequence]) -> list:
+    blocks: list = []
+    failed = [(sequence.name, sequence.message or f"{sequence.entry['status']}: {sequence.entry['message']}")
+              for sequence in sequences if sequence.message or sequence.entry["status"] != "done"]
+    if failed:
+        blocks += [Text("Sequences that did not end well:", warns=True), Facts(failed)]
+    if any(sequence.accuracy for sequence in sequences):
+        groups = [_error_rows(sequence) for sequence in sequences]
+        groups.append(_rows_over_all(summary, compared))
+        blocks += [error_table(groups, alignment) for alignment in ALIGNMENTS]
+    blocks.append(_latency_table(summary, sequences))
+    shared = any(sequence.entry.get("jobs", 1) > 1 for sequence in sequences)
+    crowd = " Several sequences ran at the same time, so latencies are longer than those of a lone run."
+    blocks.append(Text("Latency is from both images in host memory to the pose." + (crowd if shared else "")))
+    return blocks
+
+
+def _error_rows(sequence: Sequence) -> list[ErrorRow]:
+    baseline = sequence.compared.get("baseline", {}).get("accuracy")
+    rows = [ErrorRow(sequence.name, "QuadEdge", sequence.accuracy, baseline)]
+    for system in sequence.compared.get("systems", []):
+        if system.get("accuracy"):
+            rows.append(ErrorRow(sequence.name, system["name"], system["accuracy"]))
+    return rows
+
+
+def _rows_over_all(summary: dict, compared: dict) -> list[ErrorRow]:
+    own_sequences = sum("accuracy" in entry for entry in summary["sequences"])
+    title = "all, every pose counts the same"
+    others = {entry["name"]: entry for entry in compared["all"]}
+    baseline = others.get("baseline", {}).get("accuracy")
+    rows = [ErrorRow(title, "QuadEdge", summary["all"].get("pooled"), baseline)]
+    for name, entry in others.items():
+        rows.append(ErrorRow(title, f"{name}, {entry['sequences']} sequences", entry["accuracy"],
+                             ranked=entry["sequences"] == own_sequences))
+    return rows
+
+
+def _latency_table(summary: dict, sequences: list[Sequence]) -> Table:
+    table = Table("latency", "Tracked frames and latency",
+                  ["sequence", "outcome", "tracked", "key stereo rigs", "median", "90 %", "99 %", "largest",
+                   "first frame"], text_columns=2)
+    table.groups = [("", 1), ("", 1), ("", 1), ("", 1), ("latency [ms]", 5)]
+    for sequence in sequences:
+        entry, baseline = sequence.entry, sequence.compared.get("baseline")
+        if entry["status"] not in RAN:
+            table.add(sequence.name, entry["status"], *[""] * 7)
+            continue
+        tracked = Cell(share_of(entry["frames_tracked"], entry["frames"]), entry["frames_tracked"])
+        if baseline and baseline["frames_tracked"] != entry["frames_tracked"]:
+            tracked.beside = f"({entry['frames_tracked'] - baseline['frames_tracked']:+d})"
+        cells = [Cell(significant(entry["latency_ms"][key]), entry["latency_ms"][key],
+                      beside=difference(entry["latency_ms"][key], baseline["latency_ms"][key]) if baseline else "")
+                 for key in LATENCY]
+        table.add(sequence.name, entry["status"], tracked, Cell(str(entry["key_rigs"]), entry["key_rigs"]), *cells)
+    everything = summary["all"]
+    table.add("all", "", Cell(share_of(everything["frames_tracked"], everything["frames"]),
+                              everything["frames_tracked"]), "",
+              *[Cell(significant(everything["latency_ms"][key]), everything["latency_ms"][key]) for key in LATENCY])
+    table.result_rows = 1
+    return table
+
+
+def _sequence_blocks(sequence: Sequence, detail: Detail) -> list:
+    run = sequence.run
+    if run is None:
+        return [Text(sequence.message, warns=True)]
+    facts = [("Recording", f"{sequence.entry['path']} ({sequence.entry['format']})"),
+             ("Command", run.report.get("command") or "\u2013"),
+             ("Frames tracked", share_of(sequence.entry["frames_tracked"], sequence.entry["frames"]))]
+    if sequence.accuracy:
+        facts.append(("Path", f"{length_text(sequence.accuracy['path_length_m'])}, drift at its end "
+                              f"{significant(sequence.accuracy['end_drift_percent'], 2)} %"))
+    facts += [("Note", note) for note in sequence.notes]
+    blocks: list = [Facts(facts)]
+    blocks += [Text(f"Frame {warning['frame']}: {warning['text']}", warns=True) for warning in run.report["warnings"]]
+    if run.count() < FEWEST_FRAMES:
+        blocks.append(Text(f"No plots of fewer than {FEWEST_FRAMES} frames."))
+    world = "In the left camera's first pose" + (" that has ground truth, origin-aligned." if run.truth else ".")
+    for figures, caption in ((trajectory_figures(run, sequence.others, detail.points), world),
+                             (error_figures(run, sequence.others, detail.points),
+                              "Errors against ground truth, origin-aligned."),
+                             (frame_figures(run, detail.points), "")):
+        if figures:
+            blocks.append(Figures(figures, caption))
+    return blocks + picture_blocks(run, detail)

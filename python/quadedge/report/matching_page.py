@@ -1,0 +1,166 @@
+"""The page of `quadedge evaluate matching`: what every filter keeps and loses against ground truth."""
+
+from pathlib import Path
+
+from .matching_figures import (accuracy_figures, count_figures, cue_figures, disparity_figures, filter_figure,
+                               frames_of)
+from .figure import FEWEST_FRAMES
+from .matching_tables import (constraint_table, count_table, disparity_table, filter_table, overview_table, quad_table)
+from .numbers import exists
+from .origin import device_text, origin
+from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
+from .results import DamagedResults, read_json
+from .run_page import configuration_table
+
+MOST_DRAWN = 8  # pairs or sequences
+MOST_MESSAGES = 12
+CASCADES = (("stereo", "Stereo (Figure 3)", "stereo pairs"),
+            ("temporal_left", "In time, left images (Figure 5)", "pairs in time"),
+            ("temporal_right", "In time, right images (Figure 5)", "pairs in time"))
+
+
+def read_matching(file: Path) -> dict:
+    """The content of a file of `evaluate matching --json`. Raises DamagedResults."""
+    content = read_json(file, "a file of `quadedge evaluate matching --json`")
+    for key in ("pairs", "pooled", "tolerance_px"):
+        if key not in content:
+            raise DamagedResults(f"{file}: no `{key}`; expected a file of `quadedge evaluate matching --json`")
+    return content
+
+
+def matching_page(content: dict, detail: Detail) -> Page:
+    """The page of what `evaluate matching --json` writes."""
+    pairs, pooled = content["pairs"], content["pooled"]
+    title = pairs[0]["name"] if len(pairs) == 1 else f"{len(pairs)} data sets"
+    page = Page(f"QuadEdge matching: {title}", _facts(content))
+    page.sections.append(Section("Overview", [overview_table(pairs, pooled), *_messages(pairs)]))
+    page.sections.append(Section("Tables, pooled" if len(pairs) > 1 else "Tables", _tables(pooled, "")))
+    figures = [filter_figure("stereo", "Stereo, after every filter", pooled)]
+    for side in ("left", "right"):
+        if f"temporal_{side}" in pooled:
+            figures.append(filter_figure(f"temporal_{side}", f"In time, {side} images, after every filter", pooled))
+    page.sections[-1].blocks += [
+        Figures(figures, "Shares of both pools after every filter."),
+        Figures(disparity_figures(pooled), "Final stereo edges whose true position is visible: found minus true "
+                                           "disparity.")]
+    if len(pairs) > 1:
+        for number, pair in enumerate(pairs):
+            page.sections.append(Section(f"Tables of {pair['name']}", _tables(pair, f"{number}_"), 3, fold=True))
+    page.sections.append(_counts(pairs))
+    page.sections += _distributions(pooled)
+    page.sections += _accuracy(pairs, pooled)
+    page.sections += _drawings(content, detail)
+    page.sections.append(Section("Configuration", [configuration_table(content)], fold=True))
+    return page
+
+
+def _facts(content: dict) -> Facts:
+    facts = origin(content, device_text(content["device"]), ", ".join(content["input"]))
+    return Facts([*facts,
+                  ("Veridical", f"within {content['tolerance_px']:g} px of the true position, in a view that shows it"),
+                  ("Pool: paired", "edges whose counterpart was detected (the paper's pool): recall starts at 100 % by "
+                                   "construction"),
+                  ("Pool: all", "all edges of known truth, also those whose counterpart is occluded or was not "
+                                "detected"),
+                  ("Recall", "share of the pool's edges that still have a veridical candidate"),
+                  ("Precision", "veridical candidates / all candidates"),
+                  ("Ambiguity", "candidates beyond the first, per edge that has any"),
+                  ("\u00b1", "standard deviation over frames; every pair is one")])
+
+
+def _messages(pairs: list[dict]) -> list:
+    """What the pipeline complained about: lost frames, capacities that ran out."""
+    messages = [(f"{pair['name']}, frame {number}", frame["message"]) for pair in pairs
+                for number, frame in enumerate(pair["counts"]) if "message" in frame]
+    if not messages:
+        return []
+    if len(messages) > MOST_MESSAGES:
+        messages = [*messages[:MOST_MESSAGES], ("and", f"{len(messages) - MOST_MESSAGES} more frames")]
+    return [Text("The pipeline says:"), Facts(messages)]
+
+
+def _tables(summary: dict, prefix: str) -> list:
+    tables = [filter_table(f"{prefix}stereo", "Table 1: stereo", summary, "stereo"),
+              disparity_table(f"{prefix}disparity", summary)]
+    if "temporal_left" in summary:
+        tables += [filter_table(f"{prefix}temporal_{side}", f"Table 2: in time, {side} images", summary,
+                                f"temporal_{side}") for side in ("left", "right")]
+        tables.append(quad_table(f"{prefix}quads", summary))
+        if summary["constraints"][0]["pairs"] > 0:
+            tables.append(constraint_table(f"{prefix}constraints", summary))
+    return tables
+
+
+def _counts(pairs: list[dict]) -> Section:
+    section = Section("Counts per frame", [count_table(pairs)])
+    if frames_of(pairs) >= FEWEST_FRAMES:
+        section.blocks.append(Figures(count_figures(pairs), "Figure 2: edges, stereo edges, pairs in time and quads of "
+                                                            "every frame."))
+    return section
+
+
+def _distributions(pooled: dict) -> list[Section]:
+    cues = pooled["distributions"]
+    if not cues:
+        return []
+    text = Text("Each cue over the pairs that reach the filter which judges it; solid: edges of the pool paired, "
+                "dashed: of all. Densities are normalised over the range shown, cumulative curves over all pairs: one "
+                "that ends low has the rest beyond the range. Vertical lines: the threshold.")
+    sections = [Section("Distributions of the cues", [text])]
+    for table, title, pairs in CASCADES:
+        figures = [figure for cue in cues if cue["table"] == table for figure in cue_figures(cue)]
+        if figures:
+            caption = (f"Veridical and other {pairs}. Of the other pairs before the first filter, 40 per edge are "
+                       "drawn; the count beside a curve is that of the pairs looked at.")
+            sections.append(Section(title, [Figures(figures, caption)], 3))
+    figures = [figure for cue in cues if cue["table"] == "constraints" for figure in cue_figures(cue)]
+    if figures:
+        caption = ("What the constraints of Equation 9 compare, over the pairs of quads that fulfil all constraints "
+                   "before; veridical: both quads are. The sixth constraint, equal handedness, has no threshold.")
+        sections.append(Section("Pairs of quads (Figure 6)", [Figures(figures, caption)], 3))
+    return sections
+
+
+def _accuracy(pairs: list[dict], pooled: dict) -> list[Section]:
+    correlation = pooled["motion_rank_correlation"]
+    if correlation["points"] == 0 or frames_of(pairs) < FEWEST_FRAMES:
+        return []
+
+    def text(value: float | None) -> str:
+        return f"{value:.2f}" if exists(value) else "undefined"
+
+    caption = ("Figure 7. Of single pairs: one point per frame and constraint; every pair of quads that fulfils the "
+               "constraints so far gives a motion (Proposition 2), whose error against the true motion is taken, "
+               f"median over up to 2000 pairs. Rank correlation of precision and error: rotation "
+               f"{text(correlation['rotation'])}, translation {text(correlation['translation'])} over "
+               f"{correlation['points']} points. Of all quads: the error of the motion that the pipeline found.")
+    return [Section("Precision of pairs and accuracy of motions", [Figures(accuracy_figures(pairs, pooled), caption)])]
+
+
+def _drawings(content: dict, detail: Detail) -> list[Section]:
+    """Large pictures, one fold per data set where there are several."""
+    if detail.picture_width == 0:
+        return []
+    by_name: dict[str, list[dict]] = {}
+    for drawing in content["drawings"]:
+        by_name.setdefault(drawing["name"], []).append(drawing)
+    if not by_name:
+        return []
+    text = ("The left and the right image with the final stereo edges of known truth (Figures 8 and 9); numbered "
+            "frames mark what is enlarged below.")
+    if len(by_name) > MOST_DRAWN:
+        text += f" The first {MOST_DRAWN} of {len(by_name)} are shown."
+    sections = [Section("Drawings", [Text(text)])]
+    shown = list(by_name.items())[:MOST_DRAWN]
+    width = 4 * detail.picture_width if len(shown) <= 2 else 3 * detail.picture_width
+    for number, (name, drawings) in enumerate(shown):
+        pictures, blocks = [], []
+        for drawing in drawings:
+            data = reduced(Path(drawing["file"]), width, detail.quality)
+            if data is None:
+                blocks.append(Text(f"{drawing['file']}: no picture that can be read", warns=True))
+            else:
+                pictures.append(Picture(data, drawing["caption"]))
+        blocks.append(Pictures(pictures, wide=True))
+        sections.append(Section(f"Drawings of {name}", blocks, 3, fold=True, open=number == 0))
+    return sections

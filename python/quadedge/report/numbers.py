@@ -1,0 +1,82 @@
+"""Numbers as tables and axes print them: units chosen by size, few digits, a dash for what does not exist."""
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+DASH = "\u2013"
+PLUS_MINUS = "\u2009\u00b1\u2009"
+_THIN_SPACE = "\u202f"
+_MOST_DECIMALS = 9
+
+
+class Unit(NamedTuple):
+    """What a value in SI units (degrees for angles) is multiplied by, and the name of the result."""
+
+    name: str
+    factor: float
+
+
+METRE, MILLIMETRE, DEGREE = Unit("m", 1.0), Unit("mm", 1000.0), Unit("deg", 1.0)
+
+
+def exists(value: float | None) -> bool:
+    """Is there a value? JSON says null, a table NaN."""
+    return value is not None and math.isfinite(value)
+
+
+def length_unit(metres: Iterable[float | None]) -> Unit:
+    """Millimetres where all lengths are below 10 cm, otherwise metres: one unit for a column or an axis."""
+    sizes = [abs(value) for value in metres if exists(value)]
+    return MILLIMETRE if sizes and max(sizes) < 0.1 else METRE
+
+
+def decimals_of(value: float, digits: int) -> int:
+    """Decimals that show so many significant digits."""
+    magnitude = 0 if value == 0 else math.floor(math.log10(abs(value)))
+    return min(max(digits - 1 - magnitude, 0), _MOST_DECIMALS)
+
+
+def significant(value: float | None, digits: int = 4) -> str:
+    """Significant digits, never an exponent; "0" for what is smaller than the last of nine decimals."""
+    if not exists(value):
+        return DASH
+    text = f"{value:.{decimals_of(value, digits)}f}"
+    return text if text.strip("-0.") else "0"
+
+
+def difference(value: float | None, baseline: float | None, digits: int = 4) -> str:
+    """"(-0.0012)": how much the value differs, with its decimals; "(=)" where these show none; empty without one."""
+    if not exists(value) or not exists(baseline):
+        return ""
+    text = f"{value - baseline:+.{decimals_of(value, digits)}f}"
+    return f"({text})" if text.strip("+-0.") else "(=)"
+
+
+def percent(share: float | None, decimals: int = 2) -> str:
+    """0.9342 as "93.42"."""
+    return f"{100 * share:.{decimals}f}" if exists(share) else DASH
+
+
+def count(value: float | None) -> str:
+    """48299 as "48 299"."""
+    return f"{round(value):,}".replace(",", _THIN_SPACE) if exists(value) else DASH
+
+
+def short_count(value: float) -> str:
+    """27230 as "27k"."""
+    for limit, scale, suffix in ((1e6, 1e6, "M"), (1e3, 1e3, "k")):
+        if value >= limit:
+            return f"{value / scale:.{0 if value >= 10 * limit else 1}f}{suffix}"
+    return f"{value:.0f}"
+
+
+def share_of(part: float, whole: float) -> str:
+    """"58 of 86 (67.4 %)"; a dash for none of none."""
+    return f"{part} of {whole} ({100 * part / whole:.1f} %)" if whole else DASH
+
+
+def length_text(metres: float | None) -> str:
+    """"42.1 m" or "3.20 mm"."""
+    unit = length_unit([metres])
+    return f"{significant(metres * unit.factor, 3)} {unit.name}" if exists(metres) else DASH

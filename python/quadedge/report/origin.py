@@ -1,0 +1,38 @@
+"""What every page says of where its figures come from."""
+
+from .numbers import DASH
+
+
+def changed_constants(content: dict) -> str:
+    """"stereo.ncc_min = 0.7" for every constant that is not at its default."""
+    if "config_changed" not in content:
+        return DASH
+    changed = [f"{key} = {value}" for key, value in content["config_changed"].items()]
+    return ", ".join(changed) or "all constants at their defaults"
+
+
+def device_text(device: dict) -> str:
+    return f"{device['name']} ({device['platform']}, {device['opencl']}, driver {device['driver']})"
+
+
+def origin(content: dict, device: str, recording: str) -> list[tuple[str, str]]:
+    """Program, date, device, configuration, input and command of a JSON result."""
+    commit = content.get("commit")
+    return [("Input", recording),
+            ("Program", f"QuadEdge {content.get('version', DASH)}" + (f", commit {commit}" if commit else "")),
+            ("Date", content.get("date", DASH).replace("T", " ").replace("Z", " UTC")),
+            ("Device", device or DASH),
+            ("Configuration", changed_constants(content)),
+            ("Command", content.get("command") or DASH)]
+
+
+def configuration_rows(content: dict) -> list[tuple[str, str, bool]]:
+    """Key, value and whether it is not the default, of every constant."""
+    changed = content.get("config_changed", {})
+    rows = []
+    for section, values in content.get("config", {}).items():
+        entries = values.items() if isinstance(values, dict) else [("", values)]
+        for name, value in entries:
+            key = f"{section}.{name}" if name else section
+            rows.append((key, str(value).lower() if isinstance(value, bool) else str(value), key in changed))
+    return rows

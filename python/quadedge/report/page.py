@@ -1,0 +1,223 @@
+"""A page as data, and the one file that it becomes: tables, plots and pictures that need no network."""
+
+import base64
+import functools
+import gzip
+import html
+import io
+import json
+import os
+import re
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from importlib import metadata, resources
+from pathlib import Path
+
+import jinja2
+from markupsafe import Markup
+
+from .figure import Figure
+from .plotly_figures import to_plotly
+from .table import Table, to_csv, to_latex
+
+LARGEST_PAGE = 6_000_000  # bytes
+
+
+@dataclass(frozen=True)
+class Detail:
+    """How much of the results a page shows."""
+
+    points: int
+    """Of a curve."""
+    picture_width: int
+    """Of a thumbnail [px]; 0: no pictures."""
+    quality: int
+    """Of the pictures, JPEG."""
+
+
+# The first one that makes the page small enough is taken.
+DETAILS = (Detail(2000, 480, 75), Detail(600, 480, 60), Detail(300, 320, 55), Detail(200, 260, 50),
+           Detail(120, 200, 45), Detail(60, 0, 0))
+
+
+@dataclass
+class Facts:
+    """Terms and what they mean or hold."""
+
+    entries: list[tuple[str, str]]
+    kind: str = "facts"
+
+
+@dataclass
+class Text:
+    """A paragraph; `warns` stands out."""
+
+    text: str
+    warns: bool = False
+    kind: str = "text"
+
+
+@dataclass
+class Figures:
+    """Plots side by side, as many as fit, with a caption below that may be empty."""
+
+    figures: list[Figure]
+    caption: str = ""
+    kind: str = "figures"
+
+
+@dataclass
+class Picture:
+    """An encoded JPEG and what it shows."""
+
+    data: bytes
+    caption: str
+
+    @property
+    def address(self) -> str:
+        return "data:image/jpeg;base64," + base64.b64encode(self.data).decode()
+
+
+@dataclass
+class Pictures:
+    """Small pictures side by side, or large ones (`wide`) below one another."""
+
+    pictures: list[Picture]
+    wide: bool = False
+    kind: str = "pictures"
+
+
+@dataclass
+class Section:
+    """A heading and what follows. Below a `fold` it is hidden until a click, and open in print."""
+
+    title: str
+    blocks: list = field(default_factory=list)
+    level: int = 2
+    fold: bool = False
+    open: bool = False
+
+
+@dataclass
+class Page:
+    """A page from top to bottom."""
+
+    title: str
+    facts: Facts
+    sections: list[Section] = field(default_factory=list)
+
+    def blocks(self, kind: str) -> list:
+        return [block for section in self.sections for block in section.blocks if block.kind == kind]
+
+    def tables(self) -> list[Table]:
+        return self.blocks("table")
+
+    def figures(self) -> list[Figure]:
+        return [figure for block in self.blocks("figures") for figure in block.figures]
+
+
+def reduced(file: Path, width: int, quality: int) -> bytes | None:
+    """The picture as a JPEG of at most this width [px]; None for a file that is no picture."""
+    import PIL.Image
+
+    try:
+        with PIL.Image.open(file) as opened:
+            picture = opened.convert("RGB")
+    except (OSError, SyntaxError, ValueError):
+        return None
+    if picture.width > width:
+        picture = picture.resize((width, max(1, round(picture.height * width / picture.width))),
+                                 PIL.Image.Resampling.LANCZOS)
+    stream = io.BytesIO()
+    picture.save(stream, "JPEG", quality=quality)
+    return stream.getvalue()
+
+
+def _packed(content: bytes) -> Markup:
+    """Compressed, as text; the browser unpacks it."""
+    return Markup(base64.b64encode(gzip.compress(content, 9, mtime=0)).decode())
+
+
+@functools.cache
+def _plotly_code() -> Markup:
+    """plotly's minified source: a third of its size."""
+    return _packed((resources.files("plotly") / "package_data" / "plotly.min.js").read_bytes())
+
+
+def _slug(text: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-") or "section"
+
+
+def _emphasised(text: str) -> Markup:
+    """The text escaped, addresses of files breakable anywhere."""
+    return Markup(html.escape(text, quote=False).replace("/", "/<wbr>"))
+
+
+def to_html(page: Page) -> str:
+    """The finished page."""
+    environment = jinja2.Environment(loader=jinja2.PackageLoader("quadedge.report"), autoescape=True,
+                                     trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters["breakable"] = _emphasised
+    anchors: dict[str, int] = {}
+
+    def anchor(title: str) -> str:
+        name = _slug(title)
+        anchors[name] = anchors.get(name, 0) + 1
+        return name if anchors[name] == 1 else f"{name}-{anchors[name]}"
+
+    figures = page.figures()
+    files = resources.files("quadedge.report") / "templates"
+    return environment.get_template("page.html.j2").render(
+        page=page, anchors=[anchor(section.title) for section in page.sections],
+        numbers={id(figure): number for number, figure in enumerate(figures)}, id=id,
+        style=Markup((files / "page.css").read_text(encoding="utf-8")),
+        script=Markup((files / "page.js").read_text(encoding="utf-8")),
+        figures=_packed(json.dumps([to_plotly(figure) for figure in figures], separators=(",", ":"),
+                                   allow_nan=False).encode()),
+        plotly=_plotly_code() if figures else "", plotly_version=metadata.version("plotly"))
+
+
+def write_atomically(file: Path, text: str) -> None:
+    """The file appears as a whole or not at all."""
+    handle, temporary = tempfile.mkstemp(dir=file.parent or Path("."), prefix=f".{file.name}.")
+    try:
+        with open(handle, "w", encoding="utf-8", errors="replace") as stream:
+            stream.write(text)
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, 0o666 & ~mask)
+        os.replace(temporary, file)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def smallest_loss(make: Callable[[Detail], Page]) -> tuple[Page, str]:
+    """The page with the most detail that stays below LARGEST_PAGE, and its text."""
+    for detail in DETAILS:
+        page = make(detail)
+        if detail is not DETAILS[0]:
+            page.sections[-1].blocks.append(Text("Curves are thinned and pictures reduced so that this page stays "
+                                                 "small; --figures draws the same curves."))
+        text = to_html(page)
+        if len(text.encode("utf-8", "replace")) <= LARGEST_PAGE:
+            break
+    return page, text
+
+
+def write_tables(page: Page, folder: Path, ending: str) -> None:
+    """Every table as NAME.csv or NAME.tex."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for table in page.tables():
+        text = to_csv(table) if ending == "csv" else to_latex(table)
+        write_atomically(folder / f"{table.name}.{ending}", text)
+
+
+def write_figures(page: Page, folder: Path) -> None:
+    """Every figure as SVG and PDF."""
+    from .matplotlib_figures import write_figure  # takes a second to load
+
+    folder.mkdir(parents=True, exist_ok=True)
+    for figure in page.figures():
+        write_figure(figure, folder)

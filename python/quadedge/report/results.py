@@ -1,0 +1,193 @@
+"""What a run leaves behind, read back (doc/usage.md, "What a run leaves behind")."""
+
+import csv
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import DataError
+
+STAMP_TOLERANCE_S = 0.01  # as the evaluation of trajectories matches poses
+
+
+class DamagedResults(DataError):
+    """A file that is missing, cut or no such file; names it, what was found and what was expected."""
+
+
+def read_json(file: Path, expected: str) -> dict:
+    """The object in a JSON file. Raises DamagedResults."""
+    try:
+        content = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as problem:
+        raise DamagedResults(f"{file}: {problem}; expected {expected}") from None
+    if not isinstance(content, dict):
+        raise DamagedResults(f"{file}: no JSON object; expected {expected}")
+    return content
+
+
+def read_columns(file: Path) -> dict[str, list[str]]:
+    """The columns of a CSV file with a heading, as texts. Raises DamagedResults for rows of another length."""
+    try:
+        with open(file, encoding="utf-8", errors="replace", newline="") as stream:
+            rows = list(csv.reader(stream))
+    except OSError as problem:
+        raise DamagedResults(f"{file}: {problem.strerror}") from None
+    if not rows:
+        raise DamagedResults(f"{file}: an empty file; expected a heading")
+    for number, row in enumerate(rows, 1):
+        if len(row) != len(rows[0]):
+            raise DamagedResults(f"{file}:{number}: {len(row)} fields; expected {len(rows[0])} as in the heading")
+    return {name: [row[column] for row in rows[1:]] for column, name in enumerate(rows[0])}
+
+
+def numbers(texts: list[str], file: Path) -> np.ndarray:
+    """Texts as numbers, NaN for empty ones. Raises DamagedResults."""
+    try:
+        return np.array([float(text) if text else np.nan for text in texts])
+    except ValueError as problem:
+        raise DamagedResults(f"{file}: {problem}") from None
+
+
+@dataclass
+class Trajectory:
+    """Poses of the left camera: stamps [s], positions (n x 3) [m], rotations (n x 3 x 3)."""
+
+    stamps: np.ndarray
+    positions: np.ndarray
+    rotations: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+
+def read_tum(file: Path) -> Trajectory:
+    """A trajectory in TUM format. Raises DamagedResults."""
+    try:
+        lines = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
+        rows = [[float(word) for word in line] for line in lines if line and not line[0].startswith("#")]
+    except (OSError, ValueError) as problem:
+        raise DamagedResults(f"{file}: {problem}; expected a trajectory in TUM format") from None
+    for number, row in enumerate(rows, 1):
+        if len(row) != 8 or abs(np.linalg.norm(row[4:]) - 1) > 1e-3:
+            raise DamagedResults(f"{file}: pose {number}: expected a stamp, a position and a quaternion of norm 1")
+    values = np.array(rows, float).reshape(-1, 8)
+    return Trajectory(values[:, 0], values[:, 1:4], _rotations(values[:, 4:]))
+
+
+def _rotations(quaternions: np.ndarray) -> np.ndarray:
+    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T if len(quaternions) else [[]] * 4
+    x, y, z, w = (np.asarray(part) for part in (x, y, z, w))
+    return np.stack([np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], -1),
+                     np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], -1),
+                     np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], -1)], -2)
+
+
+def first_match(poses: Trajectory, others: Trajectory) -> tuple[int, int] | None:
+    """The first pose that has one of (nearly) the same time in the other trajectory, and that one."""
+    for i, stamp in enumerate(poses.stamps):
+        if not len(others):
+            return None
+        j = int(np.argmin(np.abs(others.stamps - stamp)))
+        if abs(others.stamps[j] - stamp) <= STAMP_TOLERANCE_S:
+            return i, j
+    return None
+
+
+def moved(poses: Trajectory, index: int, position: np.ndarray, rotation: np.ndarray) -> Trajectory:
+    """The trajectory in the world where its pose `index` is the given one."""
+    turn = rotation @ poses.rotations[index].T
+    return Trajectory(poses.stamps, (poses.positions - poses.positions[index]) @ turn.T + position,
+                      turn @ poses.rotations)
+
+
+def aligned(poses: Trajectory, reference: Trajectory) -> Trajectory | None:
+    """Moved so that it agrees with the reference at the first time that both know; None where there is none."""
+    match = first_match(poses, reference)
+    return match and moved(poses, match[0], reference.positions[match[1]], reference.rotations[match[1]])
+
+
+@dataclass
+class Errors:
+    """Errors of every pose against the ground truth, origin-aligned, against time [s, deg, m]; NaN where undefined."""
+
+    stamps: np.ndarray
+    ape_rotation_deg: np.ndarray
+    ape_translation_m: np.ndarray
+    rpe_rotation_deg: np.ndarray
+    rpe_translation_m: np.ndarray
+
+
+@dataclass
+class Run:
+    """One run. Positions are in the left camera's first pose that has ground truth: x right, y down, z forward [m]."""
+
+    name: str
+    folder: Path
+    report: dict
+    frames: dict[str, list[str]]
+    estimate: Trajectory
+    truth: Trajectory | None
+    errors: Errors | None
+    stated_error_m: tuple[np.ndarray, np.ndarray] | None
+    """Stamps [s] and the root of the trace of the covariance of the position in the world [m]."""
+    pictures: list[Path] = field(default_factory=list)
+
+    @property
+    def start(self) -> float:
+        """Stamp of the first frame [s]."""
+        return float(self.frames["stamp_s"][0])
+
+    def column(self, name: str) -> np.ndarray:
+        """A column of frames.csv as numbers."""
+        return numbers(self.frames[name], self.folder / "frames.csv")
+
+    @property
+    def times(self) -> np.ndarray:
+        """Of the frames, since the first one [s]."""
+        return self.column("stamp_s") - self.start
+
+    def count(self) -> int:
+        return len(self.frames["stamp_s"])
+
+
+REQUIRED_COLUMNS = ("stamp_s", "status", "new_key_rig", "latency_ms", "edges_left", "edges_right", "stereo_edges",
+                    "quads", "inliers")
+
+
+def read_run(folder: Path, name: str = "") -> Run:
+    """Everything of one run's folder. Raises DamagedResults for what a finished run must have; errors.csv, poses.csv
+    and pictures may be missing."""
+    report = read_json(folder / "report.json", "the report of a run")
+    if "frames_tracked" not in report or "input" not in report:
+        raise DamagedResults(f"{folder / 'report.json'}: no `frames_tracked`; expected the report of a run")
+    frames = read_columns(folder / "frames.csv")
+    for column in REQUIRED_COLUMNS:
+        if column not in frames:
+            raise DamagedResults(f"{folder / 'frames.csv'}: no column {column}; expected a frames.csv of a run")
+    estimate = read_tum(folder / "trajectory.txt")
+    truth = read_tum(folder / "groundtruth.txt") if (folder / "groundtruth.txt").is_file() else None
+    match = first_match(estimate, truth) if truth else None
+    if match:
+        truth = moved(truth, match[1], np.zeros(3), np.eye(3))
+        estimate = aligned(estimate, truth)
+    run = Run(name or report["input"]["name"], folder, report, frames, estimate, truth if match else None, None, None)
+    if (folder / "errors.csv").is_file() and match:
+        columns = read_columns(folder / "errors.csv")
+        values = [numbers(columns.get(column, []), folder / "errors.csv")
+                  for column in ("stamp_s", "ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg",
+                                 "rpe_translation_m")]
+        run.errors = Errors(*values)
+    if (folder / "poses.csv").is_file():
+        columns = read_columns(folder / "poses.csv")
+        if "covariance_x_x" in columns:
+            parts = [numbers(columns[f"covariance_{axis}_{axis}"], folder / "poses.csv") for axis in "xyz"]
+            run.stated_error_m = numbers(columns["stamp_s"], folder / "poses.csv"), np.sqrt(sum(parts))
+    if (folder / "pictures").is_dir():
+        run.pictures = sorted((folder / "pictures").iterdir())
+    return run
+
+
+def is_lost(status: str) -> bool:
+    return status.startswith("lost")

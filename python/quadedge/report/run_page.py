@@ -1,0 +1,180 @@
+"""The page of one run."""
+
+from .error_tables import ERRORS, ErrorRow, unit_of
+from .figure import FEWEST_FRAMES
+from .numbers import DASH, count, exists, length_text, length_unit, share_of, significant
+from .origin import configuration_rows, device_text, origin
+from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
+from .results import Run, is_lost
+from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
+from .table import Cell, Table
+
+QUADS_CAPTION = ("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame "
+                 "that they were matched with, white for inliers, red for others, one per cell of 16 px.")
+LATENCY = ("median", "p90", "p99", "max", "first")
+
+
+def run_page(run: Run, detail: Detail) -> Page:
+    """The page of one run."""
+    report = run.report
+    facts = Facts(origin(report, device_text(report["device"]), recording_text(report)))
+    facts.entries += facts_of(run)
+    page = Page(f"QuadEdge: {run.name}", facts)
+    sections = [Section("Results", [latency_table(run), *accuracy_tables(run), *warnings(run)])]
+    page.sections += sections + plot_sections(run, [], detail)
+    pictures = picture_blocks(run, detail)
+    if pictures:
+        page.sections.append(Section("Pictures", pictures))
+    stages = stage_table(report)
+    if stages.rows:
+        page.sections.append(Section("Time of the stages", [stages]))
+    page.sections.append(Section("Configuration", [configuration_table(report)], fold=True))
+    return page
+
+
+def recording_text(report: dict) -> str:
+    given = report["input"]
+    return f"{given['path']} ({given['format']}), {given['frames']} frames of {given['width']} x {given['height']} px"
+
+
+def facts_of(run: Run) -> list[tuple[str, str]]:
+    """What matters most of a run."""
+    report = run.report
+    facts = [("Frames tracked", share_of(report["frames_tracked"], report["input"]["frames"])),
+             ("Key stereo rigs", str(report["key_rigs"]))]
+    reasons: dict[str, int] = {}
+    for status in run.frames["status"]:
+        if is_lost(status):
+            reasons[status] = reasons.get(status, 0) + 1
+    if reasons:
+        facts.append(("Frames lost", ", ".join(f"{number} {reason}" for reason, number in reasons.items())))
+    accuracy = report.get("accuracy")
+    if accuracy:
+        drift = significant(accuracy["end_drift_percent"], 2)
+        facts.append(("Path", f"{length_text(accuracy['path_length_m'])}, drift at its end {drift} %"))
+        truth = accuracy.get("truth_file", DASH)
+        facts.append(("Ground truth", f"{truth}, {accuracy['matched_poses']} poses compared"))
+    memory = report["memory_mb"]
+    facts.append(("Memory", f"{memory['host_peak']:.0f} MB on the host, {memory['device_peak']:.0f} MB on the device"))
+    return facts
+
+
+def warnings(run: Run) -> list:
+    return [Text(f"Frame {warning['frame']}: {warning['text']}", warns=True) for warning in run.report["warnings"]]
+
+
+def latency_table(run: Run) -> Table:
+    """Latency, and what a frame holds."""
+    table = Table("latency", "Latency [ms], from both images in host memory to the pose",
+                  ["median", "90 %", "99 %", "largest", "first frame"], text_columns=0)
+    latency = run.report["latency_ms"]
+    table.add(*[Cell(significant(latency[key]), latency[key]) for key in LATENCY])
+    return table
+
+
+def accuracy_tables(run: Run) -> list[Table]:
+    """Both alignments below one another, and how consistent the covariances are."""
+    accuracy = run.report.get("accuracy")
+    if not accuracy:
+        return []
+    row = ErrorRow(run.name, "QuadEdge", accuracy)
+    table = Table("errors", "Errors against the ground truth", ["alignment", "error", "unit", "mean", "std", "rmse",
+                                                                "max"], text_columns=3)
+    for alignment, text in (("origin_aligned", "origin"), ("se3_aligned", "SE(3)")):
+        for key, name in ERRORS:
+            unit = unit_of(key, [row], alignment)
+            values = [accuracy[alignment][key][statistic] for statistic in ("mean", "std", "rmse", "max")]
+            values = [value * unit.factor if exists(value) else None for value in values]
+            table.add(text if key == ERRORS[0][0] else Cell("", text), name, unit.name,
+                      *[Cell(significant(value), value) for value in values])
+    if accuracy.get("se3_open_rotation"):
+        table.notes.append(f"SE(3): no APE rotation, {accuracy['se3_open_rotation']}.")
+    tables = [table]
+    tables += consistency_tables(accuracy)
+    return tables
+
+
+def consistency_tables(accuracy: dict) -> list[Table]:
+    """What the covariances promise beside the errors, of whole poses and of motions over so many frames."""
+    tables = []
+    squared = accuracy.get("normalised_error_squared")
+    if squared:
+        consistency = Table("consistency", "Errors relative to the stated covariances, squared; 1 is consistent",
+                            ["poses", "pose", "rotation", "translation"], text_columns=0)
+        consistency.add(Cell(count(squared["poses"]), squared["poses"]),
+                        *[Cell(significant(squared[key], 3), squared[key]) for key in ("pose", "rotation",
+                                                                                       "translation")])
+        tables.append(consistency)
+    steps = accuracy.get("consistency", [])
+    if steps:
+        unit = length_unit(step[key] for step in steps for key in ("error_m", "promised_m"))
+        promises = Table("promises", "Errors of motions and what their covariances promise, root mean squares",
+                         ["frames", "motions", *["error", "promised"] * 2, "squared, edges alone", "with the rig"],
+                         text_columns=0)
+        promises.groups = [("motions over", 2), (f"position [{unit.name}]", 2), ("rotation [deg]", 2),
+                           ("relative to the covariances", 2)]
+        for step in steps:
+            cells = [Cell(str(step["frames"]), step["frames"]), Cell(count(step["motions"]), step["motions"])]
+            for key, factor in (("error_m", unit.factor), ("promised_m", unit.factor), ("error_deg", 1),
+                                ("promised_deg", 1)):
+                value = step[key] * factor if exists(step[key]) else None
+                cells.append(Cell(significant(value, 3), value))
+            for key in ("normalised_error_squared_by_edges", "normalised_error_squared"):
+                cells.append(Cell(significant(step[key]["pose"], 3), step[key]["pose"]))
+            promises.add(*cells)
+        tables.append(promises)
+    return tables
+
+
+def stage_table(report: dict) -> Table:
+    table = Table("stages", "Stages on the host, and kernels of a profiling pass where there was one [ms]",
+                  ["stage", "median", "90 %"])
+    for kind in ("stages_ms", "kernels_ms"):
+        for name, times in report.get(kind, {}).items():
+            table.add(("kernel " if kind == "kernels_ms" else "") + name,
+                      *[Cell(significant(times[key], 3), times[key]) for key in ("median", "p90")])
+    return table
+
+
+def configuration_table(content: dict) -> Table:
+    table = Table("configuration", "Every constant; bold: not the default", ["constant", "value"], text_columns=2)
+    for key, value, changed in configuration_rows(content):
+        table.add(Cell(key, bold=changed), Cell(value, bold=changed))
+    return table
+
+
+def plot_sections(run: Run, others: list[Other], detail: Detail, level: int = 2, title: str = "") -> list[Section]:
+    """Trajectory, errors and frames."""
+    if run.count() < FEWEST_FRAMES:
+        return [Section(title or "Plots", [Text(f"No plots of fewer than {FEWEST_FRAMES} frames.")], level)]
+    world = "In the left camera's first pose" + (" that has ground truth, origin-aligned." if run.truth else ".")
+    blocks = [("Trajectory", trajectory_figures(run, others, detail.points), world),
+              ("Errors", error_figures(run, others, detail.points), "Against the ground truth, origin-aligned."),
+              ("Frames", frame_figures(run, detail.points), "")]
+    return [Section(f"{title}{name}", [Figures(figures, caption)], level) for name, figures, caption in blocks
+            if figures]
+
+
+def picture_blocks(run: Run, detail: Detail) -> list:
+    """The drawings of edges and quads, and the thumbnails."""
+    if detail.picture_width == 0:
+        return []
+    blocks, small, large = [], [], []
+    for file in run.pictures:
+        kind, _, number = file.stem.rpartition("_")
+        if kind not in ("thumbnail", "edges", "quads"):
+            continue
+        is_small = kind == "thumbnail"
+        data = reduced(file, detail.picture_width if is_small else 2 * detail.picture_width, detail.quality)
+        if data is None:
+            blocks.append(Text(f"{file}: no picture that can be read", warns=True))
+            continue
+        frame = int(number) if number.isdigit() else number
+        (small if is_small else large).append(Picture(data, f"frame {frame}" if is_small else f"frame {frame}: {kind}"))
+    if large:
+        blocks.append(Pictures(large, wide=True))
+    if small:
+        blocks.append(Pictures(small))
+    if small or any(picture.caption.endswith("quads") for picture in large):
+        blocks.append(Text(QUADS_CAPTION))
+    return blocks

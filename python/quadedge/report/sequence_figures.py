@@ -1,0 +1,161 @@
+"""The figures of one sequence: where the camera went, how wrong that is, what was matched, how long it took."""
+
+import numpy as np
+
+from .figure import FEWEST_FRAMES, GREY, Figure, Series, every, thinned
+from .numbers import DEGREE, length_unit
+from .results import Errors, Run, Trajectory, is_lost
+
+TIME = "time since the first frame [s]"
+STRAIGHT = 0.05  # a path is a straight road where it extends less than this share of its length to the side
+
+
+class Other:
+    """Another system's trajectory of the same sequence, in the same world."""
+
+    def __init__(self, name: str, poses: Trajectory, errors: Errors | None):
+        self.name, self.poses, self.errors = name, poses, errors
+
+
+def _key_rig_stamps(run: Run) -> np.ndarray:
+    chosen = np.array([text == "1" for text in run.frames["new_key_rig"]], bool)
+    return run.column("stamp_s")[chosen]
+
+
+def _at(stamps: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Indices of the stamps that are among those wanted."""
+    return np.nonzero(np.isin(np.round(stamps, 6), np.round(wanted, 6)))[0]
+
+
+def _paths(run: Run, others: list[Other]) -> list[tuple[str, Trajectory, int, str]]:
+    """Name, poses, style and dash of every trajectory; the truth below all."""
+    paths = [("ground truth", run.truth, GREY, "dash")] if run.truth else []
+    paths.append(("QuadEdge", run.estimate, 0, "solid"))
+    return paths + [(other.name, other.poses, 1 + n % 4, "") for n, other in enumerate(others)]
+
+
+def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
+    """In space, from above and from the side; beside a straight road how far it lies off."""
+    if run.count() < FEWEST_FRAMES or len(run.estimate) < 2:
+        return []
+    paths = _paths(run, others)
+    unit = length_unit(np.concatenate([path.positions.ravel() for _, path, _, _ in paths]))
+    name = unit.name
+    labels = {"x": f"x to the right [{name}]", "y": f"-y upward [{name}]", "z": f"z forward [{name}]"}
+    space = Figure(f"{run.name}_trajectory", "Trajectory", labels["x"], labels["z"], labels["y"], wide=True)
+    above = Figure(f"{run.name}_from_above", "Trajectory from above", labels["x"], labels["z"], equal_units=True)
+    side = Figure(f"{run.name}_from_the_side", "Trajectory from the side", labels["z"], labels["y"], equal_units=True)
+    rigs = _at(run.estimate.stamps, _key_rig_stamps(run))
+    clouds = [(text, path.positions[every(len(path), points)], path.stamps[every(len(path), points)], style, dash,
+               False) for text, path, style, dash in paths]
+    chosen = rigs[every(len(rigs), points)]
+    clouds.append(("new key rig", run.estimate.positions[chosen], run.estimate.stamps[chosen], 2, "", True))
+    for text, positions, stamps, style, dash, is_cloud in clouds:
+        if not len(positions):
+            continue
+        x, y, z = (positions * unit.factor).T
+        common = {"style": style, "points": is_cloud, "dash": dash, "times": stamps - run.start}
+        space.series.append(Series(text, x, z, -y, **common))
+        above.series.append(Series(text, x, z, **common))
+        side.series.append(Series(text, z, -y, **common))
+    return [space, above, side, *_deviation(run, others, points)]
+
+
+def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
+    """Along a straight road from above nothing is seen but a line: how far each path lies beside and above it."""
+    base = (run.truth or run.estimate).positions
+    centre = base.mean(axis=0)
+    extents, axes = np.linalg.eigh(np.cov((base - centre).T))
+    if not extents[2] > 0 or np.sqrt(max(extents[1], 0) / extents[2]) > STRAIGHT:
+        return []
+    along = axes[:, 2] * (1 if axes[:, 2] @ (base[-1] - base[0]) >= 0 else -1)
+    right = np.cross([0.0, 1.0, 0.0], along)  # y points down
+    if np.linalg.norm(right) < 0.1:
+        return []
+    right /= np.linalg.norm(right)
+    up = np.cross(right, along)
+    up = up if up[1] < 0 else -up
+    paths = _paths(run, others)
+    unit = length_unit(np.concatenate([(path.positions - centre) @ np.stack([right, up], 1) for _, path, _, _ in paths])
+                       .ravel())
+    figures = []
+    for key, title, axis in (("lateral", "Beside the straight line, to the right", right),
+                             ("vertical", "Above the straight line", up)):
+        figure = Figure(f"{run.name}_{key}_deviation", title, "way along the line [m]", f"deviation [{unit.name}]")
+        for text, path, style, dash in paths:
+            way, off = (path.positions - base[0]) @ along, (path.positions - base[0]) @ axis * unit.factor
+            figure.series.append(Series(text, *thinned(way, off, points), style=style, dash=dash))
+        figures.append(figure)
+    return figures
+
+
+def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
+    """Absolute errors, and errors from frame to frame; beside the absolute error what the covariances state."""
+    if not run.errors or run.count() < FEWEST_FRAMES:
+        return []
+    systems = [("QuadEdge", run.errors, 0)]
+    systems += [(other.name, other.errors, 1 + n % 4) for n, other in enumerate(others) if other.errors]
+    figures = []
+    for key, title, quantity in (("ape_translation_m", "Absolute error of the position", "APE translation"),
+                                 ("ape_rotation_deg", "Absolute error of the orientation", "APE rotation"),
+                                 ("rpe_translation_m", "Error of the position per frame", "RPE translation"),
+                                 ("rpe_rotation_deg", "Error of the orientation per frame", "RPE rotation")):
+        values = np.concatenate([getattr(errors, key) for _, errors, _ in systems])
+        unit = length_unit(values) if key.endswith("_m") else DEGREE
+        figure = Figure(f"{run.name}_{key.rsplit('_', 1)[0]}", title, TIME, f"{quantity} [{unit.name}]")
+        for text, errors, style in systems:
+            figure.series.append(Series(text, *thinned(errors.stamps - run.start, getattr(errors, key) * unit.factor,
+                                                       points), style=style))
+        if key == "ape_translation_m" and run.stated_error_m:
+            stamps, stated = run.stated_error_m
+            figure.series.append(Series("stated by the covariance", *thinned(stamps - run.start, stated * unit.factor,
+                                                                             points), style=GREY, dash="dot"))
+        rigs = _at(run.errors.stamps, _key_rig_stamps(run))
+        rigs = rigs[every(len(rigs), points)]
+        figure.series.append(Series("new key rig", run.errors.stamps[rigs] - run.start,
+                                    getattr(run.errors, key)[rigs] * unit.factor, style=2, points=True))
+        figures.append(figure)
+    return figures
+
+
+def frame_figures(run: Run, points: int) -> list[Figure]:
+    """Edges, quads, latency of every frame."""
+    if run.count() < FEWEST_FRAMES:
+        return []
+    edges = Figure(f"{run.name}_edges", "Edges", TIME, "edges per frame")
+    for style, (column, text) in enumerate((("edges_left", "left"), ("edges_right", "right"),
+                                            ("stereo_edges", "stereo edges"))):
+        edges.series.append(Series(text, *thinned(run.times, run.column(column), points), style=style))
+    quads = Figure(f"{run.name}_quads", "Quads, and the inliers of the pose", TIME, "quads per frame")
+    for style, column in enumerate(("quads", "inliers")):
+        quads.series.append(Series(column, *thinned(run.times, run.column(column), points), style=style))
+    lost = np.array([is_lost(status) for status in run.frames["status"]], bool)
+    if lost.any():
+        chosen = np.nonzero(lost)[0][every(int(lost.sum()), points)]
+        hover = [run.frames["status"][index] for index in chosen]
+        quads.series.append(Series("lost frame", run.times[chosen], np.zeros(len(chosen)), style=2, points=True,
+                                   hover=hover))
+    return [edges, quads, _latency(run, points)]
+
+
+def _latency(run: Run, points: int) -> Figure:
+    """Each frame's latency as a stack of its stages, and what is left of it on top."""
+    figure = Figure(f"{run.name}_latency", "Latency by stage", TIME, "latency [ms]")
+    latency = run.column("latency_ms")
+    usual, largest = np.nanpercentile(latency, 95), np.nanmax(latency)
+    if largest > 3 * usual:  # one slow frame would flatten all others
+        figure.y_range = (0, 1.5 * usual)
+        figure.title += f" (largest {largest:.0f} ms)"
+    chosen = every(run.count(), points)
+    names = list(run.frames)
+    stages = [name for name in names[names.index("latency_ms") + 1:] if name.endswith("_ms")]
+    floor = np.zeros(len(chosen))
+    for style, stage in enumerate(stages):
+        floor = floor + np.nan_to_num(run.column(stage)[chosen])
+        figure.series.append(Series(stage.removesuffix("_ms"), run.times[chosen], floor, style=style % 5,
+                                    fill="below" if style else "zero"))
+    figure.series.append(Series("rest", run.times[chosen], np.maximum(latency[chosen], floor), style=GREY,
+                                fill="below"))
+    return figure
+
+

@@ -1,0 +1,108 @@
+"""A table as the page shows it, and the same as CSV and for LaTeX."""
+
+import csv
+import io
+import math
+from dataclasses import dataclass, field
+
+from .numbers import DASH
+
+
+@dataclass
+class Cell:
+    """What a reader sees, and the number behind it in the unit of Table.exact_columns, or else of the heading."""
+
+    text: str
+    value: float | str | None = None
+    bold: bool = False
+    beside: str = ""
+    """A difference or a remark in smaller letters."""
+
+    def exact(self) -> str:
+        """The number unrounded, or the text; empty for what does not exist."""
+        if self.value is None:
+            return "" if self.text == DASH else self.text
+        if isinstance(self.value, float):
+            return repr(self.value) if math.isfinite(self.value) else ""
+        return str(self.value)
+
+
+@dataclass
+class Table:
+    """Rows of cells. The first `text_columns` are words and stand to the left, the others are numbers."""
+
+    name: str
+    """Of its files; unique on a page."""
+    title: str
+    columns: list[str]
+    rows: list[list[Cell]] = field(default_factory=list)
+    groups: list[tuple[str, int]] = field(default_factory=list)
+    """An upper line of the heading: text and the number of columns below it."""
+    text_columns: int = 1
+    exact_columns: list[str] | None = None
+    """Of the CSV file, where the numbers behind the cells have other units than the heading says."""
+    notes: list[str] = field(default_factory=list)
+    result_rows: int = 0
+    """So many rows at the end are the result of all above."""
+    kind: str = "table"
+
+    def add(self, *cells: Cell | str) -> None:
+        """Adds a row, which must be as long as the heading."""
+        row = [cell if isinstance(cell, Cell) else Cell(cell) for cell in cells]
+        if len(row) != len(self.columns):
+            raise ValueError(f"{self.name}: {len(row)} cells for {len(self.columns)} columns")
+        self.rows.append(row)
+
+    def full_columns(self) -> list[str]:
+        """The names of the columns with those of their groups."""
+        above = [text for text, span in self.groups for _ in range(span)] or [""] * len(self.columns)
+        return [" ".join(filter(None, (group, column))) for group, column in zip(above, self.columns)]
+
+
+def to_csv(table: Table) -> str:
+    """The table with unrounded numbers (RFC 4180)."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(table.exact_columns or table.full_columns())
+    for row in table.rows:
+        writer.writerow([cell.exact() for cell in row])
+    return stream.getvalue()
+
+
+_LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{",
+          "}": r"\}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\u2009": r"\,", "\u202f": r"\,",
+          "\u00b1": r"$\pm$", "\u2013": "--", "\u2265": r"$\geq$", "\u2264": r"$\leq$", "\u2003": r"\quad ",
+          "\u2212": "$-$"}
+
+
+def _latex_text(text: str) -> str:
+    return "".join(_LATEX.get(letter, letter) for letter in text)
+
+
+def _latex_cell(cell: Cell) -> str:
+    text = _latex_text(cell.text)
+    text = rf"\textbf{{{text}}}" if cell.bold else text
+    return f"{text} {{\\footnotesize {_latex_text(cell.beside)}}}" if cell.beside else text
+
+
+def to_latex(table: Table) -> str:
+    """A `table` environment that needs the package booktabs."""
+    letters = "l" * table.text_columns + "r" * (len(table.columns) - table.text_columns)
+    lines = [r"\begin{table}", r"  \centering", rf"  \caption{{{_latex_text(table.title)}}}",
+             rf"  \label{{tab:{table.name}}}", rf"  \begin{{tabular}}{{{letters}}}", r"    \toprule"]
+    if table.groups:
+        cells, rules, column = [], [], 1
+        for text, span in table.groups:
+            cells.append(rf"\multicolumn{{{span}}}{{c}}{{{_latex_text(text)}}}")
+            if text and span > 1:
+                rules.append(rf"\cmidrule(lr){{{column}-{column + span - 1}}}")
+            column += span
+        lines += ["    " + " & ".join(cells) + r" \\", "    " + " ".join(rules)]
+    lines += ["    " + " & ".join(_latex_text(column) for column in table.columns) + r" \\", r"    \midrule"]
+    for number, row in enumerate(table.rows):
+        if table.result_rows and number + table.result_rows == len(table.rows):
+            lines.append(r"    \midrule")
+        lines.append("    " + " & ".join(_latex_cell(cell) for cell in row) + r" \\")
+    lines += [r"    \bottomrule", r"  \end{tabular}"]
+    lines += [rf"  \par\footnotesize {_latex_text(note)}" for note in table.notes]
+    return "\n".join(line for line in lines if line.strip()) + "\n" + "\\end{table}\n"

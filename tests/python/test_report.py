@@ -1,0 +1,367 @@
+"""The pages, tables and figures of quadedge.report hold what the files of results say."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_up_results import ORIGIN, accuracy, statistics, write_batch, write_matching, write_run
+from parsed_page import ParsedPage
+
+pytest.importorskip("jinja2")
+PIL = pytest.importorskip("PIL.Image")
+
+from quadedge import report  # noqa: E402
+from quadedge.report import numbers, results  # noqa: E402
+from quadedge.report.figure import Figure, Series, thinned  # noqa: E402
+from quadedge.report.page import LARGEST_PAGE  # noqa: E402
+from quadedge.report.plotly_figures import to_plotly  # noqa: E402
+from quadedge.report.table import Cell, Table, to_csv, to_latex  # noqa: E402
+
+ORIGIN_TABLE = "Errors, origin-aligned as in the paper's Table 4 (the first compared poses are made equal)"
+SE3_TABLE = "Errors, SE(3)-aligned as others often quote (least squares over all positions, no scale)"
+THIN = "\u2009"
+
+
+def page_of(path: Path, **options) -> ParsedPage:
+    file = report.make_page(path, **options)
+    text = file.read_text(encoding="utf-8")
+    assert len(text.encode()) < LARGEST_PAGE
+    page = ParsedPage(text)
+    assert page.outside == []
+    assert "default-src 'none'" in text  # the browser itself refuses the network
+    for broken in ("nan", "None", "NaN", "inf", "Undefined"):
+        assert broken not in page.text.split()
+    return page
+
+
+def save_picture(file: Path, width: int, height: int) -> None:
+    noise = np.random.default_rng(1).integers(0, 255, (height, width, 3), dtype=np.uint8)
+    PIL.fromarray(noise).save(file)
+
+
+def test_numbers_have_four_digits_and_units_of_their_size():
+    assert numbers.significant(0.012345678) == "0.01235"
+    assert numbers.significant(1234.5) == "1234"
+    assert numbers.significant(-2) == "-2.000"
+    assert numbers.significant(1e-15) == "0"
+    assert numbers.significant(None) == numbers.significant(float("nan")) == numbers.DASH
+    assert numbers.difference(0.0105, 0.0117) == "(-0.00120)"
+    assert numbers.difference(2, 2.0000001) == "(=)"
+    assert numbers.difference(2, None) == ""
+    assert numbers.length_text(0.0032) == "3.20 mm"
+    assert numbers.length_text(42.1) == "42.1 m"
+    assert numbers.length_unit([0.05, None, -0.2]) is numbers.METRE
+    assert numbers.count(48299) == "48\u202f299"
+    assert [numbers.short_count(value) for value in (999, 1500, 27230, 12345678)] == ["999", "1.5k", "27k", "12M"]
+
+
+def test_thinned_curves_keep_their_extremes_and_their_order():
+    x = np.arange(1000.0)
+    y = np.sin(0.01 * x)
+    y[0], y[357], y[900] = np.nan, 9, -7
+    thin_x, thin_y = thinned(x, y, 50)
+    assert len(thin_x) <= 50 and (np.diff(thin_x) > 0).all()
+    assert {9, -7} <= set(thin_y) and not np.isnan(thin_y).any()
+    assert len(thinned(x, y, 1000)[0]) == 1000
+
+
+def test_tables_become_csv_with_unrounded_numbers_and_latex():
+    table = Table("t", "50 % & more", ["who_is", "mean", "std"], groups=[("", 1), ("APE [m]", 2)],
+                  notes=["a reason"], result_rows=1)
+    table.add("a_b", Cell("1.235", 1.23456789, bold=True), Cell(numbers.DASH, None))
+    table.add("all", Cell("2", 2.0, beside="(+0.1)"), Cell("x"))
+    assert list(csv.reader(to_csv(table).splitlines())) == [
+        ["who_is", "APE [m] mean", "APE [m] std"], ["a_b", "1.23456789", ""], ["all", "2.0", "x"]]
+    latex = to_latex(table)
+    for part in (r"\caption{50 \% \& more}", r"\multicolumn{2}{c}{APE [m]}", r"\cmidrule(lr){2-3}", r"a\_b",
+                 r"\textbf{1.235}", r"\begin{tabular}{lrr}", "a reason"):
+        assert part in latex
+    assert latex.count(r"\midrule") == 2
+    with pytest.raises(ValueError, match="2 cells for 3 columns"):
+        table.add("too", "short")
+
+
+def test_page_of_a_run_says_where_it_comes_from_and_what_the_files_hold(tmp_path):
+    content = write_run(tmp_path / "street", 12, lost=7)
+    save_picture(tmp_path / "street/pictures/thumbnail_000005.jpg", 480, 300)
+    save_picture(tmp_path / "street/pictures/quads_000005.png", 1280, 960)
+    (tmp_path / "street/pictures/thumbnail_000007.jpg").write_text("no picture")
+    page = page_of(tmp_path / "street")
+    assert page.facts["Program"] == "QuadEdge 1.2.3, commit 0123456789ab"
+    assert page.facts["Date"] == "2026-05-04 03:02:01 UTC"
+    assert page.facts["Device"] == "abacus (wood, none, driver 1)"
+    assert page.facts["Configuration"] == "stereo.ncc_min = 0.55"
+    assert page.facts["Input"] == "a/street (kitti), 12 frames of 640 x 480 px"
+    assert page.facts["Command"] == ORIGIN["command"]
+    assert page.facts["Frames tracked"] == "11 of 12 (91.7 %)"
+    assert page.facts["Frames lost"] == "1 lost_no_consensus"
+    rows = page.tables["Errors against the ground truth"]
+    assert rows[2] == ["", "APE translation", "mm", "50.00", "25.00", "55.00", "150.0"]
+    assert rows[4] == ["", "RPE translation", "mm", "4.000", "2.000", "4.400", "12.00"]
+    promises = page.tables["Errors of motions and what their covariances promise, root mean squares"]
+    assert promises[0][1] == "position [mm]"
+    assert promises[2] == ["5", "7", "20.0", "10.0", "0.100", numbers.DASH, "4.50", "1.20"]
+    assert page.pictures == 2 and "thumbnail_000007.jpg: no picture" in page.text
+    # The estimate drifts 10 mm a frame to the side, and is drawn in the first pose of the truth.
+    estimate = next(trace for trace in page.figure("from_above")["data"] if trace["name"] == "QuadEdge")
+    truth = next(trace for trace in page.figure("from_above")["data"] if trace["name"] == "ground truth")
+    assert len(estimate["x"]) == 11 and truth["x"][0] == 0
+    assert estimate["x"][-1] - truth["x"][-1] == pytest.approx(0.11)
+    error = page.figure("ape_translation")
+    assert error["data"][0]["y"][-1] == pytest.approx(0.11)
+    assert error["layout"]["yaxis"]["title"]["text"] == "APE translation [m]"
+    assert page.figure("rpe_translation")["layout"]["yaxis"]["title"]["text"] == "RPE translation [mm]"
+    stated = next(trace for trace in error["data"] if trace["name"] == "stated by the covariance")
+    assert stated["y"][-1] / error["data"][0]["y"][-1] == pytest.approx(np.sqrt(4e-4 * 11) / 0.11, rel=1e-4)
+    lost = next(trace for trace in page.figure("quads")["data"] if trace["name"] == "lost frame")
+    assert lost["x"] == [pytest.approx(0.7)]
+    spatial = page.figure("_trajectory")["data"][0]
+    assert spatial["type"] == "scatter3d" and len(spatial["z"]) == 12
+    assert content["config_changed"]
+
+
+def test_a_straight_road_is_shown_from_beside_and_a_bent_one_is_not(tmp_path):
+    write_run(tmp_path / "straight", 12, 0.002, straight=True)
+    write_run(tmp_path / "bent", 12)
+    deviation = page_of(tmp_path / "straight").figure("lateral_deviation")
+    assert deviation["layout"]["yaxis"]["title"]["text"] == "deviation [mm]"
+    estimate = next(trace for trace in deviation["data"] if trace["name"] == "QuadEdge")
+    truth = next(trace for trace in deviation["data"] if trace["name"] == "ground truth")
+    assert estimate["y"][-1] - truth["y"][-1] == pytest.approx(22, rel=0.01)  # to the right
+    assert not any("deviation" in plot for plot in page_of(tmp_path / "bent").plots)
+
+
+def test_fewer_than_ten_frames_have_tables_and_no_plots(tmp_path):
+    write_run(tmp_path / "short", 9)
+    page = page_of(tmp_path / "short")
+    assert page.plots == [] and "No plots of fewer than 10 frames." in page.text
+    assert page.tables["Errors against the ground truth"]
+
+
+def test_open_rotation_of_an_alignment_is_a_dash_with_its_reason(tmp_path):
+    reason = "the positions extend 25 mm around a straight line"
+    write_run(tmp_path / "run", 12, errors=accuracy(0.05, reason))
+    page = page_of(tmp_path / "run")
+    assert page.row("Errors against the ground truth", "SE(3)")[3:] == [numbers.DASH] * 4
+    assert reason in page.text
+
+
+def comparison(tmp_path: Path, batch: Path, names: list[str]) -> Path:
+    """One peer that is better, and a baseline of half the error."""
+    entries = []
+    for name in names:
+        folder = batch / "sequences" / name
+        system = {"name": "Other & <Co>", "file": str(folder / "groundtruth.txt"), "accuracy": accuracy(0.01),
+                  "per_pose": {"stamp_s": [0, 0.1], "ape_rotation_deg": [0, 0], "ape_translation_m": [0, 0.01],
+                               "rpe_rotation_deg": [None, 0], "rpe_translation_m": [None, 0.01]}}
+        entries.append({"name": name, "systems": [system], "notes": ["a peer had no file"],
+                        "baseline": {"frames": 12, "frames_tracked": 10, "accuracy": accuracy(0.025),
+                                     "latency_ms": {"median": 20.0, "p90": 22.0, "p99": 22.0, "max": 22.0,
+                                                    "first": 20.0}}})
+    file = tmp_path / "comparison.json"
+    file.write_text(json.dumps({"sequences": entries, "baseline": "yesterday", "peers": [],
+                                "all": [{"name": "Other & <Co>", "sequences": 2, "accuracy": accuracy(0.01)}]}))
+    return file
+
+
+def test_page_of_a_batch_has_units_by_size_and_the_latency_of_all(tmp_path):
+    write_batch(tmp_path / "batch", ["street", "hall", "yard"])
+    page = page_of(tmp_path / "batch")
+    # 5 cm and 10 cm: each sequence has the unit of its size.
+    assert page.row(ORIGIN_TABLE, "street")[4:6] == [f"50.00{THIN}mm", f"25.00{THIN}mm"]
+    assert page.row(ORIGIN_TABLE, "yard")[4:6] == [f"0.1500{THIN}m", f"0.07500{THIN}m"]
+    assert page.tables[ORIGIN_TABLE][0][-1] == "RPE translation [mm]"
+    assert page.row(ORIGIN_TABLE, "all, every pose counts the same")[4] == f"70.00{THIN}mm"
+    assert page.bold == []  # nobody to be better than
+    assert page.row("Tracked frames and latency", "hall")[2:5] == ["12 of 12 (100.0 %)", "3", "21.00"]
+    assert page.facts["Command"] and page.facts["Configuration"] == "stereo.ncc_min = 0.55"
+    assert sum(plot.endswith("latency") for plot in page.plots) == 3
+
+
+def test_comparison_names_the_own_row_and_prints_the_best_bold(tmp_path):
+    names = ["street", "hall"]
+    write_batch(tmp_path / "batch", names)
+    page = page_of(tmp_path / "batch", comparison=comparison(tmp_path, tmp_path / "batch", names),
+                   output=tmp_path / "page.html")
+    own, other = page.tables[ORIGIN_TABLE][2:4]
+    assert own[:2] == ["street", "QuadEdge"] and other[:2] == ["", "Other & <Co>"]
+    assert own[5] == f"50.00{THIN}mm (+25.00)"
+    assert f"10.00{THIN}mm" in page.bold and f"50.00{THIN}mm" not in page.bold
+    assert len(page.bold) == 2 * 2 * 3  # APE translation, mean and std, of both alignments, each sequence and over all
+    fewer = json.loads((tmp_path / "comparison.json").read_text())
+    fewer["all"][0]["sequences"] = 1  # over other data than the own row: no better and no worse
+    (tmp_path / "fewer.json").write_text(json.dumps(fewer))
+    again = page_of(tmp_path / "batch", comparison=tmp_path / "fewer.json", output=tmp_path / "fewer.html")
+    assert len(again.bold) == 2 * 2 * 2
+    assert "Other & <Co>, 2 sequences" in [row[1] for row in page.tables[ORIGIN_TABLE]]
+    assert "(+2)" in page.row("Tracked frames and latency", "street")[2]
+    assert page.text.count("a peer had no file") == 2
+    drawn = next(trace for trace in page.figure("street_from_above")["data"] if trace["name"] == "Other & <Co>")
+    assert len(drawn["x"]) == 12
+    assert page.facts["Baseline"].startswith("yesterday")
+
+
+@pytest.mark.parametrize("damaged", ["report.json", "frames.csv", "trajectory.txt", "groundtruth.txt", "errors.csv",
+                                     "poses.csv"])
+def test_one_bad_member_never_costs_the_page(tmp_path, damaged):
+    write_batch(tmp_path / "batch", ["bad", "good"])
+    file = tmp_path / "batch/sequences/bad" / damaged
+    lines = file.read_text().splitlines(keepends=True)
+    file.write_text("".join(lines[: len(lines) // 2]) + lines[len(lines) // 2][:3])
+    page = page_of(tmp_path / "batch")
+    assert f"sequences/bad/{damaged}" in page.text and "damaged" in page.text
+    assert [plot for plot in page.plots if "good_latency" in plot]
+    assert not [plot for plot in page.plots if "figure-bad" in plot]
+
+
+def test_a_failed_member_says_why_and_has_no_figures(tmp_path):
+    summary = write_batch(tmp_path / "batch", ["good"])
+    summary["sequences"].append({"name": "broken", "status": "failed", "exit_code": 3, "path": "b", "format": "kitti",
+                                 "message": "calib.txt: <nothing> & so on", "jobs": 1})
+    (tmp_path / "batch/summary.json").write_text(json.dumps(summary))
+    page = page_of(tmp_path / "batch")
+    assert "failed: calib.txt: <nothing> & so on" in page.facts["broken"]
+    assert page.row("Tracked frames and latency", "broken")[1] == "failed"
+    assert page.row(ORIGIN_TABLE, "broken")[1:] == [numbers.DASH] * 9
+
+
+def test_a_whole_benchmark_stays_below_six_megabytes(tmp_path):
+    names = [f"sequence_{number}" for number in range(24)]
+    write_batch(tmp_path / "batch", names, frames=100)
+    save_picture(tmp_path / "noise.jpg", 480, 300)
+    for name in names:
+        for frame in (20, 40, 60, 80):
+            os.link(tmp_path / "noise.jpg", tmp_path / "batch/sequences" / name / "pictures" /
+                    f"thumbnail_{frame:06d}.jpg")
+    page = page_of(tmp_path / "batch")
+    assert sum(plot.endswith("_latency") for plot in page.plots) == 24
+    assert "thinned" in page.text
+
+
+def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off(tmp_path):
+    save_picture(tmp_path / "all.png", 1900, 600)
+    write_matching(tmp_path / "m.json", ["room", "yard"], 6,
+                   [{"name": "room", "file": str(tmp_path / "all.png"), "caption": "room: all"}])
+    page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
+    table = page.tables["Table 1: stereo"]
+    assert table[0][1:] == ["paired: 1\u202f000 edges", "all: 1\u202f300 edges"]
+    assert table[4][1:] == ["SIFT", *["off"] * 8]
+    assert table[2][2] == f"100.00{THIN}\u00b1{THIN}1.00" and table[2][3] == "0.0070"
+    assert page.row("What is left at the end", "pooled")[2] == "48\u202f299"
+    assert page.row("What is left at the end", "room")[7:9] == ["96.00", "70.00"]
+    assert [row[3].split(THIN)[0] for row in page.tables["Quads"][1:]] == ["90.00", "60.00"]
+    filters = page.figure("filters_stereo")
+    assert filters["data"][0]["x"] == ["baseline", "epipolar proximity", "NCC", "best"]  # names, and none that is off
+    assert [trace["name"] for trace in filters["data"]] == ["recall, paired", "precision, paired", "recall, all",
+                                                            "precision, all"]
+    # 250 of 300 values lie within the shown range of the cue, in bins of equal height.
+    cumulative = page.figure("cue_stereo_1_cumulative")["data"]
+    assert [trace["name"] for trace in cumulative] == ["veridical, paired", "other, paired", "veridical, all",
+                                                       "other, all"]
+    assert max(cumulative[0]["y"]) == pytest.approx(100 * 250 / 300, rel=1e-4)
+    within = page.figure("disparity_error_within")["data"][0]["y"]
+    assert within[0] == 0 and within[-1] == pytest.approx(100 * 250 / 300, rel=1e-4)
+    motions = page.figure("motions_of_pairs_rotation")
+    assert len(motions["data"]) == 3 and len(motions["data"][0]["x"]) == 12
+    assert len({trace["marker"]["symbol"] for trace in motions["data"]}) == 3
+    assert "rotation -0.75, translation undefined" in page.text
+    assert page.pictures == 1
+    assert sum(plot.startswith("figure-counts") for plot in page.plots) == 4
+
+
+def test_few_frames_of_a_matching_evaluation_have_no_plots_per_frame(tmp_path):
+    write_matching(tmp_path / "m.json", ["room"], 9)
+    page = page_of(tmp_path / "m.json", output=tmp_path / "m.html")
+    assert not [plot for plot in page.plots if "counts" in plot or "motions" in plot]
+    assert page.row("Counts of a frame", "edges, left")[1] == "9"
+
+
+def test_every_table_and_figure_becomes_a_file(tmp_path):
+    write_run(tmp_path / "street", 12)
+    page = page_of(tmp_path / "street", csv=tmp_path / "csv", latex=tmp_path / "tex", figures=tmp_path / "svg")
+    assert len(list((tmp_path / "csv").glob("*.csv"))) == len(page.tables)
+    assert len(list((tmp_path / "tex").glob("*.tex"))) == len(page.tables)
+    rows = list(csv.DictReader((tmp_path / "csv/errors.csv").read_text().splitlines()))
+    assert float(rows[0]["mean"]) == statistics(0.5)["mean"] and rows[0]["alignment"] == "origin"
+    names = sorted(plot.removeprefix("figure-") for plot in page.plots)
+    assert sorted(file.stem for file in (tmp_path / "svg").glob("*.svg")) == names
+    assert sorted(file.stem for file in (tmp_path / "svg").glob("*.pdf")) == names
+    assert all(file.read_bytes()[:5] == b"%PDF-" for file in (tmp_path / "svg").glob("*.pdf"))
+
+
+def test_the_same_figure_gives_the_same_bytes(tmp_path):
+    from quadedge.report.matplotlib_figures import write_figure
+
+    figure = Figure("f", "t", "x", "y", series=[Series("a", [0, 1], [1, 2]), Series("b", [0], [1], points=True)])
+    first = [file.read_bytes() for file in write_figure(figure, tmp_path)]
+    assert [file.read_bytes() for file in write_figure(figure, tmp_path)] == first
+    assert b"<text" in first[0]  # letters stay letters
+
+
+def test_curves_are_interrupted_where_there_is_no_value():
+    figure = Figure("f", "t", "x", "y", series=[Series("a", [0, 1, 2], [1, np.nan, 3])])
+    assert to_plotly(figure)["data"][0]["y"] == [1, None, 3]
+
+
+def test_trajectories_are_aligned_at_the_first_time_that_both_know(tmp_path):
+    turned = "0 0 0.70710678 0.70710678"
+    (tmp_path / "a.txt").write_text(f"0 9 9 9 0 0 0 1\n1 1 0 0 {turned}\n2 1 1 0 {turned}\n")
+    (tmp_path / "b.txt").write_text("1.001 0 0 5 0 0 0 1\n2.001 0 0 6 0 0 0 1\n")
+    moved = results.aligned(results.read_tum(tmp_path / "a.txt"), results.read_tum(tmp_path / "b.txt"))
+    assert moved.positions[1] == pytest.approx([0, 0, 5])
+    assert moved.positions[2] == pytest.approx([1, 0, 5])  # forward along x in its own frame
+
+
+def test_command_ends_with_the_codes_of_the_program(tmp_path):
+    def run(*arguments):
+        return subprocess.run([sys.executable, "-m", "quadedge.report", *arguments], capture_output=True, text=True,
+                              env=os.environ | {"PYTHONPATH": str(Path(report.__file__).parents[2])})
+
+    write_run(tmp_path / "street", 3)
+    done = run(tmp_path / "street")
+    assert done.returncode == 0 and done.stdout.strip() == str(tmp_path / "street/report.html")
+    (tmp_path / "empty").mkdir()
+    missing = run(tmp_path / "empty")
+    assert missing.returncode == 3 and "report.json" in missing.stderr and missing.stderr.count("\n") == 1
+    unwritable = run(tmp_path / "street", "--output", tmp_path / "absent/page.html")
+    assert unwritable.returncode == 3 and "absent" in unwritable.stderr
+    assert run().returncode == 2
+
+
+PROGRAM = os.environ.get("QUADEDGE_PROGRAM")
+
+
+@pytest.mark.skipif(not PROGRAM, reason="QUADEDGE_PROGRAM names the program")
+def test_pages_of_the_program(tmp_path):
+    environment = os.environ | {"QUADEDGE_PYTHON": sys.executable, "XDG_CACHE_HOME": str(tmp_path / "cache"),
+                                "PYTHONPATH": str(Path(report.__file__).parents[2])}
+
+    def run(*arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], check=True, env=environment, capture_output=True)
+
+    run("synth", tmp_path / "data/room", "--frames", 11, "--size", "240x150", "--quiet")
+    run("batch", tmp_path / "data", "-o", tmp_path / "batch", "--quiet", "--stereo.ncc_min", 0.55)
+    page = ParsedPage((tmp_path / "batch/report.html").read_text())
+    summary = json.loads((tmp_path / "batch/summary.json").read_text())
+    for source in (summary, json.loads((tmp_path / "batch/sequences/room/report.json").read_text())):
+        assert source["config_changed"]["stereo.ncc_min"] == "0.55"
+        assert {"version", "commit", "date", "command", "device" if source is not summary else "input"} <= set(source)
+    assert page.facts["Command"].startswith("quadedge batch")
+    mean = summary["sequences"][0]["accuracy"]["origin_aligned"]["ape_translation_m"]["mean"]
+    assert numbers.significant(1000 * mean) in page.row(ORIGIN_TABLE, "room")[4]
+    assert len(page.plots) >= 10
+    run("report", tmp_path / "batch", "--baseline", tmp_path / "batch", "-o", tmp_path / "c.html", "--csv",
+        tmp_path / "c")
+    compared = ParsedPage((tmp_path / "c.html").read_text())
+    assert "(=)" in compared.row(ORIGIN_TABLE, "room")[5] and (tmp_path / "c/errors_se3_aligned.csv").is_file()
+    run("report", tmp_path / "batch/sequences/room")
+    assert ParsedPage((tmp_path / "batch/sequences/room/report.html").read_text()).facts["Device"]
+    run("evaluate", "matching", tmp_path / "data/room", "--frames", 2, "--quiet", "--html", tmp_path / "m.html")
+    matching = ParsedPage((tmp_path / "m.html").read_text())
+    assert matching.tables["Table 1: stereo"][6][2] == "off" and matching.pictures >= 2
+    assert "Table 3" in " ".join(matching.tables)

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "dataset_files.hpp"
+#include "made_up_run.hpp"
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+using dataset_files::write_text;
+using namespace quadedge;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A batch of one made-up run, and a run of its own.
+std::string made_up_batch(const TemporaryFolder& folder) {
+  const std::string batch = folder / "my results";
+  write_member(batch, "street", made_up_run(12, 0.01));
+  write_text(batch + "/summary.json", report::summary_json(report::summarise(batch, {"street"}, 50)));
+  return batch;
+}
+
+/// Stands for a Python: notes its arguments line by line and ends with `code`.
+std::string python_that_ends_with(int code, const TemporaryFolder& folder) {
+  const std::string file = folder / "python's place";
+  write_text(file, "#!/bin/sh\n[ \"$1\" = -c ] && exit 0\nprintf '%s\\n' \"$@\" >'" + (folder / "arguments") +
+                       "'\nexit " + std::to_string(code) + "\n");
+  fs::permissions(file, fs::perms::owner_all);
+  return "QUADEDGE_PYTHON=\"" + file + "\"";
+}
+
+const std::string kNoPython = "QUADEDGE_PYTHON=/absent/python";
+
+/// The one line that says how to get a page.
+bool tells_how_to_install(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.find("pip install") != std::string::npos &&
+         text.find("/absent/python") != std::string::npos && text.find("QUADEDGE_PYTHON") != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("report: starts the Python module with the results and what was asked for", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string batch = made_up_batch(folder), environment = python_that_ends_with(0, folder);
+  const auto arguments_of = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> command = {"report"};
+    command.insert(command.end(), options.begin(), options.end());
+    const auto result = run_program(command, environment);
+    INFO(result.err);
+    CHECK(result.code == 0);
+    return read_lines(folder / "arguments");
+  };
+  CHECK(arguments_of({batch}) ==
+        std::vector<std::string>{"-m", "quadedge.report", batch, "--output", batch + "/report.html"});
+  CHECK(arguments_of({batch, "-o", folder / "$(touch no).html", "--latex", folder / "t", "--figures", folder / "f"}) ==
+        std::vector<std::string>{"-m", "quadedge.report", batch, "--output", folder / "$(touch no).html", "--latex",
+                                 folder / "t", "--figures", folder / "f"});
+  CHECK(arguments_of({batch + "/sequences/street", "--csv", folder / "c"}) ==
+        std::vector<std::string>{"-m", "quadedge.report", batch + "/sequences/street", "--output",
+                                 batch + "/sequences/street/report.html", "--csv", folder / "c"});
+  CHECK(arguments_of({batch, "--baseline", batch, "-o", folder / "c.html"}) ==
+        std::vector<std::string>{"-m", "quadedge.report", batch, "--output", folder / "c.html", "--comparison",
+                                 folder / "c.json"});
+  CHECK(nlohmann::json::parse(read_text(folder / "c.json"))["sequences"][0]["systems"][0]["name"] == "baseline");
+  CHECK(run_program({"report", batch}, python_that_ends_with(3, folder)).code == 3);
+}
+
+TEST_CASE("report: without the Python module one line says how to install it, after all else is written", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string batch = made_up_batch(folder);
+  const auto page = run_program({"report", batch, "--peer", "Us=" + batch}, kNoPython);
+  CHECK(page.code == 2);
+  CHECK(tells_how_to_install(page.err));
+  CHECK(nlohmann::json::parse(read_text(batch + "/comparison.json"))["peers"][0]["name"] == "Us");
+  CHECK_FALSE(fs::exists(batch + "/report.html"));
+}
+
+TEST_CASE("report: what is no result, an unknown peer or a file in the way is refused before Python starts", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string batch = made_up_batch(folder), run = batch + "/sequences/street";
+  std::ofstream(folder / "there.html") << "in the way";
+  const std::string environment = python_that_ends_with(0, folder);
+  const auto code_of = [&](const std::vector<std::string>& command) { return run_program(command, environment).code; };
+  CHECK(code_of({"report", folder.path()}) == 3);
+  CHECK(code_of({"report", batch, "-o", folder / "there.html"}) == 2);
+  CHECK(code_of({"report", batch, "-o", folder / "there.html", "--force"}) == 0);
+  CHECK(code_of({"report", batch, "--peer", "no folder"}) == 2);
+  CHECK(code_of({"report", batch, "--peer", "QuadEdge=" + batch}) == 2);
+  CHECK(code_of({"report", batch, "--peer", "a=" + batch, "--peer", "a=" + batch}) == 2);
+  CHECK(code_of({"report", batch, "--peer", "a=" + (folder / "absent")}) == 3);
+  CHECK(code_of({"report", run, "--baseline", batch}) == 2);
+  CHECK(code_of({"report", batch, "--baseline", batch, "-o", folder / "x.json"}) == 2);
+}
+
+TEST_CASE("evaluate matching keeps the figures and drawings of its page beside it, with and without Python",
+          "[matching][device][cli]") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> command = {"evaluate", "matching", "room",    "--size", "320x200",
+                                            "--frames", "2",        "--quiet", "--html"};
+  auto page = command;
+  page.push_back(folder / "m.html");
+  const auto result = run_program(page, kNoPython);
+  CHECK(result.code == 2);
+  CHECK(tells_how_to_install(result.err));
+  const auto json = nlohmann::json::parse(read_text(folder / "m.json"));
+  CHECK(json["input"] == nlohmann::json::array({"room"}));
+  CHECK(json["config_changed"].empty());
+  CHECK(json["device"]["name"].get<std::string>().size() > 0);
+  CHECK_THAT(json["command"].get<std::string>(), Contains("quadedge evaluate matching room"));
+  REQUIRE(json["drawings"].size() >= 2);
+  for (const auto& drawing : json["drawings"]) CHECK(fs::exists(drawing["file"].get<std::string>()));
+  CHECK(fs::exists(folder / "m_drawings/room_all.png"));
+  // SIFT is switched off by default, and its rows say so.
+  CHECK(json["pooled"]["stereo"][4]["off"] == true);
+  CHECK_FALSE(json["pooled"]["stereo"][5].contains("off"));
+  const auto& cue = json["pooled"]["distributions"][1];
+  CHECK(cue["other_all"]["bins"].size() == cue["other"]["bins"].size());
+
+  CHECK(run_program(page, python_that_ends_with(0, folder)).code == 2);  // the figures are there already
+  page.push_back("--force");
+  CHECK(run_program(page, python_that_ends_with(0, folder)).code == 0);
+  CHECK(read_lines(folder / "arguments") ==
+        std::vector<std::string>{"-m", "quadedge.report", folder / "m.json", "--output", folder / "m.html", "--quiet"});
+  auto mistaken = command;
+  mistaken.push_back(folder / "n.json");
+  CHECK(run_program(mistaken, kNoPython).code == 2);
+}
