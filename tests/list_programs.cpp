@@ -45,6 +45,8 @@ int main(int count, char** arguments) {
   // Kernels that undo distortion are only built for cameras that have some.
   rig.left_undistortion = {rig.left.width, rig.left.height, std::vector<float>(pixels), std::vector<float>(pixels)};
   rig.right_undistortion = rig.left_undistortion;
+  rig.left_mask = {rig.left.width, rig.left.height,
+                   std::vector<std::uint8_t>(pixels)};  // and masks where there are some
 
   std::set<std::string> programs;
   for (std::size_t number = 0; number < most_variants(); ++number) {

@@ -235,8 +235,8 @@ TEST_CASE("motion blur is the mean over the time that the shutter needs for it",
   CHECK(mean == Approx(sum / 600).epsilon(0.03));
   constexpr double kDuration = 1.0 / 3.0;
   for (const int frame : {0, 5}) {
-    const auto blurred = synthetic::expose({scene, nullptr, rig, path, kDuration, 6, 2}, frame, Side::left);
-    const auto sharp = synthetic::expose({scene, nullptr, rig, path, 0.0, 6, 2}, frame, Side::left);
+    const auto blurred = synthetic::expose({scene, nullptr, rig, rig.left, path, kDuration, 6, 2}, frame, Side::left);
+    const auto sharp = synthetic::expose({scene, nullptr, rig, rig.left, path, 0.0, 6, 2}, frame, Side::left);
     CHECK(blurred.depth == sharp.depth);
     std::vector<double> expected(blurred.grey.size(), 0.0);
     constexpr int kMoments = 25;

@@ -178,6 +178,7 @@ StageWork least_work(const std::string& stage, const FrameSize& frame, const Con
   // The lists of candidates and of stereo edges: both have a count per left edge.
   if (stage == "scan") return {2 * 2 * frame.left_edges * sizeof(int), 2 * frame.left_edges};
   if (stage == "edge_threshold") return threshold_work(frame);
+  if (stage == "edge_mask") return {frame.pixels * 2, frame.pixels};
   if (stage == "edge_selection") return selection_work(frame);
   if (stage == "edge_detection") return edges_work(frame, config.edges);
   if (stage == "patches") return patches_work(frame);

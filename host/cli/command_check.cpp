@@ -2,8 +2,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/camera_options.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
+#include "cli/output_folder.hpp"
 #include "cli/rig_check.hpp"
 #include "data/check_tree.hpp"
 #include "quadedge/dataset.hpp"
@@ -20,7 +22,8 @@ class CheckCommand : public Command {
   }
   std::string examples() const override {
     return "  quadedge check kitti/sequences/06\n"
-           "  quadedge check eth3d";
+           "  quadedge check eth3d\n"
+           "  quadedge check flight --calibration camchain.yaml --write-calibration rig.yaml";
   }
   void declare(Options& options) override {
     options.positional("PATH", path_, "folder of a sequence, or of many");
@@ -28,12 +31,22 @@ class CheckCommand : public Command {
     formats.insert(formats.begin(), "auto");
     options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
     options.text("--sequence", options_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
+    declare_cameras(options, options_);
+    options.text("--write-calibration", calibration_,
+                 "write the cameras in the program's own format, for --calibration", "FILE");
+    options.flag("--force", force_, "replace the file that --write-calibration names");
     options.flag("--quiet", quiet_, "errors only");
   }
   int run() override {
+    check_output_file(calibration_, force_);
     if (is_tree()) return check_tree();
     DatasetCheck check = check_dataset(path_, options_);
-    if (check.errors.empty()) check_rig_evidence(open_dataset(path_, options_), check);
+    if (check.errors.empty()) {
+      const Dataset dataset = open_dataset(path_, options_);
+      check_rig_evidence(dataset, check);
+      if (!calibration_.empty())
+        write_calibration(calibration_, dataset.calibration.value_or(pinhole_calibration(dataset.rig)));
+    }
     if (!quiet_) {
       for (const auto& fact : check.facts) std::printf("%s\n", fact.c_str());
       for (const auto& warning : check.warnings) std::printf("warning: %s\n", warning.c_str());
@@ -47,7 +60,9 @@ class CheckCommand : public Command {
   /// Is PATH a folder of recordings instead of one? (KITTI's folder with a single sequence stands for that sequence.)
   bool is_tree() {
     std::error_code ignored;
-    if (options_.format != "auto" || !options_.sequence.empty() || !std::filesystem::is_directory(path_, ignored))
+    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() ||
+        !options_.calibration.empty() || !options_.mask.empty() || options_.fov != 0 ||
+        !std::filesystem::is_directory(path_, ignored))
       return false;
     if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList, ignored)) return true;
     const auto members = data::find_members(path_);
@@ -82,9 +97,9 @@ class CheckCommand : public Command {
     return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
   }
 
-  std::string path_;
+  std::string path_, calibration_;
   DatasetOptions options_;
-  bool quiet_ = false;
+  bool force_ = false, quiet_ = false;
 };
 
 }  // namespace

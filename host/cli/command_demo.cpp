@@ -28,7 +28,7 @@ class DemoCommand : public Command {
     options.flag("--force", run_.force, "replace the results in OUT");
     options.flag("--quiet", run_.quiet, "no progress");
     options.number("--scene-seed", scene_.seed, "of textures, cable shapes and camera noise");
-    declare_scene(options, scene_, size_);
+    declare_scene(options, scene_, texts_);
     method_.declare(options);
   }
 
@@ -36,7 +36,7 @@ class DemoCommand : public Command {
     if (run_.draw_every < 0) throw UsageError("--draw " + std::to_string(run_.draw_every) + ": expected 0 or more");
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
     method_.config();
-    set_size(scene_, size_);
+    set_texts(scene_, texts_);
     const Interruption interruption;
     RenderingStatus rendering(run_.quiet, &interruption);
     const auto source =
@@ -49,7 +49,7 @@ class DemoCommand : public Command {
 
  private:
   SyntheticOptions scene_;
-  std::string size_;
+  SceneTexts texts_;
   SequenceRunOptions run_ = default_run();
   double min_tracked_ = 50;
   MethodOptions method_;

@@ -1,6 +1,7 @@
 /// \file command_run.cpp  quadedge run: one recorded sequence to a trajectory.
 #include <charconv>
 
+#include "cli/camera_options.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
@@ -39,6 +40,7 @@ class RunCommand : public Command {
     options.choice("--format", dataset_.format, formats, "layout of the data; auto recognises it");
     options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
     options.text("--frames", frames_, "frames A up to but without B; either side may be left out", "A:B");
+    declare_cameras(options, dataset_);
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
     options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
     options.number("--draw", run_.draw_every, "pictures of the edges and quads of every N-th frame");

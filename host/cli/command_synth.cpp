@@ -20,17 +20,18 @@ class SynthCommand : public Command {
   }
   std::string examples() const override {
     return "  quadedge synth room60 --scene room --frames 60\n"
-           "  quadedge synth blurred --scene cables --frames 4 --size 320x200 --blur 3";
+           "  quadedge synth blurred --scene cables --frames 4 --size 320x200 --blur 3\n"
+           "  quadedge synth fisheye --lens equidistant --right-rotation 0,2,0";
   }
   void declare(Options& options) override {
     options.positional("OUT", output_, "folder for the sequence");
     options.number("--seed", scene_.seed, "of textures and camera noise");
     options.flag("--force", force_, "replace the sequence in OUT");
     options.flag("--quiet", quiet_, "no progress");
-    declare_scene(options, scene_, size_);
+    declare_scene(options, scene_, texts_);
   }
   int run() override {
-    set_size(scene_, size_);
+    set_texts(scene_, texts_);
     const SyntheticSequence sequence(scene_);
     clear_place();
     Progress progress(quiet_, "frames");
@@ -47,8 +48,8 @@ class SynthCommand : public Command {
   void clear_place() const {
     const std::filesystem::path folder(output_);
     std::error_code error;
-    for (const char* name : {"rgb.txt", "calibration.txt", "calibration2.txt", "extrinsics_1_2.txt", "groundtruth.txt",
-                             "rgb", "rgb2", "depth", "depth2"}) {
+    for (const char* name : {"rgb.txt", "calibration.txt", "calibration2.txt", "calibration.yaml", "extrinsics_1_2.txt",
+                             "groundtruth.txt", "rgb", "rgb2", "depth", "depth2"}) {
       if (!std::filesystem::exists(folder / name, error)) continue;
       if (!force_)
         throw UsageError(output_ + ": the folder holds a sequence (" + name +
@@ -58,7 +59,8 @@ class SynthCommand : public Command {
     }
   }
 
-  std::string output_, size_;
+  std::string output_;
+  SceneTexts texts_;
   SyntheticOptions scene_;
   bool force_ = false, quiet_ = false;
 };

@@ -1,15 +1,24 @@
 #include "cli/scene_options.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
+
+#include "cli/frame_source.hpp"
+#include "quadedge/error.hpp"
 
 namespace quadedge::cli {
 
-void declare_scene(Options& options, SyntheticOptions& scene, std::string& size) {
+void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts) {
   options.choice("--scene", scene.scene, synthetic_scenes(),
                  "room; cables: thin curves before a plain wall; facade: siding, brick, a fence and shrubs");
   options.number("--frames", scene.frames, "length of the sequence");
-  declare_view(options, scene, size);
+  declare_view(options, scene, texts.size);
+  options.choice("--lens", scene.lens, synthetic_lenses(),
+                 "of both cameras; wide ones see more than the pinhole camera");
+  options.text("--right-rotation", texts.right_rotation,
+               "turns the right camera: rotation vector in the left one's axes [degrees]", "X,Y,Z");
   options.group("What disturbs the rendered camera");
   options.number("--noise", scene.noise, "standard deviation of the camera noise [grey levels]");
   options.number("--gain", scene.gain, "factor on the light of every second frame");
@@ -21,6 +30,18 @@ void declare_scene(Options& options, SyntheticOptions& scene, std::string& size)
   options.number("--blur", scene.blur,
                  "length of the motion blur, on average over the path [px]; what the path moves per frame at most");
   options.number("--mover", scene.mover, "ratio of the image that a board moving on its own covers, 0 to 0.6");
+}
+
+void set_texts(SyntheticOptions& scene, const SceneTexts& texts) {
+  set_size(scene, texts.size);
+  if (texts.right_rotation.empty()) return;
+  double x = 0, y = 0, z = 0;
+  int length = 0;
+  if (std::sscanf(texts.right_rotation.c_str(), "%lf,%lf,%lf%n", &x, &y, &z, &length) != 3 ||
+      length != static_cast<int>(texts.right_rotation.size()) || !std::isfinite(x + y + z)) {
+    throw UsageError("--right-rotation " + texts.right_rotation + ": expected X,Y,Z in degrees, for example 0,2,0");
+  }
+  scene.right_rotation = {x, y, z};
 }
 
 void declare_view(Options& options, SyntheticOptions& scene, std::string& size) {

@@ -8,8 +8,16 @@
 
 namespace quadedge::cli {
 
-/// Declares --scene, --frames, those of declare_view(), and the disturbances.
-void declare_scene(Options& options, SyntheticOptions& scene, std::string& size);
+/// What is read as text: "WIDTHxHEIGHT" (see set_size()), and "X,Y,Z" in degrees.
+struct SceneTexts {
+  std::string size, right_rotation;
+};
+
+/// Declares --scene, --frames, those of declare_view(), --lens and --right-rotation, and the disturbances.
+void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts);
+
+/// Puts the texts into the options. \throws UsageError.
+void set_texts(SyntheticOptions& scene, const SceneTexts& texts);
 
 /// Declares --path and --size (read into `size`, see set_size()).
 void declare_view(Options& options, SyntheticOptions& scene, std::string& size);

@@ -84,6 +84,14 @@ StereoRig make_rig(const StereoCalibration& calibration, double fov) {
   return rig;
 }
 
+StereoCalibration pinhole_calibration(const StereoRig& rig) {
+  StereoCalibration calibration;
+  calibration.left.camera = rig.left;
+  calibration.right.camera = rig.right;
+  calibration.right_from_left = rig.right_from_left;
+  return calibration;
+}
+
 double usual_max_disparity(const StereoRig& rig) { return rig.left.fx * rig.baseline() / kNearestDepth; }
 
 }  // namespace quadedge

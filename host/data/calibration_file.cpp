@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/rounded_transform.hpp"
 #include "data/calibration_formats.hpp"
 #include "data/file_list.hpp"
 #include "data/text.hpp"
@@ -47,15 +48,6 @@ std::pair<std::string, StereoCalibration> read_any_calibration(const std::vector
   fail(files[0], first_keys(maps[0]), kFormats);
 }
 
-Eigen::Isometry3d rounded_transform(const Eigen::Isometry3d& transform) {
-  const Eigen::AngleAxisd turn(transform.linear());
-  const Eigen::Vector3d rotation = rounded(Eigen::Vector3d(turn.angle() * turn.axis()));
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear() = rotation_of_vector(rotation, "");
-  result.translation() = rounded(Eigen::Vector3d(transform.translation()));
-  return result;
-}
-
 /// \throws DataError for a baseline that is no stereo camera's: none, or the right camera on the left.
 void check_baseline(const StereoCalibration& calibration) {
   const Eigen::Vector3d right = calibration.right_from_left.inverse().translation();  // seen from the left camera
@@ -71,17 +63,11 @@ void check_baseline(const StereoCalibration& calibration) {
 
 }  // namespace
 
-Eigen::Vector3d rounded(const Eigen::Vector3d& values) {
-  constexpr double kPerUnit = 1e9;
-  return (values * kPerUnit).array().round().matrix() / kPerUnit + Eigen::Vector3d::Zero();
-}
-
 Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::string& where) {
   const double angle = vector.norm();
   if (!(angle <= 1.001 * kPi))
     fail(where, "a rotation by " + format_exact(angle) + " rad", "a vector of at most pi: degrees, perhaps");
-  if (angle == 0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
+  return rotation_by(vector);
 }
 
 StereoCalibration finished(StereoCalibration calibration, const std::string& format, const std::string& files) {

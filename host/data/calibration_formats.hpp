@@ -41,9 +41,6 @@ Lens read_worded_lens(const YamlMap& camera, const std::string& coefficients);
 /// degrees, most likely.
 Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::string& where);
 
-/// Rounded to 1e-9, see StereoCalibration; never a negative zero.
-Eigen::Vector3d rounded(const Eigen::Vector3d& values);
-
 /// \throws DataError, which names the lens by `where` ("FILE (cam0)"), for numbers that are no lens of its model.
 void check_lens(const Lens& lens, const std::string& where);
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "common/rounded_transform.hpp"
 #include "data/atomic_file.hpp"
 #include "data/calibration_formats.hpp"
 #include "data/text.hpp"
@@ -69,9 +70,8 @@ StereoCalibration read_native_calibration(const YamlMap& file) {
 }  // namespace data
 
 void write_calibration(const std::string& file, const StereoCalibration& calibration) {
-  const Eigen::AngleAxisd turn(calibration.right_from_left.linear());
-  const Eigen::Vector3d rotation = data::rounded(Eigen::Vector3d(turn.angle() * turn.axis())),
-                        translation = data::rounded(Eigen::Vector3d(calibration.right_from_left.translation()));
+  const Eigen::Vector3d rotation = rounded_rotation(calibration.right_from_left),
+                        translation = rounded(calibration.right_from_left.translation());
   data::write_atomically(
       file,
       "# Stereo calibration: pixels, metres, radians. Intrinsics fx fy cx cy; x_right = R x_left + translation, R "

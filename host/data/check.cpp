@@ -1,11 +1,13 @@
 /// \file check.cpp  What `quadedge check` prints.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
 
 namespace quadedge {
 namespace data {
@@ -33,6 +35,25 @@ void describe_camera(const PinholeCamera& camera, const char* which, DatasetChec
                         decimals(camera.fy, 3) + " cx " + decimals(camera.cx, 3) + " cy " + decimals(camera.cy, 3));
 }
 
+std::string hidden_part(const PixelMask& mask) {
+  const auto hidden = std::count(mask.hidden.begin(), mask.hidden.end(), 1);
+  return decimals(mask.empty() ? 0 : 100.0 * static_cast<double>(hidden) / static_cast<double>(mask.hidden.size()), 1);
+}
+
+void describe_lenses(const Dataset& dataset, DatasetCheck& check) {
+  const StereoRig& rig = dataset.rig;
+  if (const auto& calibration = dataset.calibration) {
+    const double fov = 2 * std::atan(0.5 * rig.left.width / rig.left.fx) / kDegree;
+    check.facts.push_back("calibration: " + calibration->format + ", " + calibration->files);
+    check.facts.push_back(std::string("lenses: ") + to_string(calibration->left.model) + " and " +
+                          to_string(calibration->right.model) + ", seen " + decimals(fov, 1) + " degrees wide");
+  }
+  if (!rig.left_mask.empty() || !rig.right_mask.empty()) {
+    check.facts.push_back("hidden: " + hidden_part(rig.left_mask) + " % of the left image, " +
+                          hidden_part(rig.right_mask) + " % of the right one");
+  }
+}
+
 void describe(const Dataset& dataset, DatasetCheck& check) {
   check.facts.push_back("format: " + dataset.format);
   check.facts.push_back("folder: " + dataset.path);
@@ -41,6 +62,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
   describe_camera(dataset.rig.right, "right", check);
   check.facts.push_back(std::string("images: ") +
                         (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, undone by a table"));
+  describe_lenses(dataset, check);
   check.facts.push_back("baseline: " + decimals(dataset.rig.baseline(), 6) + " m");
   check.facts.push_back("largest disparity: " + decimals(dataset.max_disparity, 1) + " px");
   if (const std::int64_t period = median_period(dataset); period > 0) {

@@ -85,8 +85,10 @@ void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
                      " says nothing of lenses; give a --calibration, or leave the field of view as it is");
   }
   if (dataset.calibration && (!options.calibration.empty() || options.fov != 0)) {
+    const double usual_before = usual_max_disparity(dataset.rig);  // the layout knows how near things come
     dataset.rig = make_rig(*dataset.calibration, options.fov);
-    dataset.max_disparity = usual_max_disparity(dataset.rig);
+    const double usual = usual_max_disparity(dataset.rig);
+    dataset.max_disparity = usual_before > 0 ? dataset.max_disparity * (usual / usual_before) : usual;
   }
   if (!options.mask.empty()) mask_rig(dataset.rig, options.mask);
 }

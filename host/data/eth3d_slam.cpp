@@ -5,7 +5,8 @@
 /// extrinsics_1_2.txt maps points of camera 2 (rgb2/) into camera 1 (rgb/). In the published recordings its translation
 /// is about (-0.09, 0, 0) m: camera 1 stands to the RIGHT of camera 2 although it comes first. The sign of that
 /// component tells which camera sees the scene from the left, so that disparities are positive whichever way a set was
-/// written; the ground truth, which belongs to camera 1, is carried over to the left camera.
+/// written; the ground truth, which belongs to camera 1, is carried over to the left camera. `quadedge synth --lens`
+/// writes calibration.yaml (see read_calibration) instead of the three, with camera 1 on the left.
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -77,10 +78,21 @@ bool is_eth3d_slam(const fs::path& folder) {
          (fs::is_directory(folder / "rgb") && fs::exists(folder / "calibration.txt"));
 }
 
-Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions&, Findings& findings) {
-  Dataset dataset;
-  dataset.path = folder.string();
-  dataset.name = folder_name(folder);
+namespace {
+
+/// What synth writes of cameras with lenses: camera 1 is the left one.
+void read_lenses(Dataset& dataset, const std::string& file, Findings& findings) {
+  findings.attempt([&] {
+    dataset.calibration = read_calibration(file);
+    dataset.rig.left = dataset.calibration->left.camera;
+    dataset.rig.right = dataset.calibration->right.camera;
+    if (sizes_fit(dataset)) dataset.rig = make_rig(*dataset.calibration);
+    dataset.max_disparity = usual_max_disparity(dataset.rig);
+  });
+}
+
+/// calibration.txt, calibration2.txt and extrinsics_1_2.txt. \returns camera1_from_camera2
+Eigen::Isometry3d read_pinhole_cameras(Dataset& dataset, const fs::path& folder, Findings& findings) {
   Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
   PinholeCamera camera1, camera2;
   findings.attempt([&] { camera1_from_camera2 = read_extrinsics((folder / "extrinsics_1_2.txt").string()); });
@@ -91,11 +103,28 @@ Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions&, Findings&
   dataset.rig.right = first_is_left ? camera2 : camera1;
   dataset.rig.right_from_left = first_is_left ? camera1_from_camera2.inverse() : camera1_from_camera2;
   dataset.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestDepth;
+  return camera1_from_camera2;
+}
+
+}  // namespace
+
+Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, Findings& findings) {
+  Dataset dataset;
+  dataset.path = folder.string();
+  dataset.name = folder_name(folder);
+  const fs::path lenses = folder / "calibration.yaml";
+  // Another calibration replaces all of these files; where they are, they still say which camera is the left one.
+  const bool has_lenses = fs::exists(lenses);
+  const bool has_cameras = !has_lenses && (options.calibration.empty() || fs::exists(folder / "extrinsics_1_2.txt"));
+  Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
+  if (has_cameras) camera1_from_camera2 = read_pinhole_cameras(dataset, folder, findings);
+  const bool first_is_left = !has_cameras || camera1_from_camera2.translation().x() > 0;
   if (!first_is_left) {
     dataset.notes.push_back("the left camera is rgb2/; groundtruth.txt, which is of rgb/, is carried over to it");
   }
   findings.attempt([&] { read_frames(dataset, folder, first_is_left, findings); });
-  findings.attempt([&] { set_sizes_from_first_frame(dataset); });
+  if (has_lenses) read_lenses(dataset, lenses.string(), findings);
+  if (has_cameras) findings.attempt([&] { set_sizes_from_first_frame(dataset); });
   if (fs::exists(folder / "groundtruth.txt")) {
     dataset.truth_file = (folder / "groundtruth.txt").string();
     findings.attempt([&] {

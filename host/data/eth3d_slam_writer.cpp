@@ -49,9 +49,14 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
     data::fail(folder, "a sequence that is already there", "an empty or new folder");
   }
   for (const char* name : {"rgb", "rgb2", "depth", "depth2"}) make_folder(root / name);
-  data::write_atomically((root / "calibration.txt").string(), camera_row(sequence.rig().left));
-  data::write_atomically((root / "calibration2.txt").string(), camera_row(sequence.rig().right));
-  data::write_atomically((root / "extrinsics_1_2.txt").string(), matrix_rows(sequence.rig().right_from_left.inverse()));
+  if (sequence.calibration().left.is_pinhole()) {
+    data::write_atomically((root / "calibration.txt").string(), camera_row(sequence.rig().left));
+    data::write_atomically((root / "calibration2.txt").string(), camera_row(sequence.rig().right));
+    data::write_atomically((root / "extrinsics_1_2.txt").string(),
+                           matrix_rows(sequence.rig().right_from_left.inverse()));
+  } else {
+    write_calibration((root / "calibration.yaml").string(), sequence.calibration());
+  }
   std::string list = "# timestamp filename\n";
   Trajectory truth;
   for (int frame = 0; frame < sequence.frames(); ++frame) {

@@ -13,6 +13,7 @@ namespace quadedge {
 ///   rgb.txt                            stamp and file name of the left images
 ///   calibration.txt, calibration2.txt  fx fy cx cy of the left and the right camera
 ///   extrinsics_1_2.txt                 3 x 4 matrix left_from_right [m]
+///   calibration.yaml                   with a lens, instead of these three: see write_calibration()
 ///   groundtruth.txt                    TUM rows of world_from_left
 ///   depth/STAMP.pfm, depth2/STAMP.pfm  exact z of every pixel of the left and right image [m], 32-bit PFM: 16-bit PNG
 ///   would

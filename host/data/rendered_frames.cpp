@@ -23,8 +23,8 @@ constexpr std::chrono::milliseconds kPoll{50};
 std::string key_of(const SyntheticOptions& options) {
   // Naming every member makes this fail to compile when one is added. Threads do not change a pixel, nor does the
   // length, but of the loop, which closes with the last frame.
-  const auto& [scene, path, frames, width, height, focal, baseline, noise, gain, right_gain, light, gamma, bits,
-               contrast, blur, mover, supersampling, seed, threads] = options;
+  const auto& [scene, path, frames, width, height, focal, baseline, lens, right_rotation, noise, gain, right_gain,
+               light, gamma, bits, contrast, blur, mover, supersampling, seed, threads] = options;
   static_cast<void>(threads);
   ContentHash hash;
   hash.add(renderer_version());
@@ -34,6 +34,8 @@ std::string key_of(const SyntheticOptions& options) {
   hash.add({static_cast<double>(width), static_cast<double>(height), focal, baseline, noise, gain, right_gain, light,
             gamma, static_cast<double>(bits), contrast, blur, mover, static_cast<double>(supersampling)});
   hash.add(std::to_string(seed));
+  hash.add(lens);
+  hash.add({right_rotation.x(), right_rotation.y(), right_rotation.z()});
   return hash.hex();
 }
 

@@ -3,20 +3,23 @@
 #include "common/image_check.hpp"
 #include "quadedge/error.hpp"
 #include "reference/edge_detection.hpp"
+#include "reference/edge_mask.hpp"
 #include "reference/edge_threshold.hpp"
 #include "stages/edge_detection.hpp"
+#include "stages/edge_mask.hpp"
 #include "stages/edge_threshold.hpp"
 #include "stages/undistortion.hpp"
 
 namespace quadedge {
 
-EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config) {
+EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config, const PixelMask& mask) {
   check_pixels(image, "the image");
   EdgeSet edges;
   std::size_t found = 0;
   if (device.is_reference()) {
     reference::EdgeThreshold threshold(config.edges);
-    edges = reference::to_edge_set(reference::detect_edges(image, config.edges, threshold.next({image})));
+    const auto all = reference::detect_edges(image, config.edges, threshold.next({image}));
+    edges = reference::to_edge_set(reference::outside_mask(all, mask, config.edges.margin));
     found = edges.size();
   } else {
     auto& context = *device.context();
@@ -29,7 +32,9 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
     upload.run(image, pixels);
     plane.prepare(pixels);
     threshold.run(plane, nullptr);
-    detection.run(plane, threshold.values(), device_edges);
+    detection.find_maxima(plane, threshold.values());
+    stages::EdgeMask(context, mask, config.edges.margin).run(detection.maxima());
+    detection.take_directions(plane, device_edges);
     device_edges.read_count();
     edges = device_edges.read(image.height);
     found = edges.size() + static_cast<std::size_t>(device_edges.host_dropped);

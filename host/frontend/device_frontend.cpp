@@ -15,10 +15,11 @@ DeviceRig::DeviceRig(const StereoRig& calibration) {
 }
 
 DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
-                               int white, const Config& config)
+                               const PixelMask& hidden, int white, const Config& config)
     : undistortion(context, table, camera.width, camera.height, config.variants, white),
       plane(context, camera.width, camera.height, config.edges.sigma, white),
       detection(context, camera.width, camera.height, config.edges, config.variants),
+      mask(context, hidden, config.edges.margin),
       patches(context, camera.width, camera.height, config.patches, config.variants, white),
       sift(context, camera.width, camera.height, config.sift, config.variants, white) {}
 
@@ -27,8 +28,8 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       config_(config),
       epipolar_(make_epipolar_geometry(rig, config.stereo)),
       calibration_(rig),
-      left_(context, rig.left, rig.left_undistortion, rig.white, config),
-      right_(context, rig.right, rig.right_undistortion, rig.white, config),
+      left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.white, config),
+      right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.white, config),
       threshold_(context, config.edges, config.variants),
       selection_(context, config.edges, selection_arguments(rig, Side::left, config.stereo),
                  selection_arguments(rig, Side::right, config.stereo)),
@@ -59,6 +60,8 @@ void DeviceFrontend::detect(DeviceRig& current) {
   threshold_.run(left_.plane, &right_.plane);
   left_.detection.find_maxima(left_.plane, threshold_.values());
   right_.detection.find_maxima(right_.plane, threshold_.values());
+  left_.mask.run(left_.detection.maxima());
+  right_.mask.run(right_.detection.maxima());
   selection_.run(left_.detection.maxima(), right_.detection.maxima());
   left_.detection.take_directions(left_.plane, left_.edges);
   right_.detection.take_directions(right_.plane, right_.edges);

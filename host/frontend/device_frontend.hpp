@@ -5,6 +5,7 @@
 #include "frontend/frontend.hpp"
 #include "stages/candidate_filters.hpp"
 #include "stages/edge_detection.hpp"
+#include "stages/edge_mask.hpp"
 #include "stages/edge_selection.hpp"
 #include "stages/edge_threshold.hpp"
 #include "stages/patches.hpp"
@@ -47,11 +48,12 @@ class DeviceFrontend : public Frontend {
     stages::Undistortion undistortion;
     stages::PaddedPlane plane;
     stages::EdgeDetection detection;
+    stages::EdgeMask mask;
     stages::Patches patches;
     stages::Sift sift;
     stages::DeviceEdges edges;
-    Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table, int white,
-           const Config& config);
+    Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
+           const PixelMask& hidden, int white, const Config& config);
   };
 
   /// Detects the edges of both images and waits for their number.

@@ -2,6 +2,7 @@
 
 #include "common/epipolar_rows.hpp"
 #include "reference/edge_detection.hpp"
+#include "reference/edge_mask.hpp"
 #include "reference/edge_selection.hpp"
 #include "reference/patches.hpp"
 #include "reference/sift.hpp"
@@ -62,8 +63,11 @@ ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
       epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
 
 void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
-  reference::ReferenceEdges left = reference::detect_edges(now.left.view(), config_.edges, threshold);
-  reference::ReferenceEdges right = reference::detect_edges(now.right.view(), config_.edges, threshold);
+  reference::ReferenceEdges left = reference::outside_mask(
+      reference::detect_edges(now.left.view(), config_.edges, threshold), calibration_.left_mask, config_.edges.margin);
+  reference::ReferenceEdges right =
+      reference::outside_mask(reference::detect_edges(now.right.view(), config_.edges, threshold),
+                              calibration_.right_mask, config_.edges.margin);
   now.edges_spacing = 0;
   if (config_.edges.budget > 0) {
     const SelectionArguments in_left = selection_arguments(calibration_, Side::left, config_.stereo),

@@ -9,6 +9,20 @@ namespace {
 
 constexpr double kMuchFiner = 1.5;
 
+/// Every `factor` x `factor` pixels become one, which is hidden where one of them is.
+void shrink(int factor, const PinholeCamera& camera, PixelMask& mask) {
+  if (mask.empty()) return;
+  PixelMask smaller{camera.width / factor, camera.height / factor, {}};
+  const auto at = [&](const PixelMask& grid, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+  };
+  smaller.hidden.resize(at(smaller, 0, smaller.height));
+  for (int y = 0; y < factor * smaller.height; ++y)
+    for (int x = 0; x < factor * smaller.width; ++x)
+      if (mask.hidden[at(mask, x, y)] != 0) smaller.hidden[at(smaller, x / factor, y / factor)] = 1;
+  mask = std::move(smaller);
+}
+
 /// Every `factor` x `factor` pixels become one.
 void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
   UndistortionTable smaller;
@@ -38,8 +52,14 @@ double focal_length(const PinholeCamera& camera) { return std::sqrt(camera.fx * 
 
 StereoRig with_equal_scales(StereoRig rig) {
   const double ratio = focal_length(rig.left) / focal_length(rig.right);
-  if (ratio >= kMuchFiner) shrink(static_cast<int>(std::lround(ratio)), rig.left, rig.left_undistortion);
-  if (1 / ratio >= kMuchFiner) shrink(static_cast<int>(std::lround(1 / ratio)), rig.right, rig.right_undistortion);
+  const auto shrink_camera = [](double times, PinholeCamera& camera, UndistortionTable& table, PixelMask& mask) {
+    if (times < kMuchFiner) return;
+    const int factor = static_cast<int>(std::lround(times));
+    shrink(factor, camera, mask);
+    shrink(factor, camera, table);
+  };
+  shrink_camera(ratio, rig.left, rig.left_undistortion, rig.left_mask);
+  shrink_camera(1 / ratio, rig.right, rig.right_undistortion, rig.right_mask);
   return rig;
 }
 

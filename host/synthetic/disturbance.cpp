@@ -42,14 +42,14 @@ PlaneSurface MovingBoard::surface(double phase, const Eigen::Isometry3d& scene_f
 }
 
 Radiance expose(const Exposure& exposure, int frame, Side side) {
-  const PinholeCamera& camera = side == Side::right ? exposure.rig.right : exposure.rig.left;
   const auto at = [&](double phase, int rays) {
     const Eigen::Isometry3d scene_from_left = exposure.path.scene_from_left(phase);
     Eigen::Isometry3d camera_from_scene = scene_from_left.inverse();
     if (side == Side::right) camera_from_scene = exposure.rig.right_from_left * camera_from_scene;
-    if (exposure.board == nullptr) return render(exposure.scene, camera, camera_from_scene, rays, exposure.threads);
+    if (exposure.board == nullptr)
+      return render(exposure.scene, exposure.rays, camera_from_scene, rays, exposure.threads);
     const PlaneSurface surface = exposure.board->surface(phase, scene_from_left);
-    return render(exposure.scene, camera, camera_from_scene, rays, exposure.threads, &surface);
+    return render(exposure.scene, exposure.rays, camera_from_scene, rays, exposure.threads, &surface);
   };
   if (!(exposure.duration > 0.0)) return at(frame, exposure.supersampling);
   // An odd number, so that the moment in the middle is the frame's own; the moments spread the rays, so that each needs

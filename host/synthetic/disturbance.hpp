@@ -32,6 +32,7 @@ struct Exposure {
   const Scene& scene;
   const MovingBoard* board;  ///< or null
   const StereoRig& rig;
+  const PixelRays& rays;  ///< of the camera whose view it is
   const CameraPath& path;
   double duration;  ///< [frame periods]; 0: an instant
   int supersampling, threads;

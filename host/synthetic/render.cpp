@@ -59,18 +59,25 @@ std::vector<Vector2d> hammersley(int count) {
   return offsets;
 }
 
+bool overlap(const PixelBox& one, const PixelBox& other) {
+  return one.x0 < other.x1 && other.x0 < one.x1 && one.y0 < other.y1 && other.y0 < one.y1;
+}
+
 /// Lists of the surfaces that may show in each tile of the image.
 struct TiledView {
-  TiledView(const VisibleSurfaces& parts, const PinholeCamera& camera)
-      : columns((camera.width + kTile - 1) / kTile),
-        rows((camera.height + kTile - 1) / kTile),
+  TiledView(const VisibleSurfaces& parts, const PixelRays& rays)
+      : columns((rays.width() + kTile - 1) / kTile),
+        rows((rays.height() + kTile - 1) / kTile),
         tiles(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {
-    for (const auto& part : parts) {
-      const PixelBox box = part->pixels(camera);
-      if (box.x0 >= box.x1 || box.y0 >= box.y1) continue;
-      for (int y = box.y0 / kTile; y <= (box.y1 - 1) / kTile; ++y)
-        for (int x = box.x0 / kTile; x <= (box.x1 - 1) / kTile; ++x)
-          tiles[static_cast<std::size_t>(y * columns + x)].push_back({part.get(), box});
+    std::vector<BoxedSurface> surfaces;
+    for (const auto& part : parts) surfaces.push_back({part.get(), part->pixels(rays.pinhole())});
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        const PixelBox tile = rays.footprint(
+            {x * kTile, y * kTile, std::min((x + 1) * kTile, rays.width()), std::min((y + 1) * kTile, rays.height())});
+        for (const BoxedSurface& surface : surfaces)
+          if (overlap(surface.box, tile)) tiles[static_cast<std::size_t>(y * columns + x)].push_back(surface);
+      }
     }
   }
   int columns, rows;
@@ -79,21 +86,23 @@ struct TiledView {
 
 class TileRenderer {
  public:
-  TileRenderer(const PinholeCamera& camera, int supersampling, Radiance& view)
-      : camera_(camera),
+  TileRenderer(const PixelRays& rays, int supersampling, Radiance& view)
+      : rays_(rays),
         grid_(regular_grid(supersampling)),
         fine_(hammersley(4 * supersampling * supersampling)),
-        spread_(1.0 / (supersampling * camera.fx)),
+        supersampling_(supersampling),
         view_(view) {}
 
   void render(const std::vector<BoxedSurface>& surfaces, int left, int top) const {
-    const int columns = std::min(kTile, camera_.width - left), rows = std::min(kTile, camera_.height - top);
+    const int columns = std::min(kTile, rays_.width() - left), rows = std::min(kTile, rays_.height() - top);
     std::array<std::array<Candidates, kTile>, kTile> candidates;  // of each pixel
     for (std::size_t j = 0; j < kTile; ++j) {
       for (std::size_t i = 0; i < kTile; ++i) {
         const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
+        if (x >= rays_.width() || y >= rays_.height()) continue;
+        const PixelBox pixel = rays_.footprint({x, y, x + 1, y + 1});
         for (const auto& [surface, box] : surfaces)
-          if (x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1) candidates[j][i].push_back(surface);
+          if (overlap(pixel, box)) candidates[j][i].push_back(surface);
       }
     }
     std::array<std::array<const void*, kTile + 1>, kTile + 1> corner{};  // object at (left - 0.5 + i, top - 0.5 + j)
@@ -102,22 +111,23 @@ class TileRenderer {
         const auto near_i = static_cast<std::size_t>(std::min(i, columns - 1));
         const auto near_j = static_cast<std::size_t>(std::min(j, rows - 1));
         corner[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] =
-            cast(candidates[near_j][near_i], camera_.ray({left + i - 0.5, top + j - 0.5})).object();
+            cast(candidates[near_j][near_i], rays_.corner(left + i, top + j)).object();
       }
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(rows); ++j) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(columns); ++i) {
         const Candidates& nearby = candidates[j][i];
         const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
-        const Hit centre = cast(nearby, camera_.ray(Vector2d(x, y)));
+        const auto pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.width()) + static_cast<std::size_t>(x);
+        if (!rays_.is_seen(x, y)) continue;
+        const Hit centre = cast(nearby, rays_.centre(x, y));
         const void* object = centre.object();
         bool mixed = corner[j][i] != object || corner[j][i + 1] != object || corner[j + 1][i] != object ||
                      corner[j + 1][i + 1] != object;
         double grey = 0.0;
         if (!mixed) grey = coarse(nearby, x, y, object, mixed);
         if (mixed) grey = fine(nearby, x, y);
-        const auto pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x);
         view_.grey[pixel] = grey;
         view_.depth[pixel] = centre.surface ? static_cast<float>(1.0 / centre.inverse_depth) : 0.0f;
       }
@@ -125,21 +135,24 @@ class TileRenderer {
   }
 
  private:
-  double radiance(const Hit& hit, const Vector3d& ray) const {
-    return hit.surface ? hit.surface->radiance(ray, 1.0 / hit.inverse_depth, spread_) : 0.0;
+  double radiance(const Hit& hit, const Vector3d& ray, double spread) const {
+    return hit.surface ? hit.surface->radiance(ray, 1.0 / hit.inverse_depth, spread) : 0.0;
   }
+
+  /// Distance between neighbouring rays of the grid at unit depth.
+  double spread(int x, int y) const { return 1.0 / (supersampling_ * rays_.focal_length(x, y)); }
 
   /// Mean over the grid; stops at a ray that meets another object.
   double coarse(const Candidates& candidates, int x, int y, const void* object, bool& mixed) const {
     double sum = 0.0;
     for (const Vector2d& offset : grid_) {
-      const Vector3d ray = camera_.ray(Vector2d(x, y) + offset);
+      const Vector3d ray = rays_.within(x, y, offset);
       const Hit hit = cast(candidates, ray);
       if (hit.object() != object) {
         mixed = true;
         return 0.0;
       }
-      sum += radiance(hit, ray);
+      sum += radiance(hit, ray, spread(x, y));
     }
     return sum / static_cast<double>(grid_.size());
   }
@@ -151,31 +164,31 @@ class TileRenderer {
     for (const Vector2d& offset : fine_) {
       Vector2d position = offset + shift;
       position -= Vector2d(std::floor(position.x()) + 0.5, std::floor(position.y()) + 0.5);
-      const Vector3d ray = camera_.ray(Vector2d(x, y) + position);
-      sum += radiance(cast(candidates, ray), ray);
+      const Vector3d ray = rays_.within(x, y, position);
+      sum += radiance(cast(candidates, ray), ray, spread(x, y));
     }
     return sum / static_cast<double>(fine_.size());
   }
 
-  const PinholeCamera& camera_;
+  const PixelRays& rays_;
   std::vector<Vector2d> grid_, fine_;
-  double spread_;  // distance between neighbouring rays of the grid at unit depth
+  int supersampling_;
   Radiance& view_;
 };
 
 }  // namespace
 
-Radiance render(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world,
+Radiance render(const Scene& scene, const PixelRays& rays, const Eigen::Isometry3d& camera_from_world,
                 int supersampling, int threads, const Surface* extra) {
   VisibleSurfaces parts;
   for (const auto& surface : scene.surfaces) surface->view(camera_from_world, parts);
   if (extra != nullptr) extra->view(camera_from_world, parts);
-  const TiledView tiled(parts, camera);
+  const TiledView tiled(parts, rays);
 
   Radiance view;
-  view.grey.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  view.grey.resize(static_cast<std::size_t>(rays.width()) * static_cast<std::size_t>(rays.height()));
   view.depth.resize(view.grey.size());
-  const TileRenderer renderer(camera, supersampling, view);
+  const TileRenderer renderer(rays, supersampling, view);
 
   std::atomic<int> next{0};
   const int count = tiled.columns * tiled.rows;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "synthetic/pixel_rays.hpp"
 #include "synthetic/shapes.hpp"
 
 namespace quadedge::synthetic {
@@ -19,7 +20,7 @@ struct Radiance {
 /// one object get 4 times as many, in a low-discrepancy set that is shifted at random from pixel to pixel (unbiased in
 /// every direction). \param threads  0: one per processor. The result does not depend on it. \param extra    one more
 /// surface in the scene, or null
-Radiance render(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_world,
+Radiance render(const Scene& scene, const PixelRays& rays, const Eigen::Isometry3d& camera_from_world,
                 int supersampling, int threads, const Surface* extra = nullptr);
 
 }  // namespace quadedge::synthetic

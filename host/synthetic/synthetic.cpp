@@ -5,10 +5,14 @@
 #include <optional>
 #include <sstream>
 
+#include "common/rounded_transform.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
 #include "synthetic/disturbance.hpp"
 #include "synthetic/hash.hpp"
+#include "synthetic/lenses.hpp"
 #include "synthetic/path.hpp"
+#include "synthetic/pixel_rays.hpp"
 #include "synthetic/scenes.hpp"
 
 namespace quadedge {
@@ -38,6 +42,8 @@ void check(const SyntheticOptions& options) {
   require(options.height >= 8 && options.height <= 8192, "height", options.height, "8 to 8192 px");
   require(options.focal >= 4.0 && options.focal <= 1e5, "focal", options.focal, "4 to 100000 px");
   require(options.baseline >= 1e-3 && options.baseline <= 0.5, "baseline", options.baseline, "0.001 to 0.5 m");
+  require_known("lens", options.lens, synthetic_lenses());
+  require(options.right_rotation.norm() <= 20.0, "right_rotation", options.right_rotation.norm(), "up to 20 degrees");
   require(options.noise >= 0.0 && options.noise <= 100.0, "noise", options.noise, "0 to 100 grey levels");
   require(options.gain >= 0.1 && options.gain <= 10.0, "gain", options.gain, "0.1 to 10");
   require(options.right_gain >= 0.1 && options.right_gain <= 10.0, "right_gain", options.right_gain, "0.1 to 10");
@@ -60,18 +66,28 @@ double tone(double grey, const SyntheticOptions& options) {
   return grey;
 }
 
-StereoRig make_rig(const SyntheticOptions& options) {
-  StereoRig rig;
+StereoCalibration calibrate(const SyntheticOptions& options) {
+  StereoCalibration calibration;
+  calibration.left = synthetic::make_lens(options.lens, options.focal);
   // The optical axis misses the middle by a little, as in a real camera.
-  rig.left = {options.focal,
-              options.focal,
-              0.5 * (options.width - 1) + 0.011 * options.width,
-              0.5 * (options.height - 1) - 0.013 * options.height,
-              options.width,
-              options.height};
-  rig.right = rig.left;
-  rig.white = (1 << options.bits) - 1;
-  rig.right_from_left.translation().x() = -options.baseline;
+  PinholeCamera& camera = calibration.left.camera;
+  camera.cx = 0.5 * (options.width - 1) + 0.011 * options.width;
+  camera.cy = 0.5 * (options.height - 1) - 0.013 * options.height;
+  camera.width = options.width;
+  camera.height = options.height;
+  calibration.right = calibration.left;
+  calibration.right_from_left.translation().x() = -options.baseline;
+  if (const double degrees = options.right_rotation.norm(); degrees > 0.0) {
+    const Eigen::AngleAxisd turn(-degrees * kDegree, options.right_rotation / degrees);
+    calibration.right_from_left = rounded_transform(turn * calibration.right_from_left);
+  }
+  calibration.files = "the rendered rig";
+  return calibration;
+}
+
+StereoRig rig_of(const StereoCalibration& calibration, int bits) {
+  StereoRig rig = make_rig(calibration);
+  rig.white = (1 << bits) - 1;
   return rig;
 }
 
@@ -105,7 +121,10 @@ class SyntheticSequence::Implementation {
  public:
   explicit Implementation(const SyntheticOptions& asked)
       : options(asked),
-        rig(make_rig(asked)),
+        calibration(calibrate(asked)),
+        rig(rig_of(calibration, asked.bits)),
+        left_rays(calibration.left),
+        right_rays(calibration.right),
         scene(synthetic::make_scene(asked.scene, asked.seed, asked.focal)),
         path(asked.path, asked.seed, asked.frames, scene.lane),
         exposure(exposure_of(asked, path, rig.left)) {
@@ -113,7 +132,9 @@ class SyntheticSequence::Implementation {
   }
 
   SyntheticOptions options;
+  StereoCalibration calibration;
   StereoRig rig;
+  synthetic::PixelRays left_rays, right_rays;
   synthetic::Scene scene;
   synthetic::CameraPath path;
   double exposure;  // [frame periods]
@@ -140,6 +161,8 @@ std::string SyntheticSequence::name() const {
 
 const StereoRig& SyntheticSequence::rig() const { return implementation_->rig; }
 
+const StereoCalibration& SyntheticSequence::calibration() const { return implementation_->calibration; }
+
 int SyntheticSequence::frames() const { return implementation_->options.frames; }
 
 std::int64_t SyntheticSequence::stamp_ns(int frame) const { return frame * kFramePeriod; }
@@ -152,7 +175,8 @@ RenderedView SyntheticSequence::render(int frame, Side side) const {
   const SyntheticOptions& options = implementation_->options;
   require(frame >= 0 && frame < options.frames, "frame", frame, "0 to frames - 1");
   const synthetic::MovingBoard* board = implementation_->board ? &*implementation_->board : nullptr;
-  synthetic::Radiance radiance = synthetic::expose({implementation_->scene, board, rig(), implementation_->path,
+  const synthetic::PixelRays& rays = side == Side::right ? implementation_->right_rays : implementation_->left_rays;
+  synthetic::Radiance radiance = synthetic::expose({implementation_->scene, board, rig(), rays, implementation_->path,
                                                     implementation_->exposure, options.supersampling, options.threads},
                                                    frame, side);
   const double gain =

@@ -38,6 +38,9 @@ StereoRig make_rig(const StereoCalibration& calibration, double fov = 0);
 /// not fit.
 void mask_rig(StereoRig& rig, const std::string& files);
 
+/// The calibration of a rig whose recorded images are pinhole images.
+StereoCalibration pinhole_calibration(const StereoRig& rig);
+
 /// Largest disparity of things half a metre before a rig [px], the default where nothing is known of the scene.
 double usual_max_disparity(const StereoRig& rig);
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "quadedge/camera.hpp"
+#include "quadedge/calibration.hpp"
 #include "quadedge/image.hpp"
 #include "quadedge/side.hpp"
 #include "quadedge/trajectory.hpp"
@@ -23,16 +23,22 @@ const std::vector<std::string>& synthetic_scenes();
 /// round, the last frame has the first one's pose exactly.
 const std::vector<std::string>& synthetic_paths();
 
+/// The lenses that can be rendered: pinhole, and one of typical strength for each LensModel, by its name.
+const std::vector<std::string>& synthetic_lenses();
+
 /// What to render.
 struct SyntheticOptions {
   std::string scene = "room";    ///< one of synthetic_scenes()
   std::string path = "ellipse";  ///< one of synthetic_paths()
   int frames = 60;
   int width = 942, height = 489;
-  double focal = 541.764;       ///< px
-  double baseline = 0.0598913;  ///< m
-  double noise = 1.5;           ///< standard deviation of the camera noise [grey levels]
-  double gain = 1.0;  ///< of the light in every second frame: it changes by this factor, and back, from frame to frame
+  double focal = 541.764;        ///< px
+  double baseline = 0.0598913;   ///< m
+  std::string lens = "pinhole";  ///< one of synthetic_lenses(), of both cameras
+  /// The right camera's axes in the left one's, turned by this vector (axis times angle) [degrees].
+  Eigen::Vector3d right_rotation = Eigen::Vector3d::Zero();
+  double noise = 1.5;  ///< standard deviation of the camera noise [grey levels]
+  double gain = 1.0;   ///< of the light in every second frame: it changes by this factor, and back, from frame to frame
   double right_gain = 1.0;  ///< of the right camera's exposure
   double light = 1.0;       ///< of all frames
   double gamma = 1.0;       ///< grey levels become 255 (v / 255)^(1 / gamma), camera noise included
@@ -51,11 +57,12 @@ struct SyntheticOptions {
 /// One rendered view.
 struct RenderedView {
   Image image;
-  std::vector<float> depth;  ///< height x width, z of the ray through the pixel centre [m]
+  std::vector<float> depth;  ///< height x width, z of the ray through the centre of the lens's pixel [m]; 0: none
 };
 
 /// A deterministic renderer; what disturbs a camera can be switched on: noise, light, exposure, blur, moving objects.
-/// The same options give the same bytes on every run. The world is the first left camera's frame; the rig is rectified.
+/// The same options give the same bytes on every run. The world is the first left camera's frame; the rig is rectified
+/// unless the right camera is turned.
 /// Intensities are linear in reflectance, a pixel is the mean of rays spread over its square (four times as many where
 /// a silhouette crosses it).
 class SyntheticSequence {
@@ -66,7 +73,8 @@ class SyntheticSequence {
 
   /// Scene and path, "facade-drive"; of the ellipse the scene alone.
   std::string name() const;
-  const StereoRig& rig() const;
+  const StereoRig& rig() const;                  ///< pinhole cameras; with a lens, tables that make their images
+  const StereoCalibration& calibration() const;  ///< the lenses, as told above
   int frames() const;
   std::int64_t stamp_ns(int frame) const;  ///< 20 frames per second
   Eigen::Isometry3d world_from_left(

@@ -1,0 +1,33 @@
+#pragma once
+/// \file rounded_transform.hpp  Rigid transforms to 1e-9 m and 1e-9 rad, as StereoCalibration keeps them.
+
+#include <Eigen/Geometry>
+
+namespace quadedge {
+
+/// Rounded to 1e-9; never a negative zero.
+inline Eigen::Vector3d rounded(const Eigen::Vector3d& values) {
+  constexpr double kPerUnit = 1e9;
+  return (values * kPerUnit).array().round().matrix() / kPerUnit + Eigen::Vector3d::Zero();
+}
+
+/// Axis times angle [rad], rounded.
+inline Eigen::Vector3d rounded_rotation(const Eigen::Isometry3d& transform) {
+  const Eigen::AngleAxisd turn(transform.linear());
+  return rounded(turn.angle() * turn.axis());
+}
+
+inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
+}
+
+inline Eigen::Isometry3d rounded_transform(const Eigen::Isometry3d& transform) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear() = rotation_by(rounded_rotation(transform));
+  result.translation() = rounded(transform.translation());
+  return result;
+}
+
+}  // namespace quadedge

@@ -1,0 +1,29 @@
+#pragma once
+/// \file edge_mask.hpp  Between stages 2b and 2c: no edges where an image shows nothing of the world. doc/method.md
+/// section 1.
+
+#include "opencl/kernel.hpp"
+#include "quadedge/camera.hpp"
+#include "stages/edge_maxima.hpp"
+
+namespace quadedge::stages {
+
+/// Takes the maxima of one camera's images away within edges.margin of hidden pixels. Without a mask it does nothing.
+class EdgeMask {
+ public:
+  /// \param margin edges.margin [px]
+  EdgeMask(opencl::Context& context, const PixelMask& mask, int margin);
+
+  /// Enqueues only.
+  void run(EdgeMaxima& maxima);
+
+ private:
+  opencl::Context& context_;
+  int width_, height_;
+  std::size_t local_size_;
+  opencl::Buffer<cl_uchar> hidden_;  ///< empty: no mask
+  opencl::Kernel<cl_int, cl_int, opencl::In<cl_uchar>, opencl::Out<cl_float>, opencl::Out<cl_int>> rows_;
+  opencl::Kernel<cl_int, cl_int, opencl::In<cl_uchar>, opencl::Out<cl_uchar>> cells_;
+};
+
+}  // namespace quadedge::stages

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "calibration_files.hpp"
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+using dataset_files::real_data;
+
+TEST_CASE("cli: the flight gives the same trajectory with every kind of calibration file", "[cli][calibration][data]") {
+  const std::string flight = real_data("euroc_mh_01_easy"), kalibr = real_data("calibrations");
+  if (flight.empty() || kalibr.empty()) return;
+  const TemporaryFolder folder;
+  const std::string sensors = flight + "/mav0/cam0/sensor.yaml," + flight + "/mav0/cam1/sensor.yaml";
+  REQUIRE(run_program({"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"}).code == 0);
+  CHECK(run_program({"check", flight, "--quiet", "--write-calibration", folder / "native.yaml"}).code == 2);  // --force
+  calibration_files::Rig rig;
+  const auto body_from = [&](const char* camera) {
+    const std::string text = read_text(flight + "/mav0/" + camera + "/sensor.yaml"), from = "data: [";
+    const auto at = text.find(from) + from.size();
+    const auto values = calibration_files::values_of(text.substr(at, text.find(']', at) - at));
+    Eigen::Matrix4d matrix;
+    for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = values[static_cast<std::size_t>(i)];
+    return Eigen::Isometry3d(matrix);
+  };
+  rig.body_from_left = body_from("cam0");
+  rig.body_from_right = body_from("cam1");
+  calibration_files::write_opencv(rig, folder / "stereo.yml");
+  const auto infos = calibration_files::ros_camera_infos(rig);
+  dataset_files::write_text(folder / "left.yaml", infos.first);
+  dataset_files::write_text(folder / "right.yaml", infos.second);
+  const std::vector<std::string> run = {"run", flight, "--frames", "0:8", "--quiet", "-o"};
+  const auto trajectory = [&](const std::string& name, const std::string& calibration) {
+    std::vector<std::string> arguments = run;
+    arguments.push_back(folder / name);
+    if (!calibration.empty()) arguments.insert(arguments.end(), {"--calibration", calibration});
+    const ProgramResult result = run_program(arguments);
+    INFO(result.err);
+    REQUIRE(result.code == 0);
+    return read_text(folder / (name + "/poses.csv"));
+  };
+  const std::string expected = trajectory("layout", "");
+  CHECK(trajectory("euroc", sensors) == expected);
+  CHECK(trajectory("kalibr", kalibr + "/kalibr_euroc_mav.yaml") == expected);
+  CHECK(trajectory("opencv", folder / "stereo.yml") == expected);
+  CHECK(trajectory("ros", (folder / "left.yaml") + "," + (folder / "right.yaml")) == expected);
+  CHECK(trajectory("native", folder / "native.yaml") == expected);
+}
+
+TEST_CASE("cli: a calibration, a view and a mask that do not fit end with their code", "[cli][calibration]") {
+  const TemporaryFolder folder;
+  const std::string flight = dataset_files::write_euroc(folder / "flight");
+  const auto fails = [&](std::vector<std::string> arguments, int code, const std::string& found) {
+    arguments.insert(arguments.begin(), {"run", flight, "-o", folder / "out"});
+    const ProgramResult result = run_program(arguments);
+    CHECK(result.code == code);
+    CHECK_THAT(result.err, Contains(found));
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  };
+  const calibration_files::Rig rig;
+  dataset_files::write_text(folder / "chain.yaml", calibration_files::kalibr_chain(rig, "T_imu_cam"));
+  fails({"--calibration", folder / "chain.yaml"}, 3, "752 x 480");
+  fails({"--calibration", folder / "absent.yaml"}, 3, "absent.yaml");
+  fails({"--fov", "190"}, 2, "--fov");
+  fails({"--mask", folder / "absent.png"}, 3, "absent.png");
+  dataset_files::write_image(folder / "mask.png", 16, 24);
+  fails({"--mask", folder / "mask.png"}, 3, "16 x 24");
+  const std::string pinhole = dataset_files::write_kitti(folder / "k") + "/sequences/07";
+  CHECK(run_program({"check", pinhole, "--fov", "90"}).code == 2);
+  CHECK(run_program({"synth", folder / "s", "--right-rotation", "0,2"}).code == 2);
+  // The rig of a recording without lenses is written too.
+  CHECK(run_program({"check", pinhole, "--quiet", "--write-calibration", folder / "kitti.yaml"}).code == 0);
+  CHECK_THAT(read_text(folder / "kitti.yaml"),
+             Contains("left_coefficients: []") && Contains("translation: [-0.5, 0, 0]"));
+}

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "common/mask_border.hpp"
+#include "devices.hpp"
+#include "edge_images.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/detect_edges.hpp"
+#include "reference/edge_mask.hpp"
+#include "stages/edge_detection.hpp"
+#include "stages/edge_mask.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+/// A disc, a corner and a single pixel.
+PixelMask odd_mask(int width, int height) {
+  PixelMask mask{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      mask.hidden.push_back(
+          std::hypot(x - 20, y - 15) < 6 || (x > width - 4 && y > height - 7) || (x == 43 && y == 30) ? 1 : 0);
+  return mask;
+}
+
+}  // namespace
+
+TEST_CASE("edge mask: the border is as wide as asked for, along rows, columns and both", "[edges]") {
+  const PixelMask mask = odd_mask(61, 47);
+  for (const int margin : {0, 1, 4, 70}) {
+    const PixelMask wide = with_border(mask, margin);
+    for (int y = 0; y < 47; ++y) {
+      for (int x = 0; x < 61; ++x) {
+        bool near = false;
+        for (int row = std::max(y - margin, 0); row <= std::min(y + margin, 46); ++row)
+          for (int column = std::max(x - margin, 0); column <= std::min(x + margin, 60); ++column)
+            near = near || mask.hidden[static_cast<std::size_t>(row * 61 + column)] != 0;
+        REQUIRE(wide.hidden[static_cast<std::size_t>(y * 61 + x)] == (near ? 1 : 0));
+      }
+    }
+  }
+}
+
+TEST_CASE("edge mask: every device and way of detecting keeps what the reference keeps", "[edges][device][oclgrind]") {
+  const int width = 61, height = 47;
+  Config config;
+  config.edges.margin = 3;
+  config.edges.threshold = 2;
+  const Image image = textured_image(width, height, 5);
+  const PixelMask mask = odd_mask(width, height), wide = with_border(mask, 3);
+  Device reference("reference");
+  const EdgeSet all = detect_edges(image.view(), reference, config);
+  const EdgeSet expected = detect_edges(image.view(), reference, config, mask);
+  REQUIRE(expected.size() > all.size() / 2);
+  REQUIRE(expected.size() < all.size() - 20);
+  // Edges lie within half a pixel of their cell, and Newton's step moves them by less than another one.
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    bool clear = false;
+    for (int y = static_cast<int>(expected.y[i]) - 1; y <= static_cast<int>(expected.y[i]) + 2; ++y)
+      for (int x = static_cast<int>(expected.x[i]) - 1; x <= static_cast<int>(expected.x[i]) + 2; ++x)
+        clear = clear || wide.hidden[static_cast<std::size_t>(y * width + x)] == 0;
+    CHECK(clear);
+  }
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    for (const auto& variant : opencl::all_variants()) {
+      if (variant.stage != "edge_detection") continue;
+      INFO(device.info().name << ", " << variant.name);
+      config.variants = {{"edge_detection", variant.name}};
+      const EdgeSet edges = detect_edges(image.view(), device, config, mask);
+      REQUIRE(edges.size() == expected.size());
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        CHECK(edges.x[i] == Approx(expected.x[i]).margin(1e-3));
+        CHECK(edges.y[i] == Approx(expected.y[i]).margin(1e-3));
+      }
+      CHECK(detect_edges(image.view(), device, config).size() == all.size());
+    }
+  }
+}
