@@ -65,7 +65,7 @@ TEST_CASE("cli: a calibration, a view and a mask that do not fit end with their 
   fails({"--mask", folder / "absent.png"}, 3, "absent.png");
   dataset_files::write_image(folder / "mask.png", 16, 24);
   fails({"--mask", folder / "mask.png"}, 3, "16 x 24");
-  const std::string pinhole = dataset_files::write_kitti(folder / "k") + "/sequences/07";
+  const std::string pinhole = dataset_files::write_kitti(folder / "k");
   CHECK(run_program({"check", pinhole, "--fov", "90"}).code == 2);
   CHECK(run_program({"synth", folder / "s", "--right-rotation", "0,2"}).code == 2);
   // The rig of a recording without lenses is written too.

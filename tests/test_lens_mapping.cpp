@@ -32,7 +32,7 @@ std::vector<Lens> typical_lenses() {
       lens_of(LensModel::double_sphere, {-0.2, 0.58}),
       lens_of(LensModel::double_sphere, {0.3, 0.4}),
       lens_of(LensModel::omnidirectional, {0.9, -0.1, 0.05, 1e-4, -1e-4}),
-      lens_of(LensModel::omnidirectional, {1.7, -0.2, 0.1, 1e-4, -1e-4}),
+      lens_of(LensModel::omnidirectional, {1.2, -0.2, 0.1, 1e-4, -1e-4}),
   };
 }
 

@@ -53,7 +53,8 @@ void check_baseline(const StereoCalibration& calibration) {
   const Eigen::Vector3d right = calibration.right_from_left.inverse().translation();  // seen from the left camera
   std::ostringstream place;
   place << "(" << right.x() << ", " << right.y() << ", " << right.z() << ") m";
-  if (!(right.norm() > 0) || !right.allFinite())
+  constexpr double kShortest = 1e-6;  // m
+  if (!(right.norm() > kShortest) || !right.allFinite())
     fail(calibration.files, "a right camera at " + place.str() + " from the left one", "a baseline above zero");
   if (right.x() < 0 && -right.x() >= std::abs(right.y())) {
     fail(calibration.files, "a right camera at " + place.str() + " in the left one's frame, which is on its left",

@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
+#include <set>
 
 #include "data/calibration_formats.hpp"
 #include "data/layout.hpp"
@@ -15,6 +16,13 @@ namespace {
 
 constexpr const char* kExpected = "M1 D1 M2 D2 R T, as OpenCV's stereo calibration has them";
 
+/// \throws DataError for an entry that stands twice.
+void check_keys(const cv::FileNode& root, const std::string& file) {
+  std::set<std::string> keys;
+  for (const std::string& key : root.keys())
+    if (!keys.insert(key).second) fail(file, "a second entry " + key, "each entry once");
+}
+
 /// Files opened together; entries are looked for in all of them.
 class Storage {
  public:
@@ -24,6 +32,7 @@ class Storage {
       try {
         opened_.emplace_back(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
         if (!opened_.back().isOpened() || !opened_.back().root().isMap()) fail(file, "no entries", kExpected);
+        check_keys(opened_.back().root(), file);
       } catch (const cv::Exception& problem) {
         fail(file, "text that cv::FileStorage does not read (" + problem.err + ")", kExpected);
       }
@@ -81,8 +90,10 @@ class Storage {
   }
   Place required(const std::string& key) const {
     const Place place = find(key);
-    if (place.second == nullptr) fail(files_.back(), "no entry " + key, kExpected);
-    return place;
+    if (place.second != nullptr) return place;
+    std::string all;
+    for (const auto& file : files_) all += (all.empty() ? "" : ", ") + file;
+    fail(all, "no entry " + key, kExpected);
   }
 
   std::vector<std::string> files_;

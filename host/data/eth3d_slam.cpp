@@ -80,17 +80,6 @@ bool is_eth3d_slam(const fs::path& folder) {
 
 namespace {
 
-/// What synth writes of cameras with lenses: camera 1 is the left one.
-void read_lenses(Dataset& dataset, const std::string& file, Findings& findings) {
-  findings.attempt([&] {
-    dataset.calibration = read_calibration(file);
-    dataset.rig.left = dataset.calibration->left.camera;
-    dataset.rig.right = dataset.calibration->right.camera;
-    if (sizes_fit(dataset)) dataset.rig = make_rig(*dataset.calibration);
-    dataset.max_disparity = usual_max_disparity(dataset.rig);
-  });
-}
-
 /// calibration.txt, calibration2.txt and extrinsics_1_2.txt. \returns camera1_from_camera2
 Eigen::Isometry3d read_pinhole_cameras(Dataset& dataset, const fs::path& folder, Findings& findings) {
   Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
@@ -123,7 +112,7 @@ Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, F
     dataset.notes.push_back("the left camera is rgb2/; groundtruth.txt, which is of rgb/, is carried over to it");
   }
   findings.attempt([&] { read_frames(dataset, folder, first_is_left, findings); });
-  if (has_lenses) read_lenses(dataset, lenses.string(), findings);
+  if (has_lenses) findings.attempt([&] { set_calibration(dataset, read_calibration(lenses.string())); });
   if (has_cameras) findings.attempt([&] { set_sizes_from_first_frame(dataset); });
   if (fs::exists(folder / "groundtruth.txt")) {
     dataset.truth_file = (folder / "groundtruth.txt").string();

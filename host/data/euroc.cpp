@@ -109,16 +109,9 @@ Dataset read_euroc(const fs::path& root, const DatasetOptions& options, Findings
   // Another calibration replaces these files; where they are, they still say whose poses the ground truth has.
   const fs::path left = folder / "cam0" / "sensor.yaml", right = folder / "cam1" / "sensor.yaml";
   if (options.calibration.empty() || (fs::exists(left) && fs::exists(right))) {
-    findings.attempt([&] { dataset.calibration = read_euroc_calibration(left.string(), right.string()); });
+    findings.attempt([&] { set_calibration(dataset, read_euroc_calibration(left.string(), right.string())); });
   }
-  if (dataset.calibration) {
-    body_from_left = dataset.calibration->body_from_left.value_or(body_from_left);
-    dataset.rig.left = dataset.calibration->left.camera;
-    dataset.rig.right = dataset.calibration->right.camera;
-    // Tables of a resolution that is no image's may fill the memory; what is wrong is said where the images are read.
-    if (sizes_fit(dataset)) dataset.rig = make_rig(*dataset.calibration);
-    dataset.max_disparity = usual_max_disparity(dataset.rig);
-  }
+  if (dataset.calibration) body_from_left = dataset.calibration->body_from_left.value_or(body_from_left);
   const fs::path truth = folder / "state_groundtruth_estimate0" / "data.csv";
   if (fs::exists(truth)) {
     dataset.truth_file = truth.string();

@@ -101,6 +101,16 @@ bool sizes_fit(const Dataset& dataset) {
   return true;
 }
 
+void set_calibration(Dataset& dataset, const StereoCalibration& calibration) {
+  dataset.calibration = calibration;
+  dataset.rig.left = calibration.left.camera;
+  dataset.rig.right = calibration.right.camera;
+  dataset.rig.right_from_left = calibration.right_from_left;
+  // Tables of a resolution that is no image's may fill the memory; what is wrong is said where the images are read.
+  if (sizes_fit(dataset)) dataset.rig = make_rig(calibration);
+  dataset.max_disparity = usual_max_disparity(dataset.rig);
+}
+
 void check_sizes(const Dataset& dataset, const std::string& calibration) {
   const auto check = [&](const std::string& file, const PinholeCamera& camera) {
     const ImageSize found = image_size(file), expected = size_of(camera);

@@ -93,6 +93,9 @@ void set_sizes_from_first_frame(Dataset& dataset);
 /// Do the first images that can be read have the sizes of the rig's cameras? Also where none can be read.
 bool sizes_fit(const Dataset& dataset);
 
+/// Makes the dataset's rig of a calibration, and the largest disparity of it.
+void set_calibration(Dataset& dataset, const StereoCalibration& calibration);
+
 /// \throws DataError, which names the image and `calibration`, when the images of the first frame are damaged or have
 /// other sizes than the rig's cameras.
 void check_sizes(const Dataset& dataset, const std::string& calibration);
