@@ -9,6 +9,7 @@
 #include "data/jpeg_damage.hpp"
 #include "data/text.hpp"
 #include "quadedge/dataset.hpp"
+#include "quadedge/decode_image.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
@@ -130,25 +131,26 @@ bool is_image_name(const std::string& name) {
 
 }  // namespace data
 
-Image read_grey_image(const std::string& path) {
-  const std::string bytes = data::read_bytes(path);
-  const data::ImageSize size = data::check_complete(bytes, path);
+Image read_grey_image(const std::string& path) { return decode_grey_image(data::read_bytes(path), path); }
+
+Image decode_grey_image(std::string_view bytes, const std::string& name) {
+  const data::ImageSize size = data::check_complete(bytes, name);
   if (const std::string damage = data::jpeg_damage(bytes); !damage.empty())
-    data::fail(path, "a damaged JPEG (" + damage + ")", "an intact " + data::to_string(size) + " image");
+    data::fail(name, "a damaged JPEG (" + damage + ")", "an intact " + data::to_string(size) + " image");
   cv::Mat decoded;
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
     // The recorded pixel grid: an EXIF turn would no longer fit the calibration.
     decoded = cv::imdecode(encoded, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception& problem) {
-    data::fail(path, "an image that cannot be decoded (" + problem.err + ")",
+    data::fail(name, "an image that cannot be decoded (" + problem.err + ")",
                "an intact " + data::to_string(size) + " image");
   }
   if (decoded.empty())
-    data::fail(path, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
+    data::fail(name, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
   if (decoded.channels() == 3) cv::cvtColor(decoded, decoded, cv::COLOR_BGR2GRAY);
   const int type = size.white > kWhite8 ? CV_16UC1 : CV_8UC1;
-  if (decoded.type() != type) data::fail(path, "an unusual pixel type", "8 or 16 bit grey or colour");
+  if (decoded.type() != type) data::fail(name, "an unusual pixel type", "8 or 16 bit grey or colour");
   cv::min(decoded, size.white, decoded);  // a header may promise less than its pixels hold
   Image image(decoded.cols, decoded.rows, size.white);
   const cv::Mat target(image.height, image.width, type, image.pixels.data());

@@ -6,6 +6,9 @@
 
 namespace quadedge::odometry {
 
+/// Unit vector along which a point in the middle of the right image moves when its depth shrinks.
+Eigen::Vector2d direction_of_nearer(const StereoRig& rig);
+
 /// A rig's disparities may all be wrong by the same part of a pixel (KITTI: 0.2 px and more), which shows in the quads
 /// of a moving camera (pose::fit_offset()). This is the scalar Kalman filter over what one frame of each key stereo rig
 /// says of it.
@@ -26,7 +29,7 @@ class DisparityOffset {
  private:
   StereoRig rig_;
   double cx_, cy_;          ///< right principal point of the calibration
-  Eigen::Vector2d nearer_;  ///< unit vector along which a right point moves when its depth shrinks
+  Eigen::Vector2d nearer_;  ///< direction_of_nearer()
   double drift_;
   double value_ = 0, variance_;
 };

@@ -5,6 +5,7 @@
 
 #include "common/nearest_word.hpp"
 #include "data/atomic_file.hpp"
+#include "data/presets.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::report {
@@ -58,11 +59,11 @@ void add_variant(const std::string& choice, Config& config) {
 }  // namespace quadedge::report
 
 namespace quadedge {
+namespace {
 
-Config read_config(const std::string& file) {
-  Config config;
+Config with_entries(const std::vector<data::TomlEntry>& entries, Config config) {
   const auto& all = constants();
-  for (const auto& entry : data::read_toml(file)) {
+  for (const auto& entry : entries) {
     const auto named = [&](const Constant& constant) { return constant.key() == entry.key; };
     const auto constant = std::find_if(all.begin(), all.end(), named);
     if (constant != all.end()) {
@@ -83,6 +84,18 @@ Config read_config(const std::string& file) {
   }
   return config;
 }
+
+}  // namespace
+
+Config read_config(const std::string& file, const Config& base) { return with_entries(data::read_toml(file), base); }
+
+Config read_config_text(const std::string& text, const std::string& name, const Config& base) {
+  return with_entries(data::read_toml_text(text, name), base);
+}
+
+std::vector<std::string> preset_names() { return data::preset_names(); }
+
+Config read_preset(const std::string& name) { return with_entries(data::read_preset(name), {}); }
 
 void write_config(const std::string& file, const Config& config) {
   check_config(config);
