@@ -7,10 +7,11 @@
     result = odometry.track(stamp_ns, left, right)     # numpy arrays, height x width
     print(result.status, result.world_from_left)
 
-Images, edges and poses come from the compiled module ``quadedge._quadedge``, which is loaded when the first of its names
-is used; ``quadedge.report`` needs none of it. ``quadedge.bag`` reads recordings of ROS (``pip install quadedge[bag]``),
-``quadedge.view`` shows results (``pip install quadedge[view]``). Lengths are metres, angles radians, stamps nanoseconds,
-image positions pixels with the centre of the top-left pixel at (0, 0). Camera frames: x right, y down, z forward.
+Images, edges and poses come from the compiled module ``quadedge._quadedge``, which is loaded when the first of its
+names is used; ``quadedge.report`` needs none of it. ``quadedge.bag`` reads recordings of ROS (``pip install
+quadedge[bag]``), ``quadedge.view`` shows results (``pip install quadedge[view]``). Lengths are metres, angles radians,
+stamps nanoseconds, image positions pixels with the centre of the top-left pixel at (0, 0). Camera frames: x right, y
+down, z forward.
 """
 
 import importlib
@@ -22,7 +23,13 @@ if TYPE_CHECKING:
     from ._quadedge import *  # noqa: F403
 
 _ERRORS = ("DataError", "DeviceError", "Error", "UsageError")
-_COMPILED = ()
+_COMPILED = (
+    "Dataset", "Device", "DeviceInfo", "Edges", "ErrorStatistics", "Frame", "FrameCounts", "FrameDetails", "FrameFiles",
+    "FrameIterator", "FrameResult", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "Rig", "RigEvidence",
+    "StereoEdges", "Synthetic", "Trajectory", "TrajectoryEvaluation", "configuration", "dataset_formats",
+    "decode_grey_image", "detect_edges", "devices", "evaluate_matching", "evaluate_trajectory", "match", "open_dataset",
+    "presets", "read_grey_image", "synthetic",
+)  # fmt: skip
 
 __all__ = [*_ERRORS, *_COMPILED]
 

@@ -1,0 +1,22 @@
+#pragma once
+/// \file bindings.hpp  The parts of the module quadedge._quadedge; each adds its classes and functions.
+
+#include <nanobind/nanobind.h>
+
+namespace quadedge::python {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+void bind_errors(nb::module_& module);
+void bind_devices(nb::module_& module);
+void bind_configuration(nb::module_& module);
+void bind_cameras(nb::module_& module);
+void bind_trajectories(nb::module_& module);
+void bind_datasets(nb::module_& module);
+void bind_synthetic(nb::module_& module);
+void bind_edges(nb::module_& module);
+void bind_odometry(nb::module_& module);
+void bind_evaluation(nb::module_& module);
+
+}  // namespace quadedge::python

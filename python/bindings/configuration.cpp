@@ -1,0 +1,86 @@
+#include "configuration.hpp"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "quadedge/config_file.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::python {
+namespace {
+
+/// A text as TOML (and JSON) writes it.
+std::string quoted(nb::handle text) {
+  return nb::cast<std::string>(nb::module_::import_("json").attr("dumps")(text, "ensure_ascii"_a = false));
+}
+
+/// A value as TOML writes it. \throws TypeError.
+std::string toml_value(const std::string& key, nb::handle value) {
+  if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value) ? "true" : "false";
+  if (nb::isinstance<nb::str>(value)) return quoted(value);
+  if (nb::isinstance<nb::float_>(value)) return nb::cast<std::string>(nb::repr(nb::float_(value)));
+  if (PyIndex_Check(value.ptr())) return nb::cast<std::string>(nb::str(nb::int_(value)));
+  if (nb::isinstance<nb::list>(value) || nb::isinstance<nb::tuple>(value)) {
+    std::string texts;
+    for (const auto& element : value) {
+      if (!nb::isinstance<nb::str>(element)) throw nb::type_error(("config: " + key + ": expected texts").c_str());
+      texts += (texts.empty() ? "" : ", ") + quoted(element);
+    }
+    return "[" + texts + "]";
+  }
+  throw nb::type_error(("config: " + key + " is " + nb::cast<std::string>(nb::str(value.type().attr("__name__"))) +
+                        ", expected a number, a text, True or False")
+                           .c_str());
+}
+
+bool is_bare(const std::string& key) {
+  return !key.empty() && key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.") == std::string::npos &&
+         key.front() != '.' && key.back() != '.' && key.find("..") == std::string::npos;
+}
+
+Config with_dict(const nb::dict& config, const Config& base) {
+  std::string text;
+  for (const auto& [name, value] : config) {
+    if (!nb::isinstance<nb::str>(name)) throw nb::type_error("config: expected texts as keys");
+    const auto key = nb::cast<std::string>(name);
+    if (key == "device") throw UsageError("config: the device is an argument of its own, device=");
+    text += (is_bare(key) ? key : quoted(name)) + " = " + toml_value(key, value) + "\n";
+  }
+  return read_config_text(text, "config", base);
+}
+
+}  // namespace
+
+Config make_config(const std::string& preset, nb::handle config) {
+  const Config base = read_preset(preset);
+  if (config.is_none()) return base;
+  if (nb::isinstance<nb::dict>(config)) return with_dict(nb::borrow<nb::dict>(config), base);
+  const nb::object path = nb::module_::import_("os").attr("fspath")(config);
+  return read_config(nb::cast<std::string>(nb::str(path)), base);
+}
+
+nb::dict to_dict(const Config& config) {
+  nb::dict all;
+  Config copy = config;  // a constant's field can be written, too
+  for (const Constant& constant : constants()) {
+    std::visit([&](const auto* value) { all[nb::str(constant.key().c_str())] = nb::cast(*value); },
+               constant.field(copy));
+  }
+  nb::list variants;
+  for (const auto& [stage, name] : config.variants) variants.append(stage + "=" + name);
+  if (nb::len(variants) > 0) all["variant"] = variants;
+  return all;
+}
+
+void bind_configuration(nb::module_& module) {
+  module.def("presets", &preset_names, "What ``preset=`` takes, from fast to accurate.");
+  module.def(
+      "configuration",
+      [](const std::string& preset, nb::handle config) { return to_dict(make_config(preset, config)); },
+      "preset"_a = "default", "config"_a = nb::none(),
+      "Every constant of the method by its key (doc/configuration.md), as a preset and ``config`` set them.\n\n"
+      "config: a dictionary such as ``{\"stereo.max_disparity\": 100}``, or the path of a TOML file, such as the\n"
+      "config.toml that a run leaves.");
+}
+
+}  // namespace quadedge::python

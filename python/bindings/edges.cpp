@@ -1,0 +1,124 @@
+#include "edges.hpp"
+
+#include <nanobind/stl/string.h>
+
+#include "arrays.hpp"
+#include "cameras.hpp"
+#include "configuration.hpp"
+#include "device_argument.hpp"
+#include "images.hpp"
+#include "quadedge/detect_edges.hpp"
+#include "quadedge/odometry.hpp"
+
+namespace quadedge::python {
+namespace {
+
+constexpr int kWhite16 = 65535;
+
+void bind_edge_set(nb::module_& module) {
+  nb::class_<EdgeSet>(module, "Edges", "Third-order edges of one image, row by row; all arrays are (N,) float32.")
+      .def("__len__", &EdgeSet::size)
+      .def_prop_ro(
+          "x", [](const EdgeSet& self) { return view_of(self.x); }, kView, "[px]")
+      .def_prop_ro(
+          "y", [](const EdgeSet& self) { return view_of(self.y); }, kView, "[px]")
+      .def_prop_ro(
+          "direction", [](const EdgeSet& self) { return view_of(self.direction); }, kView,
+          "Tangent [rad] in (-pi, pi]; the bright side lies at (-sin, cos).")
+      .def_prop_ro(
+          "strength", [](const EdgeSet& self) { return view_of(self.strength); }, kView,
+          "Peak of the gradient [grey levels per px].")
+      .def("__repr__", [](const EdgeSet& self) { return "<" + std::to_string(self.size()) + " Edges>"; });
+}
+
+void bind_stereo_edges(nb::module_& module) {
+  using Self = StereoEdgesInSpace;
+  nb::class_<Self>(module, "StereoEdges",
+                   "Edges seen in both images, N of them, in the scan order of the left ones. Positions are in the\n"
+                   "pinhole images of ``Odometry.rig``.")
+      .def("__len__", [](const Self& self) { return self.edges.size(); })
+      .def_prop_ro(
+          "xyz", [](const Self& self) { return view_of_columns(self.points.position); }, kView,
+          "(N, 3) float64: position in the left camera's frame [m]; NaN for an edge without a depth.")
+      .def_prop_ro(
+          "direction", [](const Self& self) { return view_of_columns(self.points.tangent); }, kView,
+          "(N, 3) float64: unit tangent in the left camera's frame; NaN as ``xyz``.")
+      .def_prop_ro(
+          "left", [](const Self& self) { return pairs_of(self.edges.left_x, self.edges.left_y); }, kOwned,
+          "(N, 2) float32: detected position in the left image [px]; a copy.")
+      .def_prop_ro(
+          "right", [](const Self& self) { return pairs_of(self.edges.right_x, self.edges.right_y); }, kOwned,
+          "(N, 2) float32: refined position in the right image [px]; a copy.")
+      .def_prop_ro(
+          "left_direction", [](const Self& self) { return view_of(self.edges.left_direction); }, kView,
+          "(N,) float32: tangent in the left image [rad].")
+      .def_prop_ro(
+          "right_direction", [](const Self& self) { return view_of(self.edges.right_direction); }, kView,
+          "(N,) float32: tangent in the right image [rad].")
+      .def_prop_ro(
+          "ncc", [](const Self& self) { return view_of(self.edges.ncc); }, kView,
+          "(N,) float32: similarity of the pair, 1 at most.")
+      .def("__repr__", [](const Self& self) { return "<" + std::to_string(self.edges.size()) + " StereoEdges>"; });
+}
+
+void bind_quads(nb::module_& module) {
+  nb::class_<Quads>(module, "Quads", "Stereo edges of two times that belong together, M of them.")
+      .def("__len__", [](const Quads& self) { return self.matches.size(); })
+      .def_prop_ro(
+          "previous", [](const Quads& self) { return view_of(self.matches.previous); }, kView,
+          "(M,) int32: index into the stereo edges of the earlier frame.")
+      .def_prop_ro(
+          "current", [](const Quads& self) { return view_of(self.matches.current); }, kView,
+          "(M,) int32: index into the stereo edges of this frame.")
+      .def_prop_ro(
+          "inlier", [](const Quads& self) { return ArrayView<bool>(self.inlier.data(), {self.inlier.size()}); }, kView,
+          "(M,) bool: does it agree on the camera's motion?")
+      .def_prop_ro(
+          "ncc", [](const Quads& self) { return view_of(self.matches.ncc); }, kView, "(M,) float32: similarity.")
+      .def("__repr__", [](const Quads& self) { return "<" + std::to_string(self.matches.size()) + " Quads>"; });
+}
+
+EdgeSet detect(nb::handle image, nb::handle device, const std::string& preset, nb::handle config, int white) {
+  const ImageArgument argument(image, "the image", white);
+  const Config constants = make_config(preset, config);
+  return DeviceArgument(device).run([&](Device& chosen) { return detect_edges(argument.view(), chosen, constants); });
+}
+
+StereoEdgesInSpace match(nb::handle left, nb::handle right, nb::handle source, nb::handle device,
+                         const std::string& preset, nb::handle config) {
+  const Cameras cameras = cameras_of(source);
+  Config constants = make_config(preset, config);
+  complete(constants, cameras);
+  const int white = cameras.rig.white > kWhite8 ? cameras.rig.white : kWhite16;
+  const ImageArgument left_image(left, "the left image", white), right_image(right, "the right image", white);
+  return DeviceArgument(device).run([&](Device& chosen) {
+    StereoOdometry odometry(cameras.rig, chosen, constants);
+    odometry.track({0, left_image.view(), right_image.view()});
+    StereoEdgesInSpace found{odometry.details().stereo, {}};
+    found.points = edge_points(found.edges, odometry.rig(), constants);
+    return found;
+  });
+}
+
+}  // namespace
+
+void bind_edges(nb::module_& module) {
+  bind_edge_set(module);
+  bind_stereo_edges(module);
+  bind_quads(module);
+  module.def("detect_edges", &detect, "image"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default",
+             "config"_a = nb::none(), "white"_a = kWhite16,
+             nb::sig("def detect_edges(image: numpy.typing.NDArray, device: str | Device = 'auto', preset: str = "
+                     "'default', config: dict | str | os.PathLike | None = None, white: int = 65535) -> Edges"),
+             "Third-order edges of one pinhole image, (height, width) of uint8 or uint16.\n\n"
+             "white: value of a saturated pixel of uint16. The other arguments: see Odometry.\n\n"
+             "Raises TypeError, DataError for what is no such image, DeviceError, UsageError for the configuration.");
+  module.def("match", &match, "left"_a.none(), "right"_a.none(), "rig"_a.none(), nb::arg("device").none() = "auto",
+             "preset"_a = "default", "config"_a = nb::none(),
+             nb::sig("def match(left: numpy.typing.NDArray, right: numpy.typing.NDArray, rig: Rig | Dataset | "
+                     "Synthetic, device: str | Device = 'auto', preset: str = 'default', config: dict | str | "
+                     "os.PathLike | None = None) -> StereoEdges"),
+             "Stereo edges of one pair, with their points in space. Arguments and errors as those of Odometry.");
+}
+
+}  // namespace quadedge::python

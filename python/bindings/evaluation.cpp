@@ -1,0 +1,94 @@
+/// \file evaluation.cpp  Errors against ground truth (include/quadedge/evaluation.hpp).
+
+#include "quadedge/evaluation.hpp"
+
+#include <nanobind/stl/string.h>
+
+#include "arrays.hpp"
+#include "configuration.hpp"
+#include "device_argument.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/evaluate_matching.hpp"
+#include "synthetic.hpp"
+#include "trajectories.hpp"
+
+namespace quadedge::python {
+namespace {
+
+using PerPose = TrajectoryEvaluation::PerPose;
+static_assert(sizeof(PerPose) % sizeof(double) == 0);
+
+/// (N,) over one column of the rows.
+template <class T>
+auto column(T PerPose::*field) {
+  return [field](const TrajectoryEvaluation& self) {
+    const void* first = self.per_pose.empty() ? nullptr : &(self.per_pose.front().*field);
+    return ArrayView<T>(first, {self.per_pose.size()}, {}, {sizeof(PerPose) / sizeof(T)});
+  };
+}
+
+nb::object matching(nb::handle source, nb::handle device, const std::string& preset, nb::handle config, int frames) {
+  if (frames < 0) throw UsageError("frames is " + std::to_string(frames) + ": expected 0 or more");
+  const Config constants = make_config(preset, config);
+  const Dataset* dataset = nullptr;
+  const RenderedSequence* rendered = nullptr;
+  if (!nb::try_cast(source, dataset) || dataset == nullptr) {
+    if (!nb::try_cast(source, rendered) || rendered == nullptr)
+      throw nb::type_error("expected a Dataset or a Synthetic");
+    dataset = nullptr;
+  }
+  const std::string document = DeviceArgument(device).run([&](Device& chosen) {
+    return dataset != nullptr ? evaluate_matching(*dataset, chosen, constants, frames)
+                              : evaluate_matching(rendered->options, chosen, constants, frames);
+  });
+  return nb::module_::import_("json").attr("loads")(document);
+}
+
+void bind_matching(nb::module_& module) {
+  module.def(
+      "evaluate_matching", &matching, "source"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default",
+      "config"_a = nb::none(), "frames"_a = 0,
+      nb::sig("def evaluate_matching(source: Dataset | Synthetic, device: str | Device = 'auto', preset: str = "
+              "'default', config: dict | str | os.PathLike | None = None, frames: int = 0) -> dict"),
+      "Recall, precision and ambiguity after every filter of the matching, judged by ground truth of the edges:\n"
+      "the document that ``quadedge evaluate matching --json`` writes. frames: only the first ones; 0: all.\n\n"
+      "Raises DataError for a recording without disparities or depths, UsageError for the reference device,\n"
+      "whose stages cannot be watched.");
+}
+
+}  // namespace
+
+void bind_evaluation(nb::module_& module) {
+  bind_matching(module);
+  nb::class_<ErrorStatistics>(module, "ErrorStatistics", "Statistics of one error.")
+      .def_ro("mean", &ErrorStatistics::mean)
+      .def_ro("std", &ErrorStatistics::std, "Over N.")
+      .def_ro("rmse", &ErrorStatistics::rmse)
+      .def_ro("max", &ErrorStatistics::max);
+  nb::class_<PoseErrors>(module, "PoseErrors", "Absolute (APE) and relative (RPE) pose errors.")
+      .def_ro("ape_rotation_deg", &PoseErrors::ape_rotation_deg)
+      .def_ro("ape_translation_m", &PoseErrors::ape_translation_m)
+      .def_ro("rpe_rotation_deg", &PoseErrors::rpe_rotation_deg, "Between consecutive matched poses.")
+      .def_ro("rpe_translation_m", &PoseErrors::rpe_translation_m);
+  using Self = TrajectoryEvaluation;
+  nb::class_<Self>(module, "TrajectoryEvaluation", "Errors of a trajectory; arrays have a row per matched pose.")
+      .def_ro("origin_aligned", &Self::origin_aligned, "First matched poses made equal.")
+      .def_ro("se3_aligned", &Self::se3_aligned, "Umeyama without scale.")
+      .def_ro("matched", &Self::matched, "Poses compared.")
+      .def_ro("path_length_m", &Self::path_length_m, "Of the matched truth.")
+      .def_ro("end_drift_percent", &Self::end_drift_percent, "Error of the end point over the path's length.")
+      .def_prop_ro("stamps_ns", column(&PerPose::stamp_ns), kView, "(N,) int64 [ns].")
+      .def_prop_ro("ape_rotation_deg", column(&PerPose::ape_rotation_deg), kView, "(N,), origin-aligned.")
+      .def_prop_ro("ape_translation_m", column(&PerPose::ape_translation_m), kView, "(N,), origin-aligned.")
+      .def_prop_ro("rpe_rotation_deg", column(&PerPose::rpe_rotation_deg), kView, "(N,), NaN for the first pose.")
+      .def_prop_ro("rpe_translation_m", column(&PerPose::rpe_translation_m), kView, "(N,), NaN for the first pose.");
+  module.def(
+      "evaluate_trajectory", &evaluate_trajectory, "estimate"_a, "truth"_a, "from_frame"_a = 0,
+      "max_stamp_difference_ns"_a = 10'000'000,
+      "Compares two Trajectories. Poses are matched by the nearest stamp, each once; 0 as the largest difference\n"
+      "where stamps are numbers of rows (KITTI files). from_frame: poses of the estimate before it are left\n"
+      "out.\n\n"
+      "Raises DataError when fewer than two poses match.");
+}
+
+}  // namespace quadedge::python

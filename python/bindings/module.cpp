@@ -1,0 +1,20 @@
+/// \file module.cpp  The module quadedge._quadedge: the public C++ library (include/quadedge) for Python.
+///
+/// Arrays are numpy's. Those that properties return are views of what the object holds, read-only, and keep it alive.
+
+#include "bindings.hpp"
+
+NB_MODULE(_quadedge, module) {
+  using namespace quadedge::python;
+  module.doc() = "The compiled part of quadedge; use the names of the package itself.";
+  bind_errors(module);
+  bind_devices(module);
+  bind_configuration(module);
+  bind_cameras(module);
+  bind_trajectories(module);
+  bind_datasets(module);
+  bind_synthetic(module);
+  bind_edges(module);
+  bind_odometry(module);
+  bind_evaluation(module);
+}

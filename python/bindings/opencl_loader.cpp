@@ -1,0 +1,111 @@
+/// \file opencl_loader.cpp  The OpenCL functions that the library calls, forwarded to libOpenCL.so.1 when the first one
+/// is called.
+///
+/// A module that names libOpenCL among its dependencies cannot even be imported where there is none, and a wheel cannot
+/// ask for a system package. Without the loader there are no platforms, and so no device but the plain C++ reference;
+/// the other functions are only ever called with what a platform has handed out. The linker drops libOpenCL as not
+/// needed as long as every function that the library uses stands here; tests/python/test_loader.py holds that.
+
+#include <CL/cl.h>
+#include <CL/cl_ext.h>
+#include <dlfcn.h>
+
+namespace {
+
+/// The loader's own function of that name; null without one.
+template <class Function>
+Function* find(const char* name, Function*) {
+  static void* const library = dlopen("libOpenCL.so.1", RTLD_NOW | RTLD_LOCAL);
+  return library == nullptr ? nullptr : reinterpret_cast<Function*>(dlsym(library, name));
+}
+
+}  // namespace
+
+#define FORWARD(Result, name, parameters, arguments) \
+  extern "C" Result name parameters {                \
+    static const auto function = find(#name, &name); \
+    return function arguments;                       \
+  }
+
+extern "C" cl_int clGetPlatformIDs(cl_uint entries, cl_platform_id* platforms, cl_uint* count) {
+  static const auto function = find("clGetPlatformIDs", &clGetPlatformIDs);
+  return function == nullptr ? CL_PLATFORM_NOT_FOUND_KHR : function(entries, platforms, count);
+}
+
+FORWARD(cl_int, clGetPlatformInfo,
+        (cl_platform_id platform, cl_platform_info what, size_t size, void* value, size_t* written),
+        (platform, what, size, value, written))
+FORWARD(cl_int, clGetDeviceIDs,
+        (cl_platform_id platform, cl_device_type type, cl_uint entries, cl_device_id* devices, cl_uint* count),
+        (platform, type, entries, devices, count))
+FORWARD(cl_int, clGetDeviceInfo, (cl_device_id device, cl_device_info what, size_t size, void* value, size_t* written),
+        (device, what, size, value, written))
+FORWARD(cl_int, clRetainDevice, (cl_device_id device), (device))
+FORWARD(cl_int, clReleaseDevice, (cl_device_id device), (device))
+
+FORWARD(cl_context, clCreateContext,
+        (const cl_context_properties* properties, cl_uint count, const cl_device_id* devices,
+         void(CL_CALLBACK* notify)(const char*, const void*, size_t, void*), void* data, cl_int* status),
+        (properties, count, devices, notify, data, status))
+FORWARD(cl_int, clReleaseContext, (cl_context context), (context))
+FORWARD(cl_command_queue, clCreateCommandQueue,
+        (cl_context context, cl_device_id device, cl_command_queue_properties properties, cl_int* status),
+        (context, device, properties, status))
+FORWARD(cl_int, clReleaseCommandQueue, (cl_command_queue queue), (queue))
+FORWARD(cl_int, clFinish, (cl_command_queue queue), (queue))
+
+FORWARD(cl_program, clCreateProgramWithSource,
+        (cl_context context, cl_uint count, const char** texts, const size_t* lengths, cl_int* status),
+        (context, count, texts, lengths, status))
+FORWARD(cl_int, clBuildProgram,
+        (cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
+         void(CL_CALLBACK* notify)(cl_program, void*), void* data),
+        (program, count, devices, options, notify, data))
+FORWARD(cl_int, clGetProgramInfo, (cl_program program, cl_program_info what, size_t size, void* value, size_t* written),
+        (program, what, size, value, written))
+FORWARD(cl_int, clGetProgramBuildInfo,
+        (cl_program program, cl_device_id device, cl_program_build_info what, size_t size, void* value,
+         size_t* written),
+        (program, device, what, size, value, written))
+FORWARD(cl_int, clRetainProgram, (cl_program program), (program))
+FORWARD(cl_int, clReleaseProgram, (cl_program program), (program))
+
+FORWARD(cl_kernel, clCreateKernel, (cl_program program, const char* name, cl_int* status), (program, name, status))
+FORWARD(cl_int, clGetKernelInfo, (cl_kernel kernel, cl_kernel_info what, size_t size, void* value, size_t* written),
+        (kernel, what, size, value, written))
+FORWARD(cl_int, clGetKernelArgInfo,
+        (cl_kernel kernel, cl_uint index, cl_kernel_arg_info what, size_t size, void* value, size_t* written),
+        (kernel, index, what, size, value, written))
+FORWARD(cl_int, clSetKernelArg, (cl_kernel kernel, cl_uint index, size_t size, const void* value),
+        (kernel, index, size, value))
+FORWARD(cl_int, clReleaseKernel, (cl_kernel kernel), (kernel))
+FORWARD(cl_int, clEnqueueNDRangeKernel,
+        (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset, const size_t* global,
+         const size_t* local, cl_uint waits, const cl_event* wait_list, cl_event* event),
+        (queue, kernel, dimensions, offset, global, local, waits, wait_list, event))
+
+FORWARD(cl_mem, clCreateBuffer, (cl_context context, cl_mem_flags flags, size_t size, void* host, cl_int* status),
+        (context, flags, size, host, status))
+FORWARD(cl_int, clReleaseMemObject, (cl_mem memory), (memory))
+FORWARD(cl_int, clEnqueueFillBuffer,
+        (cl_command_queue queue, cl_mem buffer, const void* pattern, size_t pattern_size, size_t offset, size_t size,
+         cl_uint waits, const cl_event* wait_list, cl_event* event),
+        (queue, buffer, pattern, pattern_size, offset, size, waits, wait_list, event))
+FORWARD(cl_int, clEnqueueReadBuffer,
+        (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t size, void* values,
+         cl_uint waits, const cl_event* wait_list, cl_event* event),
+        (queue, buffer, blocking, offset, size, values, waits, wait_list, event))
+FORWARD(cl_int, clEnqueueWriteBuffer,
+        (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t size, const void* values,
+         cl_uint waits, const cl_event* wait_list, cl_event* event),
+        (queue, buffer, blocking, offset, size, values, waits, wait_list, event))
+FORWARD(cl_int, clEnqueueWriteBufferRect,
+        (cl_command_queue queue, cl_mem buffer, cl_bool blocking, const size_t* buffer_origin, const size_t* origin,
+         const size_t* region, size_t buffer_row, size_t buffer_slice, size_t row, size_t slice, const void* values,
+         cl_uint waits, const cl_event* wait_list, cl_event* event),
+        (queue, buffer, blocking, buffer_origin, origin, region, buffer_row, buffer_slice, row, slice, values, waits,
+         wait_list, event))
+FORWARD(cl_int, clGetEventProfilingInfo,
+        (cl_event event, cl_profiling_info what, size_t size, void* value, size_t* written),
+        (event, what, size, value, written))
+FORWARD(cl_int, clReleaseEvent, (cl_event event), (event))

@@ -1,0 +1,13 @@
+#pragma once
+/// \file synthetic.hpp  A rendered sequence that knows what it was made of.
+
+#include "quadedge/synthetic.hpp"
+
+namespace quadedge::python {
+
+struct RenderedSequence : SyntheticSequence {
+  explicit RenderedSequence(const SyntheticOptions& what) : SyntheticSequence(what), options(what) {}
+  SyntheticOptions options;
+};
+
+}  // namespace quadedge::python

@@ -1,0 +1,79 @@
+#include "trajectories.hpp"
+
+#include <filesystem>
+#include <nanobind/stl/filesystem.h>
+
+#include "arrays.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::python {
+namespace {
+
+// Arrays of stamps and of poses look into the same rows.
+static_assert(sizeof(StampedPose) % sizeof(double) == 0);
+constexpr std::int64_t kRow = sizeof(StampedPose) / sizeof(double);
+
+Trajectory make_trajectory(const nb::ndarray<const std::int64_t, nb::ndim<1>, nb::device::cpu>& stamps_ns,
+                           const nb::ndarray<const double, nb::ndim<3>, nb::device::cpu>& poses) {
+  if (poses.shape(0) != stamps_ns.shape(0) || poses.shape(1) != 4 || poses.shape(2) != 4) {
+    throw DataError("poses: found " + std::to_string(poses.shape(0)) + " x " + std::to_string(poses.shape(1)) + " x " +
+                    std::to_string(poses.shape(2)) + " numbers, expected " + std::to_string(stamps_ns.shape(0)) +
+                    " x 4 x 4, one pose per stamp");
+  }
+  Trajectory trajectory(poses.shape(0));
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const auto at = static_cast<std::int64_t>(i);
+    trajectory[i].stamp_ns = stamps_ns.data()[at * stamps_ns.stride(0)];
+    const double* pose = poses.data() + at * poses.stride(0);
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        trajectory[i].world_from_left.matrix()(row, column) = pose[row * poses.stride(1) + column * poses.stride(2)];
+      }
+    }
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+void bind_trajectories(nb::module_& module) {
+  nb::class_<Trajectory>(module, "Trajectory", "Poses of the left camera over time.")
+      .def(
+          "__init__",
+          [](Trajectory* self, const nb::ndarray<const std::int64_t, nb::ndim<1>, nb::device::cpu>& stamps_ns,
+             const nb::ndarray<const double, nb::ndim<3>, nb::device::cpu>& poses) {
+            new (self) Trajectory(make_trajectory(stamps_ns, poses));
+          },
+          "stamps_ns"_a, "poses"_a, "stamps_ns: (N,) int64 [ns]; poses: (N, 4, 4) float64, world_from_left [m].")
+      .def_static(
+          "from_file", [](const std::filesystem::path& path) { return read_trajectory(path.string()); }, "path"_a,
+          "Reads a TUM file (8 columns), or one of KITTI's (12 columns), whose stamps are the numbers of its rows.\n\n"
+          "Raises DataError that names file, line, what was found and what was expected.")
+      .def(
+          "write_tum",
+          [](const Trajectory& self, const std::filesystem::path& path) { write_tum(path.string(), self); }, "path"_a,
+          "Writes ``timestamp tx ty tz qx qy qz qw`` per pose [s, m], byte for byte as ``quadedge run``.")
+      .def(
+          "write_kitti",
+          [](const Trajectory& self, const std::filesystem::path& path) { write_kitti(path.string(), self); }, "path"_a,
+          "Writes a 3 x 4 matrix per pose, row by row [m].")
+      .def("__len__", [](const Trajectory& self) { return self.size(); })
+      .def_prop_ro(
+          "stamps_ns",
+          [](const Trajectory& self) {
+            const void* first = self.empty() ? nullptr : &self.front().stamp_ns;
+            return ArrayView<std::int64_t>(first, {self.size()}, {}, {kRow});
+          },
+          kView, "(N,) int64 [ns].")
+      .def_prop_ro(
+          "poses",
+          [](const Trajectory& self) {
+            const void* first = self.empty() ? nullptr : self.front().world_from_left.data();
+            return ArrayView<double>(first, {self.size(), 4, 4}, {}, {kRow, 1, 4});
+          },
+          kView, "(N, 4, 4) float64, world_from_left [m].")
+      .def("__repr__",
+           [](const Trajectory& self) { return "<Trajectory of " + std::to_string(self.size()) + " poses>"; });
+}
+
+}  // namespace quadedge::python
