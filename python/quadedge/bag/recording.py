@@ -1,0 +1,154 @@
+"""A recording of ROS as the frames of a stereo camera."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+
+import numpy
+
+from .. import DataError, Error, Rig
+from .calibration import rig_of
+from .images import grey_image
+from .pairing import Pairing, pair_stamps
+from .topics import StereoTopics, find_topics
+
+TOLERANCE_NS = 5_000_000
+
+
+@dataclass(frozen=True)
+class BagFrame:
+    """The two images of one time."""
+
+    stamp_ns: int  #: of the left image [ns]
+    left: numpy.ndarray  #: (height, width), uint8 or uint16
+    right: numpy.ndarray
+
+
+def _stamp_ns(message) -> int:
+    stamp = message.header.stamp
+    return stamp.sec * 1_000_000_000 + stamp.nanosec
+
+
+class Recording:
+    """A stereo recording; made by open_bag(). Iterating yields a BagFrame per pair of images, in the order of time.
+
+    topics: which topics are the cameras. pairing: what the stamps say, and what had to be dropped.
+    """
+
+    def __init__(self, paths: Sequence[Path], left: str, right: str, calibration, tolerance_ns: int):
+        self.name = ", ".join(str(path) for path in paths)
+        self._paths = paths
+        self._calibration = calibration
+        self._recorded_stamps = False
+        with self._reader() as reader:
+            kinds = {connection.topic: connection.msgtype for connection in reader.connections}
+            self.topics: StereoTopics = find_topics(kinds, self.name, left, right)
+            self._infos = self._first_infos(reader)
+            left_ns, right_ns = self._stamps(reader)
+        self._left_ns = left_ns
+        self.pairing: Pairing = pair_stamps(left_ns, right_ns, tolerance_ns)
+        if not self.pairing.pairs:
+            raise DataError(f"{self.name}: found no two images of {self.topics.left} and {self.topics.right} within "
+                            f"{tolerance_ns / 1e6:g} ms ({self.pairing})")
+
+    @contextmanager
+    def _reader(self):
+        """The open recording. Whatever goes wrong while it is read becomes a DataError that names it."""
+        try:
+            from rosbags.highlevel import AnyReader
+            from rosbags.typesys import Stores, get_typestore
+        except ImportError as error:
+            raise ImportError("quadedge.bag needs rosbags; `pip install quadedge[bag]` installs it") from error
+        try:
+            with AnyReader(self._paths, default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
+                yield reader
+        except Error:
+            raise
+        except Exception as error:  # damaged recordings raise whatever the place of the damage brings about
+            raise DataError(f"{self.name}: found no recording that can be read ({error}), expected a .bag file, a "
+                            "folder of ROS 2 or an .mcap file") from error
+
+    def _messages(self, reader, topics: tuple[str, ...]) -> Iterator[tuple[str, int, object]]:
+        """Topic, time of recording [ns] and message of those topics, as recorded."""
+        connections = [connection for connection in reader.connections if connection.topic in topics]
+        for connection, recorded_ns, data in reader.messages(connections):
+            yield connection.topic, recorded_ns, reader.deserialize(data, connection.msgtype)
+
+    def _first_infos(self, reader) -> dict[str, object]:
+        """The first camera_info of each camera."""
+        wanted = {self.topics.left_info, self.topics.right_info} - {""}
+        found: dict[str, object] = {}
+        for topic, _, message in self._messages(reader, tuple(wanted)) if wanted else ():
+            found.setdefault(topic, message)
+            if len(found) == len(wanted):
+                break
+        return found
+
+    def _stamps(self, reader) -> tuple[list[int], list[int]]:
+        """Stamps of all images [ns]; where no camera gave any, the times of recording."""
+        stamps: dict[str, list[int]] = {self.topics.left: [], self.topics.right: []}
+        recorded: dict[str, list[int]] = {self.topics.left: [], self.topics.right: []}
+        for topic, recorded_ns, message in self._messages(reader, (self.topics.left, self.topics.right)):
+            stamps[topic].append(_stamp_ns(message))
+            recorded[topic].append(recorded_ns)
+        self._recorded_stamps = not any(stamps[self.topics.left]) and not any(stamps[self.topics.right])
+        chosen = recorded if self._recorded_stamps else stamps
+        return chosen[self.topics.left], chosen[self.topics.right]
+
+    @cached_property
+    def rig(self) -> Rig:
+        """Of the calibration given to open_bag(), or of the camera_info messages. Raises DataError without either."""
+        white = 65535 if next(iter(self)).left.dtype == numpy.uint16 else 255
+        if self._calibration is not None:
+            return Rig.from_file(self._calibration, white=white)
+        missing = [topic for topic, info in ((self.topics.left, self.topics.left_info),
+                                             (self.topics.right, self.topics.right_info)) if info not in self._infos]
+        if missing:
+            raise DataError(f"{self.name}: found no camera_info of {' and '.join(missing)}, expected one beside the "
+                            "images, or a calibration file")
+        left, right = self._infos[self.topics.left_info], self._infos[self.topics.right_info]
+        return rig_of(left, right, self.topics.rectified, white)
+
+    def __len__(self) -> int:
+        return len(self.pairing.pairs)
+
+    def __iter__(self) -> Iterator[BagFrame]:
+        """Reads the recording once; keeps images only until their pair is complete and its turn has come."""
+        pairs = self.pairing.pairs
+        wanted = {(self.topics.left, left) for left, _ in pairs} | {(self.topics.right, right) for _, right in pairs}
+        waiting: dict[tuple[str, int], object] = {}
+        place = {self.topics.left: -1, self.topics.right: -1}
+        turn = 0
+        with self._reader() as reader:
+            for topic, _, message in self._messages(reader, (self.topics.left, self.topics.right)):
+                place[topic] += 1
+                if (topic, place[topic]) not in wanted:
+                    continue
+                waiting[topic, place[topic]] = message
+                while turn < len(pairs):
+                    left, right = (self.topics.left, pairs[turn][0]), (self.topics.right, pairs[turn][1])
+                    if left not in waiting or right not in waiting:
+                        break
+                    yield self._frame(waiting.pop(left), waiting.pop(right), self._left_ns[left[1]])
+                    turn += 1
+
+    def _frame(self, left, right, stamp_ns: int) -> BagFrame:
+        return BagFrame(stamp_ns, grey_image(left, f"{self.name}: {self.topics.left} at {stamp_ns} ns"),
+                        grey_image(right, f"{self.name}: {self.topics.right} at {stamp_ns} ns"))
+
+
+def open_bag(path: str | PathLike | Sequence[str | PathLike], *, left: str = "", right: str = "", calibration=None,
+             tolerance_ns: int = TOLERANCE_NS) -> Recording:
+    """Opens a stereo recording: a ``.bag`` file of ROS 1 (or several), a folder of ROS 2, an ``.mcap`` file.
+
+    left, right: topics of the cameras, ``sensor_msgs/Image`` or ``CompressedImage``; found by their names where not
+    given. calibration: files of Rig.from_file() instead of the recorded camera_info. tolerance_ns: how far the stamps
+    of a pair may lie apart [ns]; what finds no partner is dropped and counted in ``Recording.pairing``.
+
+    Raises DataError for what is no recording or has no stereo topics, ImportError without rosbags.
+    """
+    paths = [path] if isinstance(path, (str, PathLike)) else list(path)
+    return Recording([Path(one) for one in paths], left, right, calibration, tolerance_ns)
