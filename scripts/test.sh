@@ -5,9 +5,8 @@
 set -euo pipefail
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/packages.sh"
-. "$repository/scripts/python_packages.sh"
 
-install_missing $build_packages $test_packages
+install_missing $build_packages $python_packages $test_packages
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON
 cmake --build "$repository/build"
 
@@ -20,7 +19,10 @@ if ! cmp -s "$requirements" "$venv/requirements.txt"; then
   "$venv/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements"
   cp "$requirements" "$venv/requirements.txt"
 fi
-see_sources "$venv"
+
+# The Python package, from the library that is built already; only its bindings are compiled.
+"$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation "$repository" \
+  -C cmake.source-dir=python -C build-dir="$repository/build/python" -C cmake.define.quadedge_DIR="$repository/build"
 
 # Tests side by side: many of them, such as the simulator and everything on the plain C++ reference, use one processor.
 exec ctest --test-dir "$repository/build" --output-on-failure --parallel "$(nproc)" "$@"

@@ -16,7 +16,7 @@ from pathlib import Path
 LONGEST_LINE = 120
 LONGEST_FUNCTION = 60
 CODE = {".cpp", ".hpp", ".cl", ".py", ".sh", ".cmake", ".toml", ".txt"}
-LAYERS = ("include/quadedge", "host", "bench", "tests", "examples")
+LAYERS = ("include/quadedge", "host", "bench", "tests", "examples", "python")
 
 
 class Tree:

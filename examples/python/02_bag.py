@@ -1,0 +1,19 @@
+"""Tracks a recording of ROS 1, ROS 2 or MCAP, and writes a recording of its odometry.
+
+    python 02_bag.py RECORDING OUT [CALIBRATION]
+
+Needs `pip install quadedge[bag]`. Without CALIBRATION the recorded camera_info counts.
+"""
+
+import sys
+
+import quadedge
+import quadedge.bag
+
+recording = quadedge.bag.open_bag(sys.argv[1], calibration=sys.argv[3] if len(sys.argv) > 3 else None)
+print(recording.topics.left, recording.topics.right, recording.pairing)
+
+odometry = quadedge.Odometry(recording.rig)
+results = [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in recording]
+print(sum(result.is_tracked for result in results), "of", len(results), "tracked")
+print(quadedge.bag.write_mcap(sys.argv[2], results))

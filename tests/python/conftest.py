@@ -1,0 +1,61 @@
+"""What the tests of the package share: a small rendered room, the recorded flight, the program."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="session")
+def program() -> Path:
+    """The quadedge command, to compare with; the tests' CMake list names it."""
+    path = Path(os.environ.get("QUADEDGE_PROGRAM", REPOSITORY / "build" / "quadedge"))
+    assert path.is_file(), f"{path}: build the program first, or set QUADEDGE_PROGRAM"
+    return path
+
+
+@pytest.fixture(scope="session")
+def command(program):
+    """Runs the program; returns what it has done."""
+
+    def run(*arguments) -> subprocess.CompletedProcess:
+        return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def room():
+    """A rendered room of small images."""
+    import quadedge
+
+    return quadedge.synthetic(frames=6, width=320, height=200)
+
+
+@pytest.fixture(scope="session")
+def frames(room):
+    return list(room)
+
+
+@pytest.fixture(scope="session")
+def room_folder(command, tmp_path_factory) -> Path:
+    """The same room as a recording on disk."""
+    folder = tmp_path_factory.mktemp("room") / "room"
+    done = command("synth", folder, "--frames", 6, "--size", "320x200", "--quiet")
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+@pytest.fixture(scope="session")
+def flight_folder() -> Path:
+    """The recorded flight; skips plainly where there is no recorded data."""
+    data = os.environ.get("QUADEDGE_DATA")
+    if not data:
+        pytest.skip("QUADEDGE_DATA is not set: no recorded data")
+    folder = Path(data) / "euroc_mh_01_easy"
+    if not folder.is_dir():
+        pytest.skip(f"{folder}: no such recording")
+    return folder

@@ -1,0 +1,222 @@
+"""Recordings of ROS 1, ROS 2 and MCAP: topics, pairs, images, calibrations, what is written."""
+
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import numpy
+import pytest
+
+import quadedge
+
+rosbags = pytest.importorskip("rosbags", reason="rosbags is not installed: quadedge.bag cannot be tested")
+
+import quadedge.bag  # noqa: E402
+from bags import KINDS, BagWriter  # noqa: E402
+
+
+def poses(source, frames):
+    with quadedge.Odometry(source) as odometry:
+        return [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in frames]
+
+
+def in_bytes(results):
+    return [result.world_from_left.tobytes() for result in results]
+
+
+def write_infos(bag, rig, left="/stereo/left", right="/stereo/right"):
+    bag.camera_info(f"{left}/camera_info", 1, rig.left, 0.0)
+    bag.camera_info(f"{right}/camera_info", 1, rig.right, -rig.right.fx * rig.baseline)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_flight_from_each_kind_of_recording(flight_folder, tmp_path, kind):
+    dataset = quadedge.open_dataset(flight_folder, last_frame=12)
+    with BagWriter(tmp_path / "flight", kind) as bag:
+        for frame in dataset:
+            bag.image("/cam0/image_raw", frame.stamp_ns, frame.left)
+            bag.image("/cam1/image_raw", frame.stamp_ns, frame.right)
+    files = [flight_folder / "mav0" / camera / "sensor.yaml" for camera in ("cam0", "cam1")]
+    recording = quadedge.bag.open_bag(bag.path, calibration=files)
+    assert len(recording) == 12 and recording.pairing.dropped == 0
+    assert (recording.topics.left, recording.topics.right) == ("/cam0/image_raw", "/cam1/image_raw")
+    results = poses(recording.rig, recording)
+    assert in_bytes(results) == in_bytes(poses(quadedge.Rig.from_file(files), dataset))
+    assert sum(result.is_tracked for result in results) == 12
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("compressed", [False, True])
+def test_topics_and_calibration_are_recognised(room, room_folder, frames, tmp_path, kind, compressed):
+    dataset = quadedge.open_dataset(room_folder)
+    ending = "/image_raw/compressed" if compressed else "/image_raw"
+    with BagWriter(tmp_path / "room", kind) as bag:
+        write_infos(bag, room.rig)
+        for frame, files in zip(frames, dataset.frames):
+            for side, pixels, file in (("left", frame.left, files.left), ("right", frame.right, files.right)):
+                topic = f"/stereo/{side}{ending}"
+                if compressed:
+                    bag.compressed(topic, frame.stamp_ns + 1, file)
+                else:
+                    bag.image(topic, frame.stamp_ns + 1, pixels)
+            bag.image("/stereo/depth/image_raw", frame.stamp_ns + 1, frame.left)
+    recording = quadedge.bag.open_bag(bag.path)
+    assert recording.topics.left == f"/stereo/left{ending}"
+    assert recording.rig.baseline == pytest.approx(room.rig.baseline, abs=1e-9)
+    for read, frame in zip(recording, frames, strict=True):
+        assert read.stamp_ns == frame.stamp_ns + 1
+        numpy.testing.assert_array_equal(read.left, frame.left)
+        numpy.testing.assert_array_equal(read.right, frame.right)
+
+
+def test_rectified_images_are_those_of_the_projection_matrix(room, frames, tmp_path):
+    with BagWriter(tmp_path / "room", "mcap") as bag:
+        write_infos(bag, room.rig)
+        for frame in frames[:2]:
+            bag.image("/stereo/left/image_rect", frame.stamp_ns + 1, frame.left)
+            bag.image("/stereo/right/image_rect", frame.stamp_ns + 1, frame.right)
+    recording = quadedge.bag.open_bag(next(bag.path.glob("*.mcap")))  # the file alone, too
+    assert recording.topics.rectified and recording.rig.left.fx == room.rig.left.fx
+
+
+def test_shuffled_missing_and_skewed_stamps(room, frames, tmp_path):
+    """Of six frames one has lost its right image, one its stamp, one is 80 ms off; two are recorded late."""
+    stamps = [frame.stamp_ns + 1_000_000_000 for frame in frames]
+    with BagWriter(tmp_path / "room", "ros1") as bag:
+        write_infos(bag, room.rig)
+        for i in (1, 0, 2, 4, 3, 5):
+            bag.image("/stereo/left/image_raw", stamps[i] if i != 2 else 0, frames[i].left)
+        for i in (0, 1, 2, 3, 5):
+            skew = {0: 3_000_000, 5: 80_000_000}.get(i, -2_000_000)
+            bag.image("/stereo/right/image_raw", stamps[i] + skew, frames[i].right)
+    recording = quadedge.bag.open_bag(bag.path)
+    read = list(recording)
+    assert [frame.stamp_ns for frame in read] == [stamps[0], stamps[1], stamps[3]]
+    for frame, i in zip(read, (0, 1, 3)):
+        numpy.testing.assert_array_equal(frame.left, frames[i].left)
+        numpy.testing.assert_array_equal(frame.right, frames[i].right)
+    pairing = recording.pairing
+    assert (pairing.left_dropped, pairing.right_dropped, pairing.without_stamp) == (2, 2, 1)
+    assert pairing.dropped == 5 and pairing.largest_difference_ns == 3_000_000
+    assert "2 left images without a right one" in str(pairing)
+
+
+def test_pairs_are_the_nearest_of_one_another():
+    pair = quadedge.bag.pair_stamps
+    assert pair([10, 20, 30], [11, 29, 21], 5).pairs == [(0, 0), (1, 2), (2, 1)]
+    assert pair([10, 14], [13], 5).pairs == [(1, 0)]  # the nearer one takes it
+    assert pair([10], [16], 5).pairs == [] and pair([], [1], 5).right_dropped == 1
+    assert pair([10, 10], [10], 0).repeated == 1
+    # Against every assignment of small lists: no other pairs are nearest both ways.
+    generator = numpy.random.default_rng(3)
+    for _ in range(200):
+        left, right = (list(map(int, generator.permutation(60)[:8] + 1)) for _ in range(2))
+        nearest_right = [min(right, key=lambda b: (abs(b - a), b)) for a in left]
+        nearest_left = [min(left, key=lambda a: (abs(a - b), a)) for b in right]
+        expected = {(i, j) for i, a in enumerate(left) for j, b in enumerate(right)
+                    if nearest_right[i] == b and nearest_left[j] == a and abs(a - b) <= 4}
+        assert set(pair(left, right, 4).pairs) == expected
+
+
+def message(pixels, encoding, big=0, step=None):
+    data = numpy.ascontiguousarray(pixels)
+    row = data.strides[0] if step is None else step
+    return SimpleNamespace(encoding=encoding, is_bigendian=big, height=data.shape[0], width=data.shape[1], step=row,
+                           data=data.view(numpy.uint8).reshape(-1))
+
+
+def test_encodings():
+    grey = quadedge.bag.grey_image
+    deep = (numpy.arange(12).reshape(3, 4) * 300).astype(">u2")
+    numpy.testing.assert_array_equal(grey(message(deep, "mono16", big=1)), deep)
+    assert grey(message(deep.astype("<u2"), "mono16")).dtype == numpy.uint16
+    colour = numpy.array([[[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255]]], numpy.uint8)
+    numpy.testing.assert_array_equal(grey(message(colour, "rgb8")), [[76, 150, 29, 255]])  # 0.299, 0.587, 0.114
+    numpy.testing.assert_array_equal(grey(message(colour, "bgr8")), [[29, 150, 76, 255]])
+    padded = message(numpy.arange(20, dtype=numpy.uint8).reshape(2, 10), "mono8")
+    padded.width = 7
+    numpy.testing.assert_array_equal(grey(padded), [range(7), range(10, 17)])
+    with pytest.raises(quadedge.DataError, match="left: found the encoding 'bayer_rggb8', expected one of mono8"):
+        grey(message(colour, "bayer_rggb8"), "left")
+    short = message(colour, "rgb8")
+    short.height = 2
+    with pytest.raises(quadedge.DataError, match="found 12 bytes in rows of 12, expected 4 x 2 pixels of rgb8"):
+        grey(short)
+
+
+@pytest.mark.parametrize("topics, words", [
+    ((), "found no stereo topics among nothing"),
+    (("/camera/image_raw",), "found no stereo topics among /camera/image_raw"),
+    (("/front/left/image", "/front/right/image", "/back/left/image", "/back/right/image"),
+     "found several pairs of cameras"),
+])  # fmt: skip
+def test_recordings_without_one_stereo_camera(tmp_path, topics, words):
+    with BagWriter(tmp_path / "other", "ros2") as bag:
+        for topic in topics:
+            bag.image(topic, 5, numpy.zeros((8, 8), numpy.uint8))
+    with pytest.raises(quadedge.DataError, match=words):
+        quadedge.bag.open_bag(bag.path)
+
+
+def test_what_is_no_recording(room, frames, tmp_path):
+    open_bag = quadedge.bag.open_bag
+    (tmp_path / "text.bag").write_text("no bag")
+    for path in (tmp_path / "absent.bag", tmp_path / "text.bag", tmp_path):
+        with pytest.raises(quadedge.DataError, match="expected a .bag file"):
+            open_bag(path)
+    with BagWriter(tmp_path / "cut", "ros1") as bag:
+        for stamp in range(1, 30):
+            bag.image("/a/left/image_raw", stamp, frames[0].left)
+            bag.image("/a/right/image_raw", stamp, frames[0].right)
+    bag.path.write_bytes(bag.path.read_bytes()[:1_000_000])
+    with pytest.raises(quadedge.DataError, match="cut.bag: found no recording that can be read"):
+        open_bag(bag.path)
+    with BagWriter(tmp_path / "room", "ros2") as bag:
+        bag.image("/a/left/image_raw", 1, frames[0].left)
+        bag.image("/a/right/image_raw", 1, frames[0].right)
+    with pytest.raises(quadedge.DataError, match="found no camera_info of /a/left/image_raw and /a/right/image_raw"):
+        open_bag(bag.path).rig
+    with pytest.raises(quadedge.DataError, match="found no topic /b, expected one of images"):
+        open_bag(bag.path, left="/a/left/image_raw", right="/b")
+    with pytest.raises(quadedge.DataError, match="expected both, left and right"):
+        open_bag(bag.path, left="/a/left/image_raw")
+
+
+def test_odometry_is_written_with_covariance(room, tmp_path):
+    from rosbags.highlevel import AnyReader
+
+    results = poses(room, room)
+    file = quadedge.bag.write_mcap(tmp_path / "odometry", results)
+    assert file.suffix == ".mcap"
+    with AnyReader([tmp_path / "odometry"]) as reader:
+        read = [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
+    assert len(read) == len(results)
+    for message_, result in zip(read, results):
+        assert message_.header.stamp.sec * 10**9 + message_.header.stamp.nanosec == result.stamp_ns
+        position, turn = message_.pose.pose.position, message_.pose.pose.orientation
+        numpy.testing.assert_array_equal([position.x, position.y, position.z], result.world_from_left[:3, 3])
+        numpy.testing.assert_array_equal(message_.pose.covariance.reshape(6, 6), result.covariance)
+        assert message_.twist.covariance[0] == -1
+        x, y, z, w = turn.x, turn.y, turn.z, turn.w
+        numpy.testing.assert_allclose([1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
+                                      result.world_from_left[:3, 0], atol=1e-12)
+    with pytest.raises(quadedge.DataError, match="expected a new folder"):
+        quadedge.bag.write_mcap(tmp_path / "odometry", results)
+
+
+def test_from_the_shell(room, frames, tmp_path):
+    with BagWriter(tmp_path / "room", "mcap") as bag:
+        write_infos(bag, room.rig)
+        for frame in frames:
+            bag.image("/stereo/left/image_raw", frame.stamp_ns + 1, frame.left)
+            bag.image("/stereo/right/image_raw", frame.stamp_ns + 1, frame.right)
+    call = [sys.executable, "-m", "quadedge.bag", bag.path]
+    done = subprocess.run([*call, "-o", tmp_path / "out"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "6 pairs" in done.stdout and "tracked    6 of 6" in done.stdout
+    assert len(quadedge.Trajectory.from_file(tmp_path / "out" / "trajectory.txt")) == 6
+    assert list((tmp_path / "out" / "odometry").glob("*.mcap"))
+    again = subprocess.run([*call, "-o", tmp_path / "out"], capture_output=True, text=True)
+    assert again.returncode == 2 and "expected a new or an empty folder" in again.stderr
+    absent = subprocess.run([sys.executable, "-m", "quadedge.bag", "absent.bag"], capture_output=True, text=True)
+    assert absent.returncode == 3 and absent.stderr.startswith("quadedge.bag: absent.bag: found no recording")

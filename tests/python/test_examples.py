@@ -1,0 +1,61 @@
+"""The examples and the notebook, as a user runs them."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import quadedge
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "python"
+
+
+def run(name, *arguments, folder) -> str:
+    call = [sys.executable, EXAMPLES / name, *map(str, arguments)]
+    done = subprocess.run(call, capture_output=True, text=True, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_own_images(flight_folder, tmp_path):
+    cameras = [flight_folder / "mav0" / name for name in ("cam0", "cam1")]
+    folders = []
+    for camera in cameras:
+        folders.append(tmp_path / camera.name)
+        folders[-1].mkdir()
+        for image in sorted((camera / "data").glob("*.png"))[:3]:
+            (folders[-1] / image.name).symlink_to(image)
+    files = ",".join(str(camera / "sensor.yaml") for camera in cameras)
+    assert run("01_own_images.py", *folders, files, folder=tmp_path).count("tracked") == 2
+    assert len(quadedge.Trajectory.from_file(tmp_path / "trajectory.txt")) == 3
+
+
+def test_bag(room, frames, tmp_path):
+    pytest.importorskip("rosbags", reason="rosbags is not installed: the example cannot be run")
+    from bags import BagWriter
+
+    with BagWriter(tmp_path / "room", "ros2") as bag:
+        bag.camera_info("/left/camera_info", 1, room.rig.left, 0.0)
+        bag.camera_info("/right/camera_info", 1, room.rig.right, -room.rig.right.fx * room.rig.baseline)
+        for frame in frames[:3]:
+            bag.image("/left/image_raw", frame.stamp_ns + 1, frame.left)
+            bag.image("/right/image_raw", frame.stamp_ns + 1, frame.right)
+    printed = run("02_bag.py", bag.path, tmp_path / "odometry", folder=tmp_path)
+    assert "3 of 3 tracked" in printed and list((tmp_path / "odometry").glob("*.mcap"))
+
+
+def test_live_camera(tmp_path):
+    printed = run("03_live_camera.py", "stand-in", folder=tmp_path)
+    assert printed.count("tracked") == 9 and printed.startswith("first")
+
+
+def test_notebook(tmp_path):
+    nbclient = pytest.importorskip("nbclient", reason="nbclient is not installed: the notebook cannot be run")
+    import nbformat
+
+    notebook = nbformat.read(EXAMPLES / "tour.ipynb", as_version=4)
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    pictures = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs
+                if "image/png" in output.get("data", {})]
+    assert len(pictures) == 3

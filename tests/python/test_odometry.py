@@ -1,0 +1,217 @@
+"""Odometry: poses of the command, arrays, lifetimes, threads, what is refused."""
+
+import gc
+import threading
+
+import numpy
+import pytest
+
+import quadedge
+
+
+def track_all(source, **arguments):
+    with quadedge.Odometry(source, **arguments) as odometry:
+        return [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in source]
+
+
+def write(results, path):
+    tracked = [result for result in results if result.is_tracked]
+    stamps = numpy.array([result.stamp_ns for result in tracked])
+    quadedge.Trajectory(stamps, numpy.array([result.world_from_left for result in tracked])).write_tum(path)
+    return path.read_bytes()
+
+
+@pytest.fixture
+def odometry(room):
+    with quadedge.Odometry(room) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def untouched(room):
+    """For calls that are refused: they leave no trace."""
+    with quadedge.Odometry(room) as made:
+        yield made
+
+
+@pytest.mark.parametrize("arguments, options", [
+    ({}, ()),
+    ({"preset": "fast", "config": {"seed": 5, "stereo.max_disparity": 60}},
+     ("--preset", "fast", "--seed", "5", "--max-disparity", "60")),
+])  # fmt: skip
+def test_poses_are_the_commands_byte_for_byte(command, room_folder, tmp_path, arguments, options):
+    done = command("run", room_folder, "-o", tmp_path / "out", "--quiet", *options)
+    assert done.returncode == 0, done.stderr
+    results = track_all(quadedge.open_dataset(room_folder), **arguments)
+    assert len(results) == 6 and all(result.is_tracked for result in results)
+    assert write(results, tmp_path / "ours.txt") == (tmp_path / "out" / "trajectory.txt").read_bytes()
+
+
+def test_poses_of_the_recorded_flight(command, flight_folder, tmp_path):
+    done = command("run", flight_folder, "--frames", "0:6", "-o", tmp_path / "out", "--quiet")
+    assert done.returncode == 0, done.stderr
+    results = track_all(quadedge.open_dataset(flight_folder, last_frame=6))
+    assert write(results, tmp_path / "ours.txt") == (tmp_path / "out" / "trajectory.txt").read_bytes()
+
+
+def test_configuration_of_a_run_is_taken_from_its_file(command, room_folder, tmp_path):
+    done = command("run", room_folder, "-o", tmp_path / "out", "--quiet", "--preset", "fast")
+    assert done.returncode == 0, done.stderr
+    results = track_all(quadedge.open_dataset(room_folder), config=tmp_path / "out" / "config.toml")
+    assert write(results, tmp_path / "ours.txt") == (tmp_path / "out" / "trajectory.txt").read_bytes()
+
+
+def test_result_has_pose_and_covariance(room, frames):
+    first, second = track_all(room)[:2]
+    assert first.status == "first" and second.status == "tracked"
+    numpy.testing.assert_array_equal(first.world_from_left, numpy.eye(4))
+    truth = room.truth.poses[1]
+    assert numpy.linalg.norm(second.world_from_left[:3, 3] - truth[:3, 3]) < 0.01
+    assert second.covariance.shape == (6, 6)
+    numpy.testing.assert_allclose(second.covariance, second.covariance.T, rtol=1e-9)
+    assert (numpy.linalg.eigvalsh(second.covariance) > 0).all()
+    assert second.counts.quads >= second.counts.inliers > 100
+    assert second.latency_ms > 0 and second.stages
+
+
+def test_a_lost_frame_says_so_and_has_no_covariance(odometry, frames):
+    odometry.track(0, frames[0].left, frames[0].right)
+    grey = numpy.full_like(frames[0].left, 128)
+    lost = odometry.track(1, grey, grey)
+    assert lost.status == "lost_too_few_edges" and not lost.is_tracked
+    assert lost.covariance is None and "stereo edges" in lost.message
+
+
+def test_arrays_outlive_everything_and_cannot_be_written(room, frames):
+    odometry = quadedge.Odometry(room)
+    result = odometry.track(0, frames[0].left, frames[0].right)
+    edges = odometry.edges()
+    pose, xyz, ncc = result.world_from_left, edges.xyz, edges.ncc
+    copies = pose.copy(), xyz.copy(), ncc.copy()
+    odometry.close()
+    del odometry, result, edges
+    gc.collect()
+    junk = [numpy.random.default_rng(0).random((500, 500)) for _ in range(4)]
+    for array, copy in zip((pose, xyz, ncc), copies):
+        numpy.testing.assert_array_equal(array, copy)
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+    assert junk
+
+
+def test_strided_and_read_only_images_give_the_same(room, frames):
+    expected = track_all(room)[1].world_from_left
+    with quadedge.Odometry(room) as odometry:
+        for frame in frames[:2]:
+            wide = numpy.zeros((frame.left.shape[0], frame.left.shape[1] + 37), numpy.uint8)
+            wide[:, 5:-32] = frame.left
+            colour = numpy.repeat(frame.right[:, :, None], 3, axis=2)
+            assert not frame.left.flags.writeable and not wide[:, 5:-32].flags.c_contiguous
+            result = odometry.track(frame.stamp_ns, wide[:, 5:-32], colour[:, :, 1])
+    numpy.testing.assert_array_equal(result.world_from_left, expected)
+
+
+def test_images_of_16_bits(frames):
+    deep = quadedge.synthetic(frames=2, width=320, height=200, bits=16)
+    assert deep.rig.white == 65535 and deep[0].left.dtype == numpy.uint16
+    assert [result.status for result in track_all(deep)] == ["first", "tracked"]
+    with quadedge.Odometry(deep) as odometry, pytest.raises(quadedge.DataError, match="values to 255, the rig says"):
+        odometry.track(0, frames[0].left, frames[0].right)
+
+
+def test_two_threads_with_an_object_each(room, frames):
+    expected = [result.world_from_left.tobytes() for result in track_all(room)]
+    found = {}
+
+    def work(name):
+        found[name] = [result.world_from_left.tobytes() for result in track_all(room)]
+
+    threads = [threading.Thread(target=work, args=(name,)) for name in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == {0: expected, 1: expected}
+
+
+def test_other_threads_run_while_a_frame_is_tracked(room, frames):
+    """With the GIL held, nothing could be counted between the start and the end of track()."""
+    counted = []
+    stop = threading.Event()
+
+    def count():
+        while not stop.is_set():
+            counted.append(None)
+            stop.wait(0.0005)
+
+    with quadedge.Odometry(room, device="reference") as odometry:
+        thread = threading.Thread(target=count)
+        thread.start()
+        odometry.track(0, frames[0].left, frames[0].right)
+        before = len(counted)
+        odometry.track(1, frames[1].left, frames[1].right)
+        during = len(counted) - before
+        stop.set()
+        thread.join()
+    assert during > 3
+
+
+LEFT, RIGHT = numpy.zeros((200, 320), numpy.uint8), numpy.zeros((200, 320), numpy.uint8)
+
+
+@pytest.mark.parametrize("left, error, words", [
+    (None, TypeError, "the left image is None, expected a numpy array of uint8 or uint16"),
+    ("image.png", TypeError, "the left image is str, expected a numpy array"),
+    (LEFT.astype(float), TypeError, "the left image is an array of float64, expected a numpy array of uint8 or uint16"),
+    (LEFT.astype(">u2"), TypeError, "the left image is an array of >u2"),
+    (LEFT[:, :-1], quadedge.DataError, "the left image has 319x200 pixels, the calibration expects 320x200"),
+    (numpy.zeros((200, 320, 3), numpy.uint8), quadedge.DataError,
+     "the left image has 200 x 320 x 3 values, expected height x width: one grey channel"),
+    (numpy.zeros(64000, numpy.uint8), quadedge.DataError, "the left image has 64000 values, expected height x width"),
+    (numpy.zeros((0, 320), numpy.uint8), quadedge.DataError, "the left image is empty"),
+    (LEFT[::-1], quadedge.DataError, "the left image has a stride of -320 bytes, expected at least the 320 of a row"),
+    (LEFT[:, ::-1], quadedge.DataError, "the left image has a stride of -1 bytes from pixel to pixel"),
+    (numpy.broadcast_to(LEFT[0], LEFT.shape), quadedge.DataError,
+     "the left image has a stride of 0 bytes, expected at least the 320 of a row"),
+    (LEFT.astype(numpy.uint16), quadedge.DataError, "the left image has values to 65535, the rig says to 255"),
+])  # fmt: skip
+def test_what_is_no_image_is_refused(untouched, left, error, words):
+    with pytest.raises(error, match=words):
+        untouched.track(10**18, left, RIGHT)
+    assert untouched.track(0, LEFT, RIGHT).reference_frame == -1  # no trace is left
+
+
+def test_the_same_words_as_the_commands(command, room_folder, room, tmp_path):
+    with quadedge.Odometry(room) as odometry:
+        odometry.track(5, LEFT, RIGHT)
+        with pytest.raises(quadedge.DataError, match="the stamp 4 ns goes back, expected at least 5 ns"):
+            odometry.track(4, LEFT, RIGHT)
+    cases = [({"config": {"stereo.ncc_min": 3}}, ("--stereo.ncc_min", "3"), "0.01 to 1"),
+             ({"device": "toaster"}, ("--device", "toaster"), "no OpenCL device matches 'toaster'")]  # fmt: skip
+    for arguments, options, words in cases:
+        done = command("run", room_folder, "-o", tmp_path / "out", *options)
+        with pytest.raises(quadedge.Error) as raised:
+            quadedge.Odometry(room, **arguments)
+        assert words in str(raised.value) and words in done.stderr, (str(raised.value), done.stderr)
+        assert raised.value.exit_code == done.returncode
+
+
+@pytest.mark.parametrize("source", [None, "camchain.yaml", numpy.eye(4)])
+def test_what_is_no_rig_is_refused(source):
+    with pytest.raises(TypeError, match="expected a Rig, a Dataset or a Synthetic"):
+        quadedge.Odometry(source)
+
+
+def test_images_after_close_are_refused(room, frames):
+    odometry = quadedge.Odometry(room)
+    odometry.close()
+    odometry.close()  # again is no mistake
+    for late in (lambda: odometry.track(0, frames[0].left, frames[0].right), odometry.edges, odometry.details):
+        with pytest.raises(quadedge.UsageError, match="the odometry is closed"):
+            late()
+
+
+def test_stamps_are_whole_numbers(odometry):
+    with pytest.raises(TypeError):
+        odometry.track(0.5, LEFT, RIGHT)
+    assert odometry.track(numpy.int64(7), LEFT, RIGHT).stamp_ns == 7

@@ -1,0 +1,48 @@
+"""Rigs, by numbers and from calibration files."""
+
+import numpy
+import pytest
+
+import quadedge
+
+CAMERA = dict(fx=400.0, fy=401.0, cx=159.5, cy=99.5, width=320, height=200)
+
+
+def right_from_left(baseline: float) -> numpy.ndarray:
+    transform = numpy.eye(4)
+    transform[0, 3] = -baseline
+    return transform
+
+
+def test_a_rig_by_numbers():
+    camera = quadedge.PinholeCamera(**CAMERA)
+    rig = quadedge.Rig(camera, camera, right_from_left(0.12))
+    assert rig.baseline == 0.12 and rig.white == 255 and rig.left.width == 320
+    numpy.testing.assert_array_equal(rig.right_from_left, right_from_left(0.12))
+    numpy.testing.assert_array_equal(rig.left.matrix, [[400, 0, 159.5], [0, 401, 99.5], [0, 0, 1]])
+
+
+@pytest.mark.parametrize("transform, words", [
+    (right_from_left(0), "stereo rig: found a baseline of 0.000000 m, expected a finite length above zero"),
+    (numpy.diag([1.0, 1, -1, 1]), "right_from_left: found a matrix that is no rigid transform"),
+    (2 * numpy.eye(4), "right_from_left: found a matrix that is no rigid transform"),
+    (numpy.eye(3), "right_from_left: found 3 x 3 numbers, expected 4 x 4"),
+])  # fmt: skip
+def test_a_rig_that_is_none(transform, words):
+    camera = quadedge.PinholeCamera(**CAMERA)
+    with pytest.raises(quadedge.DataError, match=words):
+        quadedge.Rig(camera, camera, transform)
+
+
+def test_the_flights_own_calibration_files(flight_folder):
+    files = [flight_folder / "mav0" / camera / "sensor.yaml" for camera in ("cam0", "cam1")]
+    rig, dataset = quadedge.Rig.from_file(files), quadedge.open_dataset(flight_folder)
+    numpy.testing.assert_array_equal(rig.right_from_left, dataset.rig.right_from_left)
+    assert rig.left.fx == dataset.rig.left.fx
+    joined = quadedge.Rig.from_file(",".join(map(str, files)))
+    numpy.testing.assert_array_equal(joined.right_from_left, rig.right_from_left)
+
+
+def test_a_missing_calibration_names_the_file(tmp_path):
+    with pytest.raises(quadedge.DataError, match="no_such.yaml"):
+        quadedge.Rig.from_file(tmp_path / "no_such.yaml")

@@ -1,0 +1,87 @@
+"""Results in rerun: files that its own command verifies, and that hold what was shown."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import quadedge
+
+rerun = pytest.importorskip("rerun", reason="rerun-sdk is not installed: quadedge.view cannot be tested")
+
+import quadedge.view  # noqa: E402
+
+
+def rerun_command(*arguments) -> str:
+    """What the rerun command prints; fails where it fails."""
+    call = [sys.executable, "-m", "rerun", *map(str, arguments)]
+    done = subprocess.run(call, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+def entities(file: Path) -> set[str]:
+    """Paths in a recording."""
+    import re
+
+    return set(re.findall(r" - (/\S+) - data columns", rerun_command("rrd", "print", file)))
+
+
+@pytest.fixture(scope="module")
+def results(command, room_folder, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("results") / "room"
+    done = command("run", room_folder, "-o", folder, "--quiet")
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def test_results_from_the_shell(results, tmp_path):
+    file = tmp_path / "room.rrd"
+    call = [sys.executable, "-m", "quadedge.view", results, "--save", file]
+    done = subprocess.run(call, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "frames     6" in done.stdout
+    rerun_command("rrd", "verify", file)
+    expected = {"/world/path", "/world/key_rigs", "/world/edges", "/world/key_edges", "/world/camera/left/image",
+                "/world/camera/right/image", "/world/camera/left/edges", "/world/camera/left/quads", "/counts/inliers",
+                "/times/latency"}  # fmt: skip
+    assert expected <= entities(file)
+    again = subprocess.run(call, capture_output=True, text=True)
+    assert again.returncode == 2 and "the file exists" in again.stderr
+
+
+def test_results_without_their_recording(results, tmp_path):
+    viewer = quadedge.view.Viewer("room", save=tmp_path / "room.rrd")
+    assert quadedge.view.show_results(results, viewer, images=False) == 6
+    with pytest.raises(quadedge.DataError):
+        quadedge.view.show_results(results, viewer, data=tmp_path / "elsewhere")
+    viewer.close()
+    rerun_command("rrd", "verify", tmp_path / "room.rrd")
+    assert "/world/path" in entities(tmp_path / "room.rrd")
+
+
+def test_live(room, tmp_path):
+    viewer = quadedge.view.Viewer("live", save=tmp_path / "live.rrd")
+    with quadedge.Odometry(room) as odometry:
+        for frame in room:
+            viewer.log(odometry, odometry.track(frame.stamp_ns, frame.left, frame.right), frame.left, frame.right)
+    viewer.close()
+    rerun_command("rrd", "verify", tmp_path / "live.rrd")
+    assert {"/world/edges", "/world/camera/left/quads", "/times/latency"} <= entities(tmp_path / "live.rrd")
+
+
+def test_what_are_no_results(tmp_path, results):
+    done = subprocess.run([sys.executable, "-m", "quadedge.view", tmp_path, "--save", tmp_path / "x.rrd"],
+                          capture_output=True, text=True)
+    assert done.returncode == 3 and "expected the results of `quadedge run`" in done.stderr
+    assert not (tmp_path / "x.rrd").exists()
+    import shutil
+
+    damaged = shutil.copytree(results, tmp_path / "damaged")
+    text = (damaged / "poses.csv").read_text()
+    (damaged / "poses.csv").write_text(text[: text.rfind("tracked")] + "tracked,0,oops\n")
+    viewer = quadedge.view.Viewer("damaged", save=tmp_path / "damaged.rrd")
+    with pytest.raises(quadedge.DataError, match="row 5 of frames.csv or poses.csv is damaged"):
+        quadedge.view.show_results(damaged, viewer)
+    viewer.close()
