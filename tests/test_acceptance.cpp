@@ -106,6 +106,31 @@ TEST_CASE("acceptance: what moves otherwise is a ratio of the image, and two mot
   CHECK_FALSE(acceptance.are_rivals(alike.step, other, same_base));
 }
 
+TEST_CASE("acceptance: what stands still against the motion says that the camera may stand still", "[odometry]") {
+  generated::Problem thing, scene;
+  thing.quads = 400;
+  thing.motion = shift(0.3, 0);
+  thing.near = thing.far = 8;
+  scene.quads = 60;
+  scene.motion = Eigen::Isometry3d::Identity();
+  scene.near = 5;
+  scene.far = 10;
+  const Config config;
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  Acceptance acceptance(config, offset);
+  TwoMotions seen(thing, scene);
+  seen.area_of(thing.motion);
+  CHECK(acceptance.leaves_a_still_world(seen.step));
+  seen.area_of(scene.motion);
+  CHECK_FALSE(acceptance.leaves_a_still_world(seen.step));
+  // What is so far away that it hardly moves agrees with the motion as well.
+  scene.motion = thing.motion;
+  scene.near = scene.far = 2000;
+  TwoMotions far(thing, scene);
+  far.area_of(thing.motion);
+  CHECK_FALSE(acceptance.leaves_a_still_world(far.step));
+}
+
 TEST_CASE("acceptance: what support is enough follows from what motions have reached lately", "[odometry]") {
   const Config config;
   const odometry::DisparityOffset offset(generated::car_rig(), config.pose);

@@ -23,6 +23,10 @@ constexpr double kNearlyAsMuch = 0.4;
 /// Where this ratio of the edges in view lies in cells that hardly follow it, a motion is a compromise or an accident.
 constexpr double kMostLeftOver = 0.5;
 
+/// Ratio of the quads that stand still against the motion. Sound recordings and scenes have up to 0.036 in single frames,
+/// mostly below 0.001; a still camera whose motion is drawn from what moves before it 0.07 to 0.36.
+constexpr double kStillAnyhow = 0.05;
+
 /// Two motions that share more of the inliers are one.
 constexpr double kTheSameMotion = 0.7;
 
@@ -74,6 +78,18 @@ void Acceptance::measure_area(const EdgePositions& predicted, MotionStep& step) 
   }
   step.explained_area = held > 0 ? sum / held : 0;
   step.moving_ratio = in_view > 0 ? elsewhere / in_view : 0;
+}
+
+bool Acceptance::leaves_a_still_world(const MotionStep& step) {
+  if (!step.ok()) return false;
+  const double close = kCloseAgreement * config_.pose.inlier_distance, turn = config_.pose.inlier_orientation_rad();
+  const auto& quads = step.quads.scoring;
+  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous), 2 * close, turn,
+                       agrees_);
+  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn, stands_);
+  std::size_t still = 0;
+  for (std::size_t q = 0; q < quads.size(); ++q) still += stands_[q] != 0 && agrees_[q] == 0 ? 1 : 0;
+  return static_cast<double>(still) > kStillAnyhow * static_cast<double>(quads.size());
 }
 
 double Acceptance::confident_support() const {

@@ -29,6 +29,7 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, c
 StepHandle MotionSearch::find(const MotionQuery& query) {
   StepHandle found = search(query);
   acceptance_.remember(*found);
+  in_doubt_ = found->ambiguous;
   return found;
 }
 
@@ -48,21 +49,26 @@ StepHandle MotionSearch::search(const MotionQuery& query) {
     return trial.hypothesis->trusts_prediction() && acceptance_.is_confident(*trial.outcome());
   };
   const auto stands = [&](Trial& trial) {
-    return is_expected(trial) && !Acceptance::leaves_most_over(*trial.outcome());
+    return !in_doubt_ && is_expected(trial) && !Acceptance::leaves_most_over(*trial.outcome());
+  };
+  const auto leaves_something_over = [&](const MotionStep& step) {
+    return Acceptance::leaves_much_over(step) || acceptance_.leaves_a_still_world(step);
   };
   for (const auto& hypothesis : hypotheses_) {
     // Where a part of the image moves otherwise than predicted, what costs little is tried beside the prediction; where
     // most of it does, all.
     if (hypothesis->is_costly() && !trials.empty() && stands(trials.front())) continue;
     try_hypothesis(*hypothesis);
-    if (trials.size() == 1 && is_expected(trials.front()) && !Acceptance::leaves_much_over(*trials.front().outcome()))
+    if (trials.size() == 1 && !in_doubt_ && is_expected(trials.front()) &&
+        !leaves_something_over(*trials.front().outcome()))
       return std::move(trials.front().outcome());
   }
   if (stands(trials.front()) && !is_expected(choose()))
     for (const auto& hypothesis : hypotheses_)
       if (hypothesis->is_costly()) try_hypothesis(*hypothesis);
   Trial& chosen = choose();
-  const bool is_ambiguous = Acceptance::leaves_most_over(*chosen.outcome()) || has_rival(chosen, trials, query);
+  const bool is_ambiguous = Acceptance::leaves_most_over(*chosen.outcome()) ||
+                            acceptance_.leaves_a_still_world(*chosen.outcome()) || has_rival(chosen, trials, query);
   StepHandle found = std::move(chosen.outcome());
   found->ambiguous = is_ambiguous;
   const bool was_expected = chosen.hypothesis->trusts_prediction() && acceptance_.is_confident(*found);

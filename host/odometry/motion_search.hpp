@@ -49,6 +49,7 @@ class MotionSearch {
 
   StepBuilder steps_;
   Acceptance acceptance_;
+  bool in_doubt_ = false;  ///< the last motion was ambiguous, and so is a prediction by it
   Confirmation confirmation_;
   std::vector<std::unique_ptr<MotionHypothesis>> hypotheses_;  ///< in the order in which they are tried
 };

@@ -17,6 +17,9 @@ constexpr double kSome = 0.1;  // sound recordings have up to 0.03 beyond either
 constexpr double kLostResidual = 3;
 /// The cascade looks this far from the line; sound recordings have up to 0.4. [px]
 constexpr double kDoubtfulResidual = 0.5;
+/// Where more of the edges find a partner on their epipolar lines, spots beside theirs lie on thin things before others.
+/// Doubtful rigs let up to 0.51 find one, sound ones 0.72 and more.
+constexpr double kWellMatched = 0.65;
 
 std::string number(double value, int decimals) {
   char text[32];
@@ -123,7 +126,7 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
         "camera's yaw?");
   } else if (fit.residual > kLostResidual) {
     does_not_fit(seen_across(fit), cause_across(fit));
-  } else if (!fit.is_coarse && fit.residual > kDoubtfulResidual) {
+  } else if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !(evidence.matched_ratio > kWellMatched)) {
     findings.doubts.push_back("the calibration is doubtful: " + matched(evidence) + seen_across(fit) + "; " +
                               cause_across(fit));
   }

@@ -155,4 +155,27 @@ void add_board(Sequence& sequence, const Board& board) {
   }
 }
 
+void show_checkerboard(Sequence& sequence, double cell, double speed, double disparity) {
+  const double metres = sequence.rig.baseline() / disparity;  // per pixel
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    const double at = speed * static_cast<double>(i);
+    sequence.world_from_left[i] = Eigen::Translation3d(at * metres, 0, 0);
+    for (const bool is_left : {true, false}) {
+      Image& image = is_left ? sequence.left[i] : sequence.right[i];
+      const double shift = at + (is_left ? 0 : disparity);
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          // The mean over the pixel: borders are a pixel wide.
+          const auto stripe = [&](double u) {
+            const double place = u / cell - 2 * std::floor(u / (2 * cell));
+            const double from_border = std::min({place, std::abs(place - 1), 2 - place}) * cell;
+            return (place < 1 ? 1 : -1) * std::min(1.0, 2 * from_border);
+          };
+          image.set(x, y, static_cast<int>(std::lround(127.5 + 90 * stripe(x + shift) * stripe(y + 0.3 * cell))));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace attack

@@ -49,4 +49,8 @@ struct Board {
 };
 void add_board(Sequence& sequence, const Board& board);
 
+/// Every image becomes that of a checkerboard across the whole view, which the camera passes sideways by `speed` px per
+/// frame. \param cell side of a field [px] \param disparity [px]
+void show_checkerboard(Sequence& sequence, double cell, double speed, double disparity);
+
 }  // namespace attack
