@@ -3,8 +3,8 @@
 
     truth_consistency.py SEQUENCE RESULTS [-o FILE]
 
-SEQUENCE holds mav0, RESULTS what `quadedge run` leaves of it (trajectory.txt, report.json). Printed, and written to FILE
-as JSON:
+SEQUENCE holds mav0, RESULTS what `quadedge run` leaves of it (trajectory.txt, report.json). Printed, and written to
+FILE as JSON:
 
 - the time offset between truth and images by rotation: the one that makes the angles from frame to frame agree best;
 - the errors of motions over 1 to 50 frames as they are, and after eight constants of the truth are fitted to them over

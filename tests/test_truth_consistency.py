@@ -52,6 +52,8 @@ def examine(folder, late, arm, scale):
     (results / "trajectory.txt").write_text("# stamp x y z qx qy qz qw\n" + "".join(
         f"{(START + round(t * 1e9)) // 10**9}.{(START + round(t * 1e9)) % 10**9:09d} "
         + " ".join(f"{value:.12f}" for value in (*p, *q)) + "\n" for t, p, q in zip(frames, *poses(frames))))
+    promised = [{"frames": steps, "promised_m": 0.001 * steps} for steps in (1, 2, 5, 10, 20, 40, 50, 100)]
+    (results / "report.json").write_text(json.dumps({"accuracy": {"consistency": promised}}))
     done = subprocess.run([sys.executable, script, folder, results, "-o", folder / "truth.json"], capture_output=True,
                           text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -62,6 +64,7 @@ with tempfile.TemporaryDirectory() as folder:
     right = examine(Path(folder) / "right", 0.0, np.zeros(3), 0.0)
     assert all(row["as_it_is_mm"] < 0.1 for row in right["rows"]), right
     assert all(abs(value) < 1e-3 for value in right["constants"].values()), right
+    assert [row["promised_mm"] for row in right["rows"]] == [row["frames"] for row in right["rows"]], right
 
     faulty = examine(Path(folder) / "faulty", LATE, ARM, SCALE)
     assert abs(faulty["rotation_offset_ms"]) < 0.2, faulty  # the orientations have the images' time

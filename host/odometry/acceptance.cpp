@@ -23,8 +23,8 @@ constexpr double kNearlyAsMuch = 0.4;
 /// Where this ratio of the edges in view lies in cells that hardly follow it, a motion is a compromise or an accident.
 constexpr double kMostLeftOver = 0.5;
 
-/// Ratio of the quads that stand still against the motion. Sound recordings and scenes have up to 0.036 in single frames,
-/// mostly below 0.001; a still camera whose motion is drawn from what moves before it 0.07 to 0.36.
+/// Ratio of the quads that stand still against the motion. Sound recordings and scenes have up to 0.036 in single
+/// frames, mostly below 0.001; a still camera whose motion is drawn from what moves before it 0.07 to 0.36.
 constexpr double kStillAnyhow = 0.05;
 
 /// Two motions that share more of the inliers are one.

@@ -28,8 +28,8 @@ class Acceptance {
   /// that it is covered with.
   void measure_area(const EdgePositions& predicted, MotionStep& step);
 
-  /// Whether a part of the image stands still that the motion would have moved. Nothing stands still by chance, and what
-  /// is far away moves with the motion found as well: either the camera did not move, or something moves with it.
+  /// Whether a part of the image stands still that the motion would have moved. Nothing stands still by chance, and
+  /// what is far away moves with the motion found as well: either the camera did not move, or something moves with it.
   bool leaves_a_still_world(const MotionStep& step);
 
   /// Whether a motion near the prediction is believed without asking further.
@@ -66,8 +66,8 @@ class Acceptance {
   Config config_;
   const DisparityOffset& offset_;
   static constexpr double kUnknownSupport = 1;
-  double reached_support_ = kUnknownSupport;  ///< lately
-  std::vector<Cell> cells_;                   ///< kept for their memory, as are these
+  double reached_support_ = kUnknownSupport;   ///< lately
+  std::vector<Cell> cells_;                    ///< kept for their memory, as are these
   std::vector<std::uint8_t> agrees_, stands_;  ///< one per quad
 };
 

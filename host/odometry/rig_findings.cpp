@@ -17,8 +17,8 @@ constexpr double kSome = 0.1;  // sound recordings have up to 0.03 beyond either
 constexpr double kLostResidual = 3;
 /// The cascade looks this far from the line; sound recordings have up to 0.4. [px]
 constexpr double kDoubtfulResidual = 0.5;
-/// Where more of the edges find a partner on their epipolar lines, spots beside theirs lie on thin things before others.
-/// Doubtful rigs let up to 0.51 find one, sound ones 0.72 and more.
+/// Where more of the edges find a partner on their epipolar lines, spots beside theirs lie on thin things before
+/// others. Doubtful rigs let up to 0.51 find one, sound ones 0.72 and more.
 constexpr double kWellMatched = 0.65;
 
 std::string number(double value, int decimals) {

@@ -203,6 +203,7 @@ constexpr const char* kOdometryHelp =
 
 }  // namespace
 
+/// LONG: one statement per member.
 void bind_odometry(nb::module_& module) {
   bind_evidence(module);
   bind_result(module);
