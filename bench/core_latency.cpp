@@ -126,7 +126,9 @@ int measure(const Settings& settings) {
     tracked += results[i].status == FrameStatus::tracked ? 1 : 0;
   }
 
-  Device profiled_device(settings.device, "", true);
+  DeviceOptions profiling;
+  profiling.profiling = true;
+  Device profiled_device(settings.device, profiling);
   StereoOdometry profiled(sequence.rig(), profiled_device, config);
   std::map<std::string, std::vector<double>> kernels;
   const auto profiled_results = track(settings, sequence, frames, profiled);

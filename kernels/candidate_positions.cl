@@ -5,8 +5,8 @@
 
 // Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its
 // position s.
-inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
-                            const float min_sine, const float max_shift) {
+static inline float epipolar_shift(const EpipolarLine line, const float x, const float y, const float direction,
+                                   const float min_sine, const float max_shift) {
   const float dx = x - line.x, dy = y - line.y;
   const float s = dx * line.ex + dy * line.ey;
   const float distance = -dx * line.ey + dy * line.ex;
@@ -21,8 +21,8 @@ inline float epipolar_shift(const EpipolarLine line, const float x, const float 
 
 // Candidate c against the earlier ones of its row, which begins at `begin`: of candidates at one position the one whose
 // sides are most similar stays alive and represents the others. To be called in the order of the row.
-inline void choose_representative(const int begin, const int c, global const float* ncc, global const float* position,
-                                  global uchar* state) {
+static inline void choose_representative(const int begin, const int c, global const float* ncc,
+                                         global const float* position, global uchar* state) {
   for (int k = begin; k < c; ++k) {
     if (state[k] != kCandidateAlive || fabs(position[k] - position[c]) >= kSamePosition) continue;
     const int better = ncc[c] > ncc[k];
@@ -33,8 +33,8 @@ inline void choose_representative(const int begin, const int c, global const flo
 
 // After the refinement of a row: represented candidates stay where they are and take the similarity of the nearest
 // alive one; where none is left they are rejected like it.
-inline void follow_representatives(const int begin, const int end, const int rejected_order,
-                                   global const float* position, global uchar* state, global float* similarity) {
+static inline void follow_representatives(const int begin, const int end, const int rejected_order,
+                                          global const float* position, global uchar* state, global float* similarity) {
   for (int c = begin; c < end; ++c) {
     if (state[c] != kCandidateRepresented) continue;
     int nearest = -1;

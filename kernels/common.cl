@@ -19,13 +19,13 @@ typedef uchar Pixel;
 #endif
 
 // Smallest difference of two directions modulo a full turn, radians in [0, pi].
-inline float angle_between(float a, float b) {
+static inline float angle_between(float a, float b) {
   float d = fabs(a - b);
   return d > PI_F ? 2.0f * PI_F - d : d;
 }
 
 // Smallest difference of two directions modulo half a turn, radians in [0, pi/2].
-inline float line_angle_between(float a, float b) {
+static inline float line_angle_between(float a, float b) {
   const float d = angle_between(a, b);
   return d > 0.5f * PI_F ? PI_F - d : d;
 }

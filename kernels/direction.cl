@@ -6,7 +6,7 @@
 
 // Sine and cosine of x radians, |x| < 1000: reduction by multiples of pi/2 in three parts, then the Taylor polynomials
 // of degree 9 and 10, whose remainders on [-pi/4, pi/4] are 2e-9 and 2e-10. Error at most 1e-7.
-inline float sine_cosine(const float x, float* cosine) {
+static inline float sine_cosine(const float x, float* cosine) {
   const float turns = x * 0.636619772f;
   const int quarter = (int)(turns + (turns < 0.0f ? -0.5f : 0.5f));
   const float n = (float)quarter;
@@ -22,11 +22,11 @@ inline float sine_cosine(const float x, float* cosine) {
 }
 
 // Largest whole number not above x, |x| < 2^31.
-inline int whole_below(const float x) {
+static inline int whole_below(const float x) {
   const int t = (int)x;
   return x < (float)t ? t - 1 : t;
 }
-inline int8 whole_below8(const float8 x) {
+static inline int8 whole_below8(const float8 x) {
   const int8 t = convert_int8(x);
   return t + (x < convert_float8(t));
 }

@@ -48,17 +48,17 @@
 
 // Gradient magnitude one step ahead of and behind a cell along its gradient, on the ring of its eight neighbours
 // (l, r, u, d: left, right, up, down).
-#define DEFINE_PROBES(NAME, T)                                                                                 \
-  inline void NAME(const T gx, const T gy, const T l, const T r, const T u, const T d, const T ul, const T ur, \
-                   const T dl, const T dr, T* ahead, T* behind) {                                              \
-    const T ax = fabs(gx), ay = fabs(gy);                                                                      \
-    const T q = fmin(ax, ay) / fmax(ax, ay);                                                                   \
-    const T axis_ahead = ax >= ay ? (gx > 0.0f ? r : l) : (gy > 0.0f ? d : u);                                 \
-    const T axis_behind = ax >= ay ? (gx > 0.0f ? l : r) : (gy > 0.0f ? u : d);                                \
-    const T diagonal_ahead = gy > 0.0f ? (gx > 0.0f ? dr : dl) : (gx > 0.0f ? ur : ul);                        \
-    const T diagonal_behind = gy > 0.0f ? (gx > 0.0f ? ul : ur) : (gx > 0.0f ? dl : dr);                       \
-    *ahead = fma(q, diagonal_ahead - axis_ahead, axis_ahead);                                                  \
-    *behind = fma(q, diagonal_behind - axis_behind, axis_behind);                                              \
+#define DEFINE_PROBES(NAME, T)                                                                                        \
+  static inline void NAME(const T gx, const T gy, const T l, const T r, const T u, const T d, const T ul, const T ur, \
+                          const T dl, const T dr, T* ahead, T* behind) {                                              \
+    const T ax = fabs(gx), ay = fabs(gy);                                                                             \
+    const T q = fmin(ax, ay) / fmax(ax, ay);                                                                          \
+    const T axis_ahead = ax >= ay ? (gx > 0.0f ? r : l) : (gy > 0.0f ? d : u);                                        \
+    const T axis_behind = ax >= ay ? (gx > 0.0f ? l : r) : (gy > 0.0f ? u : d);                                       \
+    const T diagonal_ahead = gy > 0.0f ? (gx > 0.0f ? dr : dl) : (gx > 0.0f ? ur : ul);                               \
+    const T diagonal_behind = gy > 0.0f ? (gx > 0.0f ? ul : ur) : (gx > 0.0f ? dl : dr);                              \
+    *ahead = fma(q, diagonal_ahead - axis_ahead, axis_ahead);                                                         \
+    *behind = fma(q, diagonal_behind - axis_behind, axis_behind);                                                     \
   }
 DEFINE_PROBES(probes, float)
 DEFINE_PROBES(probes16, float16)
@@ -70,7 +70,7 @@ DEFINE_PROBES(probes16, float16)
 
 // The line along a gradient in steps of 0.2 degrees, as a fraction: that of 1024 codes, the upper half of which says
 // |gx| >= |gy|, the lower bits the ratio of the smaller to the larger component.
-inline float direction_code(const float gx, const float gy) {
+static inline float direction_code(const float gx, const float gy) {
   const int steep = fabs(gx) >= fabs(gy);
   const float ratio = steep ? gy / gx : gx / gy;
   return ((steep ? 512.0f : 0.0f) + rint((ratio + 1.0f) * 255.5f)) * (1.0f / 1024.0f);
@@ -78,8 +78,8 @@ inline float direction_code(const float gx, const float gy) {
 
 // Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) grid steps away, which
 // cancels.
-inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, const float gy, const float magnitude,
-                            const float ahead, const float behind) {
+static inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, const float gy,
+                                   const float magnitude, const float ahead, const float behind) {
   const float rise = ahead - behind;
   const float t = -0.5f * rise / ((ahead - magnitude) + (behind - magnitude));
   const float scale = 0.5f * t / fmax(fabs(gx), fabs(gy));
@@ -90,7 +90,7 @@ inline float4 parabola_peak(const int cell_x, const int cell_y, const float gx, 
 // Weights of G and its derivatives up to the fourth at point - pixel for the pixels index = 0 .. TAPS - 1, which lie at
 // index - RADIUS from the point's whole part; `fraction` is the rest. Zero beyond TAPS.
 #define DEFINE_WEIGHTS(NAME, T, I, CONVERT_I, CONVERT_T, AS_T)                                                \
-  inline void NAME(const float fraction, const I index, T* g) {                                               \
+  static inline void NAME(const float fraction, const I index, T* g) {                                        \
     const float ss = SIGMA * SIGMA;                                                                           \
     const T u = fraction - CONVERT_T(index - RADIUS);                                                         \
     const T uu = u * u;                                                                                       \
@@ -117,14 +117,14 @@ DEFINE_WEIGHTS(weights8, float8, int8, convert_int8, convert_float8, as_float8)
 #define WINDOW(plane, stride, x, y) ((plane) + ((y)-RADIUS + PAD_Y) * (stride) + (x)-RADIUS + PAD_X)
 
 // Grey level that the third-order window is taken relative to: mean of the four pixels around the point.
-inline float window_level(global const float* plane, const int stride, const int x, const int y) {
+static inline float window_level(global const float* plane, const int stride, const int x, const int y) {
   global const float* at = plane + (y + PAD_Y) * stride + x + PAD_X;
   return 0.25f * ((at[0] + at[1]) + (at[stride] + at[stride + 1]));
 }
 
 // atan2 in [-pi, pi], to 2e-7; polynomial of atan(a) / a on [0, 1] fitted for the smallest largest error.
 #define DEFINE_ANGLE(NAME, T)                                  \
-  inline T NAME(const T y, const T x) {                        \
+  static inline T NAME(const T y, const T x) {                 \
     const T ax = fabs(x), ay = fabs(y);                        \
     const T high = fmax(ax, ay);                               \
     const T a = high > 0.0f ? fmin(ax, ay) / high : (T)0.0f;   \
@@ -147,7 +147,7 @@ inline float window_level(global const float* plane, const int stride, const int
 // From the derivatives d at (x, y) to the direction; to the Newton step onto F = 0, which moves x and y; and to how far
 // the edge drifts towards its bright side per unit of log(SIGMA), by the heat equation.
 #define DEFINE_THIRD_ORDER(NAME, T, ANGLE)                                                                             \
-  inline T NAME(const T* d, const float newton_max, T* x, T* y, T* drift) {                                            \
+  static inline T NAME(const T* d, const float newton_max, T* x, T* y, T* drift) {                                     \
     const T shared = 2.0f * d[3] * (d[2] + d[4]);                                                                      \
     const T xx = d[0] * d[0], xy = 2.0f * d[0] * d[1], yy = d[1] * d[1];                                               \
     const T fx = 2.0f * d[0] * (d[2] * d[2] + d[3] * d[3]) + d[1] * shared + xx * d[5] + xy * d[6] + yy * d[7];        \

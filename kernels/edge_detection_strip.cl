@@ -12,7 +12,7 @@ typedef struct __attribute__((packed)) {
 #define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
 
 // Lanes of a comparison as bits: lane k at bit 2 k.
-inline uint lane_bits(const int16 lanes) {
+static inline uint lane_bits(const int16 lanes) {
   const int16 bits = lanes & (int16)(1, 1 << 2, 1 << 4, 1 << 6, 1 << 8, 1 << 10, 1 << 12, 1 << 14, 1 << 16, 1 << 18,
                                      1 << 20, 1 << 22, 1 << 24, 1 << 26, 1 << 28, 1 << 30);
   const int8 eight = bits.lo | bits.hi;
@@ -129,7 +129,8 @@ kernel void edges_strip_maxima(const DetectionArguments args, global const float
 }
 
 // The derivatives at (x, y), written to d[0], d[8], d[16] ...; the columns of the window lie in lanes of 8.
-inline void window_derivatives(global const float* plane, const int stride, const float x, const float y, float* d) {
+static inline void window_derivatives(global const float* plane, const int stride, const float x, const float y,
+                                      float* d) {
   const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   const int whole_x = (int)x, whole_y = (int)y;
   float weights_y[ORDERS][COLUMNS];

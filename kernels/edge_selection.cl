@@ -18,50 +18,50 @@
 // line two of them.
 // chosen: positions and directions of the two images differ a little, so the searched image keeps the neighbours too,
 // and what a neighbouring density asks for.
-#define DEFINE_LATTICE(T, I, SUFFIX)                                                                                \
-  inline T crossing##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code, T* step, \
-                            T* sine) {                                                                              \
-    const T code = (column_and_code - floor(column_and_code)) * 1024.0f;                                            \
-    const I steep = code >= 512.0f;                                                                                 \
-    const T ratio = select(code, code - 512.0f, steep) / 255.5f - 1.0f;                                             \
-    const T tangent_x = select((T)1.0f, -ratio, steep), tangent_y = select(-ratio, (T)1.0f, steep);                 \
-    const EpipolarRows rows = args->rows;                                                                           \
-    const T depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;                                       \
-    const T row = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;                                  \
-    const T by_x = (rows.across_x - row * rows.forward_x) / depth;                                                  \
-    const T by_y = (rows.across_y - row * rows.forward_y) / depth;                                                  \
-    const T rise = fabs(tangent_x * by_x + tangent_y * by_y);                                                       \
-    *step = 0.5f * rise;                                                                                            \
-    *sine = rise / sqrt((1.0f + ratio * ratio) * (by_x * by_x + by_y * by_y));                                      \
-    return row;                                                                                                     \
-  }                                                                                                                 \
-  inline T density##SUFFIX(const T sine) {                                                                          \
-    T density = select((T)1.0f, (T)0.5f, sine < 0.70710678f);                                                       \
-    density = select(density, (T)0.25f, sine < 0.35355339f);                                                        \
-    density = select(density, (T)0.125f, sine < 0.17677670f);                                                       \
-    return select(density, (T)0.0625f, sine < 0.08838835f);                                                         \
-  }                                                                                                                 \
-  inline I meets##SUFFIX(const T row, const T step, const T spacing, const float width) {                           \
-    const T distance = row - spacing * rint(row / spacing), reach = 0.5f * width * step;                            \
-    return distance >= -reach && distance < reach;                                                                  \
-  }                                                                                                                 \
-  inline I chosen##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code,            \
-                          const float spacing) {                                                                    \
-    T step, sine;                                                                                                   \
-    const T row = crossing##SUFFIX(args, x, y, column_and_code, &step, &sine);                                      \
-    const float width = args->slack > 1.0f ? kSearchedWidth : 1.0f;                                                 \
-    I chosen = meets##SUFFIX(row, step, spacing * density##SUFFIX(sine), width);                                    \
-    if (args->slack > 1.0f) {                                                                                       \
-      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine * args->slack), width);            \
-      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine / args->slack), width);            \
-    }                                                                                                               \
-    return chosen && sine >= args->min_sine;                                                                        \
+#define DEFINE_LATTICE(T, I, SUFFIX)                                                                              \
+  static inline T crossing##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code, \
+                                   T* step, T* sine) {                                                            \
+    const T code = (column_and_code - floor(column_and_code)) * 1024.0f;                                          \
+    const I steep = code >= 512.0f;                                                                               \
+    const T ratio = select(code, code - 512.0f, steep) / 255.5f - 1.0f;                                           \
+    const T tangent_x = select((T)1.0f, -ratio, steep), tangent_y = select(-ratio, (T)1.0f, steep);               \
+    const EpipolarRows rows = args->rows;                                                                         \
+    const T depth = rows.forward_x * x + rows.forward_y * y + rows.forward_1;                                     \
+    const T row = (rows.across_x * x + rows.across_y * y + rows.across_1) / depth;                                \
+    const T by_x = (rows.across_x - row * rows.forward_x) / depth;                                                \
+    const T by_y = (rows.across_y - row * rows.forward_y) / depth;                                                \
+    const T rise = fabs(tangent_x * by_x + tangent_y * by_y);                                                     \
+    *step = 0.5f * rise;                                                                                          \
+    *sine = rise / sqrt((1.0f + ratio * ratio) * (by_x * by_x + by_y * by_y));                                    \
+    return row;                                                                                                   \
+  }                                                                                                               \
+  static inline T density##SUFFIX(const T sine) {                                                                 \
+    T density = select((T)1.0f, (T)0.5f, sine < 0.70710678f);                                                     \
+    density = select(density, (T)0.25f, sine < 0.35355339f);                                                      \
+    density = select(density, (T)0.125f, sine < 0.17677670f);                                                     \
+    return select(density, (T)0.0625f, sine < 0.08838835f);                                                       \
+  }                                                                                                               \
+  static inline I meets##SUFFIX(const T row, const T step, const T spacing, const float width) {                  \
+    const T distance = row - spacing * rint(row / spacing), reach = 0.5f * width * step;                          \
+    return distance >= -reach && distance < reach;                                                                \
+  }                                                                                                               \
+  static inline I chosen##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code,   \
+                                 const float spacing) {                                                           \
+    T step, sine;                                                                                                 \
+    const T row = crossing##SUFFIX(args, x, y, column_and_code, &step, &sine);                                    \
+    const float width = args->slack > 1.0f ? kSearchedWidth : 1.0f;                                               \
+    I chosen = meets##SUFFIX(row, step, spacing * density##SUFFIX(sine), width);                                  \
+    if (args->slack > 1.0f) {                                                                                     \
+      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine * args->slack), width);          \
+      chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine / args->slack), width);          \
+    }                                                                                                             \
+    return chosen && sine >= args->min_sine;                                                                      \
   }
 DEFINE_LATTICE(float, int, )
 DEFINE_LATTICE(float16, int16, 16)
 
 // How many edges a maximum stands for at a spacing of 1 px, times kSelectionUnit.
-inline int weight_of(const SelectionArguments* args, const float4 winner) {
+static inline int weight_of(const SelectionArguments* args, const float4 winner) {
   float step, sine;
   crossing(args, winner.x, winner.y, winner.w, &step, &sine);
   return sine < args->min_sine ? 0 : (int)rint((float)kSelectionUnit * step / density(sine));

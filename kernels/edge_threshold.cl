@@ -30,32 +30,34 @@ typedef struct __attribute__((packed)) {
 #define WINDOW_COLUMNS ((POINTS - 1) * kThresholdStep + 2 * RADIUS + 1)  // that the points' gradients need
 
 // Eight bins per octave: exponent and three bits of the mantissa.
-inline int gradient_bin(const float magnitude) {
+static inline int gradient_bin(const float magnitude) {
   return clamp((as_int(magnitude) >> 20) - kGradientBinsFrom, 0, kGradientBins - 1);
 }
-inline float gradient_bin_start(const int bin) { return bin == 0 ? 0.0f : as_float((bin + kGradientBinsFrom) << 20); }
+static inline float gradient_bin_start(const int bin) {
+  return bin == 0 ? 0.0f : as_float((bin + kGradientBinsFrom) << 20);
+}
 
 // Whole numbers below 16 have a bin of their own, larger ones eight per octave.
-inline int noise_bin(const int response) {
+static inline int noise_bin(const int response) {
   const int octave = 31 - (int)clz(response | 1);
   return min(response < 16 ? response : 16 + 8 * (octave - 4) + ((response >> (octave - 3)) & 7), kNoiseBins - 1);
 }
-inline int noise_bin_start(const int bin) { return bin < 16 ? bin : (8 + (bin & 7)) << (bin / 8 - 1); }
+static inline int noise_bin_start(const int bin) { return bin < 16 ? bin : (8 + (bin & 7)) << (bin / 8 - 1); }
 
 // The noise operator, [1 -2 1] along both axes, in steps of the recorded image's levels; negative where one of the nine
 // pixels is black or white, and at the image's border.
-#define DEFINE_NOISE(NAME, T, I, CONVERT, AT)                                             \
-  inline I NAME(global const float* pixel, const I x, const ThresholdArguments args) {    \
-    T sum = 0.0f, low = args.white, high = 0.0f;                                          \
-    for (int row = -1; row <= 1; ++row) {                                                 \
-      global const float* middle = pixel + row * args.plane_stride;                       \
-      const T a = AT(middle - 1), b = AT(middle), c = AT(middle + 1);                     \
-      sum += (row == 0 ? -2.0f : 1.0f) * ((a - b) - (b - c));                             \
-      low = fmin(low, fmin(a, fmin(b, c)));                                               \
-      high = fmax(high, fmax(a, fmax(b, c)));                                             \
-    }                                                                                     \
-    const I counts = (x > 0) & (x < args.width - 1) & (low > 0.0f) & (high < args.white); \
-    return counts ? CONVERT(fabs(sum) / args.quantum + 0.5f) : (I)(-1);                   \
+#define DEFINE_NOISE(NAME, T, I, CONVERT, AT)                                                 \
+  static inline I NAME(global const float* pixel, const I x, const ThresholdArguments args) { \
+    T sum = 0.0f, low = args.white, high = 0.0f;                                              \
+    for (int row = -1; row <= 1; ++row) {                                                     \
+      global const float* middle = pixel + row * args.plane_stride;                           \
+      const T a = AT(middle - 1), b = AT(middle), c = AT(middle + 1);                         \
+      sum += (row == 0 ? -2.0f : 1.0f) * ((a - b) - (b - c));                                 \
+      low = fmin(low, fmin(a, fmin(b, c)));                                                   \
+      high = fmax(high, fmax(a, fmax(b, c)));                                                 \
+    }                                                                                         \
+    const I counts = (x > 0) & (x < args.width - 1) & (low > 0.0f) & (high < args.white);     \
+    return counts ? CONVERT(fabs(sum) / args.quantum + 0.5f) : (I)(-1);                       \
   }
 #define ONE(pointer) (*(pointer))
 DEFINE_NOISE(noise_response, float, int, (int), ONE)
@@ -64,8 +66,8 @@ DEFINE_NOISE(noise_response16, float16, int16, convert_int16, LOAD)
 #endif
 
 // Tallies the gradient at `points` points, the first one `plane` points at.
-inline void tally_gradients(global const float* pixel, const int points, const ThresholdArguments args,
-                            global const float* taps, TALLY int* tally) {
+static inline void tally_gradients(global const float* pixel, const int points, const ThresholdArguments args,
+                                   global const float* taps, TALLY int* tally) {
   float smooth_y[WINDOW_COLUMNS + 15], slope_y[WINDOW_COLUMNS + 15];
 #define AT(k) AT_COLUMNS(pixel + i - RADIUS + (k)*args.plane_stride)
 #if GROUP == 1
@@ -102,8 +104,8 @@ inline void tally_gradients(global const float* pixel, const int points, const T
 }
 
 // Tallies the noise operator in the row of pixels through the cells of `points` points.
-inline void tally_noise(global const float* row, const int first_x, const int points, const ThresholdArguments args,
-                        TALLY int* tally) {
+static inline void tally_noise(global const float* row, const int first_x, const int points,
+                               const ThresholdArguments args, TALLY int* tally) {
 #if GROUP == 1
   const int16 lanes = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   for (int x = first_x; x < first_x + points * kThresholdStep; x += 16) {
@@ -147,7 +149,7 @@ kernel void edges_tally(const ThresholdArguments args, global const float* plane
 }
 
 // The magnitude that `wanted` of the gradients exceed.
-inline float gradient_exceeded_by(local const int* tally, const float wanted) {
+static inline float gradient_exceeded_by(local const int* tally, const float wanted) {
   float above = 0.0f;
   for (int bin = kGradientBins - 1; bin >= 0; --bin) {
     const float here = (float)tally[bin];
@@ -161,7 +163,7 @@ inline float gradient_exceeded_by(local const int* tally, const float wanted) {
 }
 
 // Median of the noise operator's responses in steps; a whole number stands for half a step to either side.
-inline float noise_median(local const int* tally, const float total) {
+static inline float noise_median(local const int* tally, const float total) {
   float below = 0.0f;
   for (int bin = 0; bin < kNoiseBins; ++bin) {
     const float here = (float)tally[kGradientBins + bin];

@@ -10,7 +10,7 @@ typedef struct {
   int valid;     // 0 where the point at infinity lies behind the right camera
 } EpipolarLine;
 
-inline EpipolarLine epipolar_line(const EpipolarGeometry* g, const float x, const float y) {
+static inline EpipolarLine epipolar_line(const EpipolarGeometry* g, const float x, const float y) {
   EpipolarLine line;
   const float hx = g->h[0] * x + g->h[1] * y + g->h[2];
   const float hy = g->h[3] * x + g->h[4] * y + g->h[5];
@@ -36,7 +36,7 @@ inline EpipolarLine epipolar_line(const EpipolarGeometry* g, const float x, cons
 }
 
 // Sine of the angle between an edge's tangent and the left epipolar line through it.
-inline float left_epipolar_sine(const EpipolarGeometry* g, const float x, const float y, const float direction) {
+static inline float left_epipolar_sine(const EpipolarGeometry* g, const float x, const float y, const float direction) {
   const float dx = g->epipole[0] - g->epipole[2] * x;
   const float dy = g->epipole[1] - g->epipole[2] * y;
   float cosine;

@@ -8,7 +8,7 @@ typedef struct {
 } PointIndex;
 
 // The index at `at`; `points` and `cells` are the buffers of host/stages/point_index.hpp.
-inline PointIndex open_index(const PackedPointIndex at, global const float* points, global const int* cells) {
+static inline PointIndex open_index(const PackedPointIndex at, global const float* points, global const int* cells) {
   PointIndex index;
   index.x = points + at.points.first;
   index.y = index.x + at.points.stride;
@@ -20,6 +20,6 @@ inline PointIndex open_index(const PackedPointIndex at, global const float* poin
   return index;
 }
 
-inline int cell_of(const float position, const float size, const int count) {
+static inline int cell_of(const float position, const float size, const int count) {
   return (int)clamp(position / size, 0.0f, (float)(count - 1));
 }

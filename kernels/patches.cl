@@ -23,24 +23,24 @@
 
 // A patch becomes integers, at most kPatchLargest of magnitude; a flat one becomes zeros. Their squares add up to less
 // than 2^24: floats hold these sums exactly.
-inline SIDES scale_of(const SIDES largest) {
+static inline SIDES scale_of(const SIDES largest) {
   return largest < kFlatPatchContrast ? (SIDES)(0.0f) : (float)kPatchLargest / largest;
 }
-inline SIDES inverse_norm(const SIDES squares) { return squares == 0.0f ? (SIDES)(0.0f) : 1.0f / sqrt(squares); }
+static inline SIDES inverse_norm(const SIDES squares) { return squares == 0.0f ? (SIDES)(0.0f) : 1.0f / sqrt(squares); }
 
 #if ITEMS_PER_EDGE == 1
 
-inline float16 both_used(const float16 v) { return (float16)(used_lanes(v.lo), used_lanes(v.hi)); }
+static inline float16 both_used(const float16 v) { return (float16)(used_lanes(v.lo), used_lanes(v.hi)); }
 
 // The largest lane of either side; no value is negative.
-inline float2 largest_lanes(const float16 v) {
+static inline float2 largest_lanes(const float16 v) {
   const float8 four = max(v.s012389ab, v.s4567cdef);
   const float4 two = max(four.s0145, four.s2367);
   return max(two.even, two.odd);
 }
 
 // Sums of the lanes of either side.
-inline float2 sums_of_lanes(const float16 v) {
+static inline float2 sums_of_lanes(const float16 v) {
   const float8 four = v.s012389ab + v.s4567cdef;
   const float4 two = four.s0145 + four.s2367;
   return two.even + two.odd;
@@ -77,7 +77,7 @@ kernel void side_patches(const PatchArguments args, global const uint* corners, 
 #else
 
 // The largest of the seven used lanes.
-inline float largest_used(const float8 v) {
+static inline float largest_used(const float8 v) {
   const float8 used = used_lanes(v);
   const float4 four = max(used.lo, used.hi);
   const float2 two = max(four.lo, four.hi);

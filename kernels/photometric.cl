@@ -7,10 +7,12 @@
 
 #define PATCH_REACH 8  // px, more than half the diagonal of a patch
 
-inline float8 used_lanes(const float8 v) { return as_float8(as_int8(v) & (int8)(-1, -1, -1, -1, -1, -1, -1, 0)); }
+static inline float8 used_lanes(const float8 v) {
+  return as_float8(as_int8(v) & (int8)(-1, -1, -1, -1, -1, -1, -1, 0));
+}
 
 // Sum of the seven used lanes, always in this order.
-inline float sum_used(const float8 v) {
+static inline float sum_used(const float8 v) {
   const float8 used = used_lanes(v);
   const float4 four = used.lo + used.hi;
   const float2 two = four.lo + four.hi;
@@ -24,8 +26,8 @@ typedef struct {
 } PatchFrame;
 
 // `side`: +1 dark, -1 bright, 0 on the edge itself.
-inline PatchFrame patch_frame(const float x, const float y, const float cosine, const float sine, const float side,
-                              const float offset) {
+static inline PatchFrame patch_frame(const float x, const float y, const float cosine, const float sine,
+                                     const float side, const float offset) {
   PatchFrame frame;
   frame.cosine = cosine;
   frame.sine = sine;
@@ -55,13 +57,13 @@ inline PatchFrame patch_frame(const float x, const float y, const float cosine, 
 
 // Whether no sample of a patch can leave the image, given the pixel PATCH_REACH up and left of its centre: then nothing
 // has to be clamped.
-inline int lies_inside(const int base_x, const int base_y, const int width, const int height) {
+static inline int lies_inside(const int base_x, const int base_y, const int width, const int height) {
   return base_x >= 0 && base_y >= 0 && base_x + 2 * PATCH_REACH < width && base_y + 2 * PATCH_REACH < height;
 }
 
 // Mean-free grey levels of a patch moved by (dx, dy); coordinates outside the image are clamped to the border.
-inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame,
-                      const float dx, const float dy, float8* rows) {
+static inline void cut_patch(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                             const float dx, const float dy, float8* rows) {
   const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
   const float x = frame.x + dx, y = frame.y + dy;
   // Relative to this pixel all samples inside the image have positive coordinates, so that truncating rounds down.
@@ -101,8 +103,8 @@ inline void cut_patch(global const uint* corners, const int width, const int hei
 }
 
 // Two patches of one direction at once, as the halves of float16 rows; each the same bits as from cut_patch().
-inline void cut_two_patches(global const uint* corners, const int width, const int height, const PatchFrame low,
-                            const PatchFrame high, float16* rows) {
+static inline void cut_two_patches(global const uint* corners, const int width, const int height, const PatchFrame low,
+                                   const PatchFrame high, float16* rows) {
   const float8 across = (float8)(-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 0.0f);
   const int low_x = (int)low.x - PATCH_REACH, low_y = (int)low.y - PATCH_REACH;
   const int high_x = (int)high.x - PATCH_REACH, high_y = (int)high.y - PATCH_REACH;
@@ -144,8 +146,8 @@ inline void cut_two_patches(global const uint* corners, const int width, const i
 }
 
 // Mean-free derivative of a patch along the unit vector (ex, ey), grey levels per px: central difference over 1 px.
-inline void patch_derivative(global const uint* corners, const int width, const int height, const PatchFrame frame,
-                             const float ex, const float ey, float8* rows) {
+static inline void patch_derivative(global const uint* corners, const int width, const int height,
+                                    const PatchFrame frame, const float ex, const float ey, float8* rows) {
   PatchFrame ahead = frame, behind = frame;
   ahead.x += 0.5f * ex;
   ahead.y += 0.5f * ey;
@@ -157,10 +159,12 @@ inline void patch_derivative(global const uint* corners, const int width, const 
   for (int i = 0; i < kPatchSide; ++i) rows[i] = both[i].lo - both[i].hi;
 }
 
-inline float8 huber_weight(const float8 residual, const float limit) { return limit / max(fabs(residual), limit); }
+static inline float8 huber_weight(const float8 residual, const float limit) {
+  return limit / max(fabs(residual), limit);
+}
 
 // Norm of a mean-free patch.
-inline float patch_norm(const float8* rows) {
+static inline float patch_norm(const float8* rows) {
   float8 squares = 0.0f;
 #pragma unroll
   for (int i = 0; i < kPatchSide; ++i) squares += rows[i] * rows[i];
@@ -168,7 +172,7 @@ inline float patch_norm(const float8* rows) {
 }
 
 // NCC of two mean-free patches; 0 where one of them is flat.
-inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
+static inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
   float8 product = 0.0f;
 #pragma unroll
   for (int i = 0; i < kPatchSide; ++i) product += a[i] * b[i];
@@ -184,10 +188,10 @@ inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
 // Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`;
 // `derivative` is that of `fixed` along the move. A prior of `stiffness` (grey levels^2 / px^2) holds it around the
 // start.
-inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving,
-                      const float ex, const float ey, const float8* fixed, const float fixed_norm,
-                      const float8* derivative, const float stiffness, const AlignmentSettings settings, float8* values,
-                      float* move) {
+static inline int align_edge(global const uint* corners, const int width, const int height, const PatchFrame moving,
+                             const float ex, const float ey, const float8* fixed, const float fixed_norm,
+                             const float8* derivative, const float stiffness, const AlignmentSettings settings,
+                             float8* values, float* move) {
   float alpha = 0.0f;
   int status = ALIGN_MOVED;
   for (int step = 0; step < settings.steps; ++step) {

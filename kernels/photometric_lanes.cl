@@ -20,7 +20,7 @@ typedef struct {
 } Exchange;
 
 // Returns what all have told: `a` of work-item k at k, `b` at GROUP + k. To be read before the next exchange.
-inline local const float* tell(Exchange* exchange, const float a, const float b) {
+static inline local const float* tell(Exchange* exchange, const float a, const float b) {
   const int item = (int)get_local_id(0);
   local float* told = exchange->memory + exchange->turn * 2 * GROUP;
   exchange->turn ^= 1;
@@ -30,30 +30,30 @@ inline local const float* tell(Exchange* exchange, const float a, const float b)
   return told;
 }
 
-inline int lane_of_item(void) { return (int)get_local_id(0) & (kPatchLanes - 1); }
-inline int patch_in_group(void) { return (int)get_local_id(0) / kPatchLanes; }
+static inline int lane_of_item(void) { return (int)get_local_id(0) & (kPatchLanes - 1); }
+static inline int patch_in_group(void) { return (int)get_local_id(0) / kPatchLanes; }
 
 // The lanes of the work-item's patch.
-inline float8 patch_lanes(Exchange* exchange, const float value) {
+static inline float8 patch_lanes(Exchange* exchange, const float value) {
   return vload8(patch_in_group(), tell(exchange, value, 0.0f));
 }
 
 // Sums over the used lanes of the work-item's patch.
-inline float sum_lanes(Exchange* exchange, const float value) { return sum_used(patch_lanes(exchange, value)); }
-inline float2 sum_two_lanes(Exchange* exchange, const float a, const float b) {
+static inline float sum_lanes(Exchange* exchange, const float value) { return sum_used(patch_lanes(exchange, value)); }
+static inline float2 sum_two_lanes(Exchange* exchange, const float a, const float b) {
   local const float* told = tell(exchange, a, b);
   return (float2)(sum_used(vload8(patch_in_group(), told)), sum_used(vload8(patch_in_group(), told + GROUP)));
 }
 
 // Whether any patch of the group told an `a` other than 0; its first lane speaks for it.
-inline int any_patch(local const float* told) {
+static inline int any_patch(local const float* told) {
   int any = 0;
   for (int k = 0; k < GROUP; k += kPatchLanes) any |= told[k] != 0.0f;
   return any;
 }
 
 // Grey level of a corner (pixel_corners.cl).
-inline float corner_grey(global const uint* corners, const int pixel, const int corner) {
+static inline float corner_grey(global const uint* corners, const int pixel, const int corner) {
 #if WHITE > 255
   return (float)(int)(corners[2 * pixel + corner / 2] >> (16 * (corner & 1)) & 65535u) * GREY_PER_VALUE;
 #else
@@ -62,8 +62,8 @@ inline float corner_grey(global const uint* corners, const int pixel, const int 
 }
 
 // A column of cut_patch().
-inline void cut_column(global const uint* corners, const int width, const int height, const PatchFrame frame,
-                       const int wanted, Exchange* exchange, float* column) {
+static inline void cut_column(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                              const int wanted, Exchange* exchange, float* column) {
   const int lane = lane_of_item();
   if (wanted) {
     const float across = lane < kPatchSide ? (float)(lane - kPatchSide / 2) : 0.0f;
@@ -105,8 +105,9 @@ inline void cut_column(global const uint* corners, const int width, const int he
 }
 
 // A column of patch_derivative().
-inline void derivative_column(global const uint* corners, const int width, const int height, const PatchFrame frame,
-                              const float ex, const float ey, const int wanted, Exchange* exchange, float* column) {
+static inline void derivative_column(global const uint* corners, const int width, const int height,
+                                     const PatchFrame frame, const float ex, const float ey, const int wanted,
+                                     Exchange* exchange, float* column) {
   PatchFrame ahead = frame, behind = frame;
   ahead.x += 0.5f * ex;
   ahead.y += 0.5f * ey;
@@ -120,7 +121,7 @@ inline void derivative_column(global const uint* corners, const int width, const
 }
 
 // Sum of products of two columns.
-inline float column_product(const float* a, const float* b) {
+static inline float column_product(const float* a, const float* b) {
   float sum = 0.0f;
 #pragma unroll
   for (int i = 0; i < kPatchSide; ++i) sum += a[i] * b[i];
@@ -128,10 +129,10 @@ inline float column_product(const float* a, const float* b) {
 }
 
 // align_edge(); patches of the group that end early wait for the others. ALIGN_LEFT where not `wanted`.
-inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving,
-                         const float ex, const float ey, const float* fixed, const float fixed_norm,
-                         const float* derivative, const float stiffness, const AlignmentSettings settings,
-                         const int wanted, Exchange* exchange, float* values, float* move) {
+static inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving,
+                                const float ex, const float ey, const float* fixed, const float fixed_norm,
+                                const float* derivative, const float stiffness, const AlignmentSettings settings,
+                                const int wanted, Exchange* exchange, float* values, float* move) {
   float alpha = 0.0f;
   int status = wanted ? ALIGN_MOVED : ALIGN_LEFT, going = wanted;
   for (int step = 0; step < settings.steps; ++step) {

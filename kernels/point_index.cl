@@ -9,7 +9,7 @@
 #define GROUP 1
 #endif
 
-inline int cell_at(const PackedPointIndex at, const float x, const float y) {
+static inline int cell_at(const PackedPointIndex at, const float x, const float y) {
   return cell_of(y, kCellHeight, at.rows) * at.columns + cell_of(x, kCellWidth, at.columns);
 }
 
@@ -19,7 +19,7 @@ inline int cell_at(const PackedPointIndex at, const float x, const float y) {
 #define WAIT_FOR_GROUP() barrier(CLK_GLOBAL_MEM_FENCE | CLK_LOCAL_MEM_FENCE)
 
 // Counts per cell become the ends of the cells. Every work-item owns one contiguous part of them.
-inline void sum_counts(global int* cells, const int count, local int* sums) {
+static inline void sum_counts(global int* cells, const int count, local int* sums) {
   const int item = (int)get_local_id(0), part = (count + GROUP - 1) / GROUP;
   const int begin = min(item * part, count), end = min(begin + part, count);
   int sum = 0;
@@ -35,7 +35,7 @@ inline void sum_counts(global int* cells, const int count, local int* sums) {
 }
 
 // The work-items fill a cell in any order: its few numbers are put in theirs.
-inline void sort_numbers(global int* numbers, const int begin, const int end) {
+static inline void sort_numbers(global int* numbers, const int begin, const int end) {
   for (int k = begin + 1; k < end; ++k) {
     const int number = numbers[k];
     int to = k;
@@ -48,7 +48,7 @@ inline void sort_numbers(global int* numbers, const int begin, const int end) {
 #define TAKE_BACK(counter) (--*(counter))
 #define WAIT_FOR_GROUP()
 
-inline void sum_counts(global int* cells, const int count) {
+static inline void sum_counts(global int* cells, const int count) {
   int before = 0;
   for (int c = 0; c < count; ++c) {
     before += cells[c];

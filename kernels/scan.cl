@@ -9,7 +9,7 @@
 #endif
 
 // Sum of the work-item's part, and where the part lies.
-inline int part_sum(global const int* counts, const int count, int* begin, int* end) {
+static inline int part_sum(global const int* counts, const int count, int* begin, int* end) {
   const int items = (int)get_num_groups(0) * SCAN_LOCAL;
   const int part = (count + items - 1) / items;
   *begin = min((int)get_global_id(0) * part, count);
@@ -20,7 +20,7 @@ inline int part_sum(global const int* counts, const int count, int* begin, int* 
 }
 
 // Inclusive sums over the work-items of the group.
-inline int group_scan(int value, local int* sums) {
+static inline int group_scan(int value, local int* sums) {
   const int item = (int)get_local_id(0);
   sums[item] = value;
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -38,13 +38,13 @@ constant float kWindow[16] = {0.249352209f, 0.411112291f, 0.60653066f, 0.8007374
                               0.945959469f, 0.800737403f, 0.60653066f, 0.411112291f, 0.249352209f};
 
 // Index inside [0, size) after reflection about the outermost pixels.
-inline int reflect(int i, const int size) {
+static inline int reflect(int i, const int size) {
   if (size == 1) return 0;
   while (i < 0 || i >= size) i = i < 0 ? -i : 2 * (size - 1) - i;
   return i;
 }
 
-inline float8 pixels8(global const Pixel* row, const int x, const int width) {
+static inline float8 pixels8(global const Pixel* row, const int x, const int width) {
   if (x >= 0 && x + 8 <= width) return convert_float8(vload8(0, row + x)) * GREY_PER_VALUE;
   float values[8];
   for (int k = 0; k < 8; ++k) values[k] = (float)row[reflect(x + k, width)] * GREY_PER_VALUE;
@@ -93,11 +93,11 @@ kernel void sift_gradient(global const float* blurred, const int width, const in
 
 // Nearest pixel of a key point, kept so near the image that its samples stay inside the maps (they are all zero beyond
 // it).
-inline int nearest(const float coordinate, const int size) {
+static inline int nearest(const float coordinate, const int size) {
   return (int)clamp(rint(coordinate), -(float)(RADIUS + 1), (float)(size + RADIUS));
 }
 
-inline float sum_lanes(const float8 v) {
+static inline float sum_lanes(const float8 v) {
   const float4 four = v.lo + v.hi;
   const float2 two = four.lo + four.hi;
   return two.x + two.y;
@@ -113,7 +113,7 @@ constant int8 kAngleMask[kSiftAngles] = {(int8)(-1, 0, 0, 0, 0, 0, 0, 0), (int8)
                                          (int8)(0, 0, 0, 0, 0, 0, -1, 0), (int8)(0, 0, 0, 0, 0, 0, 0, -1)};
 
 // Clip, normalise and round the histogram of one side.
-inline void store_descriptor(const float8* histogram, global uchar* descriptor) {
+static inline void store_descriptor(const float8* histogram, global uchar* descriptor) {
   float8 squares = 0.0f;
   for (int cell = 0; cell < kSiftCells * kSiftCells; ++cell) {
     const float8 bins = histogram[(cell / kSiftCells + 1) * ROW + cell % kSiftCells + 1];
@@ -137,8 +137,8 @@ inline void store_descriptor(const float8* histogram, global uchar* descriptor) 
 }
 
 // One side's samples of a row: weights of the two angle bins next to each, and the lower one.
-inline void sample_row(global const float* magnitude, global const float* angle, const size_t first, const float turn,
-                       float8* low, float8* high, int8* bin) {
+static inline void sample_row(global const float* magnitude, global const float* angle, const size_t first,
+                              const float turn, float8* low, float8* high, int8* bin) {
 #pragma unroll
   for (int block = 0; block < 2; ++block) {
     const float8 length = vload8(block, magnitude + first);
@@ -152,7 +152,7 @@ inline void sample_row(global const float* magnitude, global const float* angle,
 }
 
 // The two weights in their angle bins, zeros elsewhere.
-inline float8 two_bins(const float low, const float high, const int bin) {
+static inline float8 two_bins(const float low, const float high, const int bin) {
   const int8 lower = kAngleMask[bin], upper = kAngleMask[(bin + 1) & (kSiftAngles - 1)];
   return as_float8((as_int8((float8)(low)) & lower) | (as_int8((float8)(high)) & upper));
 }

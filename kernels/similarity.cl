@@ -5,7 +5,7 @@
 // Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
 
 // The four products of side patches: dark-dark, bright-bright, dark-bright, bright-dark.
-inline float4 patch_scores(global const char* a, global const char* b) {
+static inline float4 patch_scores(global const char* a, global const char* b) {
   // A product of two samples fits 16 bits, and so does the sum of two, at most 2 * 127^2.
   short16 of_a[7], of_b[7];
 #pragma unroll
@@ -28,7 +28,7 @@ inline float4 patch_scores(global const char* a, global const char* b) {
 }
 
 // NCC of two edges: the highest of the four products of side patches.
-inline float patch_ncc(global const char* a, global const char* b) {
+static inline float patch_ncc(global const char* a, global const char* b) {
   const float4 scores = patch_scores(a, b);
   return max(max(scores.x, scores.y), max(scores.z, scores.w));
 }
@@ -36,14 +36,14 @@ inline float patch_ncc(global const char* a, global const char* b) {
 // Sum of squares from its two running forms in 16 bits: `total` modulo 65536 and `high`, the sum of the squares' upper
 // bytes.
 // Eight squares a lane: neither `high` nor the sum of the lower bytes, total - 256 high, can overflow.
-inline uint4 wide_sum(const ushort16 total, const ushort16 high) {
+static inline uint4 wide_sum(const ushort16 total, const ushort16 high) {
   const ushort16 low = total - (high << (ushort16)8);
   const uint8 sum = (convert_uint8(high.lo + high.hi) << 8u) + convert_uint8(low.lo + low.hi);
   return sum.lo + sum.hi;
 }
 
 // Square of the smallest SIFT distance over the four pairings of sides; exact, at most 128 * 255^2.
-inline int sift_distance2(global const uchar* a, global const uchar* b) {
+static inline int sift_distance2(global const uchar* a, global const uchar* b) {
   // A difference of bytes fits 16 bits modulo 65536, and so does its square, at most 65025.
   ushort16 total_dd = 0, total_bb = 0, total_db = 0, total_bd = 0, high_dd = 0, high_bb = 0, high_db = 0, high_bd = 0;
 #define ADD_SQUARES(total, high, p, q)               \

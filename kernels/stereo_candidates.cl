@@ -13,7 +13,7 @@
 #define CELL_SLACK 0.5f
 
 // First index in [begin, end) whose x may reach `x`: positions within a row are ordered up to twice the slack.
-inline int lower_bound_x(global const float* xs, int begin, int end, const float x) {
+static inline int lower_bound_x(global const float* xs, int begin, int end, const float x) {
   while (begin < end) {
     const int middle = (begin + end) / 2;
     if (xs[middle] < x)
@@ -33,7 +33,7 @@ typedef struct {
   float nx, ny;            // the line's normal
 } Wanted;
 
-inline int passes(const Wanted* wanted, const float x, const float y, const float direction) {
+static inline int passes(const Wanted* wanted, const float x, const float y, const float direction) {
   const float dx = x - wanted->line.x, dy = y - wanted->line.y;
   const float s = dx * wanted->line.ex + dy * wanted->line.ey;
   const float distance = fabs(dx * wanted->nx + dy * wanted->ny);
@@ -43,9 +43,9 @@ inline int passes(const Wanted* wanted, const float x, const float y, const floa
 
 // Visits the right edges [begin, end) of a row up to x = `to`; writes those that pass to target[] while fewer than
 // `room` are written.
-inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys,
-                     global const float* directions, int begin, const int end, const int total, const float to,
-                     global int* target, const int room, int count) {
+static inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys,
+                            global const float* directions, int begin, const int end, const int total, const float to,
+                            global int* target, const int room, int count) {
 #ifndef LANES
   (void)total;
 #else
@@ -89,10 +89,10 @@ inline int visit_row(const Wanted* wanted, global const float* xs, global const 
 }
 
 // Visits every right edge that passes; writes to target[] while fewer than `room` are written.
-inline int visit_candidates(const float x, const float y, const float direction, global const float* right_x,
-                            global const float* right_y, global const float* right_direction,
-                            global const int* right_row_first, const int right_height, const EpipolarGeometry* g,
-                            global int* target, const int room) {
+static inline int visit_candidates(const float x, const float y, const float direction, global const float* right_x,
+                                   global const float* right_y, global const float* right_direction,
+                                   global const int* right_row_first, const int right_height, const EpipolarGeometry* g,
+                                   global int* target, const int room) {
   if (left_epipolar_sine(g, x, y, direction) < g->min_epipolar_sine) return 0;
   const EpipolarLine line = epipolar_line(g, x, y);
   if (!line.valid) return 0;
@@ -124,9 +124,9 @@ inline int visit_candidates(const float x, const float y, const float direction,
 }
 
 // The candidates of left edge i.
-inline int visit_row_of(const StereoCandidateArguments* args, const int i, global const float* left_edges,
-                        global const float* right_edges, global const int* right_row_first, global int* target,
-                        const int room) {
+static inline int visit_row_of(const StereoCandidateArguments* args, const int i, global const float* left_edges,
+                               global const float* right_edges, global const int* right_row_first, global int* target,
+                               const int room) {
   global const float* left = left_edges + args->left.first + i;
   global const float* right = right_edges + args->right.first;
   return visit_candidates(left[0], left[args->left.stride], left[2 * args->left.stride], right,

@@ -5,7 +5,7 @@
 // Reference: host/reference/stereo_clusters.cpp.
 
 // By what the representative of a cluster is chosen: a represented candidate comes behind every alive one.
-inline float rank_in_cluster(global const uchar* state, global const float* similarity, const int c) {
+static inline float rank_in_cluster(global const uchar* state, global const float* similarity, const int c) {
   return state[c] == kCandidateRepresented ? similarity[c] - kBehindAll : similarity[c];
 }
 

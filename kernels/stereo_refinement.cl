@@ -9,8 +9,8 @@
 // Reference: host/reference/stereo_refinement.cpp.
 
 // The higher NCC of the two side patches of a left edge and those cut at two positions of the right image.
-inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,
-                         const PatchFrame bright, global const char* side_patches) {
+static inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,
+                                const PatchFrame bright, global const char* side_patches) {
   float16 rows[kPatchSide], squares = 0.0f, products = 0.0f;
   cut_two_patches(corners, width, height, dark, bright, rows);
   for (int k = 0; k < kPatchSide; ++k) {

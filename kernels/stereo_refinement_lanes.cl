@@ -8,8 +8,9 @@
 // Reference: host/reference/stereo_refinement.cpp.
 
 // NCC of a side patch of the left edge, columns of 16 bytes apart, and the patch at `frame` of the right image.
-inline float side_ncc(global const uint* corners, const int width, const int height, const PatchFrame frame,
-                      global const char* side_patch, const float inverse_norm, const int wanted, Exchange* exchange) {
+static inline float side_ncc(global const uint* corners, const int width, const int height, const PatchFrame frame,
+                             global const char* side_patch, const float inverse_norm, const int wanted,
+                             Exchange* exchange) {
   float column[kPatchSide] = {0.0f}, own[kPatchSide];
   cut_column(corners, width, height, frame, wanted, exchange, column);
 #pragma unroll

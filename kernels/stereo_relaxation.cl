@@ -9,8 +9,8 @@
 // How much a candidate's position on the epipolar line changes per px along the left edge, as the right direction
 // tells: the next point of the left curve lies where its epipolar line meets the right curve. 0 where the right
 // edge runs along the line.
-inline float position_slope(const EpipolarLine line, const EpipolarLine ahead, const float position,
-                            const float right_direction) {
+static inline float position_slope(const EpipolarLine line, const EpipolarLine ahead, const float position,
+                                   const float right_direction) {
   float cosine;
   const float sine = sine_cosine(right_direction, &cosine);
   const float across = ahead.ex * sine - ahead.ey * cosine;
@@ -57,8 +57,8 @@ kernel void relaxation_start(const StereoRelaxationArguments args, global const 
 }
 
 // The edge that stands for point n of the rings around (x, y); INT_MAX: none.
-inline int neighbour_at(const StereoRelaxationArguments* args, global const int* cells, const float x, const float y,
-                        const int n) {
+static inline int neighbour_at(const StereoRelaxationArguments* args, global const int* cells, const float x,
+                               const float y, const int n) {
   const float radius = kRelaxationRing[n / 8];
   const float at_x = x + radius * kEighthCosine[n & 7], at_y = y + radius * kEighthCosine[(n + 6) & 7];
   const int column = (int)(at_x / kRelaxationCell), row = (int)(at_y / kRelaxationCell);
@@ -68,9 +68,9 @@ inline int neighbour_at(const StereoRelaxationArguments* args, global const int*
 
 // What the candidates begin .. end of a neighbour at (dx, dy) say for a candidate: the belief in that one of them that
 // fits best, the less the farther it is from where the mean of both slopes expects it.
-inline float vote(global const float* position, global const float* slope_x, global const float* slope_y,
-                  global const float* belief, const int candidate, const int begin, const int end, const float dx,
-                  const float dy, const float reach) {
+static inline float vote(global const float* position, global const float* slope_x, global const float* slope_y,
+                         global const float* belief, const int candidate, const int begin, const int end,
+                         const float dx, const float dy, const float reach) {
   float most = 0.0f;
   for (int c = begin; c < end; ++c) {
     const float expected = 0.5f * ((slope_x[candidate] + slope_x[c]) * dx + (slope_y[candidate] + slope_y[c]) * dy);

@@ -7,8 +7,8 @@
 // One work-item = one row. Two launches: count, then (after an exclusive scan) fill.
 // Reference: host/reference/temporal_candidates.cpp.
 
-inline int visit_near(const float3 predicted, const PointIndex* index, const float radius, const float orientation,
-                      global int* target, const int room) {
+static inline int visit_near(const float3 predicted, const PointIndex* index, const float radius,
+                             const float orientation, global int* target, const int room) {
   const float x = predicted.x, y = predicted.y, direction = predicted.z;
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
   const int columns = index->columns, rows = index->rows;

@@ -16,7 +16,7 @@
 
 // Brings a patch's two cache lines near where the compiler targets a CPU; OpenCL's own prefetch() does nothing there
 // (PoCL).
-inline void ask_for_patch(global const char* patch) {
+static inline void ask_for_patch(global const char* patch) {
 #if defined(__x86_64__) || defined(__aarch64__)
   __builtin_prefetch(patch);
   __builtin_prefetch(patch + 64);
@@ -26,7 +26,7 @@ inline void ask_for_patch(global const char* patch) {
 }
 
 // The patches of stereo edge `edge`; patch_numbers 0: they have the numbers of the stereo edges.
-inline global const char* patch_of(global const char* patches, global const int* patch_numbers, const int edge) {
+static inline global const char* patch_of(global const char* patches, global const int* patch_numbers, const int edge) {
   return patches + kEdgePatchBytes * (size_t)(patch_numbers ? patch_numbers[edge] : edge);
 }
 
@@ -42,14 +42,14 @@ typedef struct {
   global const uchar* descriptors;
 } TappedSide;
 
-inline int tap_candidate(TappedSide* tap, const int edge, const int state) {
+static inline int tap_candidate(TappedSide* tap, const int edge, const int state) {
   if (tap->count < tap->room) vstore4((int4)(edge, state, 0, 0), tap->count, tap->seen);
   return tap->count++;
 }
-inline void tap_state(TappedSide* tap, const int slot, const int state) {
+static inline void tap_state(TappedSide* tap, const int slot, const int state) {
   if (tap->at[slot] < tap->room) tap->seen[kTappedInts * tap->at[slot] + 1] = state;
 }
-inline void tap_scores(TappedSide* tap, const int slot, const int edge, const float ncc) {
+static inline void tap_scores(TappedSide* tap, const int slot, const int edge, const float ncc) {
   if (tap->at[slot] >= tap->room) return;
   const int distance2 = sift_distance2(tap->descriptor, tap->descriptors + kEdgeSiftBytes * (size_t)edge);
   tap->seen[kTappedInts * tap->at[slot] + 2] = as_int(ncc);
@@ -67,9 +67,9 @@ inline void tap_scores(TappedSide* tap, const int slot, const int edge, const fl
 // One side's candidates that pass the filters, in the order of the index. Returns their number, -1: no room.
 // patch_numbers: of the stereo edges' patches; 0: those of the edges.
 // LONG: a row's candidates from the index to the nearly best; they stay in private memory.
-inline int similar_near(const TemporalMatchArguments* args, const float3 predicted, const PointIndex* index,
-                        global const char* patch, global const char* patches, global const int* patch_numbers,
-                        int* target, float* ncc TAP_PARAMETER) {
+static inline int similar_near(const TemporalMatchArguments* args, const float3 predicted, const PointIndex* index,
+                               global const char* patch, global const char* patches, global const int* patch_numbers,
+                               int* target, float* ncc TAP_PARAMETER) {
   const float x = predicted.x, y = predicted.y, direction = predicted.z;
   if (!(isfinite(x) && isfinite(y) && isfinite(direction))) return 0;
   global const float *xs = index->x, *ys = index->y, *directions = index->direction;
@@ -150,8 +150,8 @@ inline int similar_near(const TemporalMatchArguments* args, const float3 predict
 }
 
 // Groups of edges that chain up by position and direction: single linkage.
-inline int count_groups(const int* edges, const int count, const PackedPositions at, global const float* current,
-                        const float gap, const float orientation) {
+static inline int count_groups(const int* edges, const int count, const PackedPositions at, global const float* current,
+                               const float gap, const float orientation) {
   int label[MOST];
   for (int c = 0; c < count; ++c) label[c] = c;
   for (int changed = 1; changed;) {

@@ -29,8 +29,9 @@ kernel void temporal_agreement(const TemporalAgreementArguments args, global con
 }
 
 // Groups of the candidates begin .. end - 1 with a label that chain up by position and direction: single linkage.
-inline int count_groups(const int begin, const int end, global const int* target, const PackedPositions at,
-                        global const float* current, const float gap, const float orientation, global int* label) {
+static inline int count_groups(const int begin, const int end, global const int* target, const PackedPositions at,
+                               global const float* current, const float gap, const float orientation,
+                               global int* label) {
   for (int changed = 1; changed;) {
     changed = 0;
     for (int c = begin; c < end; ++c) {

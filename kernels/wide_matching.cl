@@ -16,13 +16,13 @@ typedef struct {
   float16 part[BLOCKS];
 } Descriptor;
 
-inline Descriptor wide_load(global const uchar* bytes) {
+static inline Descriptor wide_load(global const uchar* bytes) {
   Descriptor result;
   for (int k = 0; k < BLOCKS; ++k) result.part[k] = convert_float16(vload16(k, bytes));
   return result;
 }
 
-inline float wide_product(const Descriptor* a, global const uchar* b) {
+static inline float wide_product(const Descriptor* a, global const uchar* b) {
   float16 sum = 0.0f;
   for (int k = 0; k < BLOCKS; ++k) sum = fma(a->part[k], convert_float16(vload16(k, b)), sum);
   const float8 eight = sum.lo + sum.hi;
@@ -31,7 +31,8 @@ inline float wide_product(const Descriptor* a, global const uchar* b) {
   return two.x + two.y;
 }
 
-inline bool wide_apart(global const float* x, global const float* y, const int i, const int j, const float distance) {
+static inline bool wide_apart(global const float* x, global const float* y, const int i, const int j,
+                              const float distance) {
   const float dx = x[i] - x[j], dy = y[i] - y[j];
   return dx * dx + dy * dy > distance * distance;
 }

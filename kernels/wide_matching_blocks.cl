@@ -24,12 +24,12 @@ kernel void wide_transpose(global const uchar* descriptors, const int count, glo
   }
 }
 
-inline void wide_load(global const uchar* descriptor, float* values) {
+static inline void wide_load(global const uchar* descriptor, float* values) {
   for (int k = 0; k < kWideBytes; ++k) values[k] = (float)descriptor[k];
 }
 
 // Products of ROWS descriptors with the sixteen of a block.
-inline void wide_products(const float* mine, global const uchar* block, float16* products) {
+static inline void wide_products(const float* mine, global const uchar* block, float16* products) {
 #pragma unroll
   for (int row = 0; row < ROWS; ++row) products[row] = 0.0f;
   for (int k = 0; k < kWideBytes; ++k) {
@@ -40,13 +40,13 @@ inline void wide_products(const float* mine, global const uchar* block, float16*
   }
 }
 
-inline float16 wide_product(const float* mine, global const uchar* block) {
+static inline float16 wide_product(const float* mine, global const uchar* block) {
   float16 product = 0.0f;
   for (int k = 0; k < kWideBytes; ++k) product = fma((float16)(mine[k]), convert_float16(vload16(k, block)), product);
   return product;
 }
 
-inline float wide_highest(const float16 v) {
+static inline float wide_highest(const float16 v) {
   const float8 eight = fmax(v.lo, v.hi);
   const float4 four = fmax(eight.lo, eight.hi);
   const float2 two = fmax(four.lo, four.hi);
@@ -54,15 +54,15 @@ inline float wide_highest(const float16 v) {
 }
 
 // The similarity above which a rival elsewhere is too near to one of `highest`.
-inline float wide_limit(const float highest, const float ratio) {
+static inline float wide_limit(const float highest, const float ratio) {
   return SQUARE - (SQUARE - highest) / (ratio * ratio);
 }
 
 // Whether a descriptor of the block reaches `limit` (or exceeds it, where `above`) farther than `distance` px from edge
 // `from`.
-inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block,
-                           const int count, global const float* x, global const float* y, const int step,
-                           const int from, const float distance) {
+static inline bool wide_elsewhere(const float16 products, const float limit, const bool above, const int block,
+                                  const int count, global const float* x, global const float* y, const int step,
+                                  const int from, const float distance) {
   float of_lane[kBlockLanes];
   vstore16(products, 0, of_lane);
   for (int lane = 0; lane < kBlockLanes; ++lane) {

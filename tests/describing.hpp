@@ -40,7 +40,7 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
   std::vector<TestDescriptions> all;
   const std::size_t count = edges.x.size();
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     auto& context = *device.context();
     opencl::Buffer<cl_uchar> pixels;
     stages::DevicePositions device_edges;

@@ -2,6 +2,7 @@
 /// \file devices.hpp  Every OpenCL device of this machine, for tests. A machine without one fails, it does not skip.
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -14,4 +15,13 @@ inline std::vector<std::string> all_devices() {
   for (const auto& info : quadedge::list_devices()) names.push_back(std::to_string(info.index));
   if (names.empty()) FAIL("no OpenCL device: install pocl-opencl-icd");
   return names;
+}
+
+/// Built programs stay in the folder of QUADEDGE_TEST_PROGRAMS: for runtimes that keep none and build slowly.
+/// Unset, every test builds its own.
+inline quadedge::DeviceOptions kept_programs() {
+  quadedge::DeviceOptions options;
+  const char* folder = std::getenv("QUADEDGE_TEST_PROGRAMS");
+  if (folder != nullptr) options.program_folder = folder;
+  return options;
 }

@@ -61,7 +61,7 @@ inline TemporalSearch search_around(const StereoEdges& previous, float radius, i
 
 inline FrontendResult run_frontend(const RenderedScene& scene, const std::string& device_name,
                                    const Variants& variants = {}, Tap* tap = nullptr, float radius = 12, int step = 1) {
-  Device device(device_name);
+  Device device(device_name, kept_programs());
   Config config = scene.config;
   config.variants = variants;
   const auto frontend = frontend::make_frontend(scene.rig, device, config);

@@ -1,6 +1,6 @@
 /// \file list_programs.cpp  Prints every program that the stages build, for lint_kernels.sh: options and kernel files,
 /// one program per line. The stages are asked themselves, with every variant, so nothing can be forgotten.
-///   list_programs KERNEL_FOLDER
+///   list_programs KERNEL_FOLDER [gpu]    with gpu only those that GPUs run by default, without the taps'
 
 #include <cstdio>
 #include <map>
@@ -18,11 +18,17 @@ namespace {
 
 using namespace quadedge;
 
-/// A configuration that leaves no kernel out, with variant number `wanted` of every stage that has so many.
-Config config_with(std::size_t wanted) {
+/// A configuration that leaves no kernel out.
+Config every_stage() {
   Config config;
   config.stereo.max_disparity = 64;
   config.stereo.sift_max = 500;
+  return config;
+}
+
+/// The same with variant number `wanted` of every stage that has so many.
+Config config_with(std::size_t wanted) {
+  Config config = every_stage();
   std::map<std::string, std::size_t> seen;
   for (const auto& variant : opencl::all_variants())
     if (seen[variant.stage]++ == wanted) config.variants[variant.stage] = variant.name;
@@ -40,6 +46,7 @@ std::size_t most_variants() {
 
 int main(int count, char** arguments) {
   const std::string kernels = count > 1 ? arguments[1] : "";
+  const bool of_gpus = count > 2 && std::string(arguments[2]) == "gpu";
   StereoRig rig = SyntheticSequence(SyntheticOptions()).rig();
   const auto pixels = static_cast<std::size_t>(rig.left.width) * static_cast<std::size_t>(rig.left.height);
   // Kernels that undo distortion are only built for cameras that have some.
@@ -49,12 +56,16 @@ int main(int count, char** arguments) {
                    std::vector<std::uint8_t>(pixels)};  // and masks where there are some
 
   std::set<std::string> programs;
-  for (std::size_t number = 0; number < most_variants(); ++number) {
-    Device device("auto", kernels, true);
-    const auto frontend = frontend::make_frontend(rig, device, config_with(number));
+  for (std::size_t number = 0; number < (of_gpus ? 1 : most_variants()); ++number) {
+    DeviceOptions options;
+    options.kernel_folder = kernels;
+    options.profiling = true;
+    if (of_gpus) options.limits.type = "gpu";
+    Device device("auto", options);
+    const auto frontend = frontend::make_frontend(rig, device, of_gpus ? every_stage() : config_with(number));
     Tap tap;  // whose form of a kernel is a program of its own
-    frontend->set_tap(&tap);
-    bench::measure_ceilings(*device.context(), 1, 0);
+    if (!of_gpus) frontend->set_tap(&tap);
+    if (!of_gpus) bench::measure_ceilings(*device.context(), 1, 0);
     for (const auto& program : device.context()->programs()) programs.insert(program);
   }
   for (const auto& program : programs) std::puts(program.c_str());

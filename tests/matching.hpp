@@ -121,7 +121,7 @@ inline void for_each_variant(
     const std::string& stage,
     const std::function<void(opencl::Context&, const Variants&, const std::string& name)>& visit) {
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage == stage)
         visit(*device.context(), {{stage, variant.name}}, device.info().name + " " + variant.name);

@@ -32,7 +32,7 @@ TEST_CASE("odometry: once every buffer has had its largest content, tracking all
           "[odometry][device]") {
   const matching::RenderedScene scene("room", 240, 150, 8);
   for (const auto& name : all_devices()) {
-    quadedge::Device device(name);
+    quadedge::Device device(name, kept_programs());
     quadedge::StereoOdometry odometry(scene.rig, device, scene.config);
     std::int64_t stamp = 0;
     const auto is_tracked = [&](std::size_t i) {
@@ -59,7 +59,7 @@ TEST_CASE("odometry: once every buffer has had its largest content, tracking all
 
 TEST_CASE("odometry: the allocations of the first frames are seen", "[odometry][device]") {
   const matching::RenderedScene scene("room", 240, 150, 2);
-  quadedge::Device device(all_devices().front());
+  quadedge::Device device(all_devices().front(), kept_programs());
   quadedge::StereoOdometry odometry(scene.rig, device, scene.config);
   count = 0;
   counting = true;

@@ -249,7 +249,7 @@ TEST_CASE("bench: the chosen threshold gives the wanted number of edges", "[benc
   frame.left = scene.left.front();
   frame.right = scene.right.front();
   for (const auto& name : all_devices()) {
-    Device device(name);
+    Device device(name, kept_programs());
     for (const int wanted : {800, 3000}) {
       Config config = scene.config;
       config.edges.threshold = bench::threshold_for_edges(frame, wanted, device, config);

@@ -211,7 +211,7 @@ TEST_CASE("compare: every stage has a least work, above zero on a frame that run
     frames[i].left = scene.left[i];
     frames[i].right = scene.right[i];
   }
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   const auto size =
       bench::count_frame(*frontend::make_frontend(scene.rig, device, scene.config), frames[0], frames[1], scene.config);
   CHECK(size.pixels == 2 * 161 * 97);
@@ -255,11 +255,13 @@ TEST_CASE("compare: wrong options end with code 2", "[cli][bench]") {
 
 TEST_CASE("ceilings: both kernels run and give rates above zero", "[bench][device][oclgrind]") {
   for (const auto& name : all_devices()) {
-    Device device(name, "", true);
+    DeviceOptions profiling;
+    profiling.profiling = true;
+    Device device(name, profiling);
     const auto ceilings = bench::measure_ceilings(*device.context(), 1, 1);
     CHECK(ceilings.bandwidth_gb_s > 0);
     CHECK(ceilings.arithmetic_gflop_s > 0);
-    Device plain(name);
+    Device plain(name, kept_programs());
     CHECK_THROWS_AS(bench::measure_ceilings(*plain.context(), 1, 1), UsageError);
   }
 }

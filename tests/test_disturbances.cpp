@@ -152,7 +152,7 @@ TEST_CASE("disturbances: impossible ones are refused", "[synthetic]") {
 }
 
 TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   struct Case {
     const char* name;
     double gain, right_gain, blur, noise, mover;

@@ -49,7 +49,7 @@ Detection detect(Device& device, const std::string& variant, const Image& image,
 
 void for_each_variant(const std::function<void(Device&, const std::string&)>& visit) {
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage == "edge_detection") visit(device, variant.name);
     }

@@ -116,7 +116,7 @@ TEST_CASE("edge selection: devices keep exactly the maxima that the reference ru
     const SelectionArguments left = selection_arguments(rig, Side::left, {}),
                              right = selection_arguments(rig, Side::right, {});
     for (const auto& index : all_devices()) {
-      Device device(index);
+      Device device(index, kept_programs());
       opencl::Context& context = *device.context();
       for (const auto& variant : opencl::all_variants()) {
         if (variant.stage != "edge_detection") continue;

@@ -77,7 +77,7 @@ std::vector<ImageView> views(const std::vector<Image>& images) {
 
 void for_each_variant(const std::function<void(Device&, const std::string&)>& visit) {
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     for (const auto& variant : opencl::all_variants())
       if (variant.stage == "edge_threshold") visit(device, variant.name);
   }
@@ -148,7 +148,7 @@ TEST_CASE("edge threshold: variants give the same bytes, twice", "[edges][device
   const std::vector<std::vector<Image>> frames = {
       {flattened(textured_image(321, 243), 0.1, 255), flattened(textured_image(321, 243, 2), 0.1, 255)}};
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     std::vector<Measured> first;
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "edge_threshold") continue;
@@ -181,7 +181,7 @@ TEST_CASE("edge threshold: normal contrast has the largest, a flat picture the l
 TEST_CASE("edge threshold: follows the contrast, and the edges stay", "[edges][device]") {
   const Image bright = textured_image(320, 243);
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     const std::size_t edges = detect_edges(bright.view(), device, {}).size();
     for (const auto& [contrast, white] : {std::pair{0.2, 255}, {0.1, 4095}, {0.05, 65535}, {0.004, 65535}}) {
       INFO(device.info().name << " " << contrast << " " << white);

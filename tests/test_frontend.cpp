@@ -134,7 +134,7 @@ TEST_CASE("frontend: found anywhere, edges are the reference's on every device, 
           "[frontend][matching][device]") {
   const RenderedScene scene("room", 240, 150, 2, 8);
   const auto find = [&](const std::string& device_name) {
-    Device device(device_name);
+    Device device(device_name, kept_programs());
     const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
     const auto first = frontend->process(scene.frame(0)), second = frontend->process(scene.frame(1));
     const auto matches = frontend->match_anywhere(*first);
@@ -171,7 +171,7 @@ TEST_CASE("frontend: a rig that is held stays as it was, one that nobody holds s
   auto names = all_devices();
   names.emplace_back("reference");
   for (const auto& name : names) {
-    Device device(name);
+    Device device(name, kept_programs());
     const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
     const auto held = frontend->process(scene.frame(0));
     const StereoEdges edges = held->edges;
@@ -343,7 +343,7 @@ TEST_CASE("frontend: without SIFT a tap sees the one kernel's own decisions, whi
 TEST_CASE("frontend: unknown variants and missing limits are refused", "[frontend][matching][device]") {
   RenderedScene scene("cables", 64, 48, 1);
   for (const auto& name : {std::string("reference"), all_devices().front()}) {
-    Device device(name);
+    Device device(name, kept_programs());
     Config config = scene.config;
     config.variants["stereo_clusters"] = "no such variant";
     CHECK_THROWS_AS(frontend::make_frontend(scene.rig, device, config), UsageError);

@@ -55,5 +55,5 @@ TEST_CASE("generate bash: completes commands, options, their words and constants
 TEST_CASE("generate: something else is refused", "[cli]") {
   const auto unknown = run_program({"generate", "cake"});
   CHECK(unknown.code == 2);
-  CHECK_THAT(unknown.err, Contains("cake") && Contains("man, bash or configuration"));
+  CHECK_THAT(unknown.err, Contains("cake") && Contains("man, bash, configuration or self-test"));
 }

@@ -60,7 +60,7 @@ TEST_CASE("image depth: the same grey levels in 16 bits have the same edges", "[
   auto names = all_devices();
   names.emplace_back("reference");
   for (const auto& name : names) {
-    Device device(name);
+    Device device(name, kept_programs());
     const EdgeSet expected = detect_edges(image.view(), device, {}), found = detect_edges(deep.view(), device, {});
     REQUIRE(expected.size() > 500);
     REQUIRE(found.size() == expected.size());
@@ -96,7 +96,7 @@ TEST_CASE("image depth: devices find the reference's stereo edges in 12 and 16 b
 TEST_CASE("image depth: a hundredth of the contrast in 16 bits is tracked like the whole", "[odometry][device]") {
   const RenderedScene bright("room", 320, 200, 4, 1, 16), dim("room", 320, 200, 4, 1, 16, 0.01);
   for (const auto& name : all_devices()) {
-    Device device(name);
+    Device device(name, kept_programs());
     StereoOdometry first(bright.rig, device, bright.config), second(dim.rig, device, dim.config);
     for (std::size_t i = 0; i < 4; ++i) {
       const FrameResult expected = first.track(bright.frame(i)), found = second.track(dim.frame(i));
@@ -113,7 +113,7 @@ TEST_CASE("image depth: images of another depth than the rig's are refused", "[o
   const RenderedScene scene("room", 160, 100, 1);
   StereoRig rig = scene.rig;
   rig.white = 65535;
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(rig, device, scene.config);
   CHECK_THROWS_AS(odometry.track(scene.frame(0)), DataError);
   CHECK_THROWS_WITH(odometry.track(scene.frame(0)), Catch::Matchers::Contains("65535"));

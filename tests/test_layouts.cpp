@@ -89,7 +89,7 @@ TEST_CASE("layouts: every structure arrives on every device as the host lays it 
   std::string source;
   for (const auto& structure : structures) source += reading_kernel(structure);
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     auto& context = *device.context();
     const auto program = build_program(context, {}, source);
 #define CHECK_ONE(NAME)               \

@@ -239,7 +239,7 @@ std::vector<FrameResult> track_with_loss(const std::string& device_name, Tap* ta
   static const matching::RenderedScene before("cables", 240, 150, 2), after("room", 240, 150, 4);
   Config config = after.config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, before.config.stereo.max_disparity);
-  Device device(device_name);
+  Device device(device_name, kept_programs());
   StereoOdometry odometry(after.rig, device, config);
   odometry.set_tap(tap);
   std::vector<FrameResult> results;

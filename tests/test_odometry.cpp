@@ -21,7 +21,7 @@ const RenderedScene& room() {
 }
 
 std::vector<FrameResult> track(const RenderedScene& scene, const std::string& device_name, const Config& config) {
-  Device device(device_name);
+  Device device(device_name, kept_programs());
   StereoOdometry odometry(scene.rig, device, config);
   std::vector<FrameResult> results;
   for (std::size_t i = 0; i < scene.left.size(); ++i) results.push_back(odometry.track(scene.frame(i)));
@@ -108,7 +108,7 @@ TEST_CASE("odometry: the plain C++ reference tracks as well and agrees with the 
 }
 
 TEST_CASE("odometry: a frame that comes again has not moved", "[odometry][device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   odometry.track(room().frame(0));
   for (int k = 0; k < 2; ++k) {
@@ -119,7 +119,7 @@ TEST_CASE("odometry: a frame that comes again has not moved", "[odometry][device
 }
 
 TEST_CASE("odometry: a black frame is lost, and tracking goes on after it at the right place", "[odometry][device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   const Image black(240, 150);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -145,7 +145,7 @@ TEST_CASE("odometry: a frame of another place is lost, and the next one is track
   const RenderedScene elsewhere("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, elsewhere.config.stereo.max_disparity);
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, config);
   for (std::size_t i : {0, 1, 2}) CHECK(is_tracked(odometry.track(room().frame(i)).status));
   const auto lost = odometry.track(at(room().frame(3).stamp_ns, elsewhere.frame(0)));
@@ -163,7 +163,7 @@ TEST_CASE("odometry: in another place tracking goes on from the lost frame, and 
   const RenderedScene before("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, before.config.stereo.max_disparity);
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, config);
   CHECK(odometry.track(before.frame(0)).status == FrameStatus::first);
   const auto lost = odometry.track(room().frame(0));
@@ -190,7 +190,7 @@ TEST_CASE("odometry: in another place tracking goes on from the lost frame, and 
 TEST_CASE("odometry: images that do not fit the calibration are lost with a reason, doubts are told once",
           "[odometry][rig][device]") {
   const RenderedScene scene("room", 320, 200, 3);
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry exchanged(scene.rig, device, scene.config);
   for (std::size_t i = 0; i < 3; ++i) {
     const StereoFrame frame{static_cast<std::int64_t>(i) - 3, scene.right[i].view(), scene.left[i].view()};
@@ -227,7 +227,7 @@ TEST_CASE("odometry: a turn by a third of the view, and one about the optical ax
   yawed.translation() = Eigen::Vector3d(0.1, -0.05, 0.15);
   rolled.linear() = Eigen::AngleAxisd(40 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (const Eigen::Isometry3d& world_from_left : {yawed, rolled}) {
-    Device device(all_devices().front());
+    Device device(all_devices().front(), kept_programs());
     StereoOdometry odometry(room().rig, device, room().config);
     FrameResult result;
     for (const Eigen::Isometry3d& pose : {Eigen::Isometry3d(Eigen::Isometry3d::Identity()), world_from_left}) {
@@ -240,7 +240,7 @@ TEST_CASE("odometry: a turn by a third of the view, and one about the optical ax
 }
 
 TEST_CASE("odometry: a sequence that begins in the dark starts at the first frame with edges", "[odometry][device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   const Image black(240, 150);
   CHECK(odometry.track({0, black.view(), black.view()}).status == FrameStatus::lost_too_few_edges);
@@ -255,7 +255,7 @@ TEST_CASE("odometry: before the first frame there are no details", "[odometry][d
   auto names = all_devices();
   names.emplace_back("reference");
   for (const auto& name : names) {
-    Device device(name);
+    Device device(name, kept_programs());
     const StereoOdometry odometry(room().rig, device, room().config);
     const FrameDetails details = odometry.details();
     CHECK(details.left_edges.size() == 0);
@@ -266,7 +266,7 @@ TEST_CASE("odometry: before the first frame there are no details", "[odometry][d
 }
 
 TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odometry][device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   const Image small(239, 150);
   CHECK_THROWS_AS(odometry.track({0, small.view(), room().right[0].view()}), DataError);
@@ -278,7 +278,7 @@ TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odo
 }
 
 TEST_CASE("odometry: a stride below a row's bytes is refused, of 8 and of 16 bits", "[odometry][device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoRig deep = room().rig;
   deep.white = 65535;
   const Image bytes(240, 150), words(240, 150, 65535);
@@ -303,7 +303,7 @@ TEST_CASE("odometry: a stride below a row's bytes is refused, of 8 and of 16 bit
 }
 
 TEST_CASE("odometry: a stamp that goes back is refused and leaves no trace", "[odometry][device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   CHECK(odometry.track(at(1000, room().frame(0))).status == FrameStatus::first);
   CHECK_THROWS_AS(odometry.track(at(999, room().frame(1))), DataError);
@@ -317,7 +317,7 @@ TEST_CASE("odometry: a stamp that goes back is refused and leaves no trace", "[o
 
 TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the device", "[odometry][device]") {
   for (const auto& name : all_devices()) {
-    Device device(name);
+    Device device(name, kept_programs());
     StereoOdometry odometry(room().rig, device, room().config);
     const std::size_t last = room().left.size() - 1;
     std::int64_t stamp = 0;
@@ -364,7 +364,7 @@ TEST_CASE("odometry: edges beyond the capacity are reported", "[odometry][device
   Config config = room().config;
   config.edges.max_edges = 3000;
   for (const auto& name : {std::string("reference"), all_devices().front()}) {
-    Device device(name);
+    Device device(name, kept_programs());
     StereoOdometry odometry(room().rig, device, config);
     const auto result = odometry.track(room().frame(0));
     CHECK(result.overflow);

@@ -26,7 +26,7 @@ TEST_CASE("devices: a choice that matches nothing lists what there is", "[device
 
 TEST_CASE("kernels: a wrong host signature is refused with the argument's name", "[device]") {
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index);  // a kept program may have no names of arguments
     auto& context = *device.context();
     const auto program = context.program({"undistortion.cl"}, {});
     using Right = opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
@@ -50,7 +50,9 @@ TEST_CASE("kernels: a build error names file, line, device and options", "[devic
   for (const char* first : {"common.cl", "layouts.cl"}) std::ofstream(folder / first) << "// nothing\n";
   std::ofstream(folder / "broken.cl")
       << "// first line\nkernel void f(global int* a) {\n  a[0] = undeclared_name;\n}\n";
-  Device device(all_devices().front(), folder.path());
+  DeviceOptions options;
+  options.kernel_folder = folder.path();
+  Device device(all_devices().front(), options);
   CHECK_THROWS_WITH(
       device.context()->program({"broken.cl"}, {{"LANES", "4"}}),
       Contains("broken.cl:3") && Contains("undeclared_name") && Contains("-DLANES=4") && Contains(device.info().name));
@@ -64,7 +66,7 @@ TEST_CASE("variants: unknown stages and names are refused with the known ones", 
 }
 
 TEST_CASE("buffers: memory is accounted for and reused", "[device]") {
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   auto& context = *device.context();
   const auto before = context.bytes();
   {

@@ -245,7 +245,7 @@ TEST_CASE("patches: all variants give the same bits, and none writes beyond its 
   const Image image = noise_image(131, 77, 7);
   const EdgePositions edges = random_edges(131, 77, 1003, 8);
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     auto& context = *device.context();
     opencl::Buffer<cl_uchar> pixels;
     stages::DevicePositions device_edges;
@@ -282,7 +282,7 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
     reference::store_side(extremes, side, patches.data() + 3 * kEdgePatchBytes);
   }
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     auto& context = *device.context();
     const auto program = build_program(
         context, {"similarity.cl"},

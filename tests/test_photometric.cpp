@@ -133,7 +133,7 @@ TEST_CASE("photometric: devices cut the same patches, also across the border",
     }
     const std::size_t count = at.size() / 4;
     for (const auto& index : all_devices()) {
-      Device device(index);
+      Device device(index, kept_programs());
       auto& context = *device.context();
       const auto program = build_program(context, {"direction.cl", "photometric.cl"}, source);
       opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, cl_int, opencl::Out<cl_float>> kernel(

@@ -20,7 +20,7 @@ std::vector<FrameResult> track_small_room(const std::string& device_name) {
   Config config;
   config.stereo.max_disparity = sequence.max_disparity();
   config.edges.threshold = 10;
-  Device device(device_name);
+  Device device(device_name, kept_programs());
   StereoOdometry odometry(sequence.rig(), device, config);
   std::vector<FrameResult> results;
   for (int i = 0; i < sequence.frames(); ++i) {

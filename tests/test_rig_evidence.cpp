@@ -133,7 +133,7 @@ TEST_CASE("rig evidence: numbers that hardly any rig has are named", "[odometry]
 TEST_CASE("rig evidence: aligned patches say how far a rig of half a degree's pitch is off",
           "[odometry][rig][device]") {
   const StereoRig rig = turned(0.3, Eigen::Vector3d::UnitX());
-  Device device(all_devices().front());
+  Device device(all_devices().front(), kept_programs());
   const auto frontend = frontend::make_frontend(rig, device, room().config);
   const auto seen = frontend->process(room().frame(0));
   std::vector<odometry::ProbedSpot> spots;

@@ -12,7 +12,7 @@ namespace {
 
 void check_scan(const std::vector<int>& sizes, int capacity) {
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "scan") continue;
       stages::Scan scan(*device.context(), {{"scan", variant.name}});

@@ -177,7 +177,7 @@ TEST_CASE("sift: the kernels' distance equals the reference's", "[sift][device][
   std::fill_n(bytes.begin() + kEdgeSiftBytes, kEdgeSiftBytes, std::uint8_t{255});
   std::copy_n(bytes.begin() + 2 * kEdgeSiftBytes, kSiftBytes, bytes.begin() + 3 * kEdgeSiftBytes + kSiftBytes);
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     auto& context = *device.context();
     const auto program =
         build_program(context, {"similarity.cl"},

@@ -47,7 +47,7 @@ TEST_CASE("undistortion: whole-pixel shifts copy pixels and replicate the border
 
 TEST_CASE("undistortion: every device and variant equals the reference exactly", "[undistortion][device][oclgrind]") {
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "undistortion") continue;
       for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {

@@ -128,6 +128,7 @@ class BatchRunner {
                                           "--thumbnails",  std::to_string(options_.thumbnails),
                                           "--draw",        std::to_string(options_.draw_every)};
     if (!method_.kernel_folder().empty()) arguments.insert(arguments.end(), {"--kernels", method_.kernel_folder()});
+    if (method_.trusts()) arguments.push_back("--trust");
     if (options_.profile) arguments.push_back("--profile");
     return arguments;
   }

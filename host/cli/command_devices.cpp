@@ -2,11 +2,19 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
+#include "cli/self_test_verdict.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/device.hpp"
 
 namespace quadedge::cli {
 namespace {
+
+/// What is known of a device with the kernels that it takes by itself.
+std::string soundness(const DeviceInfo& device) {
+  const auto verdict = kept_verdict(device, {});
+  if (!verdict) return "not yet, the first use does";
+  return verdict->passed() ? "passed" : "FAILED at " + verdict->stage + ": " + verdict->difference;
+}
 
 class DevicesCommand : public Command {
  public:
@@ -25,6 +33,7 @@ class DevicesCommand : public Command {
       std::printf("%-9d  %-11s  %5u  %6.1f GB  %s (%s, %s, %s)\n", device.index, device.type.c_str(),
                   device.compute_units, static_cast<double>(device.memory_bytes) * 1e-9, device.name.c_str(),
                   device.platform.c_str(), device.driver.c_str(), device.opencl.c_str());
+      std::printf("%-9s  self-test: %s\n", "", soundness(device).c_str());
     }
     std::printf("%-9s  %-11s  %5d  %9s  %s\n", "reference", "reference", 1, "-",
                 "plain C++ on one core; needs no OpenCL, slow");

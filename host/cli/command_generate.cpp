@@ -12,7 +12,9 @@ class GenerateCommand : public Command {
   explicit GenerateCommand(const std::vector<std::unique_ptr<Command>>& commands) : commands_(commands) {}
 
   std::string name() const override { return "generate"; }
-  std::string about() const override { return "print the manual page, the shell completion or the table of constants"; }
+  std::string about() const override {
+    return "print the manual page, the shell completion, the table of constants or the self-test";
+  }
   std::string examples() const override {
     return "  quadedge generate man | man -l -\n"
            "  source <(quadedge generate bash)\n"
@@ -20,7 +22,8 @@ class GenerateCommand : public Command {
   }
   void declare(Options& options) override {
     options.positional("WHAT", what_,
-                       "man (quadedge.1), bash (completion script) or configuration (doc/configuration.md)");
+                       "man (quadedge.1), bash (completion script), configuration (doc/configuration.md) or self-test "
+                       "(host/frontend/self_test.txt, by the plain C++ reference)");
   }
 
   int run() override {
@@ -32,8 +35,10 @@ class GenerateCommand : public Command {
       std::cout << bash_completion(described);
     } else if (what_ == "configuration") {
       std::cout << configuration_page();
+    } else if (what_ == "self-test") {
+      std::cout << self_test_page();
     } else {
-      throw UsageError("generate " + what_ + ": expected man, bash or configuration");
+      throw UsageError("generate " + what_ + ": expected man, bash, configuration or self-test");
     }
     return 0;
   }

@@ -1,6 +1,9 @@
 #include "cli/method_options.hpp"
 
+#include "cli/self_test_verdict.hpp"
+#include "data/user_folder.hpp"
 #include "opencl/variants.hpp"
+#include "quadedge/error.hpp"
 #include "report/config_toml.hpp"
 
 namespace quadedge::cli {
@@ -17,6 +20,16 @@ std::string heading(const std::string& section) {
   return kShared;
 }
 
+/// The verdict on a device. With kernels from a folder it is found anew: they are being worked on.
+SelfTestResult verdict(Device& device, const std::map<std::string, std::string>& variants, bool own_kernels) {
+  if (device.is_reference()) return {};
+  const auto kept = own_kernels ? kept_verdict(device.info(), variants) : std::nullopt;
+  if (kept) return *kept;
+  const SelfTestResult result = self_test(device, variants);
+  if (own_kernels) keep_verdict(device.info(), variants, result);
+  return result;
+}
+
 }  // namespace
 
 void MethodOptions::declare(Options& options) {
@@ -24,6 +37,7 @@ void MethodOptions::declare(Options& options) {
   options.text("--device", device_, "auto, cpu, gpu, reference, a number of `quadedge devices`, or a part of a name",
                "DEVICE");
   options.environment("QUADEDGE_DEVICE");
+  options.flag("--trust", trusts_, "go on with a device that fails the self-test");
   options.config_file();
   options.repeated("--variant", variants_, "kernel variant of a stage (`quadedge variants`), repeatable", "STAGE=NAME");
   options.text("--kernels", kernels_, "read the kernels from this folder instead of the built-in ones", "DIR");
@@ -40,6 +54,22 @@ Config MethodOptions::config() const {
   opencl::check_variants(config.variants);
   check_config(config);
   return config;
+}
+
+Device MethodOptions::open_device(bool profiling, SelfTestResult* test) const {
+  DeviceOptions options;
+  options.kernel_folder = kernels_;
+  options.profiling = profiling;
+  if (!data::cache_folder().empty()) options.program_folder = data::cache_folder() + "/programs";
+  Device device(device_, options);
+  const SelfTestResult result = verdict(device, config().variants, kernels_.empty());
+  if (test != nullptr) *test = result;
+  if (!result.passed() && !trusts_) {
+    throw DeviceError(device.info().name + " (" + device.info().platform + ", " + device.info().driver +
+                      ") computes wrongly, stage " + result.stage + ": " + result.difference +
+                      ". Expected another device or driver (`quadedge devices`), or --trust to go on with this one");
+  }
+  return device;
 }
 
 }  // namespace quadedge::cli

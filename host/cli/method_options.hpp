@@ -7,26 +7,31 @@
 #include "cli/command.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
+#include "quadedge/self_test.hpp"
 
 namespace quadedge::cli {
 
 /// Declares the shared options, then turns them into a checked configuration and a device.
 class MethodOptions {
  public:
-  /// --device, --config, --variant, --kernels, --max-disparity, and --KEY for every constant.
+  /// --device, --trust, --config, --variant, --kernels, --max-disparity, and --KEY for every constant.
   void declare(Options& options);
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;
-  /// Opens the device. \throws DeviceError.
-  Device open_device(bool profiling = false) const { return Device(device_, kernels_, profiling); }
+  /// Opens the device and, the first time that this program meets it with this driver, tests it. \param test receives
+  /// the verdict \throws DeviceError for one that computes wrongly, unless --trust is given.
+  Device open_device(bool profiling = false, SelfTestResult* test = nullptr) const;
   /// What --device says.
   const std::string& device_choice() const { return device_; }
+  /// What --trust says.
+  bool trusts() const { return trusts_; }
   /// What --kernels says; empty for the built-in ones.
   const std::string& kernel_folder() const { return kernels_; }
 
  private:
   Config config_;
   std::string device_ = "auto";
+  bool trusts_ = false;
   std::string kernels_;
   std::vector<std::string> variants_;
 };

@@ -137,7 +137,13 @@ void tell(const FrameResult& result, bool quiet, const report::RunRecord& run) {
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                   const Interruption& interruption, report::RunRecord& run) {
   const auto opening = Clock::now();
-  Device device = method.open_device();
+  SelfTestResult test;
+  Device device = method.open_device(false, &test);
+  run.self_test = {device.is_reference() ? "not needed" : test.passed() ? "passed" : "failed", test};
+  if (!test.passed()) {
+    note(options.quiet, "warning: the device fails the self-test at stage " + test.stage + " (" + test.difference +
+                            "), and is trusted");
+  }
   add_saved_variants(device, run.config);
   const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
   StereoOdometry& odometry = *pipeline;

@@ -1,6 +1,7 @@
 #include "frontend/frontend.hpp"
 
 #include "frontend/device_frontend.hpp"
+#include "frontend/memory_fit.hpp"
 #include "frontend/reference_frontend.hpp"
 #include "opencl/variants.hpp"
 
@@ -9,7 +10,10 @@ namespace quadedge::frontend {
 std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config) {
   opencl::check_variants(config.variants);
   if (device.is_reference()) return std::make_unique<ReferenceFrontend>(rig, config);
-  return std::make_unique<DeviceFrontend>(rig, *device.context(), config);
+  const MemoryFit fit = fit_memory(rig, config, device.context()->limits().memory_bytes);
+  auto frontend = std::make_unique<DeviceFrontend>(rig, *device.context(), fit.config);
+  frontend->notice = fit.message;
+  return frontend;
 }
 
 }  // namespace quadedge::frontend

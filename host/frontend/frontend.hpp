@@ -3,6 +3,7 @@
 /// (doc/design.md section 1).
 
 #include <memory>
+#include <string>
 
 #include "common/temporal_search.hpp"
 #include "frontend/rig.hpp"
@@ -51,6 +52,8 @@ class Frontend {
   }
 
   const FrontendCounts& counts() const { return counts_; }
+
+  std::string notice;  ///< empty, or what the user should know of the device at once
 
   /// Edges of one of the current images.
   virtual EdgeSet edges(Side side) = 0;

@@ -93,10 +93,12 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   detect(now, threshold);
   counts_.edges_left = static_cast<int>(left_edges_.size());
   counts_.edges_right = static_cast<int>(right_edges_.size());
+  if (tap_ != nullptr) tap_->edges(left_edges_, right_edges_);
   const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);
 
   const auto candidates = reference::stereo_candidates(left_edges_, right_edges_, epipolar_);
   auto scores = reference::candidate_filters(candidates, left, right, stereo_limits(config_.stereo));
+  if (tap_ != nullptr) tap_candidates(candidates, scores);
   const auto refined =
       reference::stereo_refinement(now.left.view(), now.right.view(), left.patches, left_edges_, right_edges_,
                                    epipolar_, candidates, config_.stereo, config_.patches.offset, scores);
@@ -104,6 +106,10 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   const auto relaxation = reference::stereo_relaxation(clusters, left_edges_, epipolar_, calibration_.left.width,
                                                        calibration_.left.height, config_.stereo);
   now.edges = reference::stereo_mutual(clusters, relaxation, left_edges_, epipolar_, config_.stereo);
+  if (tap_ != nullptr) {
+    tap_clusters(clusters, relaxation);
+    tap_->stereo(now.edges);
+  }
 
   now.left_descriptions = {rows_of(left.patches, now.edges.left_index, kEdgePatchBytes),
                            rows_of(left.sift, now.edges.left_index, kEdgeSiftBytes)};

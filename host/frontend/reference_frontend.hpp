@@ -4,6 +4,9 @@
 #include "frontend/frontend.hpp"
 #include "reference/candidate_filters.hpp"
 #include "reference/edge_threshold.hpp"
+#include "reference/stereo_candidates.hpp"
+#include "reference/stereo_clusters.hpp"
+#include "reference/stereo_relaxation.hpp"
 
 namespace quadedge::frontend {
 
@@ -27,6 +30,8 @@ class ReferenceFrontend : public Frontend {
  private:
   /// The edges of both images, as many as the budget allows.
   void detect(ReferenceRig& now, double threshold);
+  void tap_candidates(const reference::Candidates& candidates, const reference::CandidateScores& scores);
+  void tap_clusters(const reference::StereoClusters& clusters, const reference::StereoRelaxation& relaxation);
 
   StereoRig calibration_;
   Config config_;

@@ -169,6 +169,7 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   current_ = nullptr;
   current_ = frontend_->process(frame);
   const frontend::FrontendCounts& counts = frontend_->counts();
+  warn(frontend_->notice, result);
   result.edge_threshold = counts.edge_threshold;
   result.counts.edges_left = counts.edges_left;
   result.counts.edges_right = counts.edges_right;

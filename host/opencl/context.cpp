@@ -10,17 +10,41 @@
 
 namespace quadedge::opencl {
 
-Context::Context(cl::Device device, std::string kernel_folder, bool profiling)
-    : device_(std::move(device)), kernel_folder_(std::move(kernel_folder)), profiling_(profiling) {
+Context::Context(cl::Device device, const DeviceOptions& options)
+    : device_(std::move(device)),
+      kernel_folder_(options.kernel_folder),
+      cache_(options.program_folder),
+      profiling_(options.profiling) {
   try {
     name_ = device_.getInfo<CL_DEVICE_NAME>();
-    is_cpu_ = (device_.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+    const cl::Platform platform(device_.getInfo<CL_DEVICE_PLATFORM>());
+    driver_ = platform.getInfo<CL_PLATFORM_NAME>() + "\n" + platform.getInfo<CL_PLATFORM_VERSION>() + "\n" + name_ +
+              "\n" + device_.getInfo<CL_DEVICE_VERSION>() + "\n" + device_.getInfo<CL_DRIVER_VERSION>() + "\n";
+    take_limits(options.limits);
     context_ = cl::Context(device_);
     queue_ =
-        cl::CommandQueue(context_, device_, profiling ? CL_QUEUE_PROFILING_ENABLE : cl_command_queue_properties{0});
+        cl::CommandQueue(context_, device_, profiling_ ? CL_QUEUE_PROFILING_ENABLE : cl_command_queue_properties{0});
   } catch (const cl::Error& error) {
     throw_device_error(std::string("opening the device (") + error.what() + ")", error.err(), name_);
   }
+}
+
+void Context::take_limits(const DeviceLimits& wished) {
+  const bool cpu = (device_.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+  is_cpu_ = wished.type ? *wished.type == "cpu" : cpu;
+  constexpr cl_ulong kEmulated = 64;  // bytes of local memory that lies in global memory: enough for single work-items
+  constexpr const char* kByteStores = "cl_khr_byte_addressable_store";
+  const bool stores = device_.getInfo<CL_DEVICE_EXTENSIONS>().find(kByteStores) != std::string::npos;
+  if (!wished.stores_bytes.value_or(stores)) {
+    throw DeviceError(name_ + " lacks " + kByteStores + ": its kernels cannot store single bytes, which every OpenCL " +
+                      "1.2 device of the full profile can and QuadEdge needs. Expected another device (`quadedge "
+                      "devices`)");
+  }
+  const bool has_local = cpu || device_.getInfo<CL_DEVICE_LOCAL_MEM_TYPE>() == CL_LOCAL;
+  limits_.group_items = wished.group_items.value_or(device_.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>());
+  limits_.local_bytes =
+      wished.local_bytes.value_or(has_local ? device_.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() : kEmulated);
+  limits_.memory_bytes = wished.memory_bytes.value_or(device_.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>());
 }
 
 std::string Context::kernel_text(const std::string& file) const {
@@ -39,6 +63,35 @@ std::string Context::kernel_text(const std::string& file) const {
   return text.str();
 }
 
+cl::Program Context::build(const std::string& source, const std::string& options, const std::string& what) const {
+  cl::Program program(context_, source);
+  try {
+    program.build({device_}, options.c_str());
+  } catch (const cl::Error& error) {
+    std::string log;
+    try {
+      log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
+    } catch (const cl::Error&) {
+      log = "(the driver gives no log)";
+    }
+    throw DeviceError("building the kernels of " + what + " failed: " + status_name(error.err()) + " on " + name_ +
+                      "\noptions: " + options + "\n" + log);
+  }
+  return program;
+}
+
+std::optional<cl::Program> Context::find_kept(const std::string& key, const std::string& options) const {
+  const auto binary = cache_.find(key);
+  if (!binary) return std::nullopt;
+  try {
+    cl::Program program(context_, {device_}, {*binary});
+    program.build({device_}, options.c_str());
+    return program;
+  } catch (const cl::Error&) {
+    return std::nullopt;  // of another build of the driver, or one that takes no binaries: compiled again
+  }
+}
+
 cl::Program Context::program(const std::vector<std::string>& files, const Defines& defines) {
   std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
   for (const auto& [key, value] : defines) options += " -D" + key + "=" + value;
@@ -50,22 +103,16 @@ cl::Program Context::program(const std::vector<std::string>& files, const Define
   std::string source = kernel_text("common.cl") + "\n" + kernel_text("layouts.cl");
   for (const auto& file : files) source += "\n" + kernel_text(file);
   const auto start = std::chrono::steady_clock::now();
-  cl::Program program(context_, source);
-  try {
-    program.build({device_}, options.c_str());
-  } catch (const cl::Error& error) {
-    std::string log;
-    try {
-      log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
-    } catch (const cl::Error&) {
-      log = "(the driver gives no log)";
-    }
-    throw DeviceError("building the kernels of " + (files.empty() ? std::string("common.cl") : files.back()) +
-                      " failed: " + status_name(error.err()) + " on " + name_ + "\noptions: " + options + "\n" + log);
+  const std::string kept_as = driver_ + options + "\n" + source;
+  auto program = find_kept(kept_as, options);
+  if (!program) {
+    program = build(source, options, files.empty() ? "common.cl" : files.back());
+    const auto binaries = program->getInfo<CL_PROGRAM_BINARIES>();
+    if (!binaries.empty() && !binaries.front().empty()) cache_.keep(kept_as, binaries.front());
   }
   build_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  programs_.emplace(key, program);
-  return program;
+  programs_.emplace(key, *program);
+  return *program;
 }
 
 std::vector<std::string> Context::programs() const {

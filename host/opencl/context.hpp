@@ -5,8 +5,12 @@
 #include <cstddef>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "opencl/program_cache.hpp"
+#include "quadedge/device.hpp"
 
 namespace quadedge::opencl {
 
@@ -25,11 +29,16 @@ struct StageProfile {
   double wall_ms() const { return kernel_ms + transfer_ms + queue_ms; }
 };
 
+/// What the kernels' launches and arrays have to keep to.
+struct Limits {
+  std::size_t group_items = 0, local_bytes = 0, memory_bytes = 0;
+};
+
 /// Owns context, queue and programs. Not copyable; everything made from it must die before it.
 class Context {
  public:
-  /// `kernel_folder`: when not empty, kernel files are read from there instead of the embedded ones.
-  Context(cl::Device device, std::string kernel_folder, bool profiling);
+  /// \throws DeviceError for a device that cannot store bytes.
+  Context(cl::Device device, const DeviceOptions& options);
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
@@ -37,18 +46,20 @@ class Context {
   const cl::Device& device() const { return device_; }
   const cl::CommandQueue& queue() const { return queue_; }
   const std::string& name() const { return name_; }
+  /// Whether kernels are chosen as for a CPU.
   bool is_cpu() const { return is_cpu_; }
+  const Limits& limits() const { return limits_; }
   bool profiling() const { return profiling_; }
 
-  /// Builds (once per process and set of parameters) the program made of common.cl, layouts.cl and `files`, in that
-  /// order.
+  /// Builds (once per context and set of parameters) the program made of common.cl, layouts.cl and `files`, in that
+  /// order, or takes it from the folder of kept programs.
   /// \throws DeviceError with device, options and compiler log; the log names kernel file and line.
   cl::Program program(const std::vector<std::string>& files, const Defines& defines);
 
   /// Every program built so far: its options, then its kernel files without common.cl, separated by spaces.
   std::vector<std::string> programs() const;
 
-  /// Time spent in program builds so far [ms].
+  /// Time spent on building and loading programs so far [ms].
   double build_ms() const { return build_ms_; }
 
   /// Waits until everything enqueued is done.
@@ -86,13 +97,21 @@ class Context {
   const std::vector<StageProfile>& last_profile() const { return last_profile_; }
 
  private:
+  void take_limits(const DeviceLimits& wished);
   std::string kernel_text(const std::string& file) const;
+  /// Compiles. \param what  the program's name in messages
+  cl::Program build(const std::string& source, const std::string& options, const std::string& what) const;
+  /// A kept program that the driver takes.
+  std::optional<cl::Program> find_kept(const std::string& key, const std::string& options) const;
 
   cl::Device device_;
   cl::Context context_;
   cl::CommandQueue queue_;
   std::string name_;
+  std::string driver_;  ///< platform, device and versions of both: whose programs are alike
   std::string kernel_folder_;
+  ProgramCache cache_;
+  Limits limits_;
   bool profiling_ = false;
   bool is_cpu_ = false;
   double build_ms_ = 0;

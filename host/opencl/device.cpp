@@ -111,7 +111,7 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
-Device::Device(const std::string& choice, const std::string& kernel_folder, bool profiling) {
+Device::Device(const std::string& choice, const DeviceOptions& options) {
   if (choice == "reference") {
     info_.index = -1;
     info_.platform = "none";
@@ -126,7 +126,9 @@ Device::Device(const std::string& choice, const std::string& kernel_folder, bool
   const auto chosen = choose(devices, choice);
   if (!chosen) throw DeviceError(no_match_message(devices, choice));
   info_ = devices[*chosen].info;
-  context_ = std::make_unique<opencl::Context>(devices[*chosen].device, kernel_folder, profiling);
+  context_ = std::make_unique<opencl::Context>(devices[*chosen].device, options);
+  if (options.limits.type) info_.type = *options.limits.type;
+  info_.memory_bytes = context_->limits().memory_bytes;
 }
 
 Device::~Device() = default;

@@ -37,8 +37,17 @@ void check_signature(const cl::Kernel& kernel, const std::vector<ArgumentType>& 
       }
     }
   } catch (const cl::Error& error) {
+    // A program that comes from a binary may have no names; they were compared when it was built from the same source.
+    if (error.err() == CL_KERNEL_ARG_INFO_NOT_AVAILABLE) return;
     throw_device_error("reading the signature of kernel " + name, error.err(), context.name());
   }
+}
+
+void check_local_memory(const cl::Kernel& kernel, const std::string& name, const Context& context) {
+  const auto bytes = kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(context.device());
+  if (bytes <= context.limits().local_bytes) return;
+  throw DeviceError("kernel " + name + " takes " + std::to_string(bytes) + " bytes of local memory, " + context.name() +
+                    " has " + std::to_string(context.limits().local_bytes));
 }
 
 }  // namespace quadedge::opencl

@@ -73,6 +73,9 @@ struct Describe<Out<T>> {
 /// \throws DeviceError that names kernel, argument, what the program has and what the host passes.
 void check_signature(const cl::Kernel& kernel, const std::vector<ArgumentType>& expected, const Context& context);
 
+/// \throws DeviceError where the kernel takes more local memory than the device is to have.
+void check_local_memory(const cl::Kernel& kernel, const std::string& name, const Context& context);
+
 /// How many work-items to start; the global size is rounded up to whole work-groups.
 struct Range {
   std::size_t x = 1, y = 1;
@@ -94,6 +97,7 @@ class Kernel {
       throw_device_error("creating kernel " + name, error.err(), context.name());
     }
     check_signature(kernel_, {Describe<Args>::get()...}, context);
+    check_local_memory(kernel_, name, context);
   }
 
   /// Enqueues the kernel. An empty range enqueues nothing. \throws DeviceError with kernel, sizes and device.
@@ -102,6 +106,7 @@ class Kernel {
     const std::size_t global_x = (range.x + range.local_x - 1) / range.local_x * range.local_x;
     const std::size_t global_y = (range.y + range.local_y - 1) / range.local_y * range.local_y;
     try {
+      if (range.local_x * range.local_y > context_->limits().group_items) throw cl::Error(CL_INVALID_WORK_GROUP_SIZE);
       cl_uint index = 0;
       (set(index++, args), ...);
       context_->count_launch();

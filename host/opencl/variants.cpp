@@ -10,10 +10,24 @@ const std::vector<Variant>& all_variants() {
       {"undistortion", "item64", {}, 64, true, true, "one work-item per pixel, groups of 64"},
       {"undistortion", "item16", {}, 16, false, false, "one work-item per pixel, groups of 16"},
       {"scan", "serial", {}, 1, true, false, "one work-item per part of the counts"},
-      {"scan", "group256", {}, 256, false, true, "work-groups of 256 with their sums in local memory"},
+      {"scan", "group256", {}, 256, false, true, "work-groups of 256 with their sums in local memory", 1024},
       {"edge_threshold", "row", {}, 1, true, false, "one work-item per row of the lattice, float16"},
-      {"edge_threshold", "group64", {}, 64, false, true, "one work-group of 64 per row of the lattice, local tallies"},
-      {"edge_threshold", "group16", {}, 16, false, false, "one work-group of 16 per row of the lattice, local tallies"},
+      {"edge_threshold",
+       "group64",
+       {},
+       64,
+       false,
+       true,
+       "one work-group of 64 per row of the lattice, local tallies",
+       1408},
+      {"edge_threshold",
+       "group16",
+       {},
+       16,
+       false,
+       false,
+       "one work-group of 16 per row of the lattice, local tallies",
+       1408},
       {"edge_detection",
        "strip",
        {},
@@ -27,14 +41,16 @@ const std::vector<Variant>& all_variants() {
        256,
        false,
        true,
-       "one work-group of 256 per tile of 32 x 8 pixels, 8 work-items per edge for third order"},
+       "one work-group of 256 per tile of 32 x 8 pixels, 8 work-items per edge for third order",
+       30720},
       {"edge_detection",
        "tile64",
        {{"TILE_X", "16"}, {"TILE_Y", "8"}},
        64,
        false,
        false,
-       "one work-group of 64 per tile of 16 x 8 pixels, 8 work-items per edge for third order"},
+       "one work-group of 64 per tile of 16 x 8 pixels, 8 work-items per edge for third order",
+       16384},
       {"patches", "edge", {{"ITEMS_PER_EDGE", "1"}}, 1, true, false, "one work-item per edge, float8 across the edge"},
       {"patches",
        "lanes",
@@ -42,7 +58,8 @@ const std::vector<Variant>& all_variants() {
        64,
        false,
        true,
-       "sixteen work-items per edge, local memory"},
+       "sixteen work-items per edge, local memory",
+       1024},
       {"sift", "edge", {{"ITEMS_PER_EDGE", "1"}}, 1, true, false, "one work-item per edge, float8 of angle bins"},
       {"sift",
        "cells",
@@ -50,7 +67,8 @@ const std::vector<Variant>& all_variants() {
        64,
        false,
        true,
-       "one work-item per cell of either side, local memory"},
+       "one work-item per cell of either side, local memory",
+       14336},
       {"stereo_candidates",
        "lanes16",
        {{"LANES", "16"}},
@@ -60,7 +78,15 @@ const std::vector<Variant>& all_variants() {
        "one work-item per left edge tests 16 right edges at once, groups of 16"},
       {"stereo_candidates", "group64", {}, 64, false, true, "one work-item per left edge, groups of 64"},
       {"stereo_candidates", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
-      {"candidate_filters", "group64", {}, 64, true, true, "one work-item per row of candidates, groups of 64"},
+      {"candidate_filters", "group64", {}, 64, true, false, "one work-item per row of candidates, groups of 64"},
+      {"candidate_filters",
+       "rows32",
+       {{"GROUP", "32"}},
+       32,
+       false,
+       true,
+       "one work-group of 32 per row of candidates, eight work-items per pair of patches, local memory",
+       1536},
       {"candidate_filters", "group16", {}, 16, false, false, "one work-item per row of candidates, groups of 16"},
       {"stereo_refinement",
        "group64",
@@ -75,7 +101,8 @@ const std::vector<Variant>& all_variants() {
        64,
        false,
        true,
-       "eight work-items per left edge, local memory, groups of 64"},
+       "eight work-items per left edge, local memory, groups of 64",
+       1024},
       {"stereo_clusters", "group64", {}, 64, true, true, "one work-item per left edge, groups of 64"},
       {"stereo_clusters", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
       {"stereo_relaxation", "group16", {}, 16, true, false, "one work-item per left edge, groups of 16"},
@@ -83,8 +110,15 @@ const std::vector<Variant>& all_variants() {
       {"stereo_mutual", "group64", {}, 64, true, true, "one work-item per left edge, groups of 64"},
       {"stereo_mutual", "group16", {}, 16, false, false, "one work-item per left edge, groups of 16"},
       {"point_index", "serial", {}, 1, true, false, "one work-item per side"},
-      {"point_index", "group256", {}, 256, false, true, "one work-group of 256 per side, cells sorted afterwards"},
-      {"point_index", "group64", {}, 64, false, false, "one work-group of 64 per side, cells sorted afterwards"},
+      {"point_index",
+       "group256",
+       {},
+       256,
+       false,
+       true,
+       "one work-group of 256 per side, cells sorted afterwards",
+       1024},
+      {"point_index", "group64", {}, 64, false, false, "one work-group of 64 per side, cells sorted afterwards", 256},
       {"temporal_candidates", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
       {"temporal_candidates", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
       {"temporal_match",
@@ -101,7 +135,14 @@ const std::vector<Variant>& all_variants() {
       {"temporal_quads", "group64", {}, 64, true, true, "one work-item per previous stereo edge, groups of 64"},
       {"temporal_quads", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
       {"wide_description", "group16", {}, 16, true, false, "one work-item per stereo edge, groups of 16"},
-      {"wide_description", "group64", {}, 64, false, true, "one work-item per stereo edge, groups of 64"},
+      {"wide_description",
+       "cells64",
+       {{"GROUP", "64"}},
+       64,
+       false,
+       true,
+       "sixteen work-items per stereo edge, one per cell, local memory, groups of 64",
+       7168},
       {"wide_matching",
        "blocks",
        {{"ROWS", "8"}},
@@ -110,7 +151,14 @@ const std::vector<Variant>& all_variants() {
        false,
        "one work-item per eight previous stereo edges, sixteen current ones as lanes"},
       {"wide_matching", "group16", {}, 16, false, false, "one work-item per previous stereo edge, groups of 16"},
-      {"wide_matching", "group64", {}, 64, false, true, "one work-item per previous stereo edge, groups of 64"},
+      {"wide_matching",
+       "tiles64",
+       {{"GROUP", "64"}, {"ROWS", "8"}},
+       64,
+       false,
+       true,
+       "one work-group of 64 per eight previous stereo edges, tiles of 64 current ones in local memory",
+       11264},
   };
   return table;
 }
@@ -128,16 +176,36 @@ const Variant& find_variant(const std::string& stage, const std::string& name) {
   throw UsageError("stage '" + stage + "' has no variant '" + name + "'; variants:" + names);
 }
 
+[[noreturn]] void refuse(const Variant& variant, const Context& context) {
+  throw DeviceError("variant " + variant.stage + "=" + variant.name + " wants groups of " +
+                    std::to_string(variant.local_size) + " with " + std::to_string(variant.local_bytes) +
+                    " bytes of local memory; " + context.name() + " has groups of up to " +
+                    std::to_string(context.limits().group_items) + " and " +
+                    std::to_string(context.limits().local_bytes) + " bytes");
+}
+
 }  // namespace
 
 const Variant& choose_variant(const std::string& stage, const Context& context,
                               const std::map<std::string, std::string>& chosen) {
+  const auto fits = [&](const Variant& variant) {
+    return static_cast<std::size_t>(variant.local_size) <= context.limits().group_items &&
+           static_cast<std::size_t>(variant.local_bytes) <= context.limits().local_bytes;
+  };
   const auto wish = chosen.find(stage);
-  if (wish != chosen.end()) return find_variant(stage, wish->second);
-  for (const auto& variant : all_variants()) {
-    if (variant.stage == stage && (context.is_cpu() ? variant.default_on_cpu : variant.default_on_gpu)) return variant;
+  if (wish != chosen.end()) {
+    const Variant& variant = find_variant(stage, wish->second);
+    if (!fits(variant)) refuse(variant, context);
+    return variant;
   }
-  throw UsageError("stage '" + stage + "' has no default variant");
+  const Variant* largest = nullptr;
+  for (const auto& variant : all_variants()) {
+    if (variant.stage != stage || !fits(variant)) continue;
+    if (context.is_cpu() ? variant.default_on_cpu : variant.default_on_gpu) return variant;
+    if (largest == nullptr || variant.local_size > largest->local_size) largest = &variant;
+  }
+  if (largest == nullptr) throw UsageError("stage '" + stage + "' has no variant that the device can run");
+  return *largest;
 }
 
 void check_variants(const std::map<std::string, std::string>& chosen) {

@@ -17,14 +17,16 @@ struct Variant {
   int local_size;     ///< work-items per group in x
   bool default_on_cpu;
   bool default_on_gpu;
-  std::string about;  ///< one sentence for `quadedge variants`
+  std::string about;    ///< one sentence for `quadedge variants`
+  int local_bytes = 0;  ///< of local memory that a group takes, or a little more
 };
 
 /// Every variant of every stage, in the order of the stages.
 const std::vector<Variant>& all_variants();
 
-/// The variant of `stage` that `chosen` names, or else the default of the device's class.
-/// \throws UsageError for an unknown name, listing the known ones.
+/// The variant of `stage` that `chosen` names, or else the default of the device's class; where the device's groups or
+/// its local memory are too small for that, the one with the largest groups that it can run.
+/// \throws UsageError for an unknown name, listing the known ones, DeviceError where the device cannot run it.
 const Variant& choose_variant(const std::string& stage, const Context& context,
                               const std::map<std::string, std::string>& chosen);
 

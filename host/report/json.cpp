@@ -55,6 +55,9 @@ std::string report_json(const RunRecord& run) {
   report["schema"] = kReportSchema;
   add_origin(report, run.command);
   report["device"] = to_json(run.device);
+  report["self_test"] = {{"verdict", run.self_test.verdict},
+                         {"stage", run.self_test.test.stage},
+                         {"difference", run.self_test.test.difference}};
   report["variants"] = Json(run.variants);
   report["input"] = {{"path", run.input.path},     {"format", run.input.format}, {"name", run.input.name},
                      {"frames", run.input.frames}, {"width", run.input.width},   {"height", run.input.height}};

@@ -11,6 +11,7 @@
 #include "quadedge/device.hpp"
 #include "quadedge/evaluation.hpp"
 #include "quadedge/odometry.hpp"
+#include "quadedge/self_test.hpp"
 
 namespace quadedge::report {
 
@@ -27,11 +28,18 @@ struct FrameRecord {
   double start_ms = 0;  ///< when track() was called, since the start of the run (steady clock)
 };
 
+/// What is known of the device's soundness.
+struct DeviceTrust {
+  std::string verdict;  ///< passed | failed: --trust was given | not needed: the reference
+  SelfTestResult test;
+};
+
 /// One run.
 struct RunRecord {
   std::string command;  ///< line that started it
   InputFacts input;
   DeviceInfo device;
+  DeviceTrust self_test;
   Config config;                                ///< effective
   std::map<std::string, std::string> variants;  ///< stage -> chosen kernel variant
   std::vector<FrameRecord> frames;

@@ -8,7 +8,12 @@ CandidateFilters::CandidateFilters(opencl::Context& context, const std::map<std:
     : context_(context) {
   const auto& variant = opencl::choose_variant("candidate_filters", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  kernel_ = {context, context.program({"similarity.cl", "candidate_filters.cl"}, variant.defines), "candidate_filters"};
+  const bool grouped = variant.defines.count("GROUP") > 0;
+  items_per_row_ = grouped ? local_size_ : 1;
+  const auto program = grouped
+                           ? context.program({"similarity_lanes.cl", "candidate_filters_groups.cl"}, variant.defines)
+                           : context.program({"similarity.cl", "candidate_filters.cl"}, variant.defines);
+  kernel_ = {context, program, "candidate_filters"};
 }
 
 void CandidateFilters::run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step,
@@ -16,9 +21,9 @@ void CandidateFilters::run(const DescribedEdges& a, const DescribedEdges& b, con
   context_.begin_stage("candidate_filters");
   candidates.alive.ensure(context_, static_cast<std::size_t>(candidates.rows));
   const FilterArguments arguments{candidates.rows, row_step, candidates.capacity, all_scores ? 1 : 0, limits};
-  kernel_({static_cast<std::size_t>(candidates.rows), local_size_}, arguments, candidates.first, candidates.target,
-          a.patches, a.patch_of, a.sift, b.patches, b.patch_of, b.sift, candidates.ncc, candidates.sift,
-          candidates.state, candidates.alive);
+  kernel_({static_cast<std::size_t>(candidates.rows) * items_per_row_, local_size_}, arguments, candidates.first,
+          candidates.target, a.patches, a.patch_of, a.sift, b.patches, b.patch_of, b.sift, candidates.ncc,
+          candidates.sift, candidates.state, candidates.alive);
 }
 
 }  // namespace quadedge::stages

@@ -35,7 +35,7 @@ class CandidateFilters {
   using Out = opencl::Out<T>;
 
   opencl::Context& context_;
-  std::size_t local_size_;
+  std::size_t local_size_, items_per_row_;
   opencl::Kernel<FilterArguments, In<cl_int>, In<cl_int>, In<cl_char>, In<cl_int>, In<cl_uchar>, In<cl_char>,
                  In<cl_int>, In<cl_uchar>, Out<cl_float>, Out<cl_float>, Out<cl_uchar>, Out<cl_int>>
       kernel_;

@@ -11,7 +11,11 @@ WideDescription::WideDescription(opencl::Context& context, int width, int height
     : context_(context), width_(width), small_width_(width / kWideShrink), small_height_(height / kWideShrink) {
   const auto& variant = opencl::choose_variant("wide_description", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"direction.cl", "wide_description.cl"}, image_defines(white, variant.defines));
+  const bool grouped = variant.defines.count("GROUP") > 0;
+  items_per_row_ = grouped ? kWideCells * kWideCells : 1;
+  const auto program = context.program(
+      {"direction.cl", "wide_samples.cl", grouped ? "wide_description_groups.cl" : "wide_description.cl"},
+      image_defines(white, variant.defines));
   shrink_ = {context, program, "wide_shrink"};
   describe_ = {context, program, "wide_describe"};
 }
@@ -28,8 +32,8 @@ int WideDescription::describe(const opencl::Buffer<cl_float>& small, const Devic
   context_.begin_stage("wide_description");
   const int rows = (edges.count + step - 1) / step;
   descriptors.ensure(context_, static_cast<std::size_t>(rows) * kWideBytes);
-  describe_({static_cast<std::size_t>(rows), local_size_}, small, small_width_, small_height_, edges.packed,
-            edges.stride, rows, step, descriptors);
+  describe_({static_cast<std::size_t>(rows) * items_per_row_, local_size_}, small, small_width_, small_height_,
+            edges.packed, edges.stride, rows, step, descriptors);
   return rows;
 }
 

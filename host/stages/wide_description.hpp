@@ -31,7 +31,7 @@ class WideDescription {
 
   opencl::Context& context_;
   int width_, small_width_, small_height_;
-  std::size_t local_size_;
+  std::size_t local_size_, items_per_row_;
   opencl::Kernel<In<cl_uchar>, cl_int, cl_int, cl_int, Out<cl_float>> shrink_;
   opencl::Kernel<In<cl_float>, cl_int, cl_int, In<cl_float>, cl_int, cl_int, cl_int, Out<cl_uchar>> describe_;
 };

@@ -18,9 +18,12 @@ WideMatching::WideMatching(opencl::Context& context, const TemporalConfig& confi
   const auto& variant = opencl::choose_variant("wide_matching", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto rows = variant.defines.find("ROWS");
-  rows_per_item_ = rows == variant.defines.end() ? 0 : std::stoul(rows->second);
-  if (rows_per_item_ == 0) {
-    kernel_ = {context, context.program({"wide_matching.cl"}, variant.defines), "wide_match"};
+  rows_at_once_ = rows == variant.defines.end() ? 1 : std::stoul(rows->second);
+  grouped_ = variant.defines.count("GROUP") > 0;
+  in_blocks_ = !grouped_ && rows != variant.defines.end();
+  if (!in_blocks_) {
+    kernel_ = {context, context.program({grouped_ ? "wide_matching_tiles.cl" : "wide_matching.cl"}, variant.defines),
+               "wide_match"};
   } else {
     const auto program = context.program({"wide_matching_blocks.cl"}, variant.defines);
     transpose_ = {context, program, "wide_transpose"};
@@ -44,15 +47,15 @@ TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWi
                                         {current.edges.stride, current.rows, current.step},
                                         neighbourhood_,
                                         ratio_};
-  if (rows_per_item_ == 0) {
-    kernel_({rows, local_size_}, arguments, earlier.descriptors, earlier.edges.packed, current.descriptors,
-            current.edges.packed, best_, similarity_);
+  const std::size_t parts = (rows + rows_at_once_ - 1) / rows_at_once_;
+  if (!in_blocks_) {
+    kernel_({parts * (grouped_ ? local_size_ : 1), local_size_}, arguments, earlier.descriptors, earlier.edges.packed,
+            current.descriptors, current.edges.packed, best_, similarity_);
   } else {
     transpose(earlier, earlier_blocks_);
     transpose(current, current_blocks_);
-    blocks_kernel_({(rows + rows_per_item_ - 1) / rows_per_item_, local_size_}, arguments, earlier.descriptors,
-                   earlier_blocks_, earlier.edges.packed, current.descriptors, current_blocks_, current.edges.packed,
-                   best_, similarity_);
+    blocks_kernel_({parts, local_size_}, arguments, earlier.descriptors, earlier_blocks_, earlier.edges.packed,
+                   current.descriptors, current_blocks_, current.edges.packed, best_, similarity_);
   }
   std::vector<cl_int> best(rows);
   best_.read_later(best.data(), rows);

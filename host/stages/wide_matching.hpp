@@ -40,7 +40,8 @@ class WideMatching {
   opencl::Context& context_;
   float neighbourhood_, ratio_;
   std::size_t local_size_;
-  std::size_t rows_per_item_;  ///< of the variant with blocks, else 0
+  std::size_t rows_at_once_;  ///< of a work-item or, where `grouped_`, of a group
+  bool grouped_, in_blocks_;
   opencl::Buffer<cl_uchar> earlier_blocks_, current_blocks_;
   opencl::Buffer<cl_int> best_;
   opencl::Buffer<cl_float> similarity_;

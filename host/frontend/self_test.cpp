@@ -1,0 +1,18 @@
+#include "quadedge/self_test.hpp"
+
+#include "frontend/self_test_record.hpp"
+
+namespace quadedge {
+
+SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
+  constexpr double kAllowed = 0.02;  // drivers that are right differ in no row or in one (doc/performance.md)
+  const frontend::SelfTestRecord stored = frontend::parse_self_test(frontend::stored_self_test());
+  const auto found = frontend::observe_stages(stored.sequence, device, variants);
+  for (std::size_t i = 0; i < stored.stages.size(); ++i) {
+    const std::string difference = frontend::difference(found.at(i), stored.stages[i], kAllowed);
+    if (!difference.empty()) return {stored.stages[i].stage, difference};
+  }
+  return {};
+}
+
+}  // namespace quadedge

@@ -1,0 +1,93 @@
+#include "opencl/program_cache.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <unistd.h>
+#include <utility>
+
+namespace quadedge::opencl {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kContent = "quadedge program 1\n";
+constexpr const char* kSuffix = ".program";
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo): tells damage, not intent.
+std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
+  return hash;
+}
+
+std::string number(std::uint64_t value) {
+  char text[24];
+  std::snprintf(text, sizeof text, "%016llx\n", static_cast<unsigned long long>(value));
+  return text;
+}
+
+/// What stands before the binary: the whole key, so that two keys of one file name are told apart.
+std::string head(const std::string& key, std::string_view binary) {
+  return std::string(kContent) + number(key.size()) + number(binary.size()) + number(checksum(binary)) + key;
+}
+
+}  // namespace
+
+std::string ProgramCache::path(const std::string& key) const {
+  return folder_ + "/" + number(checksum(key)).substr(0, 16) + kSuffix;
+}
+
+std::optional<ProgramCache::Binary> ProgramCache::find(const std::string& key) const {
+  if (folder_.empty()) return std::nullopt;
+  std::ifstream stream(path(key), std::ios::binary);
+  const std::string file{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t front = head(key, {}).size();
+  if (!stream || file.size() < front) return std::nullopt;
+  const std::string_view binary = std::string_view(file).substr(front);
+  if (file.compare(0, front, head(key, binary)) != 0) return std::nullopt;
+  std::error_code ignored;
+  fs::last_write_time(path(key), fs::file_time_type::clock::now(), ignored);  // the time of its last use
+  return Binary(binary.begin(), binary.end());
+}
+
+void ProgramCache::keep(const std::string& key, const Binary& binary) const {
+  if (folder_.empty()) return;
+  std::error_code failed;
+  fs::create_directories(folder_, failed);
+  const std::string unfinished = path(key) + "." + std::to_string(getpid());
+  {
+    std::ofstream stream(unfinished, std::ios::binary);
+    const std::string_view bytes(reinterpret_cast<const char*>(binary.data()), binary.size());
+    stream << head(key, bytes) << bytes;
+    if (!stream.flush()) failed = std::make_error_code(std::errc::io_error);
+  }
+  if (!failed) fs::rename(unfinished, path(key), failed);
+  std::error_code ignored;
+  if (failed) fs::remove(unfinished, ignored);
+  shrink();
+}
+
+void ProgramCache::shrink() const {
+  std::vector<std::pair<fs::file_time_type, fs::directory_entry>> files;
+  std::uintmax_t bytes = 0;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+    const auto size = entry.file_size(ignored);
+    if (ignored || entry.path().extension() != kSuffix) continue;
+    bytes += size;
+    files.emplace_back(entry.last_write_time(ignored), entry);
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [used, entry] : files) {
+    if (bytes <= kBound) return;
+    bytes -= entry.file_size(ignored);
+    fs::remove(entry.path(), ignored);
+  }
+}
+
+}  // namespace quadedge::opencl

@@ -1,0 +1,35 @@
+// similarity_lanes.cl: similarity.cl with eight work-items per pair of edges, each with a part of their bytes. Functions
+// only; sums are of whole numbers, so that their order decides nothing.
+
+#define PAIR_ITEMS 8  // one per row of 16 bytes of the patches, and one that works along
+
+// The products of a row of side patches, 16 bytes each: dark-dark, bright-bright, dark-bright, bright-dark.
+static inline int4 row_products(const char16 of_a, const char16 of_b) {
+  const short16 a = convert_short16(of_a), b = convert_short16(of_b);
+  const int16 alike = convert_int16(a * b), crossed = convert_int16(a * b.s89abcdef01234567);
+  const int8 same = (int8)(alike.s0123 + alike.s4567, alike.s89ab + alike.scdef);
+  const int8 other = (int8)(crossed.s0123 + crossed.s4567, crossed.s89ab + crossed.scdef);
+  const int8 twos = (int8)(same.even + same.odd, other.even + other.odd);
+  return twos.even + twos.odd;
+}
+
+static inline int block_distance2(const uchar16 a, const uchar16 b) {
+  const int16 difference = convert_int16(a) - convert_int16(b), square = difference * difference;
+  const int8 eight = square.lo + square.hi;
+  const int4 four = eight.lo + eight.hi;
+  return four.x + four.y + four.z + four.w;
+}
+
+// Squares of the distances in block `k` of the descriptors: the pairings of sides in the order of sift_distance2().
+static inline int4 block_distances(global const uchar* a, global const uchar* b, const int k) {
+  const uchar16 a_dark = vload16(k, a), a_bright = vload16(k, a + 128);
+  const uchar16 b_dark = vload16(k, b), b_bright = vload16(k, b + 128);
+  return (int4)(block_distance2(a_dark, b_dark), block_distance2(a_bright, b_bright), block_distance2(a_dark, b_bright),
+                block_distance2(a_bright, b_dark));
+}
+
+static inline int4 sum_of_items(local const int4* parts, const int count) {
+  int4 sum = parts[0];
+  for (int k = 1; k < count; ++k) sum += parts[k];
+  return sum;
+}

@@ -1,0 +1,95 @@
+/// \file test_device_limits.cpp  Devices with less than the ones at hand, simulated.
+#include <catch2/catch.hpp>
+
+#include "frontend/memory_fit.hpp"
+#include "frontends.hpp"
+#include "opencl/variants.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/odometry.hpp"
+
+using namespace quadedge;
+using namespace matching;
+using Catch::Matchers::Contains;
+
+namespace {
+
+FrontendResult run_limited(const RenderedScene& scene, const DeviceLimits& limits) {
+  DeviceOptions options;
+  options.limits = limits;
+  Device device("0", options);
+  const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+  const auto before = frontend->process(scene.frame(0)), now = frontend->process(scene.frame(1));
+  FrontendResult result;
+  result.quads = frontend->match(*before, search_around(before->edges, 12));
+  result.left_edges = frontend->edges(Side::left);
+  result.right_edges = frontend->edges(Side::right);
+  result.previous = before->edges;
+  result.current = now->edges;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("limits: small groups and no local memory give the same bytes by other variants", "[opencl]") {
+  const RenderedScene scene("room", 161, 97, 2);
+  DeviceLimits as_gpu, small_groups, no_local;
+  as_gpu.type = small_groups.type = no_local.type = "gpu";
+  small_groups.group_items = 64;
+  no_local.local_bytes = 64;
+  const auto whole = run_limited(scene, as_gpu);
+  REQUIRE(whole.current.size() > 100);
+  CHECK(same_bytes(run_limited(scene, {}), whole));
+  CHECK(same_bytes(run_limited(scene, small_groups), whole));
+  CHECK(same_bytes(run_limited(scene, no_local), whole));
+
+  DeviceOptions options;
+  options.limits = small_groups;
+  Device device("0", options);
+  CHECK(opencl::choose_variant("edge_detection", *device.context(), {}).name == "tile64");
+  CHECK(opencl::choose_variant("sift", *device.context(), {}).name == "cells");
+  CHECK_THROWS_WITH(opencl::choose_variant("edge_detection", *device.context(), {{"edge_detection", "tile256"}}),
+                    Contains("tile256 wants groups of 256") && Contains("up to 64"));
+}
+
+TEST_CASE("limits: a device that cannot store bytes is refused by name", "[opencl]") {
+  DeviceOptions options;
+  options.limits.stores_bytes = false;
+  CHECK_THROWS_WITH(Device("0", options), Contains("cl_khr_byte_addressable_store"));
+  CHECK_THROWS_AS(Device("0", options), DeviceError);
+}
+
+TEST_CASE("limits: where memory is short the budget follows, and the first frame says so", "[opencl][odometry]") {
+  RenderedScene scene("room", 320, 200, 2);
+  DeviceOptions options;
+  options.limits.memory_bytes = 60'000'000;
+  scene.config.edges.budget = 0;
+  Device device("0", options);
+  StereoOdometry odometry(scene.rig, device, scene.config);
+  const auto first = odometry.track(scene.frame(0));
+  CHECK_THAT(first.warning, Contains("60 MB") && Contains("instead of all"));
+  CHECK(first.counts.edges_left > 1000);
+  CHECK(first.counts.edges_left < 5000);
+  const auto second = odometry.track(scene.frame(1));
+  CHECK(second.warning == "");
+  CHECK(is_tracked(second.status));
+  CHECK(odometry.device_bytes() < options.limits.memory_bytes);
+}
+
+TEST_CASE("limits: memory_fit leaves what fits, and refuses images that take all", "[opencl]") {
+  StereoRig rig;
+  rig.left.width = rig.right.width = 1226;
+  rig.left.height = rig.right.height = 370;
+  Config config;
+  CHECK(frontend::fit_memory(rig, config, 512'000'000).message.empty());
+  config.edges.budget = 0;  // a fifth of 453,620 pixels are edges, at most
+  CHECK(frontend::fit_memory(rig, config, 1'000'000'000).message.empty());
+  const auto fit = frontend::fit_memory(rig, config, 512'000'000);
+  // 0.75 * 512 MB - 16 MB - 160 B * 453,620, by 5000 B
+  CHECK(fit.config.edges.budget == 59084);
+  CHECK(fit.config.edges.max_edges == 118168);
+  CHECK_THAT(fit.message, Contains("512 MB") && Contains("59084 edges per image"));
+  config.edges.budget = 100000;
+  CHECK_THAT(frontend::fit_memory(rig, config, 512'000'000).message, Contains("instead of 100000"));
+  rig.left.width = rig.left.height = 2000;
+  CHECK_THROWS_WITH(frontend::fit_memory(rig, config, 512'000'000), Contains("2000x2000") && Contains("656 MB"));
+}

@@ -1,0 +1,94 @@
+/// \file test_self_test.cpp  The self-test: its stored results are the reference's, sound devices pass, wrong ones are
+/// named.
+#include <filesystem>
+
+#include "devices.hpp"
+#include "frontend/self_test_record.hpp"
+#include "opencl/variants.hpp"
+#include "program.hpp"
+#include "quadedge/self_test.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A copy of the kernels in which one text is another.
+void copy_kernels(const std::string& folder, const std::string& file, const std::string& what, const std::string& by) {
+  std::filesystem::copy(QUADEDGE_KERNELS, folder);
+  std::string text = read_text(folder + "/" + file);
+  const auto at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  std::ofstream(folder + "/" + file) << text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("self-test: the stored results are what the reference makes of the stored frames", "[selftest]") {
+  INFO("after a change of the method: quadedge generate self-test > host/frontend/self_test.txt");
+  CHECK((run_program({"generate", "self-test"}).out == frontend::stored_self_test()));
+  const auto record = frontend::parse_self_test(frontend::stored_self_test());
+  CHECK(frontend::to_text(record) == frontend::stored_self_test());
+  for (const auto& stage : record.stages) {
+    INFO(stage.stage);
+    CHECK(stage.rows.size() >= (stage.stage == "edge_threshold" ? 1U : 50U));
+  }
+}
+
+TEST_CASE("self-test: every device passes, with the kernels for CPUs and for GPUs", "[selftest]") {
+  DeviceOptions options;
+  options.limits.type = GENERATE(as<std::string>(), "cpu", "gpu");
+  Device device(GENERATE(from_range(all_devices())), options);
+  const auto result = self_test(device);
+  INFO(*options.limits.type << " " << result.stage << ": " << result.difference);
+  CHECK(result.passed());
+}
+
+TEST_CASE("self-test: rows that differ are counted and the first is shown", "[selftest]") {
+  frontend::StageRows expected{"scan", {}}, found;
+  for (int i = 0; i < 100; ++i) expected.rows.push_back({10 * i, 0, 0, 0, 0});
+  found = expected;
+  found.rows[7][0] += frontend::StageRows::kTolerance;
+  CHECK(frontend::difference(found, expected, 0.0) == "");
+  found.rows[7][1] = frontend::StageRows::kTolerance + 1;
+  CHECK(frontend::difference(found, expected, 0.01) == "");
+  CHECK_THAT(frontend::difference(found, expected, 0.009),
+             Contains("1 of them are wrong and 1 are missing") && Contains("(70 0 0 0 0)"));
+  found.rows.clear();
+  CHECK_THAT(frontend::difference(found, expected, 0.5), Contains("0 results where the reference has 100"));
+}
+
+TEST_CASE("self-test: a device that computes wrongly is refused by stage, and --trust goes on", "[selftest][cli]") {
+  const TemporaryFolder folder;
+  // Hardly any similarity is enough.
+  copy_kernels(folder / "kernels", "candidate_filters.cl", "similarity < limits.ncc_min", "similarity < 0.99f");
+  const std::vector<std::string> demo = {"demo",      "--frames",         "2",  "--size",      "322x200",
+                                         "--kernels", folder / "kernels", "-o", folder / "out"};
+  const auto refused = run_program(demo);
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("computes wrongly, stage candidate_filters: ") && Contains("--trust"));
+  auto trusting = demo;
+  trusting.push_back("--trust");
+  const auto trusted = run_program(trusting);
+  CHECK(trusted.code != 4);
+  CHECK_THAT(trusted.err, Contains("fails the self-test at stage candidate_filters"));
+  CHECK_THAT(read_text(folder / "out/report.json"), Contains("\"verdict\": \"failed\""));
+}
+
+TEST_CASE("self-test: the verdict is kept, shown by `devices`, and one that is damaged counts as none",
+          "[selftest][cli]") {
+  const TemporaryFolder folder;
+  const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
+  const auto devices = [&] { return run_program({"devices"}, environment).out; };
+  CHECK_THAT(devices(), Contains("self-test: not yet"));
+  std::ofstream(folder / "image.pgm") << "P5 40 40 255\n" + [] {
+    std::string pixels;
+    for (int i = 0; i < 1600; ++i) pixels += i % 40 < 20 ? '2' : 'z';
+    return pixels;
+  }();
+  REQUIRE(run_program({"edges", folder / "image.pgm"}, environment).code == 0);
+  CHECK_THAT(devices(), Contains("self-test: passed"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "cache/quadedge/self_tests"))
+    std::ofstream(entry.path()) << "{";
+  CHECK_THAT(devices(), Contains("self-test: not yet"));
+}
