@@ -35,7 +35,7 @@ TEST_CASE("limits: small groups and no local memory give the same bytes by other
   DeviceLimits as_gpu, small_groups, no_local;
   as_gpu.type = small_groups.type = no_local.type = "gpu";
   small_groups.group_items = 64;
-  no_local.local_bytes = 64;
+  no_local.local_bytes = 0;
   const auto whole = run_limited(scene, as_gpu);
   REQUIRE(whole.current.size() > 100);
   CHECK(same_bytes(run_limited(scene, {}), whole));

@@ -32,7 +32,6 @@ Context::Context(cl::Device device, const DeviceOptions& options)
 void Context::take_limits(const DeviceLimits& wished) {
   const bool cpu = (device_.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
   is_cpu_ = wished.type ? *wished.type == "cpu" : cpu;
-  constexpr cl_ulong kEmulated = 64;  // bytes of local memory that lies in global memory: enough for single work-items
   constexpr const char* kByteStores = "cl_khr_byte_addressable_store";
   const bool stores = device_.getInfo<CL_DEVICE_EXTENSIONS>().find(kByteStores) != std::string::npos;
   if (!wished.stores_bytes.value_or(stores)) {
@@ -42,8 +41,7 @@ void Context::take_limits(const DeviceLimits& wished) {
   }
   const bool has_local = cpu || device_.getInfo<CL_DEVICE_LOCAL_MEM_TYPE>() == CL_LOCAL;
   limits_.group_items = wished.group_items.value_or(device_.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>());
-  limits_.local_bytes =
-      wished.local_bytes.value_or(has_local ? device_.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() : kEmulated);
+  limits_.local_bytes = wished.local_bytes.value_or(has_local ? device_.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() : 0);
   limits_.memory_bytes = wished.memory_bytes.value_or(device_.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>());
 }
 

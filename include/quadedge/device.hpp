@@ -29,7 +29,7 @@ std::vector<DeviceInfo> list_devices();
 struct DeviceLimits {
   std::optional<std::string> type;         ///< cpu | gpu | accelerator
   std::optional<std::size_t> group_items;  ///< work-items of the largest group
-  std::optional<std::size_t> local_bytes;  ///< local memory of a group; 0: none of its own, it lies in global memory
+  std::optional<std::size_t> local_bytes;  ///< of a group; 0: its local memory lies in global memory
   std::optional<std::size_t> memory_bytes;
   std::optional<bool> stores_bytes;  ///< cl_khr_byte_addressable_store
 };
