@@ -26,7 +26,7 @@ export(TARGETS ${exported_targets} quadedge_options NAMESPACE quadedge::
 configure_package_config_file(cmake/quadedgeConfig.cmake.in quadedgeConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(quadedgeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/quadedgeConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/quadedgeConfigVersion.cmake
-  cmake/FindOpenCVModules.cmake DESTINATION ${package_folder} COMPONENT development)
+  cmake/FindOpenCVModules.cmake cmake/FindLibav.cmake DESTINATION ${package_folder} COMPONENT development)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME quadedge)
@@ -47,7 +47,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS pocl-opencl-icd)  # a device for mac
 
 # What quadedgeConfig.cmake looks for.
 set(development_packages libeigen3-dev libtbb-dev ocl-icd-opencl-dev opencl-headers libopencv-imgcodecs-dev
-  libopencv-calib3d-dev nlohmann-json3-dev libyaml-cpp-dev libjpeg-dev)
+  libopencv-calib3d-dev nlohmann-json3-dev libyaml-cpp-dev libjpeg-dev libavformat-dev libavcodec-dev libswscale-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libquadedge-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers, CMake configuration and examples.")

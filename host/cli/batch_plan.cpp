@@ -9,6 +9,7 @@
 #include "data/content_hash.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/stereo_source.hpp"
 #include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
 #include "report/whole_results.hpp"
@@ -71,7 +72,7 @@ std::vector<BatchMember> plan_batch(const std::vector<data::FoundSequence>& sequ
     BatchMember& member = plan.emplace_back();
     member.sequence = sequence;
     try {
-      const Dataset dataset = open_dataset(sequence.path);
+      const Dataset dataset = sequence.source ? open_stereo_source(*sequence.source) : open_dataset(sequence.path);
       member.frames = static_cast<int>(dataset.frames.size());
       member.pixels = static_cast<double>(member.frames) * dataset.rig.left.width * dataset.rig.left.height;
       data::ContentHash hash;

@@ -11,6 +11,7 @@
 #include "cli/child_process.hpp"
 #include "cli/folder_lock.hpp"
 #include "data/atomic_file.hpp"
+#include "data/source_line.hpp"
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
 
@@ -120,13 +121,22 @@ class BatchRunner {
 
  private:
   std::vector<std::string> arguments(const BatchMember& member, const std::string& folder) const {
-    std::vector<std::string> arguments = {"run",           member.sequence.path,
-                                          "--output",      folder,
-                                          "--min-tracked", "0",
-                                          "--config",      (fs::path(options_.output) / "config.toml").string(),
-                                          "--device",      method_.device_choice(),
-                                          "--thumbnails",  std::to_string(options_.thumbnails),
-                                          "--draw",        std::to_string(options_.draw_every)};
+    std::vector<std::string> arguments = {"run",
+                                          "--output",
+                                          folder,
+                                          "--min-tracked",
+                                          "0",
+                                          "--config",
+                                          (fs::path(options_.output) / "config.toml").string(),
+                                          "--device",
+                                          method_.device_choice(),
+                                          "--thumbnails",
+                                          std::to_string(options_.thumbnails),
+                                          "--draw",
+                                          std::to_string(options_.draw_every)};
+    const auto& source = member.sequence.source;
+    for (const auto& word : source ? data::source_words(*source) : std::vector<std::string>{member.sequence.path})
+      arguments.push_back(word);
     if (!method_.kernel_folder().empty()) arguments.insert(arguments.end(), {"--kernels", method_.kernel_folder()});
     if (method_.trusts()) arguments.push_back("--trust");
     if (options_.profile) arguments.push_back("--profile");

@@ -57,6 +57,7 @@ class Command {
 std::unique_ptr<Command> make_run_command();
 std::unique_ptr<Command> make_demo_command();
 std::unique_ptr<Command> make_edges_command();
+std::unique_ptr<Command> make_match_command();
 std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_batch_command();
 std::unique_ptr<Command> make_report_command();

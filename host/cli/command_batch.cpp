@@ -31,8 +31,9 @@ class BatchCommand : public Command {
   }
 
   void declare(Options& options) override {
-    options.positional("ROOT|LIST", input_,
-                       "folder with sequences anywhere below it, or a file with one folder per line");
+    options.positional(
+        "ROOT|LIST", input_,
+        "folder with sequences anywhere below it, or a file with a folder, or a camera of your own, per line");
     options.text("-o,--output", batch_.output, "folder for all results; default: quadedge_batch here", "OUT");
     options.number("--jobs", batch_.jobs, "sequences at the same time; 0: as many as suit the device");
     options.flag("--timing", batch_.timing,

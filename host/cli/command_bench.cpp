@@ -15,6 +15,7 @@
 #include "cli/rendering_status.hpp"
 #include "cli/saved_variants.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 #include "report/json.hpp"
@@ -36,9 +37,8 @@ class BenchCommand : public Command {
   }
 
   void declare(Options& options) override {
-    options.positional("PATH", path_,
-                       "recorded sequence; without it the built-in one. With --compare also a result to compare",
-                       false);
+    source_.declare_path(options,
+                         "recorded sequence; without it the built-in one. With --compare also a result to compare");
     options.choice("--scene", scene_.scene, synthetic_scenes(), "of the built-in sequence");
     declare_view(options, scene_, size_);
     options.number("--scene-seed", scene_.seed, "of the built-in sequence");
@@ -56,10 +56,12 @@ class BenchCommand : public Command {
     options.number("--noise", noise_, "so much more counts as equal in a comparison [percent]");
     options.flag("--force", force_, "replace files that exist");
     options.flag("--quiet", quiet_, "no progress");
+    source_.declare(options);
     method_.declare(options);
   }
 
   int run() override {
+    path_ = source_.path();
     check_options();
     const bool compare_files = !compare_.empty() && std::filesystem::is_regular_file(path_);
     if (compare_files) return compare(path_);
@@ -82,7 +84,7 @@ class BenchCommand : public Command {
     if (edges_ < -1) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more, or -1");
     if (!(noise_ >= 0)) throw UsageError("--noise: expected 0 percent or more");
     const SyntheticOptions usual;
-    if (!path_.empty() &&
+    if (source_.is_given() &&
         (!size_.empty() || scene_.scene != usual.scene || scene_.path != usual.path || scene_.seed != usual.seed))
       throw UsageError(
           "--size, --scene, --path and --scene-seed are for the built-in sequence; a recorded one has its own");
@@ -99,11 +101,19 @@ class BenchCommand : public Command {
   }
 
   std::unique_ptr<FrameSource> open_source(RenderingStatus& rendering) const {
-    if (!path_.empty()) return make_recorded_source(open_dataset(path_));
+    if (source_.is_given()) return make_recorded_source(source_.open());
     SyntheticOptions scene = scene_;
     scene.frames = 1 + warm_up_ + frames_;
     set_size(scene, size_);
     return make_synthetic_source(scene, [&](const data::RenderingProgress& frames) { return rendering.show(frames); });
+  }
+
+  /// \throws DataError for fewer frames than one to measure needs.
+  void check_length(const report::InputFacts& input) const {
+    if (input.frames >= warm_up_ + 2) return;
+    throw DataError(input.path + ": has " + std::to_string(input.frames) + " frames; expected at least " +
+                    std::to_string(warm_up_ + 2) + ": the first, " + std::to_string(warm_up_) +
+                    " to get warm, one to measure");
   }
 
   bench::BenchRecord measure() {
@@ -118,24 +128,23 @@ class BenchCommand : public Command {
     record.command = command_line();
     record.warm_up = warm_up_;
     Progress progress(quiet_);
-    if (run.input.frames < warm_up_ + 2) {
-      throw DataError(run.input.path + ": has " + std::to_string(run.input.frames) + " frames; expected at least " +
-                      std::to_string(warm_up_ + 2) + ": the first, " + std::to_string(warm_up_) +
-                      " to get warm, one to measure");
-    }
+    const bool is_counted = run.input.frames > 0;
+    if (is_counted) check_length(run.input);
     bench::measure_start(
         source->rig(), [&] { return method_.open_device(); }, add_saved_variants, record);
     std::vector<FramePrefetcher::Frame> frames;
-    const int wanted = std::min(1 + warm_up_ + frames_, run.input.frames);
+    const int all = 1 + warm_up_ + frames_, wanted = is_counted ? std::min(all, run.input.frames) : all;
     while (static_cast<int>(frames.size()) < wanted) {
       auto frame = source->next();
+      if (!frame) break;
       record.frames_mb +=
           static_cast<double>(frame->left.pixels.size() + frame->right.pixels.size()) / (1024.0 * 1024.0);
       frames.push_back(std::move(*frame));
       progress.update("reading frame", static_cast<int>(frames.size()), wanted);
     }
-    run.input.frames = wanted;
-    record.edges_wanted = edges_ >= 0 ? edges_ : path_.empty() ? kBenchEdges : 0;
+    run.input.frames = static_cast<int>(frames.size());
+    check_length(run.input);
+    record.edges_wanted = edges_ >= 0 ? edges_ : source_.is_given() ? 0 : kBenchEdges;
     if (record.edges_wanted > 0) {
       Device device = method_.open_device();
       run.config.edges.threshold = bench::threshold_for_edges(frames.front(), record.edges_wanted, device, run.config);
@@ -155,6 +164,7 @@ class BenchCommand : public Command {
   }
 
   SyntheticOptions scene_;
+  SourceOptions source_;
   std::string path_, size_, json_, trace_, compare_;
   int edges_ = -1, frames_ = 30, warm_up_ = 3;
   double noise_ = 10;

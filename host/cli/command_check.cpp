@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cli/camera_options.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/rig_check.hpp"
+#include "cli/source_options.hpp"
 #include "data/check_tree.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
@@ -26,27 +26,52 @@ class CheckCommand : public Command {
            "  quadedge check flight --calibration camchain.yaml --write-calibration rig.yaml";
   }
   void declare(Options& options) override {
-    options.positional("PATH", path_, "folder of a sequence, or of many");
+    source_.declare_path(options, "folder of a sequence, or of many");
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
     options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
     options.text("--sequence", options_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
-    declare_cameras(options, options_);
     options.text("--write-calibration", calibration_,
                  "write the cameras in the program's own format, for --calibration", "FILE");
     options.flag("--force", force_, "replace the file that --write-calibration names");
     options.flag("--quiet", quiet_, "errors only");
+    source_.declare(options);
   }
   int run() override {
+    path_ = source_.path();
+    if (!source_.is_given()) throw UsageError("nothing to check: expected PATH, or --left, --right and --calibration");
     check_output_file(calibration_, force_);
-    if (is_tree()) return check_tree();
-    DatasetCheck check = check_dataset(path_, options_);
-    if (check.errors.empty()) {
-      const Dataset dataset = open_dataset(path_, options_);
-      check_rig_evidence(dataset, check);
-      if (!calibration_.empty())
-        write_calibration(calibration_, dataset.calibration.value_or(pinhole_calibration(dataset.rig)));
-    }
+    if (!source_.is_own_camera() && is_tree()) return check_tree();
+    return print(source_.is_own_camera() ? check_own_camera() : check_layout());
+  }
+
+ private:
+  DatasetCheck check_layout() const {
+    const DatasetOptions options = source_.layout(options_);
+    DatasetCheck check = check_dataset(path_, options);
+    if (!check.errors.empty()) return check;
+    const Dataset dataset = open_dataset(path_, options);
+    check_rig_evidence(dataset, check);
+    write_cameras(dataset);
+    return check;
+  }
+
+  DatasetCheck check_own_camera() const {
+    RigEvidenceCollector evidence;
+    DatasetCheck check = check_stereo_source(
+        source_.own_camera(), [&](const Dataset& dataset, const StereoPair& pair) { evidence.see(dataset, pair); });
+    if (!check.errors.empty()) return check;
+    evidence.finish(check);
+    write_cameras(evidence.dataset());
+    return check;
+  }
+
+  void write_cameras(const Dataset& dataset) const {
+    if (!calibration_.empty())
+      write_calibration(calibration_, dataset.calibration.value_or(pinhole_calibration(dataset.rig)));
+  }
+
+  int print(const DatasetCheck& check) const {
     if (!quiet_) {
       for (const auto& fact : check.facts) std::printf("%s\n", fact.c_str());
       for (const auto& warning : check.warnings) std::printf("warning: %s\n", warning.c_str());
@@ -56,12 +81,10 @@ class CheckCommand : public Command {
     return static_cast<int>(check.errors.empty() ? ExitCode::done : ExitCode::data);
   }
 
- private:
   /// Is PATH a folder of recordings instead of one? (KITTI's folder with a single sequence stands for that sequence.)
   bool is_tree() {
     std::error_code ignored;
-    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() ||
-        !options_.calibration.empty() || !options_.mask.empty() || options_.fov != 0 ||
+    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() || source_.tells_cameras() ||
         !std::filesystem::is_directory(path_, ignored))
       return false;
     if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList, ignored)) return true;
@@ -98,6 +121,7 @@ class CheckCommand : public Command {
   }
 
   std::string path_, calibration_;
+  SourceOptions source_;
   DatasetOptions options_;
   bool force_ = false, quiet_ = false;
 };

@@ -4,9 +4,12 @@
 #include "cli/command.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/detect_edges.hpp"
+#include "quadedge/error.hpp"
+#include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
 #include "report/edges_csv.hpp"
 #include "report/statistics.hpp"
@@ -17,31 +20,38 @@ namespace {
 class EdgesCommand : public Command {
  public:
   std::string name() const override { return "edges"; }
-  std::string about() const override { return "detect the third-order edges of one image"; }
+  std::string about() const override {
+    return "detect the third-order edges of one image, or of a left image of your own cameras";
+  }
   std::string examples() const override {
     return "  quadedge edges image.png --csv edges.csv --draw edges.png\n"
            "  quadedge edges image.png --edges.threshold 4 --csv strong.csv";
   }
   void declare(Options& options) override {
-    options.positional("IMAGE", image_, "image file; colour becomes grey");
+    source_.declare_path(options, "image file; colour becomes grey", "IMAGE");
+    options.number("--frame", frame_, "of --left and --right, --video or -: which pair, from 0; its pinhole image");
     options.text("--csv", csv_, "write x,y,direction_rad,strength of every edge", "FILE");
     options.text("--draw", draw_, "write a picture of the edges (PNG)", "FILE");
     options.flag("--force", force_, "replace files that exist");
     options.flag("--quiet", quiet_, "no summary");
+    source_.declare(options);
     method_.declare(options);
   }
   int run() override {
     const Config config = method_.config();
     check_output_file(csv_, force_);
     check_output_file(draw_, force_);
-    const Image image = read_grey_image(image_);
+    if (!source_.is_given()) throw UsageError("nothing to read: expected IMAGE, or --left, --right and --calibration");
+    if (!source_.is_own_camera()) source_.refuse_all();
+    const Image image = source_.is_own_camera() ? left_image() : read_grey_image(source_.path());
     Device device = method_.open_device();
     const EdgeSet edges = detect_edges(image.view(), device, config);
     if (!csv_.empty()) data::write_atomically(csv_, report::edges_csv(edges));
     if (!draw_.empty()) report::draw_edges(draw_, image.view(), edges);
     if (!quiet_) {
       const std::vector<double> strengths(edges.strength.begin(), edges.strength.end());
-      std::printf("image      %s, %d x %d\ndevice     %s\nedges      %zu", image_.c_str(), image.width, image.height,
+      std::printf("image      %s, %d x %d\ndevice     %s\nedges      %zu",
+                  source_.is_own_camera() ? "left pinhole image" : source_.path().c_str(), image.width, image.height,
                   device.info().name.c_str(), edges.size());
       if (!strengths.empty()) std::printf(", median strength %.2f grey levels per pixel", report::median(strengths));
       std::printf("\n");
@@ -50,7 +60,16 @@ class EdgesCommand : public Command {
   }
 
  private:
-  std::string image_, csv_, draw_;
+  /// The left image of a pair as the pinhole camera would have seen it.
+  Image left_image() const {
+    PairOfSource pair = source_.pair(frame_);
+    const auto& table = pair.dataset.rig.left_undistortion;
+    return table.empty() ? std::move(pair.pair.left) : reference::undistort(pair.pair.left.view(), table);
+  }
+
+  SourceOptions source_;
+  int frame_ = 0;
+  std::string csv_, draw_;
   bool force_ = false, quiet_ = false;
   MethodOptions method_;
 };

@@ -1,11 +1,11 @@
 /// \file command_run.cpp  quadedge run: one recorded sequence to a trajectory.
 #include <charconv>
 
-#include "cli/camera_options.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/sequence_run.hpp"
+#include "cli/source_options.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
@@ -26,21 +26,22 @@ int frame_number(const std::string& text, int missing, const std::string& whole)
 class RunCommand : public Command {
  public:
   std::string name() const override { return "run"; }
-  std::string about() const override { return "track one recorded sequence and write its trajectory"; }
+  std::string about() const override {
+    return "track a recorded sequence or your own cameras and write the trajectory";
+  }
   std::string examples() const override {
     return "  quadedge run kitti/sequences/06 -o results_06\n"
-           "  quadedge run V1_01_easy --frames 100:300 --device gpu --draw 50";
+           "  quadedge run --left left --right right --calibration camchain.yaml --fps 20 --device gpu";
   }
 
   void declare(Options& options) override {
-    options.positional("PATH", path_, "folder of the sequence");
+    source_.declare_path(options, "folder of the sequence");
     options.text("-o,--output", run_.output, "folder for the results; default: quadedge_NAME here", "OUT");
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
     options.choice("--format", dataset_.format, formats, "layout of the data; auto recognises it");
     options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
     options.text("--frames", frames_, "frames A up to but without B; either side may be left out", "A:B");
-    declare_cameras(options, dataset_);
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
     options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
     options.number("--draw", run_.draw_every, "pictures of the edges and quads of every N-th frame");
@@ -48,6 +49,8 @@ class RunCommand : public Command {
     options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");
     options.flag("--force", run_.force, "replace the results in OUT");
     options.flag("--quiet", run_.quiet, "no progress");
+    run_.map.declare(options);
+    source_.declare(options);
     method_.declare(options);
   }
 
@@ -64,17 +67,20 @@ class RunCommand : public Command {
       dataset_.first_frame = frame_number(frames_.substr(0, colon), 0, frames_);
       dataset_.last_frame = frame_number(frames_.substr(colon + 1), -1, frames_);
     }
-    Dataset dataset = open_dataset(path_, dataset_);
+    Dataset dataset = source_.open(dataset_);
+    if (run_.profile && dataset.format == "pipe")
+      throw UsageError("--profile reads everything twice; a pipe cannot be");
     if (run_.output.empty()) run_.output = default_output_folder(dataset.name);
-    const auto source = make_recorded_source(std::move(dataset));
     const Interruption interruption;
+    const auto source = make_recorded_source(std::move(dataset), [&] { return interruption.signal() != 0; });
     const report::RunRecord record = run_sequence(*source, method_, run_, interruption);
     print_run(record, run_.output);
     return exit_code(record, min_tracked_);
   }
 
  private:
-  std::string path_, frames_;
+  std::string frames_;
+  SourceOptions source_;
   DatasetOptions dataset_;
   SequenceRunOptions run_;
   double min_tracked_ = 50;

@@ -116,8 +116,9 @@ void Progress::update(const std::string& what, int done, int total, const std::s
   updated_ = now;
   const bool last = done == total;
   if (!status_.due(last)) return;
-  std::string line = what + " " + std::to_string(done) + "/" + std::to_string(total);
-  for (const auto& part : {rate_and_rest(done, total, unit_, now - start_), note}) {
+  std::string line = what + " " + std::to_string(done);
+  if (total > 0) line += "/" + std::to_string(total);
+  for (const auto& part : {total > 0 ? rate_and_rest(done, total, unit_, now - start_) : std::string(), note}) {
     line += part.empty() ? "" : "  " + part;
   }
   status_.show(line, last);

@@ -37,8 +37,8 @@ class Progress {
   /// \param unit  of what is counted, for the rate: "frames"
   explicit Progress(bool quiet, std::string unit = {})
       : status_(quiet), unit_(std::move(unit)), start_(std::chrono::steady_clock::now()), updated_(start_) {}
-  /// `done` of `total` are finished, which also gives rate and remaining time; `note` is a short text behind the
-  /// numbers. Another `what` is another step, whose time begins with the end of the one before.
+  /// `done` of `total` (0: nobody knows) are finished, which also gives rate and remaining time; `note` is a short text
+  /// behind the numbers. Another `what` is another step, whose time begins with the end of the one before.
   void update(const std::string& what, int done, int total, const std::string& note = "");
 
  private:

@@ -10,7 +10,9 @@ namespace {
 
 class RecordedSource : public FrameSource {
  public:
-  explicit RecordedSource(Dataset dataset) : dataset_(std::move(dataset)) { rewind(); }
+  RecordedSource(Dataset dataset, std::function<bool()> stop) : dataset_(std::move(dataset)), stop_(std::move(stop)) {
+    rewind();
+  }
   const StereoRig& rig() const override { return dataset_.rig; }
   report::InputFacts facts() const override {
     return {dataset_.path,           dataset_.format,         dataset_.name, static_cast<int>(dataset_.frames.size()),
@@ -18,12 +20,15 @@ class RecordedSource : public FrameSource {
   }
   double max_disparity() const override { return dataset_.max_disparity; }
   std::optional<FramePrefetcher::Frame> next() override { return prefetcher_->next(); }
-  void rewind() override { prefetcher_ = std::make_unique<FramePrefetcher>(dataset_); }
+  void rewind() override { prefetcher_ = std::make_unique<FramePrefetcher>(dataset_, kAhead, stop_); }
   const Trajectory& truth() const override { return dataset_.truth; }
   std::string truth_name() const override { return dataset_.truth_file; }
+  int dropped() const override { return prefetcher_->dropped(); }
 
  private:
+  static constexpr int kAhead = 2;
   Dataset dataset_;
+  std::function<bool()> stop_;
   std::unique_ptr<FramePrefetcher> prefetcher_;
 };
 
@@ -66,8 +71,8 @@ class SyntheticSource : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset) {
-  return std::make_unique<RecordedSource>(std::move(dataset));
+std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop) {
+  return std::make_unique<RecordedSource>(std::move(dataset), std::move(stop));
 }
 
 std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options, data::RenderedFrames::Watch watch) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file frame_source.hpp  Frames in order, from disk or from the renderer.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,12 +31,14 @@ class FrameSource {
   virtual const Trajectory& truth() const = 0;
   /// Where they come from.
   virtual std::string truth_name() const = 0;
+  /// Pairs left out so far since they came faster than they were taken.
+  virtual int dropped() const { return 0; }
   /// What prepare() has kept for another run, as a sentence for the user; empty: nothing.
   virtual std::string kept() const { return {}; }
 };
 
-/// A recorded sequence; images are read ahead on another thread.
-std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset);
+/// A recorded sequence, or a camera of one's own; images are read ahead on another thread. `stop`: as FramePrefetcher.
+std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop = {});
 
 /// The built-in sequence, rendered ahead and kept in the user's cache (see data::RenderedFrames). `watch`: told while
 /// frames are made ready. \throws UsageError for options that cannot be rendered.

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     commands.push_back(cli::make_batch_command());
     commands.push_back(cli::make_report_command());
     commands.push_back(cli::make_edges_command());
+    commands.push_back(cli::make_match_command());
     commands.push_back(cli::make_evaluate_trajectory_command());
     commands.push_back(cli::make_evaluate_matching_command());
     commands.push_back(cli::make_bench_command());

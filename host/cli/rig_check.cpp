@@ -7,28 +7,58 @@
 
 namespace quadedge::cli {
 
+void check_numbers(const StereoRig& rig, DatasetCheck& check) {
+  for (const auto& warning : odometry::implausible_numbers(rig)) check.warnings.push_back(warning);
+}
+
+void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
+  RigEvidence evidence;
+  const odometry::RigFindings findings = odometry::examine_frame(
+      dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, dataset.max_disparity, evidence);
+  const std::string frame = "frame " + std::to_string(pair.number) + ": ";
+  char text[160];
+  if (evidence.is_searched()) {
+    std::snprintf(text, sizeof text,
+                  "epipolar residual %.2f px, %.0f %% of sought spots found, %.0f %% of these on their line",
+                  evidence.searched_residual, 100 * evidence.found_ratio, 100 * evidence.on_line_ratio);
+    check.facts.push_back(frame + text);
+  } else {
+    check.facts.push_back(frame + "no spot to ask whether the calibration fits");
+  }
+  if (!findings.mismatch.empty()) check.warnings.push_back(frame + findings.mismatch);
+  for (const auto& doubt : findings.doubts) check.warnings.push_back(frame + doubt);
+}
+
 void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {
-  for (const auto& warning : odometry::implausible_numbers(dataset.rig)) check.warnings.push_back(warning);
+  check_numbers(dataset.rig, check);
   if (dataset.frames.empty()) return;
   for (const std::size_t i : std::set<std::size_t>{0, dataset.frames.size() / 2, dataset.frames.size() - 1}) {
     const FrameFiles& files = dataset.frames[i];
-    const Image left = read_grey_image(files.left), right = read_grey_image(files.right);
-    RigEvidence evidence;
-    const odometry::RigFindings findings = odometry::examine_frame(
-        dataset.rig, {files.stamp_ns, left.view(), right.view()}, dataset.max_disparity, evidence);
-    const std::string frame = "frame " + std::to_string(i) + ": ";
-    char text[160];
-    if (evidence.is_searched()) {
-      std::snprintf(text, sizeof text,
-                    "epipolar residual %.2f px, %.0f %% of sought spots found, %.0f %% of these on their line",
-                    evidence.searched_residual, 100 * evidence.found_ratio, 100 * evidence.on_line_ratio);
-      check.facts.push_back(frame + text);
-    } else {
-      check.facts.push_back(frame + "no spot to ask whether the calibration fits");
-    }
-    if (!findings.mismatch.empty()) check.warnings.push_back(frame + findings.mismatch);
-    for (const auto& doubt : findings.doubts) check.warnings.push_back(frame + doubt);
+    check_rig_evidence(dataset,
+                       {static_cast<int>(i), files.stamp_ns, read_grey_image(files.left), read_grey_image(files.right)},
+                       check);
   }
+}
+
+void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
+  if (!dataset_) {
+    dataset_ = dataset;
+    dataset_->stream = nullptr;  // the pairs are another's
+    check_numbers(dataset.rig, found_);
+  }
+  const auto middle = static_cast<int>(dataset.frames.size() / 2);
+  last_ = std::nullopt;
+  if (pair.number == 0 || pair.number == middle) {
+    check_rig_evidence(dataset, pair, found_);
+  } else {
+    last_ = pair;
+  }
+}
+
+void RigEvidenceCollector::finish(DatasetCheck& check) {
+  if (last_) check_rig_evidence(*dataset_, *last_, found_);
+  check.facts.insert(check.facts.end(), found_.facts.begin(), found_.facts.end());
+  check.warnings.insert(check.warnings.end(), found_.warnings.begin(), found_.warnings.end());
 }
 
 }  // namespace quadedge::cli

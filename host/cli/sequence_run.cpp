@@ -112,7 +112,8 @@ std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& dev
 void end_if_interrupted(const Interruption& interruption, const FrameSource& source, const SequenceRunOptions& options,
                         const report::RunRecord& run) {
   if (interruption.signal() == 0) return;
-  const std::string frames = std::to_string(run.frames.size()) + " of " + std::to_string(run.input.frames) + " frames";
+  const std::string all = run.input.frames > 0 ? " of " + std::to_string(run.input.frames) : "";
+  const std::string frames = std::to_string(run.frames.size()) + all + " frames";
   const std::string kept = source.kept();
   if (!run.frames.empty()) {
     note(options.quiet, "interrupted; trajectory.txt, trajectory_kitti.txt, frames.csv and poses.csv in " +
@@ -135,7 +136,7 @@ void tell(const FrameResult& result, bool quiet, const report::RunRecord& run) {
 
 /// First pass: poses and latencies.
 void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                  const Interruption& interruption, report::RunRecord& run) {
+                  const Interruption& interruption, MapOutput& map, report::RunRecord& run) {
   const auto opening = Clock::now();
   SelfTestResult test;
   Device device = method.open_device(false, &test);
@@ -165,6 +166,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     files.add(record.result);
     tell(record.result, options.quiet, run);
     draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
+    map.add(*frame, record.result, odometry);
     lost += is_tracked(record.result.status) ? 0 : 1;
     run.frames.push_back(std::move(record));
     char text[64];
@@ -172,6 +174,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
     if (interruption.signal() != 0) break;
   }
+  if (run.input.frames == 0 && interruption.signal() == 0) run.input.frames = static_cast<int>(run.frames.size());
+  run.input.dropped = source.dropped();
   const std::size_t device_peak = device.is_reference() ? 0 : device.context()->peak_bytes();
   run.device_peak_mb = static_cast<double>(std::max(device_peak, odometry.device_bytes())) / (1024.0 * 1024.0);
   run.host_peak_mb = host_peak_mb();
@@ -250,13 +254,18 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   complete(run.config, source);
   const FolderLock lock = prepare_output_folder(options.output, options.force);
   check_output_file(options.trace, options.force);
+  options.map.check(options.force);
+  MapOutput map(options.map, run.config);
   try {
-    track_frames(source, method, options, interruption, run);
+    track_frames(source, method, options, interruption, map, run);
   } catch (const DataError& error) {
+    map.write();
     if (run.frames.empty()) throw;
     throw DataError(std::string(error.what()) + "\n" + std::to_string(run.frames.size()) + " finished frames are in " +
                     options.output);
   }
+  map.write();
+  run.map = map.facts();
   end_if_interrupted(interruption, source, options, run);
   if (options.profile) profile_frames(source, method, options, interruption, run);
   end_if_interrupted(interruption, source, options, run);

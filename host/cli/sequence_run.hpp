@@ -5,6 +5,7 @@
 
 #include "cli/frame_source.hpp"
 #include "cli/interruption.hpp"
+#include "cli/map_output.hpp"
 #include "cli/method_options.hpp"
 #include "report/run_record.hpp"
 
@@ -19,6 +20,7 @@ struct SequenceRunOptions {
   /// Pictures of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).
   int draw_every = 0;
   int draw_frame = -1;
+  MapFiles map;
   int thumbnails = 0;  ///< number of small pictures of quads, spread evenly over the frames after the first
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -56,7 +57,7 @@ void describe_lenses(const Dataset& dataset, DatasetCheck& check) {
 
 void describe(const Dataset& dataset, DatasetCheck& check) {
   check.facts.push_back("format: " + dataset.format);
-  check.facts.push_back("folder: " + dataset.path);
+  check.facts.push_back(std::string(dataset.stream ? "source: " : "folder: ") + dataset.path);
   check.facts.push_back("frames: " + std::to_string(dataset.frames.size()));
   describe_camera(dataset.rig.left, "left", check);
   describe_camera(dataset.rig.right, "right", check);
@@ -104,35 +105,73 @@ void check_truth(const Dataset& dataset, DatasetCheck& check) {
   if (!dataset.disparity_truth.empty()) check.facts.push_back("disparity of the left view: " + dataset.disparity_truth);
 }
 
-void check_image(const std::string& file, const PinholeCamera& camera, DatasetCheck& check) {
+/// Reads an image file; nothing, and what is wrong among the errors, where it is not as it should be.
+std::optional<Image> read_image(const std::string& file, const PinholeCamera& camera, DatasetCheck& check) {
   try {
-    const Image image = read_grey_image(file);
+    Image image = read_grey_image(file);
     const ImageSize found{image.width, image.height}, expected{camera.width, camera.height};
-    if (expected.width > 0 && found != expected) {
-      check.errors.push_back(file + ": found " + to_string(found) + " pixels, expected " + to_string(expected));
+    if (expected.width == 0 || found == expected) return image;
+    check.errors.push_back(file + ": found " + to_string(found) + " pixels, expected " + to_string(expected));
+  } catch (const DataError& problem) {
+    check.errors.push_back(problem.what());
+  }
+  return std::nullopt;
+}
+
+/// Every image file, also those after a damaged one.
+void read_files(const Dataset& dataset, const std::function<void(const Dataset&, const StereoPair&)>& seen,
+                DatasetCheck& check) {
+  for (std::size_t i = 0; i < dataset.frames.size(); ++i) {
+    const FrameFiles& frame = dataset.frames[i];
+    auto left = read_image(frame.left, dataset.rig.left, check);
+    auto right = read_image(frame.right, dataset.rig.right, check);
+    if (left && right && seen)
+      seen(dataset, {static_cast<int>(i), frame.stamp_ns, std::move(*left), std::move(*right)});
+  }
+}
+
+/// All pairs of a stream, up to the first that is damaged. The frames become those that there are.
+void read_stream(Dataset& dataset, const std::function<void(const Dataset&, const StereoPair&)>& seen,
+                 DatasetCheck& check) {
+  std::vector<FrameFiles> frames;
+  try {
+    FramePrefetcher pairs(dataset);
+    while (const auto pair = pairs.next()) {
+      frames.push_back({pair->stamp_ns, dataset.path, dataset.path});
+      if (seen) seen(dataset, *pair);
     }
   } catch (const DataError& problem) {
     check.errors.push_back(problem.what());
   }
+  dataset.frames = std::move(frames);
 }
 
 }  // namespace
+
+DatasetCheck check_opened(Dataset dataset, const Findings& findings,
+                          const std::function<void(const Dataset&, const StereoPair&)>& seen) {
+  DatasetCheck of_images, check;
+  if (dataset.stream) {
+    read_stream(dataset, seen, of_images);
+  } else {
+    read_files(dataset, seen, of_images);
+  }
+  describe(dataset, check);
+  find_gaps(dataset, check);
+  check_truth(dataset, check);
+  check.warnings.insert(check.warnings.end(), findings.warnings().begin(), findings.warnings().end());
+  check.errors = findings.errors();
+  check.errors.insert(check.errors.end(), of_images.errors.begin(), of_images.errors.end());
+  return check;
+}
+
 }  // namespace data
 
 DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options) {
   data::Findings findings(true);
   DatasetCheck check;
   try {
-    const Dataset dataset = data::read_dataset(path, options, findings);
-    data::describe(dataset, check);
-    data::find_gaps(dataset, check);
-    data::check_truth(dataset, check);
-    check.warnings.insert(check.warnings.end(), findings.warnings().begin(), findings.warnings().end());
-    check.errors = findings.errors();
-    for (const auto& frame : dataset.frames) {
-      data::check_image(frame.left, dataset.rig.left, check);
-      data::check_image(frame.right, dataset.rig.right, check);
-    }
+    return data::check_opened(data::read_dataset(path, options, findings), findings, {});
   } catch (const DataError& problem) {
     check.errors = findings.errors();
     check.errors.push_back(problem.what());

@@ -27,10 +27,10 @@ class ContentHash {
 };
 
 /// What of a recording decides the outcome of its run: layout, cameras, undistortion, stamps and ground-truth poses,
-/// all as read from the text files, and of every image its file name, size and first and last 4 KiB: the images of a
-/// long sequence are gigabytes, and a PNG ends with checksums of all its pixels. (Only a change of equal size deep
-/// inside a JPEG or an uncompressed image goes unnoticed.) Times of modification and the place of the folder do not
-/// count. \throws DataError for an image that cannot be read.
+/// all as read from the text files, and of every image or video its file name, size and first and last 4 KiB: the
+/// images of a long sequence are gigabytes, and a PNG ends with checksums of all its pixels. (Only a change of equal
+/// size deep inside a JPEG, a video or an uncompressed image goes unnoticed.) Times of modification and the place of
+/// the folder do not count. \throws DataError for an image that cannot be read.
 std::string dataset_hash(const Dataset& dataset);
 
 /// Fingerprint of a whole file. \throws DataError.

@@ -37,15 +37,15 @@ const Layout& choose(const fs::path& folder, const std::string& format) {
 }
 
 /// Half-open range of frames that the user asked for.
-void cut_frames(Dataset& dataset, const DatasetOptions& options) {
+void cut_frames(Dataset& dataset, int first_frame, int last_frame) {
   const int count = static_cast<int>(dataset.frames.size());
-  const int last = options.last_frame < 0 ? count : options.last_frame;
-  if (options.first_frame < 0 || last > count || options.first_frame >= last) {
-    throw UsageError("frames " + std::to_string(options.first_frame) + ":" + std::to_string(last) + ": " +
-                     dataset.path + " has the frames 0:" + std::to_string(count));
+  const int last = last_frame < 0 ? count : last_frame;
+  if (first_frame < 0 || last > count || first_frame >= last) {
+    throw UsageError("frames " + std::to_string(first_frame) + ":" + std::to_string(last) + ": " + dataset.path +
+                     " has the frames 0:" + std::to_string(count));
   }
   dataset.frames.erase(dataset.frames.begin() + last, dataset.frames.end());
-  dataset.frames.erase(dataset.frames.begin(), dataset.frames.begin() + options.first_frame);
+  dataset.frames.erase(dataset.frames.begin(), dataset.frames.begin() + first_frame);
 }
 
 void check_stamps(const Dataset& dataset, Findings& findings) {
@@ -108,19 +108,23 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
   const Layout& layout = choose(path, options.format);
   Dataset dataset = layout.read(path, options, findings);
   dataset.format = layout.name;
-  check_stamps(dataset, findings);
-  if (dataset.frames.empty()) {
-    if (findings.errors().empty()) findings.error(dataset.path, "no stereo frame", "at least one");
-  } else {
-    cut_frames(dataset, options);
+  if (!dataset.frames.empty()) {
     findings.attempt([&] { apply_users_cameras(dataset, options); });
     dataset.rig.white = white_of(dataset.frames.front().left);
+  } else if (findings.errors().empty()) {
+    findings.error(dataset.path, "no stereo frame", "at least one");
   }
+  finish_dataset(dataset, options.first_frame, options.last_frame, findings);
+  return dataset;
+}
+
+void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings& findings) {
+  check_stamps(dataset, findings);
+  if (!dataset.frames.empty()) cut_frames(dataset, first_frame, last_frame);
   findings.attempt([&] {
     check_rig(dataset.rig, calibration_of(dataset).c_str());
     check_disparities(dataset);
   });
-  return dataset;
 }
 
 std::string calibration_of(const Dataset& dataset) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "data/calibration_formats.hpp"
+#include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 
@@ -16,26 +17,9 @@ namespace {
 /// Published ground truth comes at 200 Hz (or once per frame), so the nearest row is at most 2.5 ms away.
 constexpr std::int64_t kTruthToleranceNs = 5'000'000;
 
-/// data.csv of a camera: stamp and file name, in the file's order. No stamp comes twice; names lead nowhere else.
-std::vector<std::pair<std::int64_t, std::string>> read_list(const fs::path& camera) {
-  const std::string file = (camera / "data.csv").string();
-  std::vector<std::pair<std::int64_t, std::string>> list;
-  std::set<std::int64_t> stamps;
-  for (const auto& line : data_lines(file)) {
-    const auto cells = split(line.text, ", \t");
-    if (cells.size() != 2) fail(file, line.number, in_quotes(line.text), "timestamp [ns],filename");
-    list.emplace_back(parse_nanoseconds(cells[0], file, line.number), cells[1]);
-    if (!stamps.insert(list.back().first).second)
-      fail(file, line.number, "the stamp " + cells[0] + " again", "it once");
-    if (fs::path(cells[1]).filename() != cells[1] || cells[1] == "..")
-      fail(file, line.number, in_quotes(cells[1]), "the name of an image in data/");
-  }
-  if (list.empty()) fail(file, "no image", "rows of timestamp [ns],filename");
-  return list;
-}
-
 void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
-  const auto left = read_list(folder / "cam0"), right = read_list(folder / "cam1");
+  const auto left = read_image_list((folder / "cam0" / "data.csv").string());
+  const auto right = read_image_list((folder / "cam1" / "data.csv").string());
   const std::map<std::int64_t, std::string> right_by_stamp(right.begin(), right.end());
   std::size_t alone = 0;
   for (const auto& [stamp, name] : left) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "data/layout.hpp"
+#include "data/source_line.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
@@ -40,12 +41,12 @@ void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, s
   try {
     if (!seen.insert(fs::canonical(folder)).second) return;
     if (const std::string format = recording_format(folder, with_pairs); !format.empty()) {
-      found.push_back({folder.string(), format});
+      found.push_back({folder.string(), format, {}});
       return;
     }
     folders = folders_in(folder);
   } catch (const fs::filesystem_error&) {
-    found.push_back({folder.string(), ""});
+    found.push_back({folder.string(), "", {}});
     return;
   }
   for (const auto& below : folders) search(below, with_pairs, seen, found);
@@ -54,15 +55,21 @@ void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, s
 std::vector<FoundRecording> search_list(const std::string& list) {
   std::set<fs::path> seen;
   std::vector<FoundRecording> found;
+  const std::string folder = fs::path(list).parent_path().string();
   for (const auto& line : data_lines(list)) {
+    if (is_source_line(line.text)) {
+      const StereoSource source = parse_source_line(line.text, folder, list, line.number);
+      found.push_back({source.video.empty() ? source.left : source.video, "", source});
+      continue;
+    }
     const auto last = line.text.find_last_not_of(" \t");
-    const fs::path entry = fs::path(list).parent_path() / line.text.substr(0, last + 1);
+    const fs::path entry = fs::path(folder) / line.text.substr(0, last + 1);
     std::error_code error;
     const fs::path place = fs::canonical(entry, error);
     const bool known = !error && seen.count(place) > 0;
     const std::size_t before = found.size();
     if (fs::is_directory(entry, error)) search(entry, false, seen, found);
-    if (found.size() == before && !known) found.push_back({entry.string(), ""});
+    if (found.size() == before && !known) found.push_back({entry.string(), "", {}});
   }
   return found;
 }
@@ -71,6 +78,7 @@ std::vector<FoundRecording> search_list(const std::string& list) {
 std::string name_of(const FoundRecording& recording, int parts) {
   fs::path rest = fs::absolute(recording.path).lexically_normal();
   if (!rest.has_filename()) rest = rest.parent_path();
+  if (recording.source) rest = rest.parent_path() / source_name(*recording.source);
   if (rest.filename() == "mav0") rest = rest.parent_path();
   std::string name = (recording.format == "kitti" ? "kitti_" : "") + rest.filename().string();
   for (int i = 1; i < parts && rest.parent_path().has_filename(); ++i) {
@@ -85,7 +93,7 @@ std::vector<FoundSequence> named(const std::vector<FoundRecording>& recordings) 
   constexpr int kMostParts = 8;
   std::vector<FoundSequence> sequences;
   for (const auto& recording : recordings)
-    sequences.push_back({name_of(recording, 1), recording.path, recording.format});
+    sequences.push_back({name_of(recording, 1), recording.path, recording.format, recording.source});
   for (int parts = 2; parts <= kMostParts; ++parts) {
     std::map<std::string, int> uses;
     for (const auto& sequence : sequences) ++uses[sequence.name];

@@ -54,6 +54,18 @@ const std::vector<Layout>& layouts();
 /// open_dataset and check_dataset: chooses the layout, reads it, checks stamps and rig, cuts the range of frames.
 Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings);
 
+/// What readers leave to be checked of every data set: frames cut to a half-open range (last -1: to the end),
+/// increasing stamps, a rig that can be used. \throws UsageError for a range that the data set does not have.
+void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings& findings);
+
+/// Describes an opened data set and reads all of it. \param seen told every pair that could be read; may be empty
+/// \param findings what opening it has found
+DatasetCheck check_opened(Dataset dataset, const Findings& findings,
+                          const std::function<void(const Dataset&, const StereoPair&)>& seen);
+
+/// An image and what it has to be: pixels as the camera's, values as the rig's. \throws DataError that names `source`.
+void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int white);
+
 /// Folder and files that a dataset's rig was read from, for messages.
 std::string calibration_of(const Dataset& dataset);
 

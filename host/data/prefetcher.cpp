@@ -1,42 +1,73 @@
 /// \file prefetcher.cpp  FramePrefetcher: one thread decodes, a bounded queue in between.
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
 #include <mutex>
 #include <thread>
 
-#include "data/image_file.hpp"
+#include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/dataset.hpp"
+#include "quadedge/side.hpp"
 
 namespace quadedge {
-namespace {
+namespace data {
 
-Image read_checked(const std::string& file, const PinholeCamera& camera, int white) {
-  Image image = read_grey_image(file);
+void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int white) {
   if (image.width != camera.width || image.height != camera.height) {
-    data::fail(file, data::to_string({image.width, image.height}) + " pixels",
-               data::to_string({camera.width, camera.height}) + " as the calibration and the other frames");
+    fail(source, to_string({image.width, image.height}) + " pixels",
+         to_string({camera.width, camera.height}) + " as the calibration and the other frames");
   }
   if (image.white != white) {
-    data::fail(file, "values to " + std::to_string(image.white),
-               "to " + std::to_string(white) + " as in the first left image");
+    fail(source, "values to " + std::to_string(image.white),
+         "to " + std::to_string(white) + " as in the first left image");
   }
-  return image;
+}
+
+}  // namespace data
+
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{50};  // between two questions whether to stop
+
+/// The image files of a data set.
+class FileReader : public PairReader {
+ public:
+  explicit FileReader(const Dataset& dataset) : frames_(dataset.frames) {}
+  std::optional<StereoPair> next() override {
+    if (next_ == frames_.size()) return std::nullopt;
+    const FrameFiles& files = frames_[next_];
+    return StereoPair{static_cast<int>(next_++), files.stamp_ns, read_grey_image(files.left),
+                      read_grey_image(files.right)};
+  }
+
+ private:
+  const std::vector<FrameFiles> frames_;
+  std::size_t next_ = 0;
+};
+
+std::unique_ptr<PairReader> open_pairs(const Dataset& dataset) {
+  if (dataset.stream) return dataset.stream->open();
+  return std::make_unique<FileReader>(dataset);
 }
 
 }  // namespace
 
 class FramePrefetcher::Implementation {
  public:
-  Implementation(const Dataset& dataset, int ahead)
-      : frames_(dataset.frames),
+  Implementation(const Dataset& dataset, int ahead, std::function<bool()> stop)
+      : pairs_(open_pairs(dataset)),
+        frames_(dataset.stream ? std::vector<FrameFiles>() : dataset.frames),
+        path_(dataset.path),
         left_(dataset.rig.left),
         right_(dataset.rig.right),
         white_(dataset.rig.white),
+        longest_queue_(static_cast<std::size_t>(dataset.stream ? std::max(0, dataset.stream->longest_queue()) : 0)),
         ahead_(static_cast<std::size_t>(std::max(1, ahead))),
+        asked_to_stop_(std::move(stop)),
         reader_([this] { read_all(); }) {}
 
   ~Implementation() {
@@ -45,12 +76,16 @@ class FramePrefetcher::Implementation {
       stop_ = true;
     }
     changed_.notify_all();
+    pairs_->stop();
     reader_.join();
   }
 
   std::optional<Frame> next() {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait(lock, [this] { return !queue_.empty() || finished_; });
+    const auto is_ready = [this] { return !queue_.empty() || finished_; };
+    while (!changed_.wait_for(lock, kPatience, is_ready)) {
+      if (asked_to_stop_ && asked_to_stop_()) return std::nullopt;
+    }
     if (queue_.empty()) return std::nullopt;
     Item item = std::move(queue_.front());
     queue_.pop_front();
@@ -60,6 +95,11 @@ class FramePrefetcher::Implementation {
     return std::move(item.frame);
   }
 
+  int dropped() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return dropped_;
+  }
+
  private:
   /// A frame, or what went wrong in its place.
   struct Item {
@@ -67,12 +107,22 @@ class FramePrefetcher::Implementation {
     std::exception_ptr problem;
   };
 
-  Item read(std::size_t number) const {
+  /// What an image is called in messages.
+  std::string source_of(const StereoPair& pair, Side side) const {
+    const auto number = static_cast<std::size_t>(pair.number);
+    if (number < frames_.size()) return side == Side::left ? frames_[number].left : frames_[number].right;
+    return path_ + ", " + (side == Side::left ? "left" : "right") + " image " + std::to_string(pair.number);
+  }
+
+  /// The next frame; nothing at the end.
+  std::optional<Item> read() const {
     Item item;
     try {
-      const FrameFiles& files = frames_[number];
-      item.frame = {static_cast<int>(number), files.stamp_ns, read_checked(files.left, left_, white_),
-                    read_checked(files.right, right_, white_)};
+      auto pair = pairs_->next();
+      if (!pair) return std::nullopt;
+      data::check_image(pair->left, source_of(*pair, Side::left), left_, white_);
+      data::check_image(pair->right, source_of(*pair, Side::right), right_, white_);
+      static_cast<StereoPair&>(item.frame) = std::move(*pair);
     } catch (...) {
       item.problem = std::current_exception();
     }
@@ -81,13 +131,19 @@ class FramePrefetcher::Implementation {
 
   void read_all() {
     bool good = true;
-    for (std::size_t number = 0; good && number < frames_.size(); ++number) {
-      Item item = read(number);
-      good = !item.problem;
+    while (good) {
+      std::optional<Item> item = read();
+      if (!item) break;
+      good = !item->problem;
       std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [this] { return stop_ || queue_.size() < ahead_; });
+      if (longest_queue_ == 0) {
+        changed_.wait(lock, [this] { return stop_ || queue_.size() < ahead_; });
+      } else if (good && queue_.size() >= longest_queue_) {
+        queue_.pop_front();
+        ++dropped_;
+      }
       if (stop_) return;
-      queue_.push_back(std::move(item));
+      queue_.push_back(std::move(*item));
       lock.unlock();
       changed_.notify_all();
     }
@@ -96,21 +152,27 @@ class FramePrefetcher::Implementation {
     changed_.notify_all();
   }
 
+  const std::unique_ptr<PairReader> pairs_;
   const std::vector<FrameFiles> frames_;
+  const std::string path_;
   const PinholeCamera left_, right_;
   const int white_;
+  const std::size_t longest_queue_;  ///< 0: the stream waits
   const std::size_t ahead_;
-  std::mutex mutex_;
+  const std::function<bool()> asked_to_stop_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;  ///< the queue, finished_ or stop_
   std::deque<Item> queue_;
+  int dropped_ = 0;
   bool finished_ = false;
   bool stop_ = false;
   std::thread reader_;  ///< last member: everything that it uses exists before it starts
 };
 
-FramePrefetcher::FramePrefetcher(const Dataset& dataset, int ahead)
-    : implementation_(std::make_unique<Implementation>(dataset, ahead)) {}
+FramePrefetcher::FramePrefetcher(const Dataset& dataset, int ahead, std::function<bool()> stop)
+    : implementation_(std::make_unique<Implementation>(dataset, ahead, std::move(stop))) {}
 FramePrefetcher::~FramePrefetcher() = default;
 std::optional<FramePrefetcher::Frame> FramePrefetcher::next() { return implementation_->next(); }
+int FramePrefetcher::dropped() const { return implementation_->dropped(); }
 
 }  // namespace quadedge

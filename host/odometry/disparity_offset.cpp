@@ -2,6 +2,9 @@
 
 namespace quadedge::odometry {
 
+namespace {
+
+/// Unit vector along which a point in the middle of the right image moves when its depth shrinks.
 Eigen::Vector2d direction_of_nearer(const StereoRig& rig) {
   // At the image's middle, from a hundred base lines to fifty.
   const Eigen::Vector3d ray = rig.left.ray({0.5 * (rig.left.width - 1), 0.5 * (rig.left.height - 1)});
@@ -9,22 +12,31 @@ Eigen::Vector2d direction_of_nearer(const StereoRig& rig) {
   return (rig.right.project(rig.right_from_left * Eigen::Vector3d(50 * rig.baseline() * ray)) - far).normalized();
 }
 
-DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
-    : rig_(rig),
-      cx_(rig.right.cx),
-      cy_(rig.right.cy),
-      nearer_(direction_of_nearer(rig)),
-      drift_(config.disparity_offset_drift),
-      variance_(config.disparity_offset_sigma * config.disparity_offset_sigma) {
-  rig_.left_undistortion = rig_.right_undistortion = {};
+}  // namespace
+
+StereoRig with_disparity_offset(const StereoRig& rig, double offset) {
+  const Eigen::Vector2d nearer = direction_of_nearer(rig);
+  StereoRig moved;
+  moved.left = rig.left;
+  moved.right = rig.right;
+  moved.right_from_left = rig.right_from_left;
+  moved.white = rig.white;
+  moved.right.cx -= offset * nearer.x();
+  moved.right.cy -= offset * nearer.y();
+  return moved;
 }
+
+DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
+    : calibration_(with_disparity_offset(rig, 0)),
+      rig_(calibration_),
+      drift_(config.disparity_offset_drift),
+      variance_(config.disparity_offset_sigma * config.disparity_offset_sigma) {}
 
 void DisparityOffset::update(double correction, double variance, int frames) {
   if (!(variance_ > 0) || !(variance > 0)) return;
   value_ += correction;
   variance_ = variance + frames * drift_ * drift_;
-  rig_.right.cx = cx_ - value_ * nearer_.x();
-  rig_.right.cy = cy_ - value_ * nearer_.y();
+  rig_ = with_disparity_offset(calibration_, value_);
 }
 
 }  // namespace quadedge::odometry

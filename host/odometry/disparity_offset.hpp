@@ -6,8 +6,8 @@
 
 namespace quadedge::odometry {
 
-/// Unit vector along which a point in the middle of the right image moves when its depth shrinks.
-Eigen::Vector2d direction_of_nearer(const StereoRig& rig);
+/// The rig with its right principal point moved, so that all disparities grow by `offset` px. Without tables and masks.
+StereoRig with_disparity_offset(const StereoRig& rig, double offset);
 
 /// A rig's disparities may all be wrong by the same part of a pixel (KITTI: 0.2 px and more), which shows in the quads
 /// of a moving camera (pose::fit_offset()). This is the scalar Kalman filter over what one frame of each key stereo rig
@@ -27,9 +27,8 @@ class DisparityOffset {
   double variance() const { return variance_; }  ///< px^2, of the next frame; 0: disparities are taken as exact
 
  private:
+  StereoRig calibration_;  ///< without tables
   StereoRig rig_;
-  double cx_, cy_;          ///< right principal point of the calibration
-  Eigen::Vector2d nearer_;  ///< direction_of_nearer()
   double drift_;
   double value_ = 0, variance_;
 };

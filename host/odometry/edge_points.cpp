@@ -8,13 +8,7 @@
 namespace quadedge {
 
 EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, const Config& config, double disparity_offset) {
-  StereoRig calibration;  // without tables
-  calibration.left = rig.left;
-  calibration.right = rig.right;
-  calibration.right_from_left = rig.right_from_left;
-  const Eigen::Vector2d nearer = odometry::direction_of_nearer(rig);
-  calibration.right.cx -= disparity_offset * nearer.x();
-  calibration.right.cy -= disparity_offset * nearer.y();
+  const StereoRig calibration = odometry::with_disparity_offset(rig, disparity_offset);
   pose::MeasuredEdges measured;
   pose::measure_edges(calibration, edges, config.stereo.min_epipolar_angle_rad(), measured);
   const auto count = static_cast<Eigen::Index>(measured.size());

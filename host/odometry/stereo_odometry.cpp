@@ -89,6 +89,10 @@ class StereoOdometry::Implementation {
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
 
+  const StereoEdges& stereo_edges() const {
+    static const StereoEdges none;
+    return current_ ? current_->edges : none;
+  }
   const StereoRig& rig() const { return rig_; }
   frontend::Frontend& frontend() const { return *frontend_; }
   Device& device() const { return device_; }
@@ -316,6 +320,7 @@ StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Confi
 StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
+const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }
 const StereoRig& StereoOdometry::rig() const { return implementation_->rig(); }
 void StereoOdometry::set_tap(Tap* tap) { implementation_->frontend().set_tap(tap); }
 std::size_t StereoOdometry::device_bytes() const { return implementation_->frontend().device_bytes(); }

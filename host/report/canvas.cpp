@@ -75,4 +75,9 @@ void write_jpeg(const std::string& path, const cv::Mat& picture) {
   write_encoded(path, picture, ".jpg", {cv::IMWRITE_JPEG_QUALITY, 75});
 }
 
+void write_image(const std::string& path, const ImageView& image) {
+  Image grey = to_8_bits(image);
+  write_png(path, cv::Mat(grey.height, grey.width, CV_8U, grey.pixels.data()));
+}
+
 }  // namespace quadedge::report

@@ -11,8 +11,14 @@
 
 namespace quadedge::report {
 
+/// The image itself, in 8 bits.
+void write_image(const std::string& path, const ImageView& image);
+
 /// Third-order edges as short strokes along their direction, coloured by direction, over the darkened image.
 void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& edges);
+
+/// The left image with the stereo edges of its pair, coloured by disparity.
+void draw_stereo(const std::string& path, const ImageView& left, const StereoEdges& edges);
 
 /// The left image with its stereo edges coloured by disparity, and for every quad the way of its left edge from the
 /// frame before to this one: inliers white, others red, one per cell of 16 px.

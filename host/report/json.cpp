@@ -59,8 +59,9 @@ std::string report_json(const RunRecord& run) {
                          {"stage", run.self_test.test.stage},
                          {"difference", run.self_test.test.difference}};
   report["variants"] = Json(run.variants);
-  report["input"] = {{"path", run.input.path},     {"format", run.input.format}, {"name", run.input.name},
-                     {"frames", run.input.frames}, {"width", run.input.width},   {"height", run.input.height}};
+  report["input"] = {{"path", run.input.path},      {"format", run.input.format}, {"name", run.input.name},
+                     {"frames", run.input.frames},  {"width", run.input.width},   {"height", run.input.height},
+                     {"dropped", run.input.dropped}};
   report["frames_tracked"] = run.tracked();
   report["frames_lost"] = static_cast<int>(run.frames.size()) - run.tracked();
   report["frames_overflowed"] = overflows;
@@ -78,6 +79,9 @@ std::string report_json(const RunRecord& run) {
   report["memory_mb"] = {{"host_peak", run.host_peak_mb}, {"device_peak", run.device_peak_mb}};
   report["counts"] = Json::object();
   for (const auto& [name, value] : count_medians(run.frames)) report["counts"][name] = to_json(value);
+  if (run.map) {
+    report["map"] = {{"points", run.map->points}, {"key_rigs", run.map->views}, {"dropped", run.map->dropped}};
+  }
   if (run.accuracy) {
     report["accuracy"] = accuracy(*run.accuracy);
     report["accuracy"]["truth_file"] = run.truth_file;

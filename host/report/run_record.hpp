@@ -18,8 +18,9 @@ namespace quadedge::report {
 /// Where the frames came from.
 struct InputFacts {
   std::string path, format, name;
-  int frames = 0;
+  int frames = 0;             ///< 0 while nobody knows: a pipe's, a video's that does not say
   int width = 0, height = 0;  ///< of the left pinhole image [px]
+  int dropped = 0;            ///< pairs of a pipe that came too fast and were left out
 };
 
 /// One processed frame.
@@ -32,6 +33,13 @@ struct FrameRecord {
 struct DeviceTrust {
   std::string verdict;  ///< passed | failed: --trust was given | not needed: the reference
   SelfTestResult test;
+};
+
+/// The map that a run wrote.
+struct MapFacts {
+  std::size_t points = 0;
+  std::size_t views = 0;    ///< key stereo rigs that it was made of
+  std::size_t dropped = 0;  ///< points that gave way since memory was full
 };
 
 /// One run.
@@ -48,6 +56,7 @@ struct RunRecord {
   double host_peak_mb = 0, device_peak_mb = 0;
   /// Kernel times of a second pass with a profiling queue: one list per frame, empty when not asked for.
   std::vector<std::vector<StageTime>> kernel_times;
+  std::optional<MapFacts> map;                                ///< only where one was asked for
   std::string truth_file;                                     ///< empty without ground truth
   std::optional<TrajectoryEvaluation> accuracy;               ///< only with ground truth
   evaluation::Consistency consistency;                        ///< no poses without ground truth

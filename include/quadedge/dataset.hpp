@@ -2,6 +2,7 @@
 /// \file dataset.hpp  Recorded sequences and pairs in the published layouts.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "quadedge/calibration.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/pair_stream.hpp"
 #include "quadedge/trajectory.hpp"
 
 namespace quadedge {
@@ -19,15 +21,17 @@ struct FrameFiles {
   std::string left, right;
 };
 
-/// A sequence or a pair on disk: calibration, frame list, and how far disparities reach. Images are not loaded yet.
+/// A sequence or a pair: calibration, frame list, and how far disparities reach. Images are not loaded yet.
 struct Dataset {
-  std::string format;  ///< kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 |
-                       ///< middlebury-2006 | middlebury-2014 | viso2-quad
-  std::string path;    ///< the sequence's own folder
-  std::string name;    ///< short name for tables
+  /// kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 | middlebury-2006 |
+  /// middlebury-2014 | viso2-quad; or images | video | pipe, see open_stereo_source()
+  std::string format;
+  std::string path;  ///< the sequence's own folder, or its first file
+  std::string name;  ///< short name for tables
   StereoRig rig;
   std::optional<StereoCalibration> calibration;  ///< what the rig was made of, where lenses are told of
-  std::vector<FrameFiles> frames;
+  std::vector<FrameFiles> frames;                ///< of a stream the files again and again; of a pipe none
+  std::shared_ptr<const PairStream> stream;  ///< where the pairs come from that are no files of their own; else null
   /// Largest disparity that this kind of data holds [px], measured from a point at infinity: f x baseline / nearest
   /// depth. Where the principal points differ (doffs of Middlebury) the plain difference of columns is smaller by that.
   double max_disparity = 0;
@@ -70,21 +74,22 @@ DatasetCheck check_dataset(const std::string& path, const DatasetOptions& option
 /// \throws DataError for a missing, truncated or undecodable file.
 Image read_grey_image(const std::string& path);
 
-/// Reads frames ahead on another thread, in order.
+/// Reads frames ahead on another thread, in order; those of a stream that does not wait as PairStream says.
 class FramePrefetcher {
  public:
-  struct Frame {
-    int number = 0;  ///< index into Dataset::frames
-    std::int64_t stamp_ns = 0;
-    Image left, right;
+  /// Numbered as in Dataset::frames.
+  struct Frame : StereoPair {
     StereoFrame view() const { return {stamp_ns, left.view(), right.view()}; }
   };
-  /// `ahead`: frames kept decoded in advance.
-  explicit FramePrefetcher(const Dataset& dataset, int ahead = 2);
+  /// `ahead`: frames kept decoded in advance. `stop`: asked while a frame is waited for (a pipe may never give one);
+  /// where it says yes, the frames are over. \throws as PairStream::open().
+  explicit FramePrefetcher(const Dataset& dataset, int ahead = 2, std::function<bool()> stop = {});
   ~FramePrefetcher();
   /// The next frame, or nothing at the end. \throws DataError of the frame that could not be read, also when its size
   /// differs from the calibration's.
   std::optional<Frame> next();
+  /// Pairs left out so far since their stream did not wait.
+  int dropped() const;
 
  private:
   class Implementation;

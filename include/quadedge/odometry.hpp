@@ -111,6 +111,9 @@ class StereoOdometry {
   /// Details of the frame tracked last (reads back from the device); empty before the first one.
   FrameDetails details() const;
 
+  /// Stereo edges of the frame tracked last, valid until the next one; none before the first frame.
+  const StereoEdges& stereo_edges() const;
+
   /// The cameras whose pixels edges are given in: the rig of the constructor, or where one camera has at least one and
   /// a half times the other's resolution, with that one reduced.
   const StereoRig& rig() const;

@@ -1,0 +1,72 @@
+#include "cli/map_output.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/output_folder.hpp"
+#include "odometry/disparity_offset.hpp"
+#include "quadedge/error.hpp"
+#include "reference/undistortion.hpp"
+#include "report/drawing.hpp"
+
+namespace quadedge::cli {
+namespace {
+
+/// SIDE_FRAME.png, as write_colmap() calls it: the recorded image as the pinhole camera would have seen it.
+void write_image(const std::string& folder, const char* side, int frame, const Image& recorded,
+                 const UndistortionTable& table) {
+  char name[32];
+  std::snprintf(name, sizeof name, "/%s_%06d.png", side, frame);
+  const Image image = table.empty() ? recorded : reference::undistort(recorded.view(), table);
+  report::write_image(folder + name, image.view());
+}
+
+}  // namespace
+
+void MapFiles::declare(Options& options) {
+  options.group("Map");
+  options.text("--map", ply, "write the edges of all key stereo rigs in space, a binary PLY file", "FILE");
+  options.text("--map-colmap", colmap, "write cameras, images and points as COLMAP reads them", "DIR");
+  options.number("--map-min-views", min_views, "key stereo rigs that have to see a point of the map");
+}
+
+void MapFiles::check(bool force) const {
+  if (min_views < 1) throw UsageError("--map-min-views " + std::to_string(min_views) + ": expected 1 or more");
+  check_output_file(ply, force);
+  refuse_full_folder(colmap, force);
+  if (colmap.empty()) return;
+  std::error_code error;
+  for (const char* folder : {"/images", "/sparse/0"}) {
+    std::filesystem::create_directories(colmap + folder, error);
+    if (error) throw DataError(colmap + folder + ": the folder cannot be made: " + error.message());
+  }
+  check_output_file(colmap + "/sparse/0/points3D.txt", force);
+}
+
+MapOutput::MapOutput(const MapFiles& files, const Config& config) : files_(files) {
+  if (!files.is_wanted()) return;
+  EdgeMapOptions options;
+  options.min_views = files.min_views;
+  options.tracks = !files.colmap.empty();
+  map_ = std::make_unique<EdgeMap>(config, options);
+}
+
+void MapOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
+  if (!map_ || !map_->add(frame.view(), result, odometry)) return;
+  const StereoRig& rig = odometry.rig();
+  if (map_->views().size() == 1) rig_ = odometry::with_disparity_offset(rig, 0);
+  if (files_.colmap.empty()) return;
+  const int number = map_->views().back().frame;
+  write_image(files_.colmap + "/images", "left", number, frame.left, rig.left_undistortion);
+  write_image(files_.colmap + "/images", "right", number, frame.right, rig.right_undistortion);
+}
+
+void MapOutput::write() {
+  if (!map_ || map_->views().empty()) return;
+  const auto points = map_->points();
+  if (!files_.ply.empty()) write_ply(files_.ply, points);
+  if (!files_.colmap.empty()) write_colmap(files_.colmap + "/sparse/0", rig_, *map_);
+  facts_ = report::MapFacts{points.size(), map_->views().size(), map_->dropped()};
+}
+
+}  // namespace quadedge::cli

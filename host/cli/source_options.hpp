@@ -1,0 +1,55 @@
+#pragma once
+/// \file source_options.hpp  Options that say what to read: a recorded sequence, or a camera of one's own. Shared by
+/// all commands that read stereo pairs.
+
+#include <string>
+
+#include "cli/command.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/stereo_source.hpp"
+
+namespace quadedge::cli {
+
+/// One pair and the data set that it is of.
+struct PairOfSource {
+  Dataset dataset;
+  FramePrefetcher::Frame pair;
+};
+
+/// PATH, which is a recorded sequence or "-", and the options of a camera of one's own.
+class SourceOptions {
+ public:
+  /// Declares PATH, or what else the command calls it. `help` describes it.
+  void declare_path(Options& options, const std::string& help, const std::string& name = "PATH");
+  /// --left, --right, --video, --split, --calibration, --fps, --times, --queue, --fov, --mask, as a group.
+  void declare(Options& options);
+
+  /// Whether anything is given.
+  bool is_given() const { return !path_.empty() || own_.is_given(); }
+  /// Whether the pairs come from a camera of one's own, not from a published layout.
+  bool is_own_camera() const { return path_ == "-" || own_.is_given(); }
+  const std::string& path() const { return path_; }
+  bool has_calibration() const { return !own_.calibration.empty(); }
+  /// \throws UsageError for any of these options: what the command reads has its own cameras and times, or none.
+  void refuse_all() const;
+  /// Whether calibration, field of view or mask are given.
+  bool tells_cameras() const { return has_calibration() || own_.fov != 0 || !own_.mask.empty(); }
+  /// Two image files with what is said of their cameras. \throws as open_stereo_source().
+  Dataset still_pair(const std::string& left, const std::string& right) const;
+  /// The source of one's own. \throws UsageError where PATH is given too.
+  StereoSource own_camera() const;
+  /// The options of a recorded sequence with what is said of its cameras. \throws UsageError for options that are for
+  /// cameras of one's own alone.
+  DatasetOptions layout(DatasetOptions options) const;
+  /// Opens what is given. `options`: format, sequence and range of frames; of one's own camera the range alone counts.
+  /// \throws UsageError where nothing or too much is given, and as open_dataset() and open_stereo_source() do.
+  Dataset open(const DatasetOptions& options = {}) const;
+  /// Opens what is given and reads one pair. \throws UsageError for a number that it does not have.
+  PairOfSource pair(int number) const;
+
+ private:
+  std::string path_;
+  StereoSource own_;  ///< calibration, field of view and mask are of recorded sequences too
+};
+
+}  // namespace quadedge::cli

@@ -1,0 +1,132 @@
+#include "data/image_list.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <set>
+
+#include "data/layout.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
+
+/// The run of digits at `at`, without the zeros in front.
+std::string digits_at(const std::string& text, std::size_t& at) {
+  std::string digits;
+  for (; at < text.size() && is_digit(text[at]); ++at) {
+    if (!digits.empty() || text[at] != '0') digits += text[at];
+  }
+  return digits;
+}
+
+/// The time that a name is, if it can be one.
+std::optional<std::int64_t> stamp_of_name(const std::string& stem, const std::string& file) {
+  const bool is_number =
+      !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return is_digit(c) || c == '.'; });
+  const auto points = std::count(stem.begin(), stem.end(), '.');
+  if (!is_number || points > 1 || !is_digit(stem.front())) return std::nullopt;
+  if (points == 1) return parse_seconds(stem, file, 1);
+  switch (stem.size()) {
+    case 19: return parse_nanoseconds(stem, file, 1);
+    case 16: return parse_nanoseconds(stem + "000", file, 1);
+    case 13: return parse_nanoseconds(stem + "000000", file, 1);
+    default: return std::nullopt;
+  }
+}
+
+/// folder/name, or the same beside the folder; empty where neither exists.
+std::string beside(const fs::path& folder, const char* name) {
+  for (const auto& place : {folder / name, folder / ".." / name}) {
+    std::error_code ignored;
+    if (fs::exists(place, ignored)) return place.string();
+  }
+  return {};
+}
+
+}  // namespace
+
+bool comes_before(const std::string& a, const std::string& b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string left = digits_at(a, i), right = digits_at(b, j);
+      if (left.size() != right.size()) return left.size() < right.size();
+      if (left != right) return left < right;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+    }
+  }
+  if (i < a.size() || j < b.size()) return i >= a.size();
+  return a < b;  // zeros in front
+}
+
+std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::string& file) {
+  std::vector<std::pair<std::int64_t, std::string>> list;
+  std::set<std::int64_t> stamps;
+  for (const auto& line : data_lines(file)) {
+    const auto cells = split(line.text, ", \t");
+    if (cells.size() != 2) fail(file, line.number, in_quotes(line.text), "timestamp [ns],filename");
+    list.emplace_back(parse_nanoseconds(cells[0], file, line.number), cells[1]);
+    if (!stamps.insert(list.back().first).second)
+      fail(file, line.number, "the stamp " + cells[0] + " again", "it once");
+    if (fs::path(cells[1]).filename() != cells[1] || cells[1] == "..")
+      fail(file, line.number, in_quotes(cells[1]), "the name of an image in data/");
+  }
+  if (list.empty()) fail(file, "no image", "rows of timestamp [ns],filename");
+  return list;
+}
+
+std::vector<std::int64_t> read_times(const std::string& file) {
+  std::vector<std::int64_t> stamps;
+  if (fs::path(file).extension() == ".csv") {
+    for (const auto& row : read_image_list(file)) stamps.push_back(row.first);
+    return stamps;
+  }
+  for (const auto& line : data_lines(file)) {
+    const auto cells = split(line.text);
+    if (cells.size() != 1) fail(file, line.number, in_quotes(line.text), "one time in seconds");
+    stamps.push_back(parse_seconds(cells[0], file, line.number));
+  }
+  if (stamps.empty()) fail(file, "no time", "one in seconds on every line");
+  return stamps;
+}
+
+CameraImages list_images(const fs::path& folder) {
+  CameraImages images;
+  std::vector<std::string> names = image_names(folder);
+  const std::string list = beside(folder, "data.csv"), times = beside(folder, "times.txt");
+  if (!list.empty()) {
+    images.stamps_from = list;
+    for (const auto& [stamp, name] : read_image_list(list)) {
+      images.stamps_ns.push_back(stamp);
+      images.files.push_back((folder / name).string());
+      if (!fs::is_regular_file(images.files.back()))
+        fail(images.files.back(), "no such file", "an image that " + list + " lists");
+    }
+    return images;
+  }
+  std::sort(names.begin(), names.end(), comes_before);
+  for (const auto& name : names) images.files.push_back((folder / name).string());
+  if (!times.empty()) {
+    images.stamps_from = times;
+    images.stamps_ns = read_times(times);
+    if (images.stamps_ns.size() != images.files.size()) {
+      fail(times, std::to_string(images.stamps_ns.size()) + " times",
+           "one for each of the " + std::to_string(images.files.size()) + " images in " + folder.string());
+    }
+    return images;
+  }
+  for (const auto& file : images.files) {
+    const auto stamp = stamp_of_name(fs::path(file).stem().string(), file);
+    if (!stamp) return {images.files, {}, {}};
+    images.stamps_ns.push_back(*stamp);
+  }
+  images.stamps_from = "the names in " + folder.string();
+  return images;
+}
+
+}  // namespace quadedge::data

@@ -1,0 +1,182 @@
+#include "data/picture_pipe.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <poll.h>
+#include <unistd.h>
+#include <vector>
+
+#include "data/image_file.hpp"
+#include "data/text.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge::data {
+namespace {
+
+constexpr const char* kName = "the pipe";
+constexpr int kPatience = 100;  // ms between two looks whether to stop
+
+/// stop() was called.
+struct Stopped {};
+
+class PipeReader : public PairReader {
+ public:
+  PipeReader(int descriptor, const PipeOptions& options)
+      : descriptor_(descriptor), options_(options), buffer_(1 << 16) {}
+
+  std::optional<StereoPair> next() override {
+    try {
+      return read_pair();
+    } catch (const Stopped&) {
+      return std::nullopt;
+    }
+  }
+  void stop() override { stop_ = true; }
+
+ private:
+  std::optional<StereoPair> read_pair() {
+    auto first = read_picture();
+    if (!first) return std::nullopt;
+    StereoPair pair;
+    pair.number = number_;
+    pair.stamp_ns = std::llround(number_ / options_.fps * 1e9);
+    if (options_.split == Split::none) {
+      auto second = read_picture();
+      if (!second) fail(kName, "its end after a left picture", "the right one after it");
+      pair.left = std::move(*first);
+      pair.right = std::move(*second);
+    } else {
+      std::tie(pair.left, pair.right) = split_views(*first, options_.split, kName);
+    }
+    ++number_;
+    return pair;
+  }
+
+  /// The next byte, or -1 at the end of the pipe.
+  int next_byte() {
+    if (at_ == filled_ && !fill()) return -1;
+    return static_cast<unsigned char>(buffer_[at_++]);
+  }
+
+  /// Waits for more bytes; false at the end.
+  bool fill() {
+    for (;;) {
+      if (stop_) throw Stopped();
+      pollfd waiting{descriptor_, POLLIN, 0};
+      const int ready = poll(&waiting, 1, kPatience);
+      if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+      const ssize_t count = read(descriptor_, buffer_.data(), buffer_.size());
+      if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+      if (count < 0) fail(kName, std::string("that it cannot be read: ") + std::strerror(errno), "pictures");
+      at_ = 0;
+      filled_ = static_cast<std::size_t>(count);
+      return count > 0;
+    }
+  }
+
+  [[noreturn]] void refuse_header() const {
+    fail(kName, picture() + " that does not begin like one",
+         "binary PGM (P5) or PPM (P6) pictures, one after the other");
+  }
+  std::string picture() const { return "picture " + std::to_string(pictures_); }
+
+  int header_number() {
+    int letter = next_byte();
+    while (letter == '#' || std::isspace(letter)) {
+      const bool is_comment = letter == '#';
+      letter = next_byte();
+      while (is_comment && letter != '\n' && letter >= 0) letter = next_byte();
+    }
+    int value = 0;
+    if (!std::isdigit(letter)) refuse_header();
+    for (; std::isdigit(letter); letter = next_byte()) {
+      value = value * 10 + (letter - '0');
+      if (value > kLargestImageSide) refuse_header();
+    }
+    if (!std::isspace(letter)) refuse_header();  // one byte of space ends the header
+    return value;
+  }
+
+  std::optional<Image> read_picture() {
+    const int mark = next_byte();
+    if (mark < 0) return std::nullopt;
+    const int kind = next_byte();
+    if (mark != 'P' || (kind != '5' && kind != '6')) refuse_header();
+    ImageSize size;
+    size.width = header_number();
+    size.height = header_number();
+    size.white = header_number();
+    if (size.width < 1 || size.height < 1 || size.white < 1 || size.white > 65535) refuse_header();
+    if (pictures_ == 0) first_ = size;
+    if (size != first_ || size.white != first_.white) {
+      fail(kName, picture() + " of " + to_string(size) + " pixels, values to " + std::to_string(size.white),
+           to_string(first_) + ", to " + std::to_string(first_.white) + ", as the first one");
+    }
+    Image image = read_pixels(size, kind == '6' ? 3 : 1);
+    ++pictures_;
+    return image;
+  }
+
+  Image read_pixels(ImageSize size, int channels) {
+    const bool deep = size.white > kWhite8;
+    cv::Mat samples(size.height, size.width, CV_MAKETYPE(deep ? CV_16U : CV_8U, channels));
+    const std::size_t needed = samples.total() * samples.elemSize();
+    for (std::size_t have = 0; have < needed;) {
+      if (at_ == filled_ && !fill())
+        fail(kName, picture() + " that ends after " + std::to_string(have) + " of " + std::to_string(needed) + " bytes",
+             "a whole one");
+      const std::size_t part = std::min(needed - have, filled_ - at_);
+      std::memcpy(samples.data + have, buffer_.data() + at_, part);
+      have += part;
+      at_ += part;
+    }
+    if (deep) {  // the first byte of a value is its higher one
+      auto* words = reinterpret_cast<std::uint16_t*>(samples.data);
+      for (std::size_t i = 0; i < needed / 2; ++i) {
+        words[i] = static_cast<std::uint16_t>(samples.data[2 * i] << 8 | samples.data[2 * i + 1]);
+      }
+    }
+    if (channels == 3) cv::cvtColor(samples, samples, cv::COLOR_RGB2GRAY);
+    cv::min(samples, size.white, samples);  // a header may promise less than its pixels hold
+    Image image(size.width, size.height, size.white);
+    std::memcpy(image.pixels.data(), samples.data, image.pixels.size());
+    return image;
+  }
+
+  int descriptor_;
+  PipeOptions options_;
+  std::vector<char> buffer_;
+  std::size_t at_ = 0, filled_ = 0;
+  std::atomic<bool> stop_{false};
+  ImageSize first_;
+  int pictures_ = 0, number_ = 0;
+};
+
+class PicturePipe : public PairStream {
+ public:
+  PicturePipe(int descriptor, const PipeOptions& options) : descriptor_(descriptor), options_(options) {}
+  std::unique_ptr<PairReader> open() const override {
+    if (opened_.exchange(true)) throw UsageError(std::string(kName) + ": can be read once only");
+    return std::make_unique<PipeReader>(descriptor_, options_);
+  }
+  int longest_queue() const override { return options_.queue; }
+
+ private:
+  int descriptor_;
+  PipeOptions options_;
+  mutable std::atomic<bool> opened_{false};
+};
+
+}  // namespace
+
+std::shared_ptr<const PairStream> make_picture_pipe(int descriptor, const PipeOptions& options) {
+  return std::make_shared<PicturePipe>(descriptor, options);
+}
+
+}  // namespace quadedge::data

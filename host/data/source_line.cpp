@@ -1,0 +1,101 @@
+#include "data/source_line.hpp"
+
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+#include "data/layout.hpp"
+#include "data/text.hpp"
+
+namespace quadedge::data {
+namespace {
+
+/// An option with a word.
+struct Word {
+  const char* option;
+  std::string& (*value)(StereoSource& source);
+  bool is_path;
+};
+constexpr Word kWords[] = {
+    {"--left", [](StereoSource& source) -> std::string& { return source.left; }, true},
+    {"--right", [](StereoSource& source) -> std::string& { return source.right; }, true},
+    {"--video", [](StereoSource& source) -> std::string& { return source.video; }, true},
+    {"--split", [](StereoSource& source) -> std::string& { return source.split; }, false},
+    {"--calibration", [](StereoSource& source) -> std::string& { return source.calibration; }, true},
+    {"--times", [](StereoSource& source) -> std::string& { return source.times; }, true},
+    {"--mask", [](StereoSource& source) -> std::string& { return source.mask; }, true},
+};
+
+/// An option with a number.
+struct Number {
+  const char* option;
+  double& (*value)(StereoSource& source);
+};
+constexpr Number kNumbers[] = {
+    {"--fps", [](StereoSource& source) -> double& { return source.fps; }},
+    {"--fov", [](StereoSource& source) -> double& { return source.fov; }},
+};
+
+/// Each of the paths between commas, in `folder`.
+std::string in_folder(const std::string& paths, const fs::path& folder) {
+  std::string result;
+  for (const auto& path : split(paths, ",")) result += (result.empty() ? "" : ",") + (folder / path).string();
+  return result;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> std::quoted(word);) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
+bool is_source_line(const std::string& text) { return text.rfind("--", 0) == 0; }
+
+StereoSource parse_source_line(const std::string& text, const std::string& folder, const std::string& file, int line) {
+  StereoSource source;
+  const auto words = words_of(text);
+  const auto set = [&](const std::string& option, const std::string& value) {
+    for (const auto& word : kWords)
+      if (option == word.option) return word.value(source) = word.is_path ? in_folder(value, folder) : value, true;
+    for (const auto& number : kNumbers)
+      if (option == number.option) return number.value(source) = parse_number(value, file, line, option), true;
+    return false;
+  };
+  for (std::size_t i = 0; i < words.size(); i += 2) {
+    const bool has_value = i + 1 < words.size();
+    if (has_value && set(words[i], words[i + 1])) continue;
+    std::string options;
+    for (const auto& word : kWords) options += std::string(word.option) + " ";
+    for (const auto& number : kNumbers) options += std::string(number.option) + " ";
+    fail(file, line, in_quotes(words[i]) + (has_value ? "" : " without a value"),
+         "one of " + options + "with its value");
+  }
+  return source;
+}
+
+std::vector<std::string> source_words(const StereoSource& source) {
+  std::vector<std::string> words;
+  StereoSource values = source;
+  for (const auto& word : kWords)
+    if (!word.value(values).empty()) words.insert(words.end(), {word.option, word.value(values)});
+  for (const auto& number : kNumbers)
+    if (number.value(values) != 0) words.insert(words.end(), {number.option, format_exact(number.value(values))});
+  return words;
+}
+
+std::string source_name(const StereoSource& source) {
+  const std::string first = source.video.empty() ? source.left : source.video;
+  std::error_code ignored;
+  if (!fs::is_directory(first, ignored)) return fs::path(first).stem().string();
+  fs::path folder = fs::absolute(first).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  if (folder.filename() == "data") folder = folder.parent_path();
+  folder = folder.parent_path();
+  if (folder.filename() == "mav0") folder = folder.parent_path();
+  return folder.has_filename() ? folder.filename().string() : folder_name(first);
+}
+
+}  // namespace quadedge::data

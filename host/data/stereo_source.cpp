@@ -1,0 +1,269 @@
+/// \file stereo_source.cpp  Folders of images, videos or a pipe as data sets.
+#include "quadedge/stereo_source.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <unistd.h>
+#include <utility>
+
+#include "data/calibration_formats.hpp"
+#include "data/image_list.hpp"
+#include "data/layout.hpp"
+#include "data/picture_pipe.hpp"
+#include "data/source_line.hpp"
+#include "data/split_views.hpp"
+#include "data/text.hpp"
+#include "data/video_file.hpp"
+#include "data/video_stream.hpp"
+#include "quadedge/error.hpp"
+
+namespace quadedge {
+namespace data {
+namespace {
+
+constexpr double kNanoseconds = 1e9;  // per second
+
+std::int64_t stamp_at(int number, double fps) { return std::llround(number / fps * kNanoseconds); }
+
+/// A part of a stream, with stamps of the user's. Its first reader may have been opened before it.
+class PartOfStream : public PairStream {
+ public:
+  struct Part {
+    int first = 0, last = -1;             ///< half-open; -1: to the end
+    std::vector<std::int64_t> stamps_ns;  ///< one per pair of the whole stream; empty: the stream's own
+    std::string stamps_from;
+  };
+  PartOfStream(std::shared_ptr<const PairStream> whole, Part part) : whole_(std::move(whole)), part_(std::move(part)) {}
+
+  std::unique_ptr<PairReader> open() const override {
+    auto reader = begun_ ? std::move(begun_) : whole_->open();
+    return std::make_unique<Reader>(std::move(reader), std::exchange(first_pair_, std::nullopt), part_);
+  }
+  int longest_queue() const override { return whole_->longest_queue(); }
+
+  /// The first pair of the whole stream. What a pipe has given stays with its reader.
+  /// \throws DataError where there is none.
+  StereoPair look(const std::string& name) {
+    begun_ = whole_->open();
+    first_pair_ = begun_->next();
+    if (!first_pair_) fail(name, "no picture", "stereo pairs");
+    return *first_pair_;
+  }
+
+ private:
+  class Reader : public PairReader {
+   public:
+    Reader(std::unique_ptr<PairReader> whole, std::optional<StereoPair> first, const Part& part)
+        : whole_(std::move(whole)), first_(std::move(first)), part_(part) {}
+    std::optional<StereoPair> next() override {
+      for (;;) {
+        if (part_.last >= 0 && read_ >= part_.last) return std::nullopt;
+        auto pair = first_ ? std::exchange(first_, std::nullopt) : whole_->next();
+        const auto number = static_cast<std::size_t>(read_);
+        const std::size_t stamps = part_.stamps_ns.size();
+        if (stamps > 0 && !stopped_ && (pair ? number >= stamps : number < stamps))
+          fail(part_.stamps_from, std::to_string(stamps) + " times",
+               pair ? "one for every pair" : std::to_string(read_) + ", one for every pair");
+        if (!pair) return std::nullopt;
+        if (stamps > 0) pair->stamp_ns = part_.stamps_ns[number];
+        if (read_++ < part_.first) continue;
+        pair->number -= part_.first;
+        return pair;
+      }
+    }
+    void stop() override {
+      stopped_ = true;
+      whole_->stop();
+    }
+
+   private:
+    std::unique_ptr<PairReader> whole_;
+    std::optional<StereoPair> first_;
+    const Part part_;
+    int read_ = 0;  ///< pairs of the whole stream
+    std::atomic<bool> stopped_{false};
+  };
+
+  std::shared_ptr<const PairStream> whole_;
+  Part part_;
+  mutable std::unique_ptr<PairReader> begun_;
+  mutable std::optional<StereoPair> first_pair_;
+};
+
+/// Left and right image of one index belong together: their stamps are less than half a period apart.
+void check_partners(const CameraImages& left, const CameraImages& right) {
+  const std::vector<std::int64_t>&a = left.stamps_ns, &b = right.stamps_ns;
+  if (a.size() < 2 || b.empty()) return;
+  const std::int64_t period = (a.back() - a.front()) / static_cast<std::int64_t>(a.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (2 * std::abs(a[i] - b[i]) < period) continue;
+    fail(right.files[i], "the stamp " + format_seconds(b[i]) + " (" + right.stamps_from + ")",
+         format_seconds(a[i]) + " as of " + left.files[i] + ", whose partner it is by the order");
+  }
+}
+
+void check_count(const std::string& shorter_or_equal, std::size_t found, const std::string& what, std::size_t expected,
+                 const std::string& other) {
+  if (found == expected) return;
+  fail(shorter_or_equal, std::to_string(found) + " " + what, "the " + std::to_string(expected) + " of " + other);
+}
+
+/// The stamps of --times or --fps for so many pairs; empty where neither is given.
+std::vector<std::int64_t> given_stamps(const StereoSource& source, std::size_t pairs) {
+  if (!source.times.empty()) return read_times(source.times);
+  std::vector<std::int64_t> stamps;
+  if (source.fps > 0)
+    for (std::size_t i = 0; i < pairs; ++i) stamps.push_back(stamp_at(static_cast<int>(i), source.fps));
+  return stamps;
+}
+
+/// The images of a folder, or the one that a file is.
+CameraImages images_of(const std::string& place) {
+  if (fs::is_directory(place)) return list_images(place);
+  return {{place}, {}, {}};
+}
+
+Dataset open_images(const StereoSource& source, Findings& findings) {
+  const CameraImages left = images_of(source.left), right = images_of(source.right);
+  if (left.files.size() > right.files.size()) {
+    check_count(source.right, right.files.size(), "images", left.files.size(), source.left);
+  }
+  check_count(source.left, left.files.size(), "images", right.files.size(), source.right);
+  std::vector<std::int64_t> stamps = given_stamps(source, left.files.size());
+  if (!source.times.empty()) check_count(source.times, stamps.size(), "times", left.files.size(), source.left);
+  if (stamps.empty()) {
+    stamps = left.stamps_ns.empty() ? right.stamps_ns : left.stamps_ns;
+    check_partners(left, right);
+  }
+  if (stamps.empty()) {
+    fail(source.left, "images whose names are no times, like " + fs::path(left.files.front()).filename().string(),
+         "--fps N, --times FILE, or a times.txt or data.csv beside them");
+  }
+  Dataset dataset;
+  dataset.format = "images";
+  dataset.path = source.left;
+  dataset.name = source_name(source);
+  for (std::size_t i = 0; i < left.files.size(); ++i)
+    add_frame(dataset, stamps[i], left.files[i], right.files[i], findings);
+  return dataset;
+}
+
+/// How many pairs two videos, or one, say they hold; 0: they do not say. \throws DataError where they differ.
+int promised_pairs(const VideoPair& videos) {
+  const int left = VideoFile(videos.left).promised();
+  if (videos.split != Split::none) return left;
+  const int right = VideoFile(videos.right).promised();
+  if (left == 0 || right == 0) return 0;
+  const bool right_is_short = right < left;
+  if (std::abs(left - right) > 1) {  // a duration may be told for the last picture's beginning or for its end
+    fail(right_is_short ? videos.right : videos.left, std::to_string(std::min(left, right)) + " pictures",
+         "the " + std::to_string(std::max(left, right)) + " of " + (right_is_short ? videos.left : videos.right));
+  }
+  return std::min(left, right);
+}
+
+Dataset open_videos(const StereoSource& source) {
+  VideoPair videos{source.left, source.right, Split::none, source.fps};
+  if (!source.video.empty()) videos = {source.video, "", parse_split(source.split), source.fps};
+  Dataset dataset;
+  dataset.format = "video";
+  dataset.path = videos.left;
+  dataset.name = source_name(source);
+  dataset.stream = make_video_stream(videos);
+  const int pairs = promised_pairs(videos);
+  const double fps = source.fps > 0 ? source.fps : VideoFile(videos.left).fps();
+  if (!source.times.empty() && pairs > 0)
+    check_count(source.times, read_times(source.times).size(), "times", static_cast<std::size_t>(pairs), videos.left);
+  for (int i = 0; fps > 0 && i < pairs; ++i)
+    dataset.frames.push_back({stamp_at(i, fps), videos.left, videos.right.empty() ? videos.left : videos.right});
+  return dataset;
+}
+
+Dataset open_pipe(const StereoSource& source) {
+  Dataset dataset;
+  dataset.format = dataset.name = "pipe";
+  dataset.path = "standard input";
+  dataset.stream = make_picture_pipe(STDIN_FILENO, {parse_split(source.split), source.fps, source.queue});
+  return dataset;
+}
+
+void check_source(const StereoSource& source) {
+  const bool two = !source.left.empty() || !source.right.empty(), one = !source.video.empty();
+  if (two + one + source.pipe != 1) throw UsageError("expected one of --left A with --right B, --video F, and -");
+  if (two && (source.left.empty() || source.right.empty())) throw UsageError("--left and --right go together");
+  if (source.calibration.empty()) throw UsageError("--calibration FILE is missing: the cameras' calibration");
+  parse_split(source.split);
+  if (one && source.split.empty()) throw UsageError("--video needs --split left-right or --split top-bottom");
+  if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose pictures hold both views");
+  if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected pictures per second, above 0");
+  if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
+  if (source.pipe && source.fps == 0) throw UsageError("pictures in a pipe have no times: --fps N gives them some");
+  if (source.queue < 0)
+    throw UsageError("--queue " + std::to_string(source.queue) + ": expected 0 (wait for every pair) or more");
+}
+
+ImageSize size_of(const Image& image) { return {image.width, image.height, image.white}; }
+
+/// The rig for images of these sizes. \throws DataError where the calibration is for others.
+void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const std::string& images, Dataset& dataset) {
+  dataset.calibration = read_calibration(source.calibration);
+  set_image_sizes(*dataset.calibration, left, right, images);
+  dataset.rig = make_rig(*dataset.calibration, source.fov);
+  if (!source.mask.empty()) mask_rig(dataset.rig, source.mask);
+  dataset.rig.white = left.white;
+  dataset.max_disparity = usual_max_disparity(dataset.rig);
+}
+
+Dataset read_source(const StereoSource& source, Findings& findings) {
+  check_source(source);
+  const auto holds_images = [](const std::string& place) { return fs::is_directory(place) || is_image_name(place); };
+  const bool are_files = !source.left.empty() && holds_images(source.left) && holds_images(source.right);
+  Dataset dataset = source.pipe ? open_pipe(source) : are_files ? open_images(source, findings) : open_videos(source);
+  if (are_files) {
+    const FrameFiles& first = dataset.frames.front();
+    set_rig(source, image_size(first.left), image_size(first.right), first.left + ", " + first.right, dataset);
+  } else {
+    PartOfStream::Part part{source.first_frame, source.last_frame, {}, source.times};
+    if (!source.times.empty()) part.stamps_ns = read_times(source.times);
+    auto stream = std::make_shared<PartOfStream>(dataset.stream, part);
+    const StereoPair first = stream->look(dataset.path);
+    set_rig(source, size_of(first.left), size_of(first.right), dataset.path, dataset);
+    for (std::size_t i = 0; i < std::min(dataset.frames.size(), part.stamps_ns.size()); ++i)
+      dataset.frames[i].stamp_ns = part.stamps_ns[i];
+    dataset.stream = stream;
+  }
+  finish_dataset(dataset, source.first_frame, source.last_frame, findings);
+  return dataset;
+}
+
+}  // namespace
+}  // namespace data
+
+Dataset open_stereo_source(const StereoSource& source) {
+  data::Findings findings(false);
+  try {
+    return data::read_source(source, findings);
+  } catch (const std::filesystem::filesystem_error& problem) {
+    throw DataError(data::unreadable_place(problem.path1().string(), problem));
+  }
+}
+
+DatasetCheck check_stereo_source(const StereoSource& source,
+                                 const std::function<void(const Dataset&, const StereoPair&)>& seen) {
+  data::Findings findings(true);
+  DatasetCheck check;
+  StereoSource waiting = source;
+  waiting.queue = 0;  // every pair counts
+  try {
+    return data::check_opened(data::read_source(waiting, findings), findings, seen);
+  } catch (const DataError& problem) {
+    check.errors = findings.errors();
+    check.errors.push_back(problem.what());
+  } catch (const std::filesystem::filesystem_error& problem) {
+    check.errors.push_back(data::unreadable_place(problem.path1().string(), problem));
+  }
+  return check;
+}
+
+}  // namespace quadedge

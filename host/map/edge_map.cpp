@@ -1,0 +1,287 @@
+/// \file edge_map.cpp  Merging the stereo edges of key rigs (doc/method.md section 9).
+#include "quadedge/edge_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "map/edge_grid.hpp"
+#include "map/measured_points.hpp"
+#include "odometry/disparity_offset.hpp"
+#include "pose/oriented_point.hpp"
+#include "quadedge/pi.hpp"
+
+namespace quadedge {
+namespace {
+
+constexpr double kLargestDepthError = 0.1;  ///< of the depth: beyond it a point says little more than its direction
+constexpr double kAcross = 1.5;             ///< px that a projected point may miss an edge by, across the edge
+constexpr double kAlong = 1.0;              ///< px along it; edges lie half a pixel apart
+constexpr double kTurn = 15 * kPi / 180;    ///< rad between the directions of a projected tangent and an edge
+constexpr double kDeviations = 3;           ///< of the disparity
+constexpr double kPoseNoise = 0.5;          ///< px of disparity that poses may be wrong by between two key rigs
+constexpr int kPatience = 20;               ///< key rigs that a point may go unseen before enough of them have seen it
+constexpr std::size_t kMostSightings = 8;
+constexpr std::int32_t kNone = -1;
+
+using Sightings = std::array<MapSighting, kMostSightings>;
+
+/// 76 bytes of a point; the information matrix is symmetric.
+struct Point {
+  Eigen::Vector3d position;
+  std::array<float, 6> information;
+  Eigen::Vector3f tangent;
+  float grey;
+  std::int32_t views;
+  std::int32_t last_view;  ///< number of the key rig that saw it last
+
+  Eigen::Matrix3d information_matrix() const {
+    const auto& i = information;
+    Eigen::Matrix3d matrix;
+    matrix << static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2]),
+        static_cast<double>(i[1]), static_cast<double>(i[3]), static_cast<double>(i[4]), static_cast<double>(i[2]),
+        static_cast<double>(i[4]), static_cast<double>(i[5]);
+    return matrix;
+  }
+  void set_information(const Eigen::Matrix3d& matrix) {
+    const auto entry = [&](int row, int column) { return static_cast<float>(matrix(row, column)); };
+    information = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+  }
+};
+
+/// What an edge of the current key rig is offered.
+struct Offer {
+  std::int32_t point = kNone;
+  double distance = std::numeric_limits<double>::infinity();  ///< px
+  float x = 0, y = 0;  ///< where the point is seen on the edge: the place on its tangent nearest to the projection [px]
+};
+
+double disparity_sigma(const Point& point, const Eigen::Vector3d& ray_in_world, double z, double per_pixel) {
+  const Eigen::Vector3d along = point.information_matrix().ldlt().solve(ray_in_world);
+  const double depth_sigma = std::sqrt(std::max(0.0, ray_in_world.dot(along))) / ray_in_world.norm();
+  return depth_sigma / (z * z * per_pixel);
+}
+
+}  // namespace
+
+class EdgeMap::Implementation {
+ public:
+  Implementation(const Config& config, const EdgeMapOptions& options) : config_(config), options_(options) {}
+
+  bool add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry);
+  template <class Visit>
+  void for_each_seen(const Visit& visit) const {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (points_[i].views >= options_.min_views) visit(i);
+  }
+  const std::vector<Point>& all() const { return points_; }
+  const std::vector<Sightings>& all_sightings() const { return sightings_; }
+  const std::vector<MapView>& views() const { return views_; }
+  std::size_t dropped() const { return dropped_; }
+  bool tracks() const { return options_.tracks; }
+
+ private:
+  using Measured = std::vector<std::optional<map::MeasuredPoint>>;
+
+  void offer(const StereoRig& rig, const StereoEdges& edges, const Measured& measured);
+  void consider(std::int32_t index, const pose::ImageEdge& seen, double depth, const StereoEdges& edges,
+                const Measured& measured);
+  void merge(const map::MeasuredPoint& measured, std::int32_t index);
+  void append(const map::MeasuredPoint& measured);
+  void note_sighting(std::size_t index, float x, float y);
+  template <class Keep>
+  void keep_only(const Keep& keep);
+  void make_room();
+  std::int32_t number() const { return static_cast<std::int32_t>(views_.size()) - 1; }
+
+  Config config_;
+  EdgeMapOptions options_;
+  std::vector<Point> points_;
+  std::vector<Sightings> sightings_;  ///< one per point, the first ones of it; empty without tracks
+  std::vector<MapView> views_;
+  std::vector<Offer> offers_;  ///< one per edge of the current key rig
+  map::EdgeGrid grid_;
+  std::size_t dropped_ = 0;
+  int frames_ = 0;  ///< told to add()
+};
+
+bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
+  const int number_of_frame = frames_++;
+  if (!result.new_key_rig || !is_tracked(result.status) || result.ambiguous_motion) return false;
+  const StereoEdges& edges = odometry.stereo_edges();
+  StereoRig rig = odometry::with_disparity_offset(odometry.rig(), result.disparity_offset);
+  rig.left_undistortion = odometry.rig().left_undistortion;
+  views_.push_back({number_of_frame, result.stamp_ns, result.world_from_left});
+  const Measured measured = map::measure_points(rig, edges, frame.left, config_);
+  offer(rig, edges, measured);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!measured[i]) continue;
+    const map::MeasuredPoint& point = *measured[i];
+    std::size_t index = points_.size();
+    if (offers_[i].point != kNone) {
+      index = static_cast<std::size_t>(offers_[i].point);
+      merge(point, offers_[i].point);
+    } else {
+      const double depth_error = point.inverse_depth_per_pixel * point.disparity_sigma / point.inverse_depth;
+      if (depth_error > kLargestDepthError) continue;
+      append(point);
+    }
+    if (!options_.tracks) continue;
+    const bool is_new = offers_[i].point == kNone;
+    note_sighting(index, is_new ? edges.left_x[i] : offers_[i].x, is_new ? edges.left_y[i] : offers_[i].y);
+  }
+  const std::int32_t oldest = number() - kPatience;
+  keep_only([&](const Point& point) { return point.views >= options_.min_views || point.last_view >= oldest; });
+  make_room();
+  return true;
+}
+
+/// Offers every point in view to the edge that it seems to be; an edge takes the nearest one.
+void EdgeMap::Implementation::offer(const StereoRig& rig, const StereoEdges& edges, const Measured& measured) {
+  offers_.assign(edges.size(), {});
+  grid_.fill(edges.left_x, edges.left_y, rig.left.width, rig.left.height);
+  const Eigen::Isometry3d left_from_world = views_.back().world_from_left.inverse();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Eigen::Vector3d at = left_from_world * points_[i].position;
+    if (!(at.z() > 0)) continue;
+    const auto seen =
+        pose::project(rig.left, left_from_world, {points_[i].position, points_[i].tangent.cast<double>()});
+    if (!seen || !(seen->pixel.x() >= 0 && seen->pixel.y() >= 0 && seen->pixel.x() <= rig.left.width - 1 &&
+                   seen->pixel.y() <= rig.left.height - 1))
+      continue;
+    consider(static_cast<std::int32_t>(i), *seen, at.z(), edges, measured);
+  }
+}
+
+void EdgeMap::Implementation::consider(std::int32_t index, const pose::ImageEdge& seen, double depth,
+                                       const StereoEdges& edges, const Measured& measured) {
+  const Point& point = points_[static_cast<std::size_t>(index)];
+  const Eigen::Vector3d ray = point.position - views_.back().world_from_left.translation();
+  double sigma = -1;  // of the point's disparity; asked where an edge is near
+  std::size_t best = 0;
+  Offer found;
+  grid_.for_each_near(seen.pixel.x(), seen.pixel.y(), [&](std::size_t i) {
+    if (!measured[i]) return;
+    const double direction = edges.left_direction[i], dx = edges.left_x[i] - seen.pixel.x(),
+                 dy = edges.left_y[i] - seen.pixel.y();
+    const double c = std::cos(direction), s = std::sin(direction);
+    const double across = std::abs(c * dy - s * dx), along = std::abs(c * dx + s * dy);
+    if (across > kAcross || along > kAlong) return;
+    if (c * seen.direction.x() + s * seen.direction.y() < std::cos(kTurn)) return;
+    if (sigma < 0) sigma = disparity_sigma(point, ray, depth, measured[i]->inverse_depth_per_pixel);
+    const double own = measured[i]->disparity_sigma;
+    const double apart = std::abs(1 / depth - measured[i]->inverse_depth) / measured[i]->inverse_depth_per_pixel;
+    if (apart > kDeviations * std::sqrt(sigma * sigma + own * own + kPoseNoise * kPoseNoise)) return;
+    const double distance = std::hypot(across, along);
+    if (distance < found.distance) {
+      const double slide = -(c * dx + s * dy);
+      found = {index, distance, static_cast<float>(edges.left_x[i] + slide * c),
+               static_cast<float>(edges.left_y[i] + slide * s)};
+      best = i;
+    }
+  });
+  if (found.point != kNone && found.distance < offers_[best].distance) offers_[best] = found;
+}
+
+/// The mean of both, weighted by their information. Along the curve edges lie anywhere: the measured point slides along
+/// its tangent to where it is nearest.
+void EdgeMap::Implementation::merge(const map::MeasuredPoint& measured, std::int32_t index) {
+  Point& point = points_[static_cast<std::size_t>(index)];
+  const Eigen::Isometry3d& world_from_left = views_.back().world_from_left;
+  const Eigen::Matrix3d rotation = world_from_left.linear();
+  const Eigen::Vector3d tangent = rotation * measured.tangent, place = world_from_left * measured.position;
+  const Eigen::Vector3d slid = place + tangent.dot(point.position - place) * tangent;
+  const Eigen::Matrix3d known = point.information_matrix();
+  const Eigen::Matrix3d added = rotation * measured.information * rotation.transpose();
+  const Eigen::Matrix3d sum = known + added;
+  point.position = sum.ldlt().solve(known * point.position + added * slid);
+  point.set_information(sum);
+  const auto views = static_cast<float>(point.views);
+  point.tangent = (views * point.tangent + tangent.cast<float>()).normalized();
+  point.grey = (views * point.grey + measured.grey) / (views + 1);
+  ++point.views;
+  point.last_view = number();
+}
+
+void EdgeMap::Implementation::append(const map::MeasuredPoint& measured) {
+  const Eigen::Isometry3d& world_from_left = views_.back().world_from_left;
+  const Eigen::Matrix3d rotation = world_from_left.linear();
+  Point& point = points_.emplace_back();
+  point.position = world_from_left * measured.position;
+  point.tangent = (rotation * measured.tangent).cast<float>();
+  point.set_information(rotation * measured.information * rotation.transpose());
+  point.grey = measured.grey;
+  point.views = 1;
+  point.last_view = number();
+}
+
+void EdgeMap::Implementation::note_sighting(std::size_t index, float x, float y) {
+  if (sightings_.size() < points_.size()) sightings_.resize(points_.size());
+  const auto count = static_cast<std::size_t>(points_[index].views) - 1;
+  if (count < kMostSightings) sightings_[index][count] = {number(), x, y};
+}
+
+template <class Keep>
+void EdgeMap::Implementation::keep_only(const Keep& keep) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!keep(points_[i])) continue;
+    points_[kept] = points_[i];
+    if (options_.tracks) sightings_[kept] = sightings_[i];
+    ++kept;
+  }
+  points_.resize(kept);
+  if (options_.tracks) sightings_.resize(kept);
+}
+
+/// Where there are too many points, those of the fewest views give way until a tenth of the room is free; of equally
+/// many the ones that were seen longest ago.
+void EdgeMap::Implementation::make_room() {
+  if (points_.size() <= options_.most_points) return;
+  const std::size_t room = options_.most_points - options_.most_points / 10;
+  const auto rank = [](const Point& point) { return std::pair(point.views, point.last_view); };
+  std::vector<std::pair<std::int32_t, std::int32_t>> ranks;
+  for (const Point& point : points_) ranks.push_back(rank(point));
+  const auto first_kept = ranks.end() - static_cast<std::ptrdiff_t>(room);
+  std::nth_element(ranks.begin(), first_kept, ranks.end());
+  const auto least = *first_kept;
+  auto alike = std::count(first_kept, ranks.end(), least);  // kept of those of the same rank, the oldest first
+  keep_only([&](const Point& point) {
+    const bool keep = rank(point) > least || (rank(point) == least && alike-- > 0);
+    dropped_ += !keep && point.views >= options_.min_views ? 1 : 0;
+    return keep;
+  });
+}
+
+EdgeMap::EdgeMap(const Config& config, const EdgeMapOptions& options)
+    : implementation_(std::make_unique<Implementation>(config, options)) {}
+EdgeMap::~EdgeMap() = default;
+bool EdgeMap::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
+  return implementation_->add(frame, result, odometry);
+}
+const std::vector<MapView>& EdgeMap::views() const { return implementation_->views(); }
+std::size_t EdgeMap::dropped() const { return implementation_->dropped(); }
+
+std::vector<MapPoint> EdgeMap::points() const {
+  std::vector<MapPoint> result;
+  implementation_->for_each_seen([&](std::size_t i) {
+    const Point& point = implementation_->all()[i];
+    result.push_back(
+        {point.position, point.tangent, point.grey, map::largest_sigma(point.information_matrix()), point.views});
+  });
+  return result;
+}
+
+std::vector<std::vector<MapSighting>> EdgeMap::sightings() const {
+  std::vector<std::vector<MapSighting>> result;
+  if (!implementation_->tracks()) return result;
+  implementation_->for_each_seen([&](std::size_t i) {
+    const Sightings& all = implementation_->all_sightings()[i];
+    const auto count = std::min<std::ptrdiff_t>(implementation_->all()[i].views, kMostSightings);
+    result.emplace_back(all.begin(), all.begin() + count);
+  });
+  return result;
+}
+
+}  // namespace quadedge

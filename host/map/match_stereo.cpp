@@ -1,0 +1,35 @@
+#include "quadedge/match_stereo.hpp"
+
+#include "frontend/frontend.hpp"
+#include "map/measured_points.hpp"
+#include "odometry/equal_scale.hpp"
+
+namespace quadedge {
+
+StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config) {
+  check_rig(rig, "stereo rig");
+  check_config(config);
+  StereoMatches matches;
+  matches.rig = odometry::with_equal_scales(rig);
+  const auto frontend = frontend::make_frontend(matches.rig, device, config);
+  matches.edges = frontend->process(frame)->edges;
+  matches.left_edges = frontend->edges(Side::left);
+  for (const auto& point : map::measure_points(matches.rig, matches.edges, frame.left, config)) {
+    auto& result = matches.points.emplace_back();
+    if (point)
+      result = MapPoint{point->position, point->tangent.cast<float>(), point->grey,
+                        map::largest_sigma(point->information), 1};
+  }
+  return matches;
+}
+
+StereoRig rectified_images(int width, int height, int right_width, int right_height) {
+  StereoRig rig;
+  const double focal = width;
+  rig.left = {focal, focal, (width - 1) / 2.0, (height - 1) / 2.0, width, height};
+  rig.right = {focal, focal, rig.left.cx, rig.left.cy, right_width, right_height};
+  rig.right_from_left.translation() << -1, 0, 0;
+  return rig;
+}
+
+}  // namespace quadedge

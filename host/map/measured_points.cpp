@@ -1,0 +1,65 @@
+#include "map/measured_points.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "odometry/pinhole_view.hpp"
+#include "pose/noise_model.hpp"
+#include "pose/oriented_point.hpp"
+
+namespace quadedge::map {
+namespace {
+
+constexpr double kAlong = 0.5;  // px of curve to either side that an edge stands for
+
+/// Sum of the outer products of three orthogonal directions over the squares of their standard deviations.
+Eigen::Matrix3d information_of(const Eigen::Vector3d& ray, const Eigen::Vector3d& direction, double depth_sigma,
+                               double along, double across) {
+  // Pixel and depth are independent: what is measured are depth along the ray, and two angles of the ray.
+  const Eigen::Vector3d forward = ray.normalized();
+  const Eigen::Vector3d sideways = (direction - direction.dot(forward) * forward).normalized();
+  const Eigen::Vector3d normal = forward.cross(sideways);
+  const double range_sigma = depth_sigma * ray.norm();
+  return forward * forward.transpose() / (range_sigma * range_sigma) +
+         sideways * sideways.transpose() / (along * along) + normal * normal.transpose() / (across * across);
+}
+
+}  // namespace
+
+std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, const StereoEdges& edges,
+                                                         const ImageView& image, const Config& config) {
+  const pose::NoiseModel noise(config.pose);
+  const odometry::PinholeView view(image, rig.left_undistortion, rig.left);
+  std::vector<std::optional<MeasuredPoint>> points;
+  points.reserve(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    auto& point = points.emplace_back();
+    pose::StereoObservation observation;
+    observation.left = {edges.left_x[i], edges.left_y[i]};
+    observation.right = {edges.right_x[i], edges.right_y[i]};
+    observation.left_direction = edges.left_direction[i];
+    observation.right_direction = edges.right_direction[i];
+    const auto measured = pose::measure(rig, observation, config.stereo.min_epipolar_angle_rad());
+    if (!measured) continue;
+    const pose::OrientedPoint oriented = measured->oriented_point();
+    const double sigma = noise.on_epipolar_line(measured->epipolar_sine);
+    const double metres_per_pixel = oriented.point.z() / rig.left.fx;
+    point = MeasuredPoint{};
+    point->position = oriented.point;
+    point->tangent = oriented.tangent;
+    point->information = information_of(measured->ray, measured->direction, pose::depth_sigma(*measured, sigma),
+                                        kAlong * metres_per_pixel, noise.across * metres_per_pixel);
+    point->inverse_depth = measured->inverse_depth;
+    point->inverse_depth_per_pixel = measured->inverse_depth_per_pixel;
+    point->disparity_sigma = sigma;
+    point->grey = view.at(edges.left_x[i], edges.left_y[i]);
+  }
+  return points;
+}
+
+float largest_sigma(const Eigen::Matrix3d& information) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information, Eigen::EigenvaluesOnly);
+  return static_cast<float>(1 / std::sqrt(solver.eigenvalues()[0]));
+}
+
+}  // namespace quadedge::map

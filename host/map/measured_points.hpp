@@ -1,0 +1,35 @@
+#pragma once
+/// \file measured_points.hpp  Stereo edges of one rig as points whose uncertainty is known (doc/method.md section 9).
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
+#include "quadedge/edges.hpp"
+#include "quadedge/image.hpp"
+
+namespace quadedge::map {
+
+/// A stereo edge in the left camera's frame.
+struct MeasuredPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();
+  /// Inverse of the position's covariance [1/m^2]. Along the edge it is known to half a pixel, the piece of curve that
+  /// an edge stands for; across it and in depth as the noise model says.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+  double inverse_depth = 0;            ///< [1/m]
+  double inverse_depth_per_pixel = 0;  ///< of disparity [1/(m px)]
+  double disparity_sigma = 0;          ///< standard deviation along the epipolar line [px]
+  float grey = 0;                      ///< 0 to 255
+};
+
+/// One entry per stereo edge; nothing where pose::measure() finds no point. `image`: the recorded left image.
+std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, const StereoEdges& edges,
+                                                         const ImageView& image, const Config& config);
+
+/// Standard deviation in the direction known least [m].
+float largest_sigma(const Eigen::Matrix3d& information);
+
+}  // namespace quadedge::map

@@ -1,0 +1,152 @@
+#include <csignal>
+#include <filesystem>
+#include <sys/stat.h>
+
+#include "background_program.hpp"
+#include "own_camera.hpp"
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The small sequence as a stream of pictures, a video of them side by side, and a calibration.
+struct OwnCamera {
+  TemporaryFolder folder;
+  std::string calibration = own_camera::write_calibration_of_small(folder / "rig.yaml");
+  std::string stream = folder / "pairs.pgm", video = folder / "both.mkv";
+  OwnCamera() {
+    own_camera::write_bytes(stream, own_camera::pgm_stream_of_small());
+    std::string both;
+    for (const auto& frame : own_camera::small_dataset().frames) {
+      both += own_camera::pgm(
+          own_camera::joined(quadedge::read_grey_image(frame.left), quadedge::read_grey_image(frame.right)));
+    }
+    own_camera::write_bytes(folder / "both.pgm", both);
+    own_camera::encode(folder / "both.pgm", "-c:v ffv1 -pix_fmt gray -g 1", video);
+  }
+};
+
+const OwnCamera& camera() {
+  static const OwnCamera all;
+  return all;
+}
+
+/// Arguments of a run that reads from the video.
+std::vector<std::string> video_run(const std::string& video, const std::string& out) {
+  return {"run", "--video", video, "--split", "left-right", "--calibration", camera().calibration, "-o", out};
+}
+
+}  // namespace
+
+TEST_CASE("run: folders, a video and a pipe of the same pictures give the same trajectory", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::string rgb = small_sequence() + "/rgb", rgb2 = small_sequence() + "/rgb2";
+  auto result = run_program({"run", "--left", rgb, "--right", rgb2, "--fps", "20", "--calibration",
+                             camera().calibration, "-o", folder / "folders"});
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const std::string expected = read_text(folder / "folders/trajectory.txt");
+  CHECK(read_lines(folder / "folders/trajectory.txt").size() == 5);
+  result = run_program(video_run(camera().video, folder / "video"));
+  INFO(result.err);
+  CHECK(result.code == 0);
+  CHECK(read_text(folder / "video/trajectory.txt") == expected);
+
+  const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
+                           "' run - --fps 20 --queue 0 --quiet --calibration '" + camera().calibration + "' -o '" +
+                           (folder / "pipe") + "' >/dev/null";
+  CHECK(std::system(pipe.c_str()) == 0);
+  CHECK(read_text(folder / "pipe/trajectory.txt") == expected);
+  CHECK_THAT(read_text(folder / "pipe/report.json"), Contains("\"dropped\": 0") && Contains("\"frames\": 4"));
+}
+
+TEST_CASE("run: pairs that a pipe brings too fast are counted in the report", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::string all = own_camera::pgm_stream_of_small();
+  own_camera::write_bytes(folder / "many.pgm", all + all + all + all + all);
+  const std::string pipe = "cat '" + (folder / "many.pgm") + "' | " + environment_of_tests() + " '" + program_path() +
+                           "' run - --fps 20 --queue 2 --quiet --min-tracked 0 --calibration '" + camera().calibration +
+                           "' -o '" + (folder / "out") + "' >/dev/null";
+  REQUIRE(std::system(pipe.c_str()) == 0);
+  // All pairs arrive while kernels are built or read: two wait.
+  const auto frames = read_lines(folder / "out/frames.csv").size() - 1;
+  CHECK((frames >= 2 && frames < 20));
+  CHECK_THAT(read_text(folder / "out/report.json"), Contains("\"dropped\": " + std::to_string(20 - frames)));
+}
+
+TEST_CASE("run: frames and the map of a video that ends early are kept, with exit code 3", "[cli][device]") {
+  const TemporaryFolder folder;
+  fs::copy(camera().video, folder / "cut.mkv");
+  fs::resize_file(folder / "cut.mkv", fs::file_size(folder / "cut.mkv") * 3 / 4);
+  auto arguments = video_run(folder / "cut.mkv", folder / "out");
+  arguments.insert(arguments.end(), {"--map", folder / "map.ply", "--map-min-views", "1"});
+  const auto result = run_program(arguments);
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("cut.mkv") && Contains("finished frames"));
+  CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() >= 2);
+  CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
+}
+
+TEST_CASE("run: a signal ends a run that waits for a pipe, and keeps its frames and its map", "[cli][device]") {
+  const TemporaryFolder folder;
+  REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
+  const int held = open((folder / "fifo").c_str(), O_RDWR);  // nobody sees its end
+  BackgroundProgram program({"run", "-", "--fps", "20", "--queue", "0", "--calibration", camera().calibration, "-o",
+                             folder / "out", "--map", folder / "map.ply", "--map-min-views", "1"},
+                            folder / "log", "sh -c 'exec \"$0\" \"$@\" <" + (folder / "fifo") + "'");
+  const std::string bytes = own_camera::pgm_stream_of_small();
+  std::thread writer([&] {
+    for (std::size_t at = 0; at < bytes.size();) {
+      const auto count = write(held, bytes.data() + at, bytes.size() - at);
+      if (count <= 0) break;
+      at += static_cast<std::size_t>(count);
+    }
+  });
+  CHECK(program.wait_until([&] { return read_lines(folder / "out/frames.csv").size() == 5; }));
+  writer.join();
+  const int status = program.end_by(SIGINT);
+  CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT));
+  CHECK_THAT(read_text(folder / "log"), Contains("hold what was tracked, 4 frames"));
+  CHECK(read_lines(folder / "out/trajectory.txt").size() == 5);
+  CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
+  close(held);
+}
+
+TEST_CASE("batch: a list may name cameras of one's own", "[cli][device]") {
+  const TemporaryFolder folder;
+  own_camera::write_bytes(folder / "list.txt", "--video " + camera().video + " --split left-right --calibration " +
+                                                   camera().calibration + "\n--video absent.mkv --split left-right" +
+                                                   " --calibration " + camera().calibration + "\n");
+  const auto result = run_program({"batch", folder / "list.txt", "-o", folder / "out", "--quiet"});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("absent") && Contains("no such file"));
+  CHECK(read_lines(folder / "out/sequences/both/trajectory.txt").size() == 5);
+  const auto again = run_program({"batch", folder / "list.txt", "-o", folder / "out"});
+  CHECK_THAT(again.err, Contains("1 finished already"));
+}
+
+TEST_CASE("check, bench and edges read cameras of one's own", "[cli][device]") {
+  const std::vector<std::string> source = {"--video",    camera().video,  "--split",
+                                           "left-right", "--calibration", camera().calibration};
+  const auto with_source = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), source.begin(), source.end());
+    return run_program(arguments);
+  };
+  const auto check = with_source({"check"});
+  CHECK(check.code == 0);
+  CHECK_THAT(check.out, Contains("format: video") && Contains("frames: 4") && Contains("frame 0: epipolar residual") &&
+                            Contains("frame 3: epipolar residual"));
+  const TemporaryFolder folder;
+  CHECK(with_source({"bench", "--frames", "1", "--warm-up", "1", "--json", folder / "bench.json", "--quiet"}).code ==
+        0);
+  CHECK_THAT(read_text(folder / "bench.json"), Contains(camera().video));
+  CHECK(with_source({"edges", "--frame", "2", "--csv", folder / "a.csv"}).code == 0);
+  CHECK(run_program({"edges", own_camera::small_dataset().frames[2].left, "--csv", folder / "b.csv"}).code == 0);
+  CHECK(read_text(folder / "a.csv") == read_text(folder / "b.csv"));
+  CHECK(with_source({"edges", "--frame", "7"}).code == 2);
+  CHECK(with_source({"run", small_sequence()}).code == 2);
+  CHECK(run_program({"run"}).code == 2);
+  CHECK(run_program({"run", small_sequence(), "--fps", "3"}).code == 2);
+  CHECK(run_program({"edges", own_camera::small_dataset().frames[2].left, "--fov", "90"}).code == 2);
+}

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "devices.hpp"
+#include "own_camera.hpp"
+#include "quadedge/edge_map.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/synthetic.hpp"
+
+using Catch::Matchers::Contains;
+using namespace quadedge;
+
+namespace {
+
+/// The rendered room, tracked; every frame is a key rig, so that a few frames make a map.
+struct TrackedRoom {
+  SyntheticSequence sequence;
+  Config config;
+  std::vector<Image> left, right;
+  static SyntheticOptions options() {
+    SyntheticOptions options;
+    options.frames = 6;
+    options.width = 480;
+    options.height = 300;
+    options.focal *= 480.0 / 942;
+    return options;
+  }
+  TrackedRoom() : sequence(options()) {
+    config.stereo.max_disparity = sequence.max_disparity();
+    config.odometry.key_rig = false;
+    for (int i = 0; i < sequence.frames(); ++i) {
+      left.push_back(sequence.render(i, Side::left).image);
+      right.push_back(sequence.render(i, Side::right).image);
+    }
+  }
+  void track_into(const std::vector<EdgeMap*>& maps) const {
+    Device device("auto");
+    StereoOdometry odometry(sequence.rig(), device, config);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const StereoFrame frame{sequence.stamp_ns(static_cast<int>(i)), left[i].view(), right[i].view()};
+      const FrameResult result = odometry.track(frame);
+      for (EdgeMap* map : maps) map->add(frame, result, odometry);
+    }
+  }
+};
+
+const TrackedRoom& room() {
+  static const TrackedRoom all;
+  return all;
+}
+
+EdgeMapOptions seen_by(int views, std::size_t most = 2'000'000, bool tracks = false) {
+  EdgeMapOptions options;
+  options.min_views = views;
+  options.most_points = most;
+  options.tracks = tracks;
+  return options;
+}
+
+/// Depths of points in the first view over the rendered ones at the same pixel, less one; sorted magnitudes.
+std::vector<double> depth_errors(const std::vector<MapPoint>& points) {
+  const auto depth = room().sequence.render(0, Side::left).depth;
+  const PinholeCamera& camera = room().sequence.rig().left;
+  std::vector<double> errors;
+  for (const auto& point : points) {
+    const Eigen::Vector2d pixel = camera.project(point.position);
+    double nearest = 1e9;  // an occluding edge belongs to the nearer surface, a pixel or so away
+    for (int dy = -2; dy <= 2; ++dy) {
+      for (int dx = -2; dx <= 2; ++dx) {
+        const auto x = std::lround(pixel.x()) + dx, y = std::lround(pixel.y()) + dy;
+        if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;
+        const double truth = static_cast<double>(depth[static_cast<std::size_t>(y * camera.width + x)]);
+        if (truth > 0) nearest = std::min(nearest, std::abs(point.position.z() / truth - 1));
+      }
+    }
+    if (nearest < 1e9) errors.push_back(nearest);
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+}  // namespace
+
+TEST_CASE("edge map: points lie on the rendered surfaces, and better the more rigs have seen them", "[map][device]") {
+  EdgeMap once(room().config, seen_by(1)), twice(room().config, seen_by(2)),
+      often(room().config, seen_by(5, 2'000'000, true));
+  room().track_into({&once, &twice, &often});
+  CHECK(once.views().size() == 6);
+  CHECK(once.views()[5].frame == 5);
+  const auto a = once.points(), b = twice.points(), c = often.points();
+  INFO(a.size() << " " << b.size() << " " << c.size());
+  REQUIRE(c.size() > 500);
+  CHECK((a.size() > b.size() && b.size() > c.size()));
+  int sightings_of_all = 0;  // a map of six rigs is no list of all their edges
+  for (const auto& point : a) sightings_of_all += point.views;
+  CHECK(2 * a.size() < static_cast<std::size_t>(sightings_of_all));
+  for (const auto& point : c) {
+    CHECK((point.views >= 5 && point.views <= 6));
+    CHECK(std::abs(point.tangent.norm() - 1) < 1e-5F);
+    CHECK((point.grey >= 0 && point.grey <= 255));
+    CHECK((point.sigma > 0 && point.sigma < 0.5F));
+  }
+  const auto errors = depth_errors(c), all = depth_errors(a);
+  const auto at = [](const std::vector<double>& sorted, double part) {
+    return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+  };
+  INFO(at(errors, 0.5) << " " << at(errors, 0.95) << " of all " << at(all, 0.5) << " " << at(all, 0.95));
+  CHECK(at(errors, 0.5) < 0.005);
+  CHECK(at(errors, 0.95) < at(all, 0.95));
+
+  const auto sightings = often.sightings();
+  REQUIRE(sightings.size() == c.size());
+  const PinholeCamera& camera = room().sequence.rig().left;
+  std::size_t off = 0, count = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    CHECK(sightings[i].size() == static_cast<std::size_t>(c[i].views));
+    for (const auto& seen : sightings[i]) {
+      const auto& view = often.views()[static_cast<std::size_t>(seen.view)];
+      const Eigen::Vector2d pixel = camera.project(view.world_from_left.inverse() * c[i].position);
+      off += std::hypot(pixel.x() - static_cast<double>(seen.x), pixel.y() - static_cast<double>(seen.y)) > 2 ? 1 : 0;
+      ++count;
+    }
+  }
+  CHECK(off < count / 50);
+}
+
+TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded", "[map][device]") {
+  const TemporaryFolder folder;
+  EdgeMap first(room().config, seen_by(2)), second(room().config, seen_by(2)), small(room().config, seen_by(2, 1000));
+  room().track_into({&first, &small});
+  room().track_into({&second});
+  write_ply(folder / "first.ply", first.points());
+  write_ply(folder / "second.ply", second.points());
+  CHECK(read_text(folder / "first.ply") == read_text(folder / "second.ply"));
+  CHECK(first.dropped() == 0);
+  CHECK(small.points().size() <= 1000);
+  CHECK(small.points().size() > 100);
+}
+
+TEST_CASE("edge map: files say what they hold, and are complete or not there", "[map]") {
+  const TemporaryFolder folder;
+  MapPoint point;
+  point.position = {1.25, -2.5, 3};
+  point.tangent = {0, 1, 0};
+  point.grey = 77.4F;
+  point.sigma = 0.125F;
+  point.views = 9;
+  write_ply(folder / "map.ply", {point, point});
+  const std::string text = read_text(folder / "map.ply");
+  const std::size_t head = text.find("end_header\n") + 11;
+  CHECK_THAT(text.substr(0, head), Contains("format binary_little_endian 1.0\n") && Contains("element vertex 2\n") &&
+                                       Contains("property float tangent_x\n") && Contains("property int views\n"));
+  constexpr std::size_t kRow = 3 * 8 + 5 * 4 + 4 + 3;
+  REQUIRE(text.size() == head + 2 * kRow);
+  double z = 0;
+  std::memcpy(&z, text.data() + head + 16, sizeof z);
+  CHECK(z == 3);
+  CHECK(text[head + kRow - 1] == 77);
+  CHECK_THROWS_AS(write_ply(folder / "absent/map.ply", {point}), DataError);
+  write_ply(folder / "empty.ply", {});
+  CHECK_THAT(read_text(folder / "empty.ply"), Contains("element vertex 0\n"));
+}

@@ -1,0 +1,76 @@
+#include <catch2/catch.hpp>
+
+#include "data/image_list.hpp"
+#include "dataset_files.hpp"
+#include "quadedge/error.hpp"
+#include "temporary_folder.hpp"
+
+using Catch::Matchers::Contains;
+using namespace quadedge;
+using namespace quadedge::data;
+
+TEST_CASE("image list: digits in names count as numbers", "[data]") {
+  CHECK(comes_before("img9.png", "img10.png"));
+  CHECK_FALSE(comes_before("img10.png", "img9.png"));
+  CHECK(comes_before("a2b3", "a2b20"));
+  CHECK(comes_before("a", "a1"));
+  CHECK(comes_before("a1x", "b0"));
+  CHECK(comes_before("img01", "img1"));  // equal numbers: the text decides, so that there is an order
+  CHECK_FALSE(comes_before("img1", "img01"));
+  CHECK_FALSE(comes_before("same", "same"));
+  CHECK(comes_before("1403636579763555584", "1403636579813555456"));
+}
+
+TEST_CASE("image list: stamps come from names that can be times", "[data]") {
+  const TemporaryFolder folder;
+  const auto stamps = [&](const std::string& name, const std::vector<std::string>& files) {
+    for (const auto& file : files) dataset_files::write_image(folder / (name + "/images/" + file));
+    return list_images(folder / (name + "/images")).stamps_ns;
+  };
+  using Stamps = std::vector<std::int64_t>;
+  CHECK(stamps("seconds", {"1.5.png", "10.25.png"}) == Stamps{1'500'000'000, 10'250'000'000});
+  CHECK(stamps("nano", {"1403636579763555584.png"}) == Stamps{1403636579763555584});
+  CHECK(stamps("micro", {"1403636579763555.png"}) == Stamps{1403636579763555000});
+  CHECK(stamps("milli", {"1403636579763.png"}) == Stamps{1403636579763000000});
+  CHECK(stamps("numbers", {"000001.png", "000002.png"}).empty());
+  CHECK(stamps("words", {"left_1.5.png"}).empty());
+}
+
+TEST_CASE("image list: times.txt and data.csv beside the images tell the stamps", "[data]") {
+  const TemporaryFolder folder;
+  for (const char* name : {"1.png", "2.png", "10.png"}) dataset_files::write_image(folder / (std::string("a/") + name));
+  dataset_files::write_text(folder / "times.txt", "# seconds\n0.0\n0.5\n1e0\n");
+  auto images = list_images(folder / "a");
+  CHECK(images.stamps_ns == std::vector<std::int64_t>{0, 500'000'000, 1'000'000'000});
+  CHECK_THAT(images.files[2], Contains("10.png"));
+  CHECK(images.stamps_from == (std::filesystem::path(folder / "a") / ".." / "times.txt").string());
+  // A list counts before times, and in its own order.
+  dataset_files::write_text(folder / "a/data.csv", "#timestamp [ns],filename\n7,10.png\n9,1.png\n");
+  images = list_images(folder / "a");
+  CHECK(images.stamps_ns == std::vector<std::int64_t>{7, 9});
+  CHECK_THAT(images.files[0], Contains("10.png"));
+}
+
+TEST_CASE("image list: what does not fit is named", "[data]") {
+  const TemporaryFolder folder;
+  dataset_files::write_image(folder / "a/1.png");
+  const auto complaint = [&]() -> std::string {
+    try {
+      list_images(folder / "a");
+      return "";
+    } catch (const DataError& error) {
+      return error.what();
+    }
+  };
+  dataset_files::write_text(folder / "a/times.txt", "0\n1\n");
+  CHECK_THAT(complaint(), Contains("a/times.txt") && Contains("2 times") && Contains("1 images"));
+  dataset_files::write_text(folder / "a/times.txt", "0 1\n");
+  CHECK_THAT(complaint(), Contains("times.txt:1"));
+  dataset_files::write_text(folder / "a/data.csv", "5,2.png\n");
+  CHECK_THAT(complaint(), Contains("2.png") && Contains("data.csv"));
+  dataset_files::write_text(folder / "a/data.csv", "5,1.png\n5,1.png\n");
+  CHECK_THAT(complaint(), Contains("data.csv:2") && Contains("again"));
+  dataset_files::write_text(folder / "a/data.csv", "5,../1.png\n");
+  CHECK_THAT(complaint(), Contains("data.csv:1"));
+  CHECK_THROWS_AS(list_images(folder / "absent"), DataError);
+}

@@ -1,0 +1,164 @@
+#include <chrono>
+#include <fcntl.h>
+#include <thread>
+#include <unistd.h>
+
+#include "data/picture_pipe.hpp"
+#include "own_camera.hpp"
+#include "quadedge/error.hpp"
+
+using Catch::Matchers::Contains;
+using namespace quadedge;
+using namespace quadedge::data;
+
+namespace {
+
+constexpr int kWidth = 12, kHeight = 7;
+
+Image picture(int number, int width = kWidth, int white = 255) {
+  Image image(width, kHeight, white);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < width; ++x) image.set(x, y, (13 * number + 5 * x + 3 * y) * (white / 255) % (white + 1));
+  return image;
+}
+
+std::string pairs(int count, int white = 255) {
+  std::string text;
+  for (int i = 0; i < 2 * count; ++i) text += own_camera::pgm(picture(i, kWidth, white));
+  return text;
+}
+
+/// Bytes behind a file descriptor.
+class Source {
+ public:
+  explicit Source(const std::string& bytes) {
+    own_camera::write_bytes(folder_ / "bytes", bytes);
+    descriptor_ = open((folder_ / "bytes").c_str(), O_RDONLY);
+  }
+  ~Source() { close(descriptor_); }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  TemporaryFolder folder_;
+  int descriptor_ = -1;
+};
+
+Dataset dataset_of(std::shared_ptr<const PairStream> stream) {
+  Dataset dataset;
+  dataset.path = "the test";
+  dataset.rig.left.width = dataset.rig.right.width = kWidth;
+  dataset.rig.left.height = dataset.rig.right.height = kHeight;
+  dataset.stream = std::move(stream);
+  return dataset;
+}
+
+std::string complaint(const std::string& bytes, Split split = Split::none) {
+  const Source source(bytes);
+  const auto reader = make_picture_pipe(source.descriptor(), {split, 10, 0})->open();
+  try {
+    while (reader->next()) {
+    }
+    return "";
+  } catch (const DataError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("pipe: pictures are read in turn, at any depth, with stamps by their number", "[data]") {
+  for (const int white : {255, 4095, 65535}) {
+    const Source source(pairs(3, white));
+    const auto reader = make_picture_pipe(source.descriptor(), {Split::none, 10, 0})->open();
+    for (int i = 0; i < 3; ++i) {
+      const auto pair = reader->next();
+      REQUIRE(pair);
+      CHECK(pair->number == i);
+      CHECK(pair->stamp_ns == i * 100'000'000);
+      CHECK(pair->left.white == white);
+      CHECK(pair->left.pixels == picture(2 * i, kWidth, white).pixels);
+      CHECK(pair->right.pixels == picture(2 * i + 1, kWidth, white).pixels);
+    }
+    CHECK_FALSE(reader->next());
+  }
+}
+
+TEST_CASE("pipe: one picture may hold both views, and colour becomes grey", "[data]") {
+  for (const bool beside : {true, false}) {
+    const Source source(own_camera::pgm(own_camera::joined(picture(0), picture(1), beside)));
+    const auto reader =
+        make_picture_pipe(source.descriptor(), {beside ? Split::left_right : Split::top_bottom, 10, 0})->open();
+    const auto pair = reader->next();
+    REQUIRE(pair);
+    CHECK(pair->left.pixels == picture(0).pixels);
+    CHECK(pair->right.pixels == picture(1).pixels);
+  }
+  const Source colour("P6 1 1 255\n" + std::string("\xFF\x00\x00", 3) + "P6 1 1 255\n" +
+                      std::string("\x50\x50\x50", 3));
+  const auto pair = make_picture_pipe(colour.descriptor(), {Split::none, 10, 0})->open()->next();
+  REQUIRE(pair);
+  CHECK(pair->left.view().value(0, 0) == 76);  // 0.299 x 255
+  CHECK(pair->right.view().value(0, 0) == 0x50);
+}
+
+TEST_CASE("pipe: what is wrong is named with the picture's number", "[data]") {
+  const std::string one = own_camera::pgm(picture(0)), whole = pairs(2);
+  CHECK(complaint(whole).empty());
+  CHECK(complaint("").empty());
+  CHECK_THAT(complaint(whole + one), Contains("the pipe") && Contains("after a left picture"));
+  CHECK_THAT(complaint(whole.substr(0, whole.size() - 5)),
+             Contains("picture 3 that ends after") && Contains("84 bytes"));
+  CHECK_THAT(complaint(one + own_camera::pgm(picture(1, kWidth + 2))),
+             Contains("picture 1 of 14 x 7") && Contains("12 x 7"));
+  CHECK_THAT(complaint(one + own_camera::pgm(picture(1, kWidth, 65535))), Contains("values to 65535"));
+  for (const char* head :
+       {"hello", "P5 x 7 255\n", "P5 0 7 255\n", "P5 12 7 70000\n", "P5 12", "P4 12 7\n", "P5 99999999999 7 255\n"}) {
+    INFO(head);
+    CHECK_THAT(complaint(head), Contains("picture 0 that does not begin like one"));
+  }
+  CHECK_THAT(complaint(own_camera::pgm(picture(0, 11)), Split::left_right),
+             Contains("11 x 7") && Contains("even width"));
+}
+
+TEST_CASE("pipe: a slow reader loses the oldest pairs and knows how many", "[data]") {
+  const Source source(pairs(9));
+  const auto stream = make_picture_pipe(source.descriptor(), {Split::none, 10, 3});
+  FramePrefetcher frames(dataset_of(stream));
+  for (int i = 0; i < 500 && frames.dropped() < 6; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  CHECK(frames.dropped() == 6);
+  for (int i = 6; i < 9; ++i) {
+    const auto frame = frames.next();
+    REQUIRE(frame);
+    CHECK(frame->number == i);
+    CHECK(frame->stamp_ns == i * 100'000'000);
+    CHECK(frame->left.pixels == picture(2 * i).pixels);
+  }
+  CHECK_FALSE(frames.next());
+  CHECK_THROWS_AS(stream->open(), UsageError);
+}
+
+TEST_CASE("pipe: without a queue every pair waits for its reader", "[data]") {
+  const Source source(pairs(9));
+  FramePrefetcher frames(dataset_of(make_picture_pipe(source.descriptor(), {Split::none, 10, 0})));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  for (int i = 0; i < 9; ++i) CHECK(frames.next()->number == i);
+  CHECK_FALSE(frames.next());
+  CHECK(frames.dropped() == 0);
+}
+
+TEST_CASE("pipe: waiting for a picture that never comes can be ended", "[data]") {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const auto start = std::chrono::steady_clock::now();
+  {
+    bool stop = false;
+    FramePrefetcher frames(dataset_of(make_picture_pipe(ends[0], {Split::none, 10, 3})), 2, [&] { return stop; });
+    stop = true;
+    CHECK_FALSE(frames.next());
+  }
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+  close(ends[0]);
+  close(ends[1]);
+}

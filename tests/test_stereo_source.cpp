@@ -1,0 +1,275 @@
+#include <filesystem>
+
+#include "data/find_sequences.hpp"
+#include "data/source_line.hpp"
+#include "own_camera.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/stereo_source.hpp"
+
+using Catch::Matchers::Contains;
+using namespace quadedge;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The small sequence as two folders, whose names are numbers that need natural order, and as videos.
+class OwnRecording {
+ public:
+  OwnRecording() {
+    own_camera::write_calibration_of_small(file("rig.yaml"));
+    std::string both;
+    std::string views[2];
+    const auto& frames = own_camera::small_dataset().frames;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const std::string name = std::to_string(9 + i) + ".png";
+      for (const char* side : {"left", "right"}) fs::create_directories(file(side));
+      fs::copy(frames[i].left, file("left/" + name));
+      fs::copy(frames[i].right, file("right/" + name));
+      const Image left = read_grey_image(frames[i].left), right = read_grey_image(frames[i].right);
+      both += own_camera::pgm(own_camera::joined(left, right));
+      views[0] += own_camera::pgm(left);
+      views[1] += own_camera::pgm(right);
+    }
+    encode(both, "both.mkv");
+    encode(views[0], "left.mkv");
+    encode(views[1], "right.mkv");
+  }
+  std::string file(const std::string& name) const { return folder_ / name; }
+  StereoSource folders() const {
+    StereoSource source;
+    source.left = file("left");
+    source.right = file("right");
+    source.calibration = file("rig.yaml");
+    source.fps = 20;
+    return source;
+  }
+  StereoSource one_video() const {
+    StereoSource source;
+    source.video = file("both.mkv");
+    source.split = "left-right";
+    source.calibration = file("rig.yaml");
+    return source;
+  }
+  StereoSource two_videos() const {
+    StereoSource source = folders();
+    source.left = file("left.mkv");
+    source.right = file("right.mkv");
+    source.fps = 0;
+    return source;
+  }
+
+ private:
+  void encode(const std::string& pictures, const std::string& name) const {
+    own_camera::write_bytes(file("pictures.pgm"), pictures);
+    own_camera::encode(file("pictures.pgm"), "-c:v ffv1 -pix_fmt gray", file(name));
+  }
+  TemporaryFolder folder_;
+};
+
+const OwnRecording& recording() {
+  static const OwnRecording all;
+  return all;
+}
+
+std::string complaint(const StereoSource& source) {
+  try {
+    FramePrefetcher frames(open_stereo_source(source));
+    while (frames.next()) {
+    }
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("own camera: folders, one video and two give the same pairs", "[data]") {
+  for (const auto& source : {recording().folders(), recording().one_video(), recording().two_videos()}) {
+    const Dataset dataset = open_stereo_source(source);
+    INFO(dataset.format);
+    CHECK(dataset.frames.size() == 4);
+    CHECK(dataset.rig.left.fx == own_camera::small_dataset().rig.left.fx);
+    CHECK(dataset.truth.empty());
+    FramePrefetcher frames(dataset), again(dataset);
+    for (int i = 0; i < 4; ++i) {
+      const auto& files = own_camera::small_dataset().frames[static_cast<std::size_t>(i)];
+      const auto frame = frames.next();
+      REQUIRE(frame);
+      CHECK(frame->number == i);
+      CHECK(frame->stamp_ns == i * 50'000'000);
+      CHECK(frame->left.pixels == read_grey_image(files.left).pixels);
+      CHECK(frame->right.pixels == read_grey_image(files.right).pixels);
+      CHECK(again.next()->left.pixels == frame->left.pixels);  // it can be read again
+    }
+    CHECK_FALSE(frames.next());
+  }
+}
+
+TEST_CASE("own camera: a range of pairs, and stamps of a file", "[data]") {
+  own_camera::write_bytes(recording().file("stamps.txt"), "1.5\n1.75\n2\n3\n");
+  for (StereoSource source : {recording().folders(), recording().one_video()}) {
+    source.fps = 0;
+    source.times = recording().file("stamps.txt");
+    source.first_frame = 1;
+    source.last_frame = 3;
+    const Dataset dataset = open_stereo_source(source);
+    CHECK(dataset.frames.size() == 2);
+    FramePrefetcher frames(dataset);
+    for (int i = 0; i < 2; ++i) {
+      const auto frame = frames.next();
+      REQUIRE(frame);
+      CHECK(frame->number == i);
+      CHECK(frame->stamp_ns == 1'750'000'000 + 250'000'000 * i);
+      CHECK(frame->left.pixels ==
+            read_grey_image(own_camera::small_dataset().frames[static_cast<std::size_t>(i) + 1].left).pixels);
+    }
+    CHECK_FALSE(frames.next());
+  }
+}
+
+TEST_CASE("own camera: streams of different length are named", "[data]") {
+  const TemporaryFolder folder;
+  StereoSource source = recording().folders();
+  fs::copy(source.right, folder / "right");
+  fs::remove(folder / "right/11.png");
+  source.right = folder / "right";
+  CHECK_THAT(complaint(source), Contains(folder / "right") && Contains("3 images") && Contains("the 4 of"));
+  std::swap(source.left, source.right);
+  CHECK_THAT(complaint(source), Contains(folder / "right") && Contains("3 images") && Contains("the 4 of"));
+
+  StereoSource videos = recording().two_videos();
+  std::string pictures;
+  for (int i = 0; i < 2; ++i)
+    pictures += own_camera::pgm(read_grey_image(own_camera::small_dataset().frames[static_cast<std::size_t>(i)].right));
+  own_camera::write_bytes(folder / "pictures.pgm", pictures);
+  own_camera::encode(folder / "pictures.pgm", "-c:v ffv1 -pix_fmt gray", folder / "short.mkv");
+  videos.right = folder / "short.mkv";
+  CHECK_THAT(complaint(videos), Contains(folder / "short.mkv") && Contains("2 pictures"));
+  // A raw stream does not say how long it is.
+  own_camera::encode(folder / "pictures.pgm", "-c:v mjpeg -q:v 2", folder / "short.mjpeg");
+  videos.right = folder / "short.mjpeg";
+  videos.fps = 20;
+  CHECK_THAT(complaint(videos), Contains(folder / "short.mjpeg") && Contains("the end after 2 pictures"));
+  own_camera::write_bytes(folder / "stamps.txt", "1\n2\n3\n");
+  for (StereoSource timed : {recording().folders(), recording().one_video()}) {
+    timed.fps = 0;
+    timed.times = folder / "stamps.txt";
+    CHECK_THAT(complaint(timed), Contains(folder / "stamps.txt") && Contains("3 times"));
+  }
+}
+
+TEST_CASE("own camera: partners by order have stamps of the same time", "[data]") {
+  const TemporaryFolder folder;
+  const auto& frames = own_camera::small_dataset().frames;
+  const auto fill = [&](const char* side, const std::vector<const char*>& names) {
+    fs::create_directories(folder / side);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      fs::copy(frames[i].left, folder / (std::string(side) + "/" + names[i] + ".png"));
+  };
+  fill("left", {"1.00", "1.05", "1.10"});
+  fill("right", {"1.0001", "1.0499", "1.1001"});
+  fill("late", {"1.00", "1.10", "1.15"});
+  StereoSource source = recording().folders();
+  source.fps = 0;
+  source.left = folder / "left";
+  source.right = folder / "right";
+  CHECK(open_stereo_source(source).frames[2].stamp_ns == 1'100'000'000);
+  source.right = folder / "late";
+  CHECK_THAT(complaint(source), Contains("late/1.10.png") && Contains("left/1.05.png"));
+}
+
+TEST_CASE("own camera: what is missing or contradictory is said", "[data]") {
+  StereoSource source = recording().folders();
+  source.fps = 0;
+  CHECK_THAT(complaint(source), Contains("9.png") && Contains("--fps"));
+  source = recording().folders();
+  source.right.clear();
+  CHECK_THAT(complaint(source), Contains("--left and --right go together"));
+  source = recording().folders();
+  source.calibration.clear();
+  CHECK_THAT(complaint(source), Contains("--calibration FILE is missing"));
+  source = recording().folders();
+  source.video = recording().file("both.mkv");
+  CHECK_THAT(complaint(source), Contains("expected one of"));
+  source = recording().folders();
+  source.split = "left-right";
+  CHECK_THAT(complaint(source), Contains("--split is for"));
+  source = recording().one_video();
+  source.split.clear();
+  CHECK_THAT(complaint(source), Contains("--split left-right"));
+  source.split = "sideways";
+  CHECK_THAT(complaint(source), Contains("sideways"));
+  source.split = "top-bottom";  // 640 x 100 views, which is not what the calibration says
+  CHECK_THAT(complaint(source), Contains("640 x 100") && Contains("320 x 200"));
+  StereoSource pipe;
+  pipe.pipe = true;
+  pipe.calibration = recording().file("rig.yaml");
+  CHECK_THAT(complaint(pipe), Contains("--fps"));
+}
+
+TEST_CASE("own camera: checking reads everything and says what is wrong", "[data]") {
+  int seen = 0;
+  const auto count = [&](const Dataset&, const StereoPair&) { ++seen; };
+  for (const auto& source : {recording().folders(), recording().one_video()}) {
+    seen = 0;
+    const DatasetCheck check = check_stereo_source(source, count);
+    CHECK(check.errors.empty());
+    CHECK(seen == 4);
+    CHECK(std::find(check.facts.begin(), check.facts.end(), "frames: 4") != check.facts.end());
+  }
+  const TemporaryFolder folder;
+  fs::copy(recording().file("both.mkv"), folder / "cut.mkv");
+  fs::resize_file(folder / "cut.mkv", fs::file_size(folder / "cut.mkv") * 2 / 3);
+  StereoSource source = recording().one_video();
+  source.video = folder / "cut.mkv";
+  const DatasetCheck check = check_stereo_source(source);
+  REQUIRE(check.errors.size() == 1);
+  CHECK_THAT(check.errors[0], Contains("cut.mkv") && Contains("the 4 that it says it holds"));
+}
+
+TEST_CASE("own camera: a line of a list is read and turned into words again", "[data]") {
+  const std::string line =
+      "--left \"my recording/left\" --right r --calibration a.yaml,b.yaml --fps 12.5 --fov 90 --mask m.png --times "
+      "t.txt";
+  const StereoSource source = data::parse_source_line(line, "/base", "list.txt", 3);
+  CHECK(source.left == "/base/my recording/left");
+  CHECK(source.right == "/base/r");
+  CHECK(source.calibration == "/base/a.yaml,/base/b.yaml");
+  CHECK(source.mask == "/base/m.png");
+  CHECK(source.times == "/base/t.txt");
+  CHECK(source.fps == 12.5);
+  CHECK(source.fov == 90);
+  CHECK(data::source_words(source) == std::vector<std::string>{"--left", "/base/my recording/left", "--right",
+                                                               "/base/r", "--calibration", "/base/a.yaml,/base/b.yaml",
+                                                               "--times", "/base/t.txt", "--mask", "/base/m.png",
+                                                               "--fps", "12.5", "--fov", "90"});
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "my recording/mav0/cam0/data");
+  for (const char* images : {"my recording/mav0/cam0/data", "my recording/mav0/cam0", "my recording/mav0"}) {
+    StereoSource named;
+    named.left = folder / images;
+    CHECK(data::source_name(named) == "my recording");
+  }
+  for (const char* wrong : {"--left a --speed 3", "--left", "--fps fast", "--left a b"}) {
+    INFO(wrong);
+    CHECK_THROWS_WITH(data::parse_source_line(wrong, "/base", "list.txt", 3), Contains("list.txt:3"));
+  }
+}
+
+TEST_CASE("own camera: lists name them beside folders, each by a name of its own", "[data]") {
+  const TemporaryFolder folder;
+  own_camera::write_bytes(folder / "list.txt", small_sequence() + "\n--left " + recording().file("left") + " --right " +
+                                                   recording().file("right") + " --calibration " +
+                                                   recording().file("rig.yaml") + " --fps 20\n--video " +
+                                                   recording().file("both.mkv") + " --split left-right --calibration " +
+                                                   recording().file("rig.yaml") + "\n");
+  const auto found = data::find_sequences(folder / "list.txt");
+  REQUIRE(found.size() == 3);
+  CHECK_FALSE(found[0].source);
+  REQUIRE(found[1].source);
+  CHECK(found[1].source->left == recording().file("left"));
+  REQUIRE(found[2].source);
+  CHECK(found[2].name == "both");
+  CHECK(found[1].name == fs::path(recording().file("left")).parent_path().filename().string());
+}

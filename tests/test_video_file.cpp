@@ -1,0 +1,125 @@
+#include <filesystem>
+
+#include "data/video_file.hpp"
+#include "own_camera.hpp"
+#include "quadedge/error.hpp"
+
+using Catch::Matchers::Contains;
+using namespace quadedge;
+using data::VideoFile;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Pictures that differ from one another in every pixel, of every depth.
+Image picture(int number, int width = 48, int height = 32, int white = 255) {
+  Image image(width, height, white);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.set(x, y, (37 * number + 5 * x + 11 * y + x * y) % (white + 1));
+  return image;
+}
+
+std::string stream(int first, int count, int width = 48, int height = 32, int white = 255) {
+  std::string text;
+  for (int i = first; i < first + count; ++i) text += own_camera::pgm(picture(i, width, height, white));
+  return text;
+}
+
+std::string video(const TemporaryFolder& folder, const std::string& pictures, const std::string& options,
+                  const std::string& name) {
+  own_camera::write_bytes(folder / "pictures.pgm", pictures);
+  own_camera::encode(folder / "pictures.pgm", options, folder / name);
+  return folder / name;
+}
+
+/// Reads to the end; the complaint, if there is one.
+std::string read_all(const std::string& file, int& pictures) {
+  pictures = 0;
+  try {
+    VideoFile read(file);
+    while (read.next()) ++pictures;
+    return "";
+  } catch (const DataError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("video: lossless grey pictures come back byte for byte, at their depth", "[data]") {
+  const TemporaryFolder folder;
+  for (const auto& [white, format] : {std::pair<int, const char*>{255, "gray"}, {65535, "gray16le"}}) {
+    const std::string file = video(folder, stream(0, 5, 48, 32, white), std::string("-c:v ffv1 -pix_fmt ") + format,
+                                   std::string(format) + ".mkv");
+    VideoFile read(file);
+    CHECK(read.promised() == 5);
+    CHECK(read.fps() == Approx(20));
+    for (int i = 0; i < 5; ++i) {
+      const auto next = read.next();
+      REQUIRE(next);
+      CHECK(next->image.white == white);
+      CHECK(next->image.pixels == picture(i, 48, 32, white).pixels);
+      CHECK(next->stamp_ns == i * 50'000'000);
+    }
+    CHECK_FALSE(read.next());
+  }
+}
+
+TEST_CASE("video: of colour the luma counts, in full range, and RGB is grey as an image file's", "[data]") {
+  const TemporaryFolder folder;
+  const std::string pictures = stream(0, 2);
+  for (const char* options : {"-c:v ffv1 -pix_fmt yuv420p", "-c:v ffv1 -pix_fmt yuvj420p", "-c:v ffv1 -pix_fmt bgr0",
+                              "-c:v ffv1 -pix_fmt yuv422p10le", "-c:v ffv1 -pix_fmt gbrp12le"}) {
+    INFO(options);
+    VideoFile read(video(folder, pictures, options, "colour.mkv"));
+    const auto next = read.next();
+    REQUIRE(next);
+    const Image expected = picture(0);
+    double largest = 0;
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 48; ++x)
+        largest = std::max(largest, std::abs(static_cast<double>(next->image.view().at(x, y)) -
+                                             static_cast<double>(expected.view().at(x, y))));
+    CHECK(largest <= 1.0);  // 220 values of the broadcast range stand for 256
+  }
+}
+
+TEST_CASE("video: an end before the promised one is named, after all pictures that are there", "[data]") {
+  const TemporaryFolder folder;
+  const std::string file = video(folder, stream(0, 40, 160, 120), "-c:v ffv1 -pix_fmt gray -g 1", "whole.mkv");
+  int pictures = 0;
+  CHECK(read_all(file, pictures).empty());
+  CHECK(pictures == 40);
+  fs::resize_file(file, fs::file_size(file) / 2);
+  CHECK_THAT(read_all(file, pictures), Contains(file) && Contains("the 40 that it says it holds"));
+  CHECK((pictures > 10 && pictures < 30));
+}
+
+TEST_CASE("video: a picture of another size and a damaged one are named by their number", "[data]") {
+  const TemporaryFolder folder;
+  const std::string small = read_text(video(folder, stream(0, 1, 32, 32), "-c:v mjpeg", "small.mjpeg"));
+  const std::string usual = read_text(video(folder, stream(0, 3), "-c:v mjpeg", "usual.mjpeg"));
+  own_camera::write_bytes(folder / "odd.mjpeg", usual + small + usual);
+  int pictures = 0;
+  CHECK_THAT(read_all(folder / "odd.mjpeg", pictures),
+             Contains("odd.mjpeg") && Contains("picture 3 of 32 x 32") && Contains("48 x 32"));
+  CHECK(pictures == 3);
+
+  const std::string file =
+      video(folder, stream(0, 20, 160, 120), "-c:v ffv1 -level 3 -slicecrc 1 -pix_fmt gray -g 1", "damaged.mkv");
+  std::string bytes = read_text(file);
+  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x55);
+  own_camera::write_bytes(file, bytes);
+  CHECK_THAT(read_all(file, pictures), Contains(file) && Contains("damaged picture"));
+  CHECK((pictures > 5 && pictures < 15));
+}
+
+TEST_CASE("video: what is none is refused", "[data]") {
+  const TemporaryFolder folder;
+  int pictures = 0;
+  own_camera::write_bytes(folder / "text.mkv", "this is no video");
+  CHECK_THAT(read_all(folder / "text.mkv", pictures), Contains("text.mkv") && Contains("no video"));
+  CHECK_THAT(read_all(folder / "absent.mkv", pictures), Contains("no such file"));
+  CHECK_THAT(read_all(folder.path(), pictures), Contains("a folder"));
+  CHECK_THAT(read_all("/dev/zero", pictures), Contains("a device"));
+}
