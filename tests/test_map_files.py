@@ -26,7 +26,9 @@ def check_ply(file: Path) -> int:
     assert numpy.allclose(numpy.linalg.norm(tangents, axis=0), 1, atol=1e-5)
     assert vertices["views"].min() >= 2, "seen by fewer key rigs than asked for"
     assert (numpy.rint(vertices["grey"]) == vertices["red"]).all()
-    assert vertices["z"].min() > 0.3, "nearer than anything in the room"
+    # What the room's first view shows lies 1.3 to 5 m before it; few points may be wrong.
+    low, high = numpy.percentile(vertices["z"], [1, 99])
+    assert 1.2 < low and high < 7, (low, high)
     return len(vertices)
 
 

@@ -16,8 +16,9 @@ namespace quadedge {
 namespace {
 
 constexpr double kLargestDepthError = 0.1;  ///< of the depth: beyond it a point says little more than its direction
-constexpr double kAcross = 1.5;             ///< px that a projected point may miss an edge by, across the edge
+constexpr double kAcross = 1.0;             ///< px that a projected point may miss an edge by, across the edge
 constexpr double kAlong = 1.0;              ///< px along it; edges lie half a pixel apart
+constexpr double kLongestSlide = 2;         ///< px of a point along its tangent, which may be wrong in depth
 constexpr double kTurn = 15 * kPi / 180;    ///< rad between the directions of a projected tangent and an edge
 constexpr double kDeviations = 3;           ///< of the disparity
 constexpr double kPoseNoise = 0.5;          ///< px of disparity that poses may be wrong by between two key rigs
@@ -191,7 +192,8 @@ void EdgeMap::Implementation::merge(const map::MeasuredPoint& measured, std::int
   const Eigen::Isometry3d& world_from_left = views_.back().world_from_left;
   const Eigen::Matrix3d rotation = world_from_left.linear();
   const Eigen::Vector3d tangent = rotation * measured.tangent, place = world_from_left * measured.position;
-  const Eigen::Vector3d slid = place + tangent.dot(point.position - place) * tangent;
+  const double longest = kLongestSlide * measured.metres_per_pixel;
+  const Eigen::Vector3d slid = place + std::clamp(tangent.dot(point.position - place), -longest, longest) * tangent;
   const Eigen::Matrix3d known = point.information_matrix();
   const Eigen::Matrix3d added = rotation * measured.information * rotation.transpose();
   const Eigen::Matrix3d sum = known + added;

@@ -52,6 +52,7 @@ std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, c
     point->inverse_depth = measured->inverse_depth;
     point->inverse_depth_per_pixel = measured->inverse_depth_per_pixel;
     point->disparity_sigma = sigma;
+    point->metres_per_pixel = metres_per_pixel;
     point->grey = view.at(edges.left_x[i], edges.left_y[i]);
   }
   return points;

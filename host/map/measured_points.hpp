@@ -22,6 +22,7 @@ struct MeasuredPoint {
   double inverse_depth = 0;            ///< [1/m]
   double inverse_depth_per_pixel = 0;  ///< of disparity [1/(m px)]
   double disparity_sigma = 0;          ///< standard deviation along the epipolar line [px]
+  double metres_per_pixel = 0;         ///< of a step across the ray, seen from the left camera
   float grey = 0;                      ///< 0 to 255
 };
 
