@@ -1,5 +1,5 @@
-// similarity_lanes.cl: similarity.cl with eight work-items per pair of edges, each with a part of their bytes. Functions
-// only; sums are of whole numbers, so that their order decides nothing.
+// similarity_lanes.cl: similarity.cl with eight work-items per pair of edges, each with a part of their bytes.
+// Functions only; sums are of whole numbers, so that their order decides nothing.
 
 #define PAIR_ITEMS 8  // one per row of 16 bytes of the patches, and one that works along
 

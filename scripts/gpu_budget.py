@@ -37,11 +37,10 @@ class Nvidia:
     registers: int = 65536
 
 
-NVIDIA = {"sm_75": Nvidia(32, 16, 65536, 0), "sm_86": Nvidia(48, 16, 102400, 1024), "sm_90": Nvidia(64, 32, 233472, 1024)}
+NVIDIA = {"sm_75": Nvidia(32, 16, 65536, 0), "sm_86": Nvidia(48, 16, 102400, 1024),
+          "sm_90": Nvidia(64, 32, 233472, 1024)}
 AMD_WAVES = {"gfx90a": 8, "gfx1100": 16}  # of a SIMD unit (LLVM: User Guide for AMDGPU Backend)
 
-# Kernels launched per edge or candidate have no stack; the second figure is the most registers of a work-item on any
-# NVIDIA target. Kernels of more than a twentieth of a frame are marked; they keep LOWEST_OCCUPANCY.
 BUDGET_FILE = ROOT / "scripts" / "gpu_budget.txt"
 
 
@@ -155,7 +154,8 @@ def findings(figures: list[Figures], budget: dict[str, tuple[bool, bool, int]]) 
             found.append(f"{where}: {row.registers} registers, at most {registers}")
         if heavy and row.occupancy < LOWEST_OCCUPANCY:
             found.append(f"{where}: an occupancy of {row.occupancy:.0f} %, at least {LOWEST_OCCUPANCY}")
-    found += [f"{BUDGET_FILE.name}: there is no kernel {name}" for name in budget.keys() - {row.kernel for row in figures}]
+    unknown = budget.keys() - {row.kernel for row in figures}
+    found += [f"{BUDGET_FILE.name}: there is no kernel {name}" for name in unknown]
     return sorted(found)
 
 
@@ -198,7 +198,8 @@ def main() -> int:
     targets = list(NVIDIA if ptxas else []) + list(AMD_WAVES)
     if not ptxas:
         print("NVIDIA's figures are left out: there is no ptxas")
-    listed = subprocess.run([arguments.list_programs, ROOT / "kernels", "gpu"], capture_output=True, text=True, check=True)
+    call = [arguments.list_programs, ROOT / "kernels", "gpu"]
+    listed = subprocess.run(call, capture_output=True, text=True, check=True)
     programs = listed.stdout.strip().split("\n")
 
     with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(2) as pool:

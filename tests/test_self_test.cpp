@@ -25,7 +25,7 @@ void copy_kernels(const std::string& folder, const std::string& file, const std:
 }  // namespace
 
 TEST_CASE("self-test: the stored results are what the reference makes of the stored frames", "[selftest]") {
-  INFO("after a change of the method: quadedge generate self-test > host/frontend/self_test.txt");
+  INFO("after a change of the method: quadedge generate self-test > host/frontend/self_test.rows");
   CHECK((run_program({"generate", "self-test"}).out == frontend::stored_self_test()));
   const auto record = frontend::parse_self_test(frontend::stored_self_test());
   CHECK(frontend::to_text(record) == frontend::stored_self_test());

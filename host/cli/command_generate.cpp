@@ -23,7 +23,7 @@ class GenerateCommand : public Command {
   void declare(Options& options) override {
     options.positional("WHAT", what_,
                        "man (quadedge.1), bash (completion script), configuration (doc/configuration.md) or self-test "
-                       "(host/frontend/self_test.txt, by the plain C++ reference)");
+                       "(host/frontend/self_test.rows, by the plain C++ reference)");
   }
 
   int run() override {

@@ -18,7 +18,7 @@ std::string bash_completion(const std::vector<DescribedCommand>& commands);
 /// doc/configuration.md: a table of all constants.
 std::string configuration_page();
 
-/// host/frontend/self_test.txt: two small rendered frames, and what the plain C++ reference makes of them.
+/// host/frontend/self_test.rows: two small rendered frames, and what the plain C++ reference makes of them.
 std::string self_test_page();
 
 }  // namespace quadedge::cli

@@ -1,4 +1,4 @@
-/// \file self_test_page.cpp  `quadedge generate self-test`: host/frontend/self_test.txt.
+/// \file self_test_page.cpp  `quadedge generate self-test`: host/frontend/self_test.rows.
 #include "cli/generated_pages.hpp"
 #include "frontend/self_test_record.hpp"
 #include "quadedge/synthetic.hpp"

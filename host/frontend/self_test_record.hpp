@@ -8,7 +8,7 @@
 
 namespace quadedge::frontend {
 
-/// What host/frontend/self_test.txt holds.
+/// What host/frontend/self_test.rows holds.
 struct SelfTestRecord {
   SmallSequence sequence;
   std::vector<StageRows> stages;
