@@ -57,6 +57,10 @@ FORWARD(cl_int, clFinish, (cl_command_queue queue), (queue))
 FORWARD(cl_program, clCreateProgramWithSource,
         (cl_context context, cl_uint count, const char** texts, const size_t* lengths, cl_int* status),
         (context, count, texts, lengths, status))
+FORWARD(cl_program, clCreateProgramWithBinary,
+        (cl_context context, cl_uint count, const cl_device_id* devices, const size_t* lengths,
+         const unsigned char** binaries, cl_int* of_binaries, cl_int* status),
+        (context, count, devices, lengths, binaries, of_binaries, status))
 FORWARD(cl_int, clBuildProgram,
         (cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
          void(CL_CALLBACK* notify)(cl_program, void*), void* data),
@@ -73,6 +77,10 @@ FORWARD(cl_int, clReleaseProgram, (cl_program program), (program))
 FORWARD(cl_kernel, clCreateKernel, (cl_program program, const char* name, cl_int* status), (program, name, status))
 FORWARD(cl_int, clGetKernelInfo, (cl_kernel kernel, cl_kernel_info what, size_t size, void* value, size_t* written),
         (kernel, what, size, value, written))
+FORWARD(cl_int, clGetKernelWorkGroupInfo,
+        (cl_kernel kernel, cl_device_id device, cl_kernel_work_group_info what, size_t size, void* value,
+         size_t* written),
+        (kernel, device, what, size, value, written))
 FORWARD(cl_int, clGetKernelArgInfo,
         (cl_kernel kernel, cl_uint index, cl_kernel_arg_info what, size_t size, void* value, size_t* written),
         (kernel, index, what, size, value, written))
