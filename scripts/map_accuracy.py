@@ -85,7 +85,7 @@ def rendered(program: str, scene: str, frames: int, folder: Path) -> tuple[int, 
     return len(points), distances, distances / depths
 
 
-def true_disparity(truth: numpy.ndarray, x: float, y: float, found: float) -> float:
+def true_disparity(truth: numpy.ndarray, x: float, y: float) -> float:
     """Of the surface that an edge belongs to; NaN: not known."""
     column, row = int(round(x)), int(round(y))
     window = truth[max(row - REACH, 0):row + REACH + 1, max(column - REACH, 0):column + REACH + 1]
@@ -94,7 +94,8 @@ def true_disparity(truth: numpy.ndarray, x: float, y: float, found: float) -> fl
         return numpy.nan
     nearer = window.max()
     if nearer - window.min() <= DEPTH_STEP:
-        return float(truth[row, column]) if numpy.isfinite(truth[row, column]) else numpy.nan
+        middle = float(truth[row, column])
+        return middle if numpy.isfinite(middle) and middle > 0 else numpy.nan
     return float(numpy.median(window[window > nearer - DEPTH_STEP]))
 
 
@@ -105,7 +106,7 @@ def pair(program: str, left: Path, right: Path, truth: numpy.ndarray, offset: fl
     run(program, "match", left, right, "--max-disparity", largest, "--csv", table, "--force", "--quiet")
     rows = numpy.genfromtxt(table, delimiter=",", skip_header=1)
     found = rows[:, 0] - rows[:, 3]
-    expected = numpy.array([true_disparity(truth, x, y, d) for (x, y), d in zip(rows[:, :2], found)])
+    expected = numpy.array([true_disparity(truth, x, y) for x, y in rows[:, :2]])
     known = numpy.isfinite(expected)
     errors = numpy.abs(found - expected)[known]
     return int(known.sum()), errors, errors / (expected[known] + offset)
