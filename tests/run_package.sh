@@ -34,7 +34,7 @@ expect "$program" Version "^${version//./\\.}$"
 expect "$program" Architecture "^$(dpkg --print-architecture)$"
 expect "$program" Maintainer '<.+@.+>'
 expect "$program" Description 'stereo visual odometry'
-expect "$program" Depends 'libc6 \(>= ' 'ocl-icd-libopencl1|libopencl1' libtbb12 libopencv-imgcodecs libopencv-calib3d \
+expect "$program" Depends 'libc6 \(>= ' 'ocl-icd-libopencl1|libopencl1' libtbb12 libopencv-imgcodecs \
   libyaml-cpp libjpeg
 expect "$program" Recommends pocl-opencl-icd
 if dpkg-deb --field "$program" Depends | grep -q -- -dev; then
