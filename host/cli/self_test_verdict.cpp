@@ -58,7 +58,8 @@ void keep_verdict(const DeviceInfo& device, const std::map<std::string, std::str
   std::filesystem::create_directories(data::cache_folder() + "/self_tests", failed);
   try {
     data::write_atomically(verdict_path(key), report::json_text(json));
-  } catch (const DataError&) {  // tested again the next time
+  } catch (const DataError&) {
+    std::filesystem::remove(verdict_path(key), failed);  // tested again the next time
   }
 }
 

@@ -1,5 +1,6 @@
 #include "common/brown_distortion.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <poll.h>
@@ -23,7 +24,7 @@ constexpr const char* kName = "the pipe";
 constexpr int kPatience = 100;  // ms between two looks whether to stop
 
 /// stop() was called.
-struct Stopped {};
+struct Stopped : std::exception {};
 
 class PipeReader : public PairReader {
  public:

@@ -44,8 +44,8 @@ class YamlMap {
   [[noreturn]] void complain(const std::string& key, const std::string& found, const std::string& expected) const;
 
  private:
-  YamlMap(YAML::Node node, std::string file, std::string what, std::string prefix)
-      : node_(std::move(node)), file_(std::move(file)), what_(std::move(what)), prefix_(std::move(prefix)) {}
+  YamlMap(const YAML::Node& node, std::string file, std::string what, std::string prefix)
+      : node_(node), file_(std::move(file)), what_(std::move(what)), prefix_(std::move(prefix)) {}
   YAML::Node entry(const std::string& key) const;
   void add_numbers(const YAML::Node& list, const std::string& expected, std::vector<double>& values) const;
   ImageSize checked_size(double columns, double rows, const std::string& key) const;

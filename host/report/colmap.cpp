@@ -59,7 +59,7 @@ std::string images_text(const StereoRig& rig, const std::vector<MapView>& views,
     }
     text += "\n" +
             image_row(left_image(v) + 1, rig.right_from_left * left_from_world, 2, image_name("right", views[v].frame));
-    text += "\n";
+    text += '\n';
   }
   return text;
 }
@@ -100,7 +100,7 @@ void write_colmap(const std::string& folder, const StereoRig& rig, const EdgeMap
               std::to_string(in_image.size());
       in_image.push_back({sighting.x, sighting.y, i});
     }
-    text += "\n";
+    text += '\n';
   }
   data::write_atomically(folder + "/cameras.txt", "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n" +
                                                       camera_row(1, rig.left) + camera_row(2, rig.right));
