@@ -13,7 +13,9 @@ using namespace quadedge;
 
 void scan_counts(benchmark::State& state, const std::string& variant) {
   constexpr int kCounts = 50000;
-  Device device(stage_bench::device_choice(), "", true);
+  DeviceOptions profiling;
+  profiling.profiling = true;
+  Device device(stage_bench::device_choice(), profiling);
   auto& context = *device.context();
   stages::Scan scan(context, {{"scan", variant}});
   opencl::Buffer<cl_int> counts, first, total;

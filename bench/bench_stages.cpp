@@ -42,7 +42,9 @@ const Scene& scene() {
 
 /// `variant` may be empty: the default.
 void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant, const Prepare& prepare) {
-  Device device(stage_bench::device_choice(), "", true);
+  DeviceOptions profiling;
+  profiling.profiling = true;
+  Device device(stage_bench::device_choice(), profiling);
   Config config = scene().config;
   StereoRig rig = scene().sequence.rig();
   if (prepare) prepare(config, rig);
