@@ -32,7 +32,7 @@ std::unique_ptr<cli::FrameSource> open_source(const std::string& path, int frame
 
 /// trajectory.txt, trajectory_kitti.txt and groundtruth.txt as `quadedge run` writes them.
 void run(cli::FrameSource& source, const std::string& output, bool force) {
-  cli::prepare_output_folder(output, force);
+  const cli::FolderLock lock = cli::prepare_output_folder(output, force);
   report::AppendFile tum(output + "/trajectory.txt"), kitti(output + "/trajectory_kitti.txt");
   tum.append(data::tum_header());
   bench::OpencvBaseline baseline(source.rig());
