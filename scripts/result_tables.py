@@ -26,6 +26,7 @@ PART_OF = {
     "steps": "accuracy",
     "quads": "matching",
     "presets": "accuracy",
+    "consistency": "accuracy",
 }
 # Part -> (title, what to know, tables)
 PAGES = {
