@@ -5,7 +5,7 @@
 namespace quadedge {
 
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
-  constexpr double kAllowed = 0.02;  // drivers that are right differ in no row or in one (doc/performance.md)
+  constexpr double kAllowed = 0.02;  // of the rows: a driver that rounds otherwise decides otherwise near a limit
   const frontend::SelfTestRecord stored = frontend::parse_self_test(frontend::stored_self_test());
   const auto found = frontend::observe_stages(stored.sequence, device, variants);
   for (std::size_t i = 0; i < stored.stages.size(); ++i) {

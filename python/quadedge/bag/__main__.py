@@ -4,7 +4,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from .. import Error, Odometry, UsageError
+from .. import Odometry, UsageError
+from ..shell import exit_code
 from . import Recording, open_bag, write_mcap, write_tum
 from .recording import TOLERANCE_NS
 
@@ -59,16 +60,8 @@ def _run(options: argparse.Namespace) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Ends as the ``quadedge`` command does: its exit codes, complaints in one line."""
-    try:
-        _run(_parser().parse_args(arguments))
-    except Error as error:
-        print(f"quadedge.bag: {error}", file=sys.stderr)
-        return error.exit_code
-    except ImportError as error:
-        print(f"quadedge.bag: {error}", file=sys.stderr)
-        return UsageError.exit_code
-    return 0
+    """Returns the exit code of the ``quadedge`` command."""
+    return exit_code("quadedge.bag", lambda: _run(_parser().parse_args(arguments)))
 
 
 if __name__ == "__main__":

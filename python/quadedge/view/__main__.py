@@ -5,7 +5,8 @@ import sys
 import time
 from pathlib import Path
 
-from ..errors import DataError, Error, UsageError
+from ..errors import DataError, UsageError
+from ..shell import exit_code
 from . import Viewer, show_results
 
 
@@ -44,16 +45,8 @@ def _show(options: argparse.Namespace) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Ends as the ``quadedge`` command does: its exit codes, complaints in one line."""
-    try:
-        _show(_parser().parse_args(arguments))
-    except Error as error:
-        print(f"quadedge.view: {error}", file=sys.stderr)
-        return error.exit_code
-    except ImportError as error:
-        print(f"quadedge.view: {error}", file=sys.stderr)
-        return UsageError.exit_code
-    return 0
+    """Returns the exit code of the ``quadedge`` command."""
+    return exit_code("quadedge.view", lambda: _show(_parser().parse_args(arguments)))
 
 
 if __name__ == "__main__":
