@@ -13,6 +13,7 @@ TEST_CASE("demo: tracks and evaluates the built-in sequence", "[cli][device]") {
   REQUIRE(result.code == 0);
   CHECK_THAT(result.out,
              Contains("4 of 4 frames") && Contains("APE translation [m]") && Contains("RPE rotation [deg]"));
+  CHECK_THAT(read_text(folder / "demo/config.toml"), Contains("rig_sigma_length = 0 "));  // what is rendered is exact
   for (const char* name : {"pictures/trajectory.png", "pictures/edges_000002.png", "pictures/quads_000002.png"}) {
     CHECK(fs::file_size(folder / ("demo/" + std::string(name))) > 1000);
   }

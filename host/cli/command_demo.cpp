@@ -29,6 +29,7 @@ class DemoCommand : public Command {
     options.flag("--quiet", run_.quiet, "no progress");
     options.number("--scene-seed", scene_.seed, "of textures, cable shapes and camera noise");
     declare_scene(options, scene_, texts_);
+    method_.assume_exact_rig();
     method_.declare(options);
   }
 

@@ -48,6 +48,11 @@ void MethodOptions::declare(Options& options) {
   }
 }
 
+void MethodOptions::assume_exact_rig() {
+  PoseConfig& pose = config_.pose;
+  pose.rig_sigma_length = pose.rig_sigma_axis = pose.rig_sigma_focal = pose.rig_sigma_lens = 0;
+}
+
 Config MethodOptions::config() const {
   Config config = config_;
   for (const auto& choice : variants_) report::add_variant(choice, config);

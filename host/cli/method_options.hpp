@@ -16,6 +16,8 @@ class MethodOptions {
  public:
   /// --device, --trust, --config, --variant, --kernels, --max-disparity, and --KEY for every constant.
   void declare(Options& options);
+  /// Before declare(): what is rendered has a rig without errors, unless an option says otherwise.
+  void assume_exact_rig();
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;
   /// Opens the device and, the first time that this program meets it with this driver, tests it. \param test receives
