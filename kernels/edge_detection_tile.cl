@@ -125,6 +125,7 @@ kernel void edges_tile_directions(const DetectionArguments args, global const fl
   local float sums[DERIVATIVES][LOCAL];
   const int item = (int)get_local_id(0), lane = item & 7, group = item >> 3;
   const int n = (int)get_global_id(0) >> 3, stride = args.plane_stride;
+  if ((int)get_group_id(0) * (LOCAL / 8) >= total[0]) return;  // the whole group; there is room for far more edges
   const bool active = n < total[0];
   const float4 winner = active ? vload4(n, compact) : (float4)0.0f;
   const float x = AT_CELL ? 0.5f * floor(winner.w) : winner.x,

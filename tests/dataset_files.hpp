@@ -8,16 +8,13 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "text_files.hpp"
+
 namespace dataset_files {
 
 inline void write_text(const std::string& path, const std::string& text) {
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   std::ofstream(path, std::ios::binary) << text;
-}
-
-inline std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// An image with a different value in every place, so that flips and shifts would show.

@@ -9,19 +9,13 @@
 #include <vector>
 
 #include "temporary_folder.hpp"
+#include "text_files.hpp"
 
 /// What a run of the program gave.
 struct ProgramResult {
   int code = -1;  ///< exit code; -1 when it was killed by a signal
   std::string out, err;
 };
-
-inline std::string read_text(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 inline std::vector<std::string> read_lines(const std::string& path) {
   std::ifstream stream(path);

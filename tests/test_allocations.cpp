@@ -11,10 +11,10 @@ namespace {
 /// Arrays that grow with the image or its edges are larger; what a frame leaves in its result is smaller.
 constexpr std::size_t kLarge = 4096;
 std::atomic<bool> counting{false};
-std::atomic<int> count{0};
+std::atomic<int> allocations{0};
 
 void* allocate(std::size_t size) {
-  if (size >= kLarge && counting) ++count;
+  if (size >= kLarge && counting) ++allocations;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
@@ -48,12 +48,12 @@ TEST_CASE("odometry: once every buffer has had its largest content, tracking all
       return tracked;
     };
     for (int cycle = 0; cycle < 5; ++cycle) there_and_back();
-    count = 0;
+    allocations = 0;
     counting = true;
     const int tracked = there_and_back();
     counting = false;
     CHECK(tracked == 14);
-    CHECK(count == 0);
+    CHECK(allocations == 0);
   }
 }
 
@@ -61,10 +61,10 @@ TEST_CASE("odometry: the allocations of the first frames are seen", "[odometry][
   const matching::RenderedScene scene("room", 240, 150, 2);
   quadedge::Device device(all_devices().front(), kept_programs());
   quadedge::StereoOdometry odometry(scene.rig, device, scene.config);
-  count = 0;
+  allocations = 0;
   counting = true;
   odometry.track(scene.frame(0));
   odometry.track(scene.frame(1));
   counting = false;
-  CHECK(count > 50);
+  CHECK(allocations > 50);
 }

@@ -11,7 +11,7 @@
 #include "report/json.hpp"
 
 using Catch::Matchers::Contains;
-using nlohmann::json;
+using Json = nlohmann::json;
 using namespace quadedge;
 
 namespace {
@@ -22,17 +22,17 @@ struct SharedBench {
   ProgramResult result =
       run_program({"bench", "--size", "160x100", "--edges", "1500", "--frames", "2", "--warm-up", "1", "--baseline",
                    "--json", folder / "bench.json", "--trace", folder / "trace.json", "--quiet"});
-  json parsed() const { return json::parse(read_text(folder / "bench.json")); }
+  Json parsed() const { return Json::parse(read_text(folder / "bench.json")); }
 };
 const SharedBench& shared_bench() {
   static const SharedBench bench;
   return bench;
 }
 
-void write(const std::string& path, const json& value) { std::ofstream(path) << value; }
+void write(const std::string& path, const Json& value) { std::ofstream(path) << value; }
 
 /// Exit code and output of a comparison of the shared result with a changed copy of itself.
-ProgramResult compare_with(const json& changed, const std::vector<std::string>& more = {}) {
+ProgramResult compare_with(const Json& changed, const std::vector<std::string>& more = {}) {
   const TemporaryFolder folder;
   write(folder / "new.json", changed);
   std::vector<std::string> arguments = {"bench", "--compare", shared_bench().folder / "bench.json",
@@ -48,7 +48,7 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   const auto& bench = shared_bench();
   INFO(bench.result.err);
   REQUIRE(bench.result.code == 0);
-  const json result = bench.parsed();
+  const Json result = bench.parsed();
   for (const char* pointer : {"/schema",
                               "/bench_schema",
                               "/version",
@@ -98,7 +98,7 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
                               "/baseline/frame_ratio",
                               "/baseline/edges_ratio"}) {
     INFO(pointer);
-    CHECK(result.contains(json::json_pointer(pointer)));
+    CHECK(result.contains(Json::json_pointer(pointer)));
   }
   CHECK(result["frames_measured"] == 2);
   CHECK(result["warm_up"] == 1);
@@ -131,19 +131,19 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
         Approx(result["edge_detection_ms"]["median"].get<double>() /
                result["baseline"]["opencv_sepfilter_nine_ms"].get<double>()));
   CHECK_THAT(bench.result.out, Contains("kernel build") && Contains("frame / S") && Contains("(chosen)"));
-  const json trace = json::parse(read_text(bench.folder / "trace.json"));
+  const Json trace = Json::parse(read_text(bench.folder / "trace.json"));
   CHECK(trace["traceEvents"].size() > 6);
 }
 
 TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise band, with 6 beyond it",
           "[cli][bench][device]") {
-  const json before = shared_bench().parsed();
+  const Json before = shared_bench().parsed();
   const auto same = compare_with(before);
   INFO(same.err);
   CHECK(same.code == 0);
   CHECK_THAT(same.out, Contains("no regression"));
 
-  json slower = before;
+  Json slower = before;
   slower["latency_ms"]["median"] = 1.2 * before["latency_ms"]["median"].get<double>();
   const auto beyond = compare_with(slower);
   CHECK(beyond.code == bench::kRegressionExitCode);
@@ -151,12 +151,12 @@ TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise b
   CHECK_THAT(beyond.out, Contains("WORSE") && Contains("REGRESSION") && Contains("+20.0 %"));
   CHECK(compare_with(slower, {"--noise", "25"}).code == 0);
 
-  json faster = before;
+  Json faster = before;
   faster["latency_ms"]["median"] = 0.5 * before["latency_ms"]["median"].get<double>();
   CHECK(compare_with(faster).code == 0);
 
   // All times 1.5 times as long, the yardsticks too: the machine was slower, not the program.
-  json slow_machine = before;
+  Json slow_machine = before;
   for (const char* table : {"latency_ms", "edge_detection_ms"}) {
     for (auto& value : slow_machine[table]) value = 1.5 * value.get<double>();
   }
@@ -167,19 +167,19 @@ TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise b
   slow_machine["baseline"]["opencv_sift_both_ms"] = 1.5 * before["baseline"]["opencv_sift_both_ms"].get<double>();
   CHECK(compare_with(slow_machine).code == 0);
 
-  json bare = before;
+  Json bare = before;
   bare.erase("baseline");
   CHECK_THAT(compare_with(bare).out, Contains("--baseline"));
 
-  json memory = before;
+  Json memory = before;
   memory["memory_mb"]["device_peak"] = 1.2 * before["memory_mb"]["device_peak"].get<double>();
   CHECK(compare_with(memory).code == 6);
 
-  json lost = before;
+  Json lost = before;
   lost["frames_lost"] = before["frames_lost"].get<int>() + 1;
   CHECK(compare_with(lost).code == 6);
 
-  json changed = before;
+  Json changed = before;
   changed["variants"]["edge_detection"] = "another";
   const auto noted = compare_with(changed);
   CHECK(noted.code == 0);
@@ -187,25 +187,25 @@ TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise b
 }
 
 TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][bench][device]") {
-  json other_device = shared_bench().parsed();
+  Json other_device = shared_bench().parsed();
   other_device["device"]["name"] = "another device";
   auto result = compare_with(other_device);
   CHECK(result.code == 3);
   CHECK_THAT(result.err, Contains("new.json") && Contains("device/name") && Contains("another device"));
 
-  json incomplete = shared_bench().parsed();
+  Json incomplete = shared_bench().parsed();
   incomplete.erase("latency_ms");
   CHECK(compare_with(incomplete).code == 3);
-  CHECK(compare_with(json{{"schema", 1}}).code == 3);
+  CHECK(compare_with(Json{{"schema", 1}}).code == 3);
 
   for (const char* pointer :
        {"/latency_ms/median", "/latency_ms/first", "/edge_detection_ms/median", "/stages_ms/stereo/median",
         "/kernels_ms/edge_detection/median", "/start_ms/total", "/memory_mb/host_peak", "/moved_mb_per_frame/to_host",
         "/frames_lost", "/baseline/opencv_sift_both_ms"}) {
-    for (const json& value : {json(nullptr), json("fast"), json(-1)}) {
+    for (const Json& value : {Json(nullptr), Json("fast"), Json(-1)}) {
       INFO(pointer << " " << value.dump());
-      json changed = shared_bench().parsed();
-      changed[json::json_pointer(pointer)] = value;
+      Json changed = shared_bench().parsed();
+      changed[Json::json_pointer(pointer)] = value;
       result = compare_with(changed);
       CHECK(result.code == 3);
       CHECK_THAT(result.err, Contains("new.json: found " + std::string(pointer + 1) + " " + value.dump()) &&
@@ -215,7 +215,7 @@ TEST_CASE("bench: results that cannot be compared are refused by name", "[cli][b
   for (const auto& [key, known] :
        {std::pair<std::string, int>{"schema", report::kReportSchema}, {"bench_schema", bench::kBenchSchema}}) {
     INFO(key);
-    json changed = shared_bench().parsed();
+    Json changed = shared_bench().parsed();
     changed[key] = 77;
     result = compare_with(changed);
     CHECK(result.code == 3);

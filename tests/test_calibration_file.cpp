@@ -55,7 +55,7 @@ void check_same(const Lens& one, const Lens& other) {
 /// Writes a file with a part replaced and expects a complaint that names it.
 struct Damage {
   std::string file, calibration;
-  std::string good = dataset_files::read_text(file);
+  std::string good = read_text(file);
 
   void operator()(const std::string& from, const std::string& to, const std::string& found) const {
     INFO(from << " -> " << to);
@@ -93,9 +93,9 @@ TEST_CASE("calibration: every format gives the same rig, to the last bit", "[cal
     // Written and read again it is the same.
     write_calibration(folder / "again.yaml", read);
     CHECK(read_calibration(folder / "again.yaml").right_from_left.matrix() == expected.right_from_left.matrix());
-    CHECK(dataset_files::read_text(folder / "again.yaml") == dataset_files::read_text(files.at("native")));
+    CHECK(read_text(folder / "again.yaml") == read_text(files.at("native")));
   }
-  const std::string native = dataset_files::read_text(files.at("native"));
+  const std::string native = read_text(files.at("native"));
   CHECK(std::count(native.begin(), native.end(), '\n') == 11);  // a comment and ten entries
   StereoCalibration mistaken = read_calibration(files.at("ros"));
   CHECK_THROWS_WITH(data::set_image_sizes(mistaken, {640, 480}, {752, 480}, "a.png, b.png"),
@@ -207,8 +207,8 @@ TEST_CASE("calibration: faults of OpenCV's stereo files name the file and the ma
   CHECK_THROWS_WITH(read_calibration(both), Contains(outside + " (R)") && Contains("degrees"));
   // Fisheye where it is said to be.
   write_opencv(Rig(), folder / "fisheye.yml");
-  write_text(folder / "fisheye.yml", dataset_files::read_text(folder / "fisheye.yml") +
-                                         "distortion_model: fisheye\nimage_width: 752\nimage_height: 480\n");
+  write_text(folder / "fisheye.yml",
+             read_text(folder / "fisheye.yml") + "distortion_model: fisheye\nimage_width: 752\nimage_height: 480\n");
   const StereoCalibration fisheye = read_calibration(folder / "fisheye.yml");
   CHECK(fisheye.left.model == LensModel::equidistant);
   CHECK(fisheye.right.camera.width == 752);

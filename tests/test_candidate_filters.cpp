@@ -15,9 +15,9 @@ constexpr int kNcc = 5, kSift = 4;  // orders as in the stereo cascade; nearly b
 /// Descriptions made to measure. Edges of the first set have the unit vector e0 as dark patch and no bright one (flat),
 /// SIFT all zero on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt((1 - c^2) / 3)
 /// (e1 + e2 + e3), which 8 bits hold to 0.004 and c = 0.5 exactly, and one byte d.
-struct Measured {
+struct Verdicts {
   reference::EdgeDescriptions a, b;
-  explicit Measured(int first_edges) {
+  explicit Verdicts(int first_edges) {
     for (int i = 0; i < first_edges; ++i) {
       a.patches.resize(a.patches.size() + kEdgePatchBytes, 0);
       reference::store_side({1}, 0, a.patches.data() + a.patches.size() - kEdgePatchBytes);
@@ -79,7 +79,7 @@ void on_devices(const reference::Candidates& lists, const reference::EdgeDescrip
 }
 
 /// Reference and devices must reject exactly as `expected` says.
-void check_states(const reference::Candidates& lists, const Measured& edges, const FilterLimits& limits,
+void check_states(const reference::Candidates& lists, const Verdicts& edges, const FilterLimits& limits,
                   const std::vector<std::uint8_t>& expected, int row_step = 1) {
   CHECK(reference::candidate_filters(lists, edges.a, edges.b, limits, row_step).state == expected);
   std::vector<cl_int> living;
@@ -102,7 +102,7 @@ void check_states(const reference::Candidates& lists, const Measured& edges, con
 
 TEST_CASE("candidate filters: thresholds and nearly best reject what they should on paper",
           "[filters][matching][device][oclgrind]") {
-  Measured edges(1);
+  Verdicts edges(1);
   reference::Candidates lists;
   lists.target = {edges.add(0.96875, 100), edges.add(0.90625, 60), edges.add(0.59375, 50), edges.add(0.75, 201),
                   edges.add(0.59375, 201), edges.add(0.84375, 20), edges.add(0.9375, 160)};
@@ -115,7 +115,7 @@ TEST_CASE("candidate filters: thresholds and nearly best reject what they should
 }
 
 TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][matching][device][oclgrind]") {
-  Measured edges(1);
+  Verdicts edges(1);
   reference::Candidates lists;
   lists.target = {edges.add(0.5, 200), edges.add(0.5, 200), edges.add(1, 100), edges.add(1, 100, true)};
   lists.first = {0, 4};
@@ -127,7 +127,7 @@ TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][m
 
 TEST_CASE("candidate filters: rows are judged alone, also empty ones and every second edge",
           "[filters][matching][device][oclgrind]") {
-  Measured edges(5);
+  Verdicts edges(5);
   // Edge 2 is the opposite of the others: what is like them is unlike it. Rows 0, 1, 2 belong to edges 0, 2, 4.
   reference::store_side({-1}, 0, edges.a.patches.data() + 2 * kEdgePatchBytes);
   const int good = edges.add(0.96875, 40), bad = edges.add(-0.9375, 40);

@@ -7,7 +7,8 @@
 using Catch::Matchers::Contains;
 using dataset_files::real_data;
 
-TEST_CASE("cli: the flight gives the same trajectory with every kind of calibration file", "[cli][calibration][data]") {
+TEST_CASE("cli: the flight gives the same trajectory with every kind of calibration file",
+          "[cli][calibration][data][device]") {
   const std::string flight = real_data("euroc_mh_01_easy"), kalibr = real_data("calibrations");
   if (flight.empty() || kalibr.empty()) return;
   const TemporaryFolder folder;

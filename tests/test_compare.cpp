@@ -12,19 +12,18 @@
 #include "quadedge/error.hpp"
 
 using Catch::Matchers::Contains;
-using nlohmann::json;
+using Json = nlohmann::json;
 using namespace quadedge;
 namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> kSmall = {
-    "--size", "160x100", "--edges",           "0",    "--repetitions",
-    "1",      "--quiet", "--edges.max_edges", "20000"};  // tiles start work-items for every edge that may be
+const std::vector<std::string> kSmallComparison = {"--size",        "160x100", "--edges", "0",
+                                                   "--repetitions", "1",       "--quiet"};
 
 std::vector<std::string> compare_arguments(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"compare"};
-  arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
+  arguments.insert(arguments.end(), kSmallComparison.begin(), kSmallComparison.end());
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -40,8 +39,7 @@ DeviceInfo made_up_device() {
 /// A run of the small sequence with a folder of saved variants.
 ProgramResult run_with_saved(const std::string& configuration, const std::string& out,
                              const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"run",     small_sequence(),    "-o",   out, "--frames", "0:2",
-                                        "--quiet", "--edges.max_edges", "20000"};
+  std::vector<std::string> arguments = {"run", small_sequence(), "-o", out, "--frames", "0:2", "--quiet"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_program(arguments, "XDG_CONFIG_HOME='" + configuration + "'");
 }
@@ -56,7 +54,7 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
                   "XDG_CONFIG_HOME='" + folder.path() + "'");
   INFO(result.err << result.out);
   REQUIRE(result.code == 0);
-  const json comparison = json::parse(read_text(folder / "compare.json"));
+  const Json comparison = Json::parse(read_text(folder / "compare.json"));
   CHECK(comparison["ceilings"]["bandwidth_gb_s"].get<double>() > 0);
   CHECK(comparison["ceilings"]["arithmetic_gflop_s"].get<double>() > 0);
   REQUIRE(comparison["stages"].size() == 1);
@@ -83,12 +81,12 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   const Device device;
   const std::string file = folder / ("quadedge/" + bench::variants_file_name(device.info()));
   REQUIRE(fs::exists(file));
-  CHECK(json::parse(read_text(file))["variants"]["edge_detection"] == stage["best"]);
+  CHECK(Json::parse(read_text(file))["variants"]["edge_detection"] == stage["best"]);
   CHECK_THAT(result.out, Contains(file));
   const auto run = run_with_saved(folder.path(), folder / "out");
   INFO(run.err);
   REQUIRE(run.code == 0);
-  CHECK(json::parse(read_text(folder / "out/report.json"))["variants"]["edge_detection"] == stage["best"]);
+  CHECK(Json::parse(read_text(folder / "out/report.json"))["variants"]["edge_detection"] == stage["best"]);
 }
 
 TEST_CASE("compare: run takes saved variants, and the command line and --config win over them",
@@ -102,7 +100,7 @@ TEST_CASE("compare: run takes saved variants, and the command line and --config 
     const auto run = run_with_saved(folder.path(), folder / name, more);
     INFO(run.err);
     REQUIRE(run.code == 0);
-    return json::parse(read_text(folder / (name + "/report.json")))["variants"];
+    return Json::parse(read_text(folder / (name + "/report.json")))["variants"];
   };
   auto found = variants("saved", {});
   CHECK(found["edge_detection"] == "tile64");
@@ -127,12 +125,12 @@ TEST_CASE("compare: run refuses a wrong or foreign file of variants by name", "[
     CHECK_THAT(run.err, Contains(file) && Contains(reason) && Contains("compare --save"));
   };
   refused("no JSON", "no file of kernel variants");
-  json good = {{"content", "quadedge kernel variants"},
+  Json good = {{"content", "quadedge kernel variants"},
                {"schema", 1},
                {"device",
                 {{"name", device.info().name}, {"platform", device.info().platform}, {"driver", device.info().driver}}},
                {"variants", {{"edge_detection", "tile64"}}}};
-  json changed = good;
+  Json changed = good;
   changed["device"]["name"] = "another device";
   refused(changed.dump(), "another device");
   changed = good;
@@ -174,7 +172,7 @@ TEST_CASE("compare: a variant with another result is refused, and never saved as
   CHECK(result.code == 1);
   CHECK_THAT(result.out,
              Contains("REFUSED: differs from the reference") && Contains("first: stereo edge of the first frame"));
-  const json stage = json::parse(read_text(folder / "compare.json"))["stages"][0];
+  const Json stage = Json::parse(read_text(folder / "compare.json"))["stages"][0];
   for (const auto& variant : stage["variants"]) {
     CHECK(variant["agrees"] == (variant["name"] == "edge"));
     CHECK(variant["median_ms"].is_null() == (variant["name"] != "edge"));

@@ -11,13 +11,13 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-void write(const std::string& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+void write_config(const std::string& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
 /// What reading the text complains about, with the file's name as FILE.
 std::string refusal(const std::string& text) {
   const TemporaryFolder folder;
   const std::string file = folder / "config.toml";
-  write(file, text);
+  write_config(file, text);
   try {
     read_config(file);
   } catch (const UsageError& error) {
@@ -74,7 +74,7 @@ TEST_CASE("config file: numbers survive to the last bit", "[config]") {
 
 TEST_CASE("config file: what it does not say stays at its default", "[config]") {
   const TemporaryFolder folder;
-  write(folder / "config.toml", "device = \"gpu\"\n[stereo]\nncc_min = 1  # a whole number is a number\n");
+  write_config(folder / "config.toml", "device = \"gpu\"\n[stereo]\nncc_min = 1  # a whole number is a number\n");
   const Config config = read_config(folder / "config.toml");
   CHECK(config.stereo.ncc_min == 1.0);
   CHECK(config.stereo.ncc_nearly_best == Config().stereo.ncc_nearly_best);

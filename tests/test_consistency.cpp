@@ -13,10 +13,10 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Frames along a curve whose errors relative to the first one have the covariance `real`, and who claim `claimed`.
-struct Run {
+struct MadeUpRun {
   std::vector<FrameResult> results;
   Trajectory truth;
-  Run(int frames, const Matrix6d& real, const Matrix6d& claimed) {
+  MadeUpRun(int frames, const Matrix6d& real, const Matrix6d& claimed) {
     std::mt19937_64 random(5);
     std::normal_distribution<double> normal;
     const Matrix6d root = real.llt().matrixL();
@@ -52,13 +52,13 @@ Matrix6d covariance() {
 }  // namespace
 
 TEST_CASE("consistency: consistent covariances give 1, those of half the size 4", "[evaluation]") {
-  const Run consistent(2000, covariance(), covariance());
+  const MadeUpRun consistent(2000, covariance(), covariance());
   const auto one = evaluation::judge_covariances(consistent.results, consistent.truth);
   CHECK(one.poses == 1999);
   CHECK(one.pose == Approx(1).margin(0.05));  // standard deviation of the mean: 0.013
   CHECK(one.rotation == Approx(1).margin(0.08));
   CHECK(one.translation == Approx(1).margin(0.08));
-  const Run boasting(2000, covariance(), 0.25 * covariance());
+  const MadeUpRun boasting(2000, covariance(), 0.25 * covariance());
   CHECK(evaluation::judge_covariances(boasting.results, boasting.truth).pose == Approx(4).epsilon(0.05));
 }
 
@@ -67,14 +67,14 @@ TEST_CASE("consistency: an error in the rotation alone is told apart", "[evaluat
   larger.topLeftCorner<3, 3>() *= 9;
   larger.topRightCorner<3, 3>().setZero();
   larger.bottomLeftCorner<3, 3>().setZero();
-  const Run run(2000, larger, covariance());
+  const MadeUpRun run(2000, larger, covariance());
   const auto result = evaluation::judge_covariances(run.results, run.truth);
   CHECK(result.rotation == Approx(9).epsilon(0.08));
   CHECK(result.translation == Approx(1).epsilon(0.08));
 }
 
 TEST_CASE("consistency: lost frames, frames without covariance and those without truth are left out", "[evaluation]") {
-  Run run(10, covariance(), covariance());
+  MadeUpRun run(10, covariance(), covariance());
   run.results[3].status = FrameStatus::lost_no_consensus;
   run.results[4].covariance.setZero();
   run.truth.erase(run.truth.begin() + 6);

@@ -13,7 +13,7 @@ using namespace quadedge;
 
 namespace {
 
-SyntheticOptions small_scene(const std::string& scene) {
+SyntheticOptions disturbed_scene(const std::string& scene) {
   SyntheticOptions options;
   options.scene = scene;
   options.width = 400;
@@ -46,20 +46,20 @@ double near_fraction(const RenderedView& view) {
   return near / static_cast<double>(view.depth.size());
 }
 
-struct Tracked {
+struct DisturbedRun {
   evaluation::StepJudgement steps;
   int lost = 0;
 };
 
 /// Tracks with the defaults. Steps of 2 to 3 cm and half a degree are wrong beyond 5 mm + 10 % and 0.25 degrees.
-Tracked track(const SyntheticOptions& options, Device& device) {
+DisturbedRun track_disturbed(const SyntheticOptions& options, Device& device) {
   const SyntheticSequence sequence(options);
   Config config;
   config.stereo.max_disparity = sequence.max_disparity();
   StereoOdometry odometry(sequence.rig(), device, config);
   Trajectory estimate, truth;
   std::vector<std::int64_t> stamps;
-  Tracked tracked;
+  DisturbedRun tracked;
   for (int i = 0; i < options.frames; ++i) {
     const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
     const auto result = odometry.track({sequence.stamp_ns(i), left.view(), right.view()});
@@ -77,7 +77,7 @@ Tracked track(const SyntheticOptions& options, Device& device) {
 }  // namespace
 
 TEST_CASE("disturbances: light and exposure scale the images they should", "[synthetic]") {
-  SyntheticOptions options = small_scene("cables");
+  SyntheticOptions options = disturbed_scene("cables");
   options.noise = 0;
   const SyntheticSequence still(options);
   options.gain = 0.5;
@@ -93,7 +93,7 @@ TEST_CASE("disturbances: light and exposure scale the images they should", "[syn
 }
 
 TEST_CASE("disturbances: blur smooths along the motion and moves nothing", "[synthetic]") {
-  SyntheticOptions options = small_scene("room");
+  SyntheticOptions options = disturbed_scene("room");
   options.path = "handheld";  // the ellipse moves too little for so much blur
   options.noise = 0;
   const RenderedView sharp = SyntheticSequence(options).render(2, Side::left);
@@ -121,7 +121,7 @@ TEST_CASE("disturbances: blur smooths along the motion and moves nothing", "[syn
 }
 
 TEST_CASE("disturbances: a board covers its fraction of the view and moves against the scene", "[synthetic]") {
-  SyntheticOptions options = small_scene("room");
+  SyntheticOptions options = disturbed_scene("room");
   CHECK(near_fraction(SyntheticSequence(options).render(0, Side::left)) == 0);
   for (const double fraction : {0.1, 0.3}) {
     options.mover = fraction;
@@ -141,7 +141,7 @@ TEST_CASE("disturbances: a board covers its fraction of the view and moves again
 
 TEST_CASE("disturbances: impossible ones are refused", "[synthetic]") {
   const auto refused = [](const std::function<void(SyntheticOptions&)>& change) {
-    SyntheticOptions options = small_scene("room");
+    SyntheticOptions options = disturbed_scene("room");
     change(options);
     CHECK_THROWS_AS(SyntheticSequence(options), UsageError);
   };
@@ -164,7 +164,7 @@ TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][devi
         Case{"blur of 3 px, in the hand", 1, 1, 3, 1.5, 0, 0}, Case{"noise of 8 grey levels", 1, 1, 0, 8, 0, 0},
         Case{"a moving board over 30 %", 1, 1, 0, 1.5, 0.3, 0}}) {
     for (const std::string& scene : synthetic_scenes()) {
-      SyntheticOptions options = small_scene(scene);
+      SyntheticOptions options = disturbed_scene(scene);
       options.gain = c.gain;
       options.right_gain = c.right_gain;
       options.blur = c.blur;
@@ -181,7 +181,7 @@ TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][devi
         options.focal = full.focal * options.width / full.width;
         options.baseline = full.baseline;
       }
-      const Tracked tracked = track(options, device);
+      const DisturbedRun tracked = track_disturbed(options, device);
       INFO(scene << ", " << c.name << ": " << tracked.steps.right << " right, " << tracked.steps.wrong << " wrong, "
                  << tracked.steps.lost << " lost");
       CHECK(tracked.steps.wrong == 0);

@@ -15,12 +15,13 @@ using namespace quadedge::report;
 
 namespace {
 
-constexpr int kWidth = 190, kHeight = 80, kScale = 5, kTop = 2 * kLegendLine, kRightView = kWidth * kScale + 6;
+constexpr int kViewWidth = 190, kViewHeight = 80, kScale = 5, kTop = 2 * kLegendLine,
+              kRightView = kViewWidth * kScale + 6;
 
 DrawnFrame small_frame() {
   DrawnFrame frame;
-  frame.left = Image(kWidth, kHeight);
-  frame.right = Image(kWidth, kHeight);
+  frame.left = Image(kViewWidth, kViewHeight);
+  frame.right = Image(kViewWidth, kViewHeight);
   for (auto* image : {&frame.left, &frame.right})
     std::fill(image->pixels.begin(), image->pixels.end(), static_cast<std::uint8_t>(100));
   const auto add = [&](float left_x, float y, float right_x, float true_x, MatchClass kind) {
@@ -97,10 +98,10 @@ TEST_CASE("Details below the images enlarge where the matches are", "[report]") 
   tiny.left = tiny.right = Image(40, 30);  // smaller than a detail
   tiny.matches.clear();
   const cv::Mat without = draw_match_class(tiny, MatchClass::correct, "paper", 1, 10);
-  CHECK(with.rows > kTop + kHeight * kScale + 100);
+  CHECK(with.rows > kTop + kViewHeight * kScale + 100);
   CHECK(without.rows == kTop + 30 * (1900 / 80));
   // Somewhere below the images a colour is seen.
-  const cv::Mat below = with.rowRange(kTop + kHeight * kScale + 8, with.rows);
+  const cv::Mat below = with.rowRange(kTop + kViewHeight * kScale + 8, with.rows);
   int colourful = 0;
   for (int y = 0; y < below.rows; ++y) {
     for (int x = 0; x < below.cols; ++x) colourful += colourfulness(below.at<cv::Vec3b>(y, x)) > 100 ? 1 : 0;
@@ -123,5 +124,5 @@ TEST_CASE("Drawings become files, one per class that occurs, and names that repe
   CHECK(names == std::vector<std::string>{"a_b_c_2_all.png", "a_b_c_2_correct.png", "a_b_c_2_inaccurate.png",
                                           "a_b_c_2_wrong.png", "a_b_c_all.png", "a_b_c_correct.png",
                                           "a_b_c_inaccurate.png", "a_b_c_wrong.png"});
-  CHECK(cv::imread(folder / "new/a_b_c_all.png").cols == 2 * kWidth * kScale + 6);
+  CHECK(cv::imread(folder / "new/a_b_c_all.png").cols == 2 * kViewWidth * kScale + 6);
 }

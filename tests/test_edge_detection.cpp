@@ -8,6 +8,7 @@
 #include "devices.hpp"
 #include "edge_images.hpp"
 #include "edge_structure.hpp"
+#include "frontends.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/pi.hpp"
@@ -61,11 +62,6 @@ EdgesConfig small_capacity(int margin = 10) {
   config.margin = margin;
   config.max_edges = 50000;
   return config;
-}
-
-bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
-  return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&
-         a.scale_drift == b.scale_drift && a.row_first == b.row_first;
 }
 
 /// Whether one of the decisions about a cell hangs on the last digits: the threshold or either side of the maximum
@@ -150,10 +146,10 @@ TEST_CASE("edge detection: every device and variant agrees with the reference an
       REQUIRE(detection.dropped == 0);
       compare(detection.edges, image, small_capacity());
       CHECK(static_cast<int>(detection.edges.size()) > width * height / 20);
-      CHECK(same_bytes(detection.edges, detect(device, variant, image, small_capacity()).edges));
+      CHECK(matching::same_bytes(detection.edges, detect(device, variant, image, small_capacity()).edges));
       // All variants of one device and all local sizes give the same bytes.
       if (variant == "strip") first = detection.edges;
-      CHECK(same_bytes(detection.edges, first));
+      CHECK(matching::same_bytes(detection.edges, first));
     });
   }
 }
@@ -214,8 +210,8 @@ TEST_CASE("edge detection: one detector serves one image after the other", "[edg
     stage.run(second_input.plane, second_input.threshold, second_edges);
     first_edges.read_count();
     second_edges.read_count();
-    CHECK(same_bytes(first_edges.read(80), detect(device, variant, first, config).edges));
-    CHECK(same_bytes(second_edges.read(80), detect(device, variant, second, config).edges));
+    CHECK(matching::same_bytes(first_edges.read(80), detect(device, variant, first, config).edges));
+    CHECK(matching::same_bytes(second_edges.read(80), detect(device, variant, second, config).edges));
   });
 }
 

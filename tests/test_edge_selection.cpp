@@ -86,7 +86,7 @@ std::vector<std::vector<cl_float>> kept_rows(const DeviceMaxima& all, const std:
   return rows;
 }
 
-std::size_t count(const std::vector<std::uint8_t>& kept) {
+std::size_t count_kept(const std::vector<std::uint8_t>& kept) {
   return static_cast<std::size_t>(std::count(kept.begin(), kept.end(), 1));
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("edge selection: devices keep exactly the maxima that the reference ru
         REQUIRE(spacing > 0.6F);
         const auto kept_left = reference::kept_by_selection(left, all[0].maxima, spacing),
                    kept_right = reference::kept_by_selection(right, all[1].maxima, spacing);
-        REQUIRE(count(kept_left) < all[0].maxima.x.size() / 2);
+        REQUIRE(count_kept(kept_left) < all[0].maxima.x.size() / 2);
 
         stages::EdgeSelection selection(context, config, left, right);
         selection.run(in_left.maxima(), in_right.maxima());
@@ -177,7 +177,7 @@ TEST_CASE("edge selection: a straight curve keeps one maximum per line, evenly s
     }
   }
   // Along the epipolar lines nothing can be matched, so nothing is kept.
-  CHECK(count(reference::kept_by_selection(arguments, straight_curve(2 * kDegree, 30, 200, 240), spacing)) == 0);
+  CHECK(count_kept(reference::kept_by_selection(arguments, straight_curve(2 * kDegree, 30, 200, 240), spacing)) == 0);
 }
 
 TEST_CASE("edge selection: the counterpart of a kept edge is kept too", "[edges]") {

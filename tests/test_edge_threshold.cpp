@@ -43,16 +43,16 @@ Image flattened(const Image& image, double contrast, int white, double middle = 
   return result;
 }
 
-struct Measured {
+struct ThresholdAndNoise {
   float threshold = 0, noise = 0;
 };
 
 /// The thresholds of frames that one stage is given in turn; a frame is one image or two.
-std::vector<Measured> measure(Device& device, const std::string& variant, const std::vector<std::vector<Image>>& frames,
-                              const EdgesConfig& config) {
+std::vector<ThresholdAndNoise> measure(Device& device, const std::string& variant,
+                                       const std::vector<std::vector<Image>>& frames, const EdgesConfig& config) {
   opencl::Context& context = *device.context();
   stages::EdgeThreshold stage(context, config, {{"edge_threshold", variant}});
-  std::vector<Measured> found;
+  std::vector<ThresholdAndNoise> found;
   for (const auto& images : frames) {
     std::vector<stages::PaddedPlane> planes;
     for (const Image& image : images) {
@@ -75,7 +75,7 @@ std::vector<ImageView> views(const std::vector<Image>& images) {
   return result;
 }
 
-void for_each_variant(const std::function<void(Device&, const std::string&)>& visit) {
+void for_each_threshold_variant(const std::function<void(Device&, const std::string&)>& visit) {
   for (const auto& index : all_devices()) {
     Device device(index, kept_programs());
     for (const auto& variant : opencl::all_variants())
@@ -84,7 +84,7 @@ void for_each_variant(const std::function<void(Device&, const std::string&)>& vi
 }
 
 /// Threshold and noise of a single frame by the reference.
-Measured reference_of(const std::vector<Image>& images, const EdgesConfig& config = {}) {
+ThresholdAndNoise reference_of(const std::vector<Image>& images, const EdgesConfig& config = {}) {
   reference::EdgeThreshold reference(config);
   const double threshold = reference.next(views(images));
   return {static_cast<float>(threshold), static_cast<float>(reference.noise())};
@@ -128,14 +128,14 @@ TEST_CASE("edge threshold: every device and variant measures what the reference 
     cases.push_back({flattened(image, 0.01, 65535), flattened(other, 0.01, 65535)});
     cases.push_back({noisy_image(width, height, 3, 4), noisy_image(width, height, 128, 12)});
   }
-  for_each_variant([&](Device& device, const std::string& variant) {
+  for_each_threshold_variant([&](Device& device, const std::string& variant) {
     for (const double sigma : {2.0, 0.8, 3.1}) {
       EdgesConfig config;
       config.sigma = sigma;
       for (std::size_t i = 0; i < cases.size(); ++i) {
         INFO(device.info().name << " " << variant << " sigma " << sigma << " case " << i);
-        const Measured found = measure(device, variant, {cases[i]}, config).front();
-        const Measured expected = reference_of(cases[i], config);
+        const ThresholdAndNoise found = measure(device, variant, {cases[i]}, config).front();
+        const ThresholdAndNoise expected = reference_of(cases[i], config);
         // A gradient on the border of two bins may fall on either side: one of few points at the smallest sizes.
         CHECK(found.threshold == Approx(expected.threshold).epsilon(cases[i][0].width < 70 ? 0.05 : 0.01));
         CHECK(found.noise == Approx(expected.noise).epsilon(1e-4));
@@ -149,7 +149,7 @@ TEST_CASE("edge threshold: variants give the same bytes, twice", "[edges][device
       {flattened(textured_image(321, 243), 0.1, 255), flattened(textured_image(321, 243, 2), 0.1, 255)}};
   for (const auto& index : all_devices()) {
     Device device(index, kept_programs());
-    std::vector<Measured> first;
+    std::vector<ThresholdAndNoise> first;
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "edge_threshold") continue;
       for (int repetition = 0; repetition < 2; ++repetition) {
@@ -210,7 +210,7 @@ TEST_CASE("edge threshold: is held while the contrast stays about the same and f
   CHECK(expected[3] == expected[0]);
   CHECK(expected[4] > 2.5 * expected[0]);
   CHECK(expected[5] < 0.5 * expected[4]);
-  for_each_variant([&](Device& device, const std::string& variant) {
+  for_each_threshold_variant([&](Device& device, const std::string& variant) {
     const auto found = measure(device, variant, frames, {});
     for (std::size_t i = 0; i < frames.size(); ++i) CHECK(found[i].threshold == Approx(expected[i]).epsilon(0.01));
   });
@@ -221,7 +221,7 @@ TEST_CASE("edge threshold: a fixed one is taken as it is", "[edges][device]") {
   config.threshold = 0.75;
   const Image flat = noisy_image(64, 48, 100, 0);
   CHECK(reference_of({flat}, config).threshold == 0.75F);
-  for_each_variant([&](Device& device, const std::string& variant) {
+  for_each_threshold_variant([&](Device& device, const std::string& variant) {
     CHECK(measure(device, variant, {{flat}}, config)[0].threshold == 0.75F);
   });
 }

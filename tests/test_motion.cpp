@@ -7,7 +7,7 @@ using namespace quadedge::pose;
 
 namespace {
 
-generated::Problem drive() {
+generated::Problem forward_drive() {
   generated::Problem problem;
   problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
   problem.motion.translation() << 0.05, 0.02, -1.2;
@@ -50,7 +50,7 @@ TEST_CASE("No motion is a motion", "[pose][motion]") {
 }
 
 TEST_CASE("70 % outliers are told from the rest", "[pose][motion]") {
-  generated::Problem problem = drive();
+  generated::Problem problem = forward_drive();
   problem.quads = 1500;
   problem.outliers = 0.7;
   problem.noise = {0.12, 0.3, 0.02};
@@ -71,7 +71,7 @@ TEST_CASE("70 % outliers are told from the rest", "[pose][motion]") {
 }
 
 TEST_CASE("Switching the refinement off leaves the consensus pose without covariance", "[pose][motion]") {
-  generated::Problem problem = drive();
+  generated::Problem problem = forward_drive();
   problem.noise = {0.12, 0.4, 0.02};
   problem.quads = 3000;
   const auto g = generated::generate(problem, 54);
@@ -90,7 +90,7 @@ TEST_CASE("Switching the refinement off leaves the consensus pose without covari
 }
 
 TEST_CASE("What cannot be trusted has a status and no pose", "[pose][motion]") {
-  generated::Problem problem = drive();
+  generated::Problem problem = forward_drive();
   for (int count : {0, 1, 2, 11}) {
     problem.quads = count;
     const auto g = generated::generate(problem, 55);
@@ -133,7 +133,7 @@ TEST_CASE("What cannot be trusted has a status and no pose", "[pose][motion]") {
 }
 
 TEST_CASE("The same seed gives the same bits", "[pose][motion]") {
-  generated::Problem problem = drive();
+  generated::Problem problem = forward_drive();
   problem.noise = {0.12, 0.4, 0.02};
   problem.outliers = 0.4;
   const auto g = generated::generate(problem, 58);

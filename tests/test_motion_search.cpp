@@ -72,7 +72,7 @@ Eigen::Isometry3d turned(const Eigen::Isometry3d& motion) {
 
 }  // namespace
 
-TEST_CASE("motion search: a good prediction ends it, any other calls for edges found anywhere", "[odometry]") {
+TEST_CASE("motion search: a good prediction ends it, any other calls for edges found anywhere", "[odometry][long]") {
   TwoFrames frames(3000);
   frames.check(frames.truth());
   CHECK(frames.frontend->coarse == 1);

@@ -13,21 +13,21 @@ using dataset_files::real_data;
 
 namespace {
 
-struct Run {
+struct TrackedFrames {
   Trajectory tracked;
   int frames = 0;
   std::vector<FrameResult> results;
 };
 
 /// Tracks the frames of a data set with its reader's disparity range.
-Run track(const Dataset& dataset, const std::map<std::string, std::string>& variants = {}) {
+TrackedFrames track_dataset(const Dataset& dataset, const std::map<std::string, std::string>& variants = {}) {
   Config config;
   config.stereo.max_disparity = dataset.max_disparity;
   config.variants = variants;
   Device device;
   StereoOdometry odometry(dataset.rig, device, config);
   FramePrefetcher frames(dataset);
-  Run run;
+  TrackedFrames run;
   while (const auto frame = frames.next()) {
     run.results.push_back(odometry.track(frame->view()));
     ++run.frames;
@@ -37,7 +37,7 @@ Run track(const Dataset& dataset, const std::map<std::string, std::string>& vari
   return run;
 }
 
-bool same_bytes(const Run& a, const Run& b) {
+bool same_bytes(const TrackedFrames& a, const TrackedFrames& b) {
   if (a.tracked.size() != b.tracked.size()) return false;
   for (std::size_t i = 0; i < a.tracked.size(); ++i) {
     if (std::memcmp(a.tracked[i].world_from_left.data(), b.tracked[i].world_from_left.data(), 16 * sizeof(double)) != 0)
@@ -52,7 +52,7 @@ TEST_CASE("KITTI 06: all 36 frames tracked within 2 cm and 0.07 degrees per fram
   const std::string path = real_data("kitti_odometry/sequences/06");
   if (path.empty()) return;
   const Dataset dataset = open_dataset(path);
-  const Run run = track(dataset);
+  const TrackedFrames run = track_dataset(dataset);
   CHECK(run.frames == 36);
   REQUIRE(run.tracked.size() == 36);
   const auto errors = evaluate_trajectory(run.tracked, dataset.truth).origin_aligned;
@@ -64,7 +64,7 @@ TEST_CASE("KITTI 01: all 25 frames tracked within 0.06 degrees per frame", "[rea
   const std::string path = real_data("kitti_odometry/sequences/01");
   if (path.empty()) return;
   const Dataset dataset = open_dataset(path);
-  const Run run = track(dataset);
+  const TrackedFrames run = track_dataset(dataset);
   CHECK(run.frames == 25);
   REQUIRE(run.tracked.size() == 25);
   CHECK(evaluate_trajectory(run.tracked, dataset.truth).origin_aligned.rpe_rotation_deg.mean <= 0.06);
@@ -74,7 +74,7 @@ TEST_CASE("EuRoC at rest: stays within 3 mm and 0.2 degrees over 40 frames", "[r
   const std::string path = real_data("euroc_v1_01_easy_at_rest");
   if (path.empty()) return;
   const Dataset dataset = open_dataset(path);
-  const Run run = track(dataset);
+  const TrackedFrames run = track_dataset(dataset);
   REQUIRE(run.tracked.size() == 40);
   const auto errors = evaluate_trajectory(run.tracked, dataset.truth).origin_aligned;
   CHECK(errors.ape_translation_m.mean <= 0.003);
@@ -84,7 +84,7 @@ TEST_CASE("EuRoC at rest: stays within 3 mm and 0.2 degrees over 40 frames", "[r
 TEST_CASE("Karlsruhe quad: 0.25 m and 0.61 degrees within 10 percent", "[real][device]") {
   const std::string path = real_data("karlsruhe_quad");
   if (path.empty()) return;
-  const Run run = track(open_dataset(path));
+  const TrackedFrames run = track_dataset(open_dataset(path));
   REQUIRE(run.tracked.size() == 2);
   const Eigen::Isometry3d motion = run.tracked[0].world_from_left.inverse() * run.tracked[1].world_from_left;
   CHECK(motion.translation().norm() == Approx(0.25).epsilon(0.1));
@@ -98,18 +98,19 @@ TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other var
   options.first_frame = 10;
   options.last_frame = 13;
   const Dataset dataset = open_dataset(path, options);
-  const Run run = track(dataset);
+  const TrackedFrames run = track_dataset(dataset);
   REQUIRE(run.tracked.size() == 3);
-  CHECK(same_bytes(run, track(dataset)));
-  CHECK(same_bytes(run, track(dataset, {{"stereo_candidates", "group16"},
-                                        {"candidate_filters", "group16"},
-                                        {"stereo_refinement", "lanes64"},
-                                        {"stereo_clusters", "group16"},
-                                        {"stereo_relaxation", "group64"},
-                                        {"stereo_mutual", "group16"},
-                                        {"temporal_candidates", "group16"},
-                                        {"temporal_quads", "group16"}})));
+  CHECK(same_bytes(run, track_dataset(dataset)));
+  CHECK(same_bytes(run, track_dataset(dataset, {{"stereo_candidates", "group16"},
+                                                {"candidate_filters", "group16"},
+                                                {"stereo_refinement", "lanes64"},
+                                                {"stereo_clusters", "group16"},
+                                                {"stereo_relaxation", "group64"},
+                                                {"stereo_mutual", "group16"},
+                                                {"temporal_candidates", "group16"},
+                                                {"temporal_quads", "group16"}})));
   CHECK(same_bytes(
       run,
-      track(dataset, {{"edge_detection", "tile64"}, {"scan", "group256"}, {"patches", "lanes"}, {"sift", "cells"}})));
+      track_dataset(dataset,
+                    {{"edge_detection", "tile64"}, {"scan", "group256"}, {"patches", "lanes"}, {"sift", "cells"}})));
 }

@@ -5,11 +5,10 @@
 #include "quadedge/pi.hpp"
 
 using namespace quadedge::pose;
-using generated::Random;
 
 TEST_CASE("A point and its tangent come back from their own projections, on any rig", "[pose][oriented_point]") {
   for (const quadedge::StereoRig& rig : {generated::car_rig(), generated::crooked_rig()}) {
-    Random random(1);
+    generated::Random random(1);
     int used = 0;
     for (int trial = 0; trial < 300; ++trial) {
       const OrientedPoint truth = generated::random_point(rig, 1.0, 30.0, random);
@@ -61,7 +60,7 @@ TEST_CASE("A far upright edge is not mistaken for one along its epipolar line", 
 
 TEST_CASE("Projection agrees with the camera and with finite differences", "[pose][oriented_point]") {
   const quadedge::StereoRig rig = generated::crooked_rig();
-  Random random(2);
+  generated::Random random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const OrientedPoint p = generated::random_point(rig, 1.0, 10.0, random);
     const auto expected = generated::observe(rig, p);

@@ -48,7 +48,7 @@ std::ptrdiff_t brightest(const std::vector<int>& patch) {
 }
 
 /// The same but for one sample of an edge that rounds the other way.
-void check_same(const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {
+void check_same_patches(const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {
   REQUIRE(a.size() == b.size());
   const auto apart = rounded_apart(a, b);
   CHECK(apart.largest <= 1);
@@ -136,7 +136,7 @@ TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches"
   }
   const float x = 24.25f, y = 18.625f, direction = 0.3f;
   const auto before = cut(image, x, y, direction), after = cut(turned, 39 - y, x, direction + kHalfTurn / 2);
-  check_same(before, after);
+  check_same_patches(before, after);
 }
 
 TEST_CASE("patches: the opposite direction swaps the sides and turns both patches by 180 degrees", "[patches]") {
@@ -146,7 +146,7 @@ TEST_CASE("patches: the opposite direction swaps the sides and turns both patche
   for (const int side : {0, 1}) {
     for (int k = 0; k < kPatchSamples; ++k) back[position(side, k)] = after[position(1 - side, 48 - k)];
   }
-  check_same(before, back);
+  check_same_patches(before, back);
 }
 
 TEST_CASE("patches: largest sample 127, no mean, 1 / norm, and neither gain nor offset matter", "[patches]") {
@@ -186,7 +186,7 @@ TEST_CASE("patches: beyond the border the outermost pixels repeat", "[patches]")
   }
   for (const auto& [x, y] : {std::pair{0.5f, 1.25f}, {18.75f, 18.5f}, {9.0f, 0.0f}}) {
     const auto near = cut(image, x, y, 0.6f), inside = cut(larger, x + 10, y + 10, 0.6f);
-    check_same(near, inside);
+    check_same_patches(near, inside);
   }
 }
 

@@ -13,18 +13,18 @@ using namespace quadedge::data;
 
 namespace {
 
-constexpr int kWidth = 12, kHeight = 7;
+constexpr int kPipeWidth = 12, kPipeHeight = 7;
 
-Image picture(int number, int width = kWidth, int white = 255) {
-  Image image(width, kHeight, white);
-  for (int y = 0; y < kHeight; ++y)
+Image piped_picture(int number, int width = kPipeWidth, int white = 255) {
+  Image image(width, kPipeHeight, white);
+  for (int y = 0; y < kPipeHeight; ++y)
     for (int x = 0; x < width; ++x) image.set(x, y, (13 * number + 5 * x + 3 * y) * (white / 255) % (white + 1));
   return image;
 }
 
 std::string pairs(int count, int white = 255) {
   std::string text;
-  for (int i = 0; i < 2 * count; ++i) text += own_camera::pgm(picture(i, kWidth, white));
+  for (int i = 0; i < 2 * count; ++i) text += own_camera::pgm(piped_picture(i, kPipeWidth, white));
   return text;
 }
 
@@ -48,13 +48,13 @@ class Source {
 Dataset dataset_of(std::shared_ptr<const PairStream> stream) {
   Dataset dataset;
   dataset.path = "the test";
-  dataset.rig.left.width = dataset.rig.right.width = kWidth;
-  dataset.rig.left.height = dataset.rig.right.height = kHeight;
+  dataset.rig.left.width = dataset.rig.right.width = kPipeWidth;
+  dataset.rig.left.height = dataset.rig.right.height = kPipeHeight;
   dataset.stream = std::move(stream);
   return dataset;
 }
 
-std::string complaint(const std::string& bytes, Split split = Split::none) {
+std::string pipe_complaint(const std::string& bytes, Split split = Split::none) {
   const Source source(bytes);
   const auto reader = make_picture_pipe(source.descriptor(), {split, 10, 0})->open();
   try {
@@ -78,8 +78,8 @@ TEST_CASE("pipe: pictures are read in turn, at any depth, with stamps by their n
       CHECK(pair->number == i);
       CHECK(pair->stamp_ns == i * 100'000'000);
       CHECK(pair->left.white == white);
-      CHECK(pair->left.pixels == picture(2 * i, kWidth, white).pixels);
-      CHECK(pair->right.pixels == picture(2 * i + 1, kWidth, white).pixels);
+      CHECK(pair->left.pixels == piped_picture(2 * i, kPipeWidth, white).pixels);
+      CHECK(pair->right.pixels == piped_picture(2 * i + 1, kPipeWidth, white).pixels);
     }
     CHECK_FALSE(reader->next());
   }
@@ -87,13 +87,13 @@ TEST_CASE("pipe: pictures are read in turn, at any depth, with stamps by their n
 
 TEST_CASE("pipe: one picture may hold both views, and colour becomes grey", "[data]") {
   for (const bool beside : {true, false}) {
-    const Source source(own_camera::pgm(own_camera::joined(picture(0), picture(1), beside)));
+    const Source source(own_camera::pgm(own_camera::joined(piped_picture(0), piped_picture(1), beside)));
     const auto reader =
         make_picture_pipe(source.descriptor(), {beside ? Split::left_right : Split::top_bottom, 10, 0})->open();
     const auto pair = reader->next();
     REQUIRE(pair);
-    CHECK(pair->left.pixels == picture(0).pixels);
-    CHECK(pair->right.pixels == picture(1).pixels);
+    CHECK(pair->left.pixels == piped_picture(0).pixels);
+    CHECK(pair->right.pixels == piped_picture(1).pixels);
   }
   const Source colour("P6 1 1 255\n" + std::string("\xFF\x00\x00", 3) + "P6 1 1 255\n" +
                       std::string("\x50\x50\x50", 3));
@@ -104,21 +104,21 @@ TEST_CASE("pipe: one picture may hold both views, and colour becomes grey", "[da
 }
 
 TEST_CASE("pipe: what is wrong is named with the picture's number", "[data]") {
-  const std::string one = own_camera::pgm(picture(0)), whole = pairs(2);
-  CHECK(complaint(whole).empty());
-  CHECK(complaint("").empty());
-  CHECK_THAT(complaint(whole + one), Contains("the pipe") && Contains("after a left picture"));
-  CHECK_THAT(complaint(whole.substr(0, whole.size() - 5)),
+  const std::string one = own_camera::pgm(piped_picture(0)), whole = pairs(2);
+  CHECK(pipe_complaint(whole).empty());
+  CHECK(pipe_complaint("").empty());
+  CHECK_THAT(pipe_complaint(whole + one), Contains("the pipe") && Contains("after a left picture"));
+  CHECK_THAT(pipe_complaint(whole.substr(0, whole.size() - 5)),
              Contains("picture 3 that ends after") && Contains("84 bytes"));
-  CHECK_THAT(complaint(one + own_camera::pgm(picture(1, kWidth + 2))),
+  CHECK_THAT(pipe_complaint(one + own_camera::pgm(piped_picture(1, kPipeWidth + 2))),
              Contains("picture 1 of 14 x 7") && Contains("12 x 7"));
-  CHECK_THAT(complaint(one + own_camera::pgm(picture(1, kWidth, 65535))), Contains("values to 65535"));
+  CHECK_THAT(pipe_complaint(one + own_camera::pgm(piped_picture(1, kPipeWidth, 65535))), Contains("values to 65535"));
   for (const char* head :
        {"hello", "P5 x 7 255\n", "P5 0 7 255\n", "P5 12 7 70000\n", "P5 12", "P4 12 7\n", "P5 99999999999 7 255\n"}) {
     INFO(head);
-    CHECK_THAT(complaint(head), Contains("picture 0 that does not begin like one"));
+    CHECK_THAT(pipe_complaint(head), Contains("picture 0 that does not begin like one"));
   }
-  CHECK_THAT(complaint(own_camera::pgm(picture(0, 11)), Split::left_right),
+  CHECK_THAT(pipe_complaint(own_camera::pgm(piped_picture(0, 11)), Split::left_right),
              Contains("11 x 7") && Contains("even width"));
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("pipe: a slow reader loses the oldest pairs and knows how many", "[dat
     REQUIRE(frame);
     CHECK(frame->number == i);
     CHECK(frame->stamp_ns == i * 100'000'000);
-    CHECK(frame->left.pixels == picture(2 * i).pixels);
+    CHECK(frame->left.pixels == piped_picture(2 * i).pixels);
   }
   CHECK_FALSE(frames.next());
   CHECK_THROWS_AS(stream->open(), UsageError);

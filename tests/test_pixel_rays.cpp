@@ -18,21 +18,21 @@ using namespace quadedge;
 
 namespace {
 
-constexpr int kWidth = 236, kHeight = 122;
+constexpr int kRaysWidth = 236, kRaysHeight = 122;
 constexpr double kFocal = 135;
 
 Lens small_lens(const std::string& name) {
   Lens lens = synthetic::make_lens(name, kFocal);
-  lens.camera.cx = 0.51 * kWidth;
-  lens.camera.cy = 0.48 * kHeight;
-  lens.camera.width = kWidth;
-  lens.camera.height = kHeight;
+  lens.camera.cx = 0.51 * kRaysWidth;
+  lens.camera.cy = 0.48 * kRaysHeight;
+  lens.camera.width = kRaysWidth;
+  lens.camera.height = kRaysHeight;
   return lens;
 }
 
 float interpolated(const std::vector<double>& grey, double x, double y) {
   const int i = static_cast<int>(x), j = static_cast<int>(y);
-  const auto at = [&](int column, int row) { return grey[static_cast<std::size_t>(row * kWidth + column)]; };
+  const auto at = [&](int column, int row) { return grey[static_cast<std::size_t>(row * kRaysWidth + column)]; };
   const double a = x - i, b = y - j;
   return static_cast<float>((1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) +
                             b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1)));
@@ -47,8 +47,8 @@ TEST_CASE("pixel rays: every lens looks where its calibration says", "[synthetic
     const LensMapping mapping(lens);
     const synthetic::PixelRays rays(lens);
     int seen = 0;
-    for (int y = 0; y < kHeight; y += 7) {
-      for (int x = 0; x < kWidth; x += 5) {
+    for (int y = 0; y < kRaysHeight; y += 7) {
+      for (int x = 0; x < kRaysWidth; x += 5) {
         if (!rays.is_seen(x, y)) continue;
         ++seen;
         CHECK((*mapping.project(rays.centre(x, y)) - Eigen::Vector2d(x, y)).norm() < 1e-9);
@@ -78,22 +78,22 @@ TEST_CASE("pixel rays: a rendered lens, undistorted, is the rendered pinhole vie
     // How far the undistorted image has to be moved to look like the other: by least squares over its gradient.
     double moved[2] = {0, 0}, squares[2] = {0, 0}, depth_error = 0;
     int compared = 0;
-    for (int y = 5; y < kHeight - 5; ++y) {
-      for (int x = 5; x < kWidth - 5; ++x) {
-        const auto at = static_cast<std::size_t>(y * kWidth + x);
+    for (int y = 5; y < kRaysHeight - 5; ++y) {
+      for (int x = 5; x < kRaysWidth - 5; ++x) {
+        const auto at = static_cast<std::size_t>(y * kRaysWidth + x);
         if (!rig.left_mask.empty() && rig.left_mask.hidden[at] != 0) continue;
         const double from_x = static_cast<double>(rig.left_undistortion.source_x[at]),
                      from_y = static_cast<double>(rig.left_undistortion.source_y[at]);
-        if (!(from_x < kWidth - 2 && from_y < kHeight - 2)) continue;
+        if (!(from_x < kRaysWidth - 2 && from_y < kRaysHeight - 2)) continue;
         const double difference = static_cast<double>(interpolated(recorded.grey, from_x, from_y)) - expected.grey[at];
         const double slope[2] = {0.5 * (expected.grey[at + 1] - expected.grey[at - 1]),
-                                 0.5 * (expected.grey[at + kWidth] - expected.grey[at - kWidth])};
+                                 0.5 * (expected.grey[at + kRaysWidth] - expected.grey[at - kRaysWidth])};
         for (int axis = 0; axis < 2; ++axis) {
           moved[axis] += difference * slope[axis];
           squares[axis] += slope[axis] * slope[axis];
         }
         const float depth =
-            recorded.depth[static_cast<std::size_t>(std::lround(from_y) * kWidth + std::lround(from_x))];
+            recorded.depth[static_cast<std::size_t>(std::lround(from_y) * kRaysWidth + std::lround(from_x))];
         depth_error += std::abs(static_cast<double>(depth / expected.depth[at]) - 1) < 0.02 ? 0 : 1;
         ++compared;
       }
@@ -109,8 +109,8 @@ TEST_CASE("pixel rays: a lens and a turned camera come back from disk as they we
   const TemporaryFolder folder;
   SyntheticOptions options;
   options.frames = 2;
-  options.width = kWidth;
-  options.height = kHeight;
+  options.width = kRaysWidth;
+  options.height = kRaysHeight;
   options.focal = kFocal;
   options.supersampling = 1;
   options.right_rotation = {0.3, 2, -0.5};

@@ -9,7 +9,7 @@ using namespace quadedge::pose;
 
 namespace {
 
-generated::Problem drive() {
+generated::Problem drive_with_outliers() {
   generated::Problem problem;
   problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();
   problem.motion.translation() << 0.05, 0.02, -1.2;
@@ -26,7 +26,7 @@ Consensus search(const generated::Problem& problem, const generated::Generated& 
 
 TEST_CASE("Consensus is found among 70 % outliers, exact and noisy, for several seeds", "[pose][ransac]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive();
+  generated::Problem problem = drive_with_outliers();
   problem.outliers = 0.7;
   problem.quads = 800;
   for (const generated::Noise& noise : {generated::Noise{}, generated::Noise{0.12, 0.4, 0.02}}) {
@@ -44,7 +44,7 @@ TEST_CASE("Consensus is found among 70 % outliers, exact and noisy, for several 
 }
 
 TEST_CASE("A moving thing counts by the area that it covers, not by its edges", "[pose][ransac]") {
-  generated::Problem scene = drive(), thing = drive();
+  generated::Problem scene = drive_with_outliers(), thing = drive_with_outliers();
   scene.quads = 600;
   thing.quads = 2400;
   thing.width_ratio = 0.3;
@@ -65,7 +65,7 @@ TEST_CASE("A moving thing counts by the area that it covers, not by its edges", 
 
 TEST_CASE("The search ends with no, one and two quads, and with quads of which no pair passes", "[pose][ransac]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive();
+  generated::Problem problem = drive_with_outliers();
   for (int count : {0, 1, 2}) {
     problem.quads = count;
     const auto g = generated::generate(problem, 41);
@@ -89,7 +89,7 @@ TEST_CASE("The search ends with no, one and two quads, and with quads of which n
 TEST_CASE("An initial guess is one more hypothesis: it helps when right and does no harm when wrong",
           "[pose][ransac]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive();
+  generated::Problem problem = drive_with_outliers();
   problem.outliers = 0.5;
   const auto g = generated::generate(problem, 43);
   config.max_draws = 1;
@@ -106,7 +106,7 @@ TEST_CASE("An initial guess is one more hypothesis: it helps when right and does
 
 TEST_CASE("The search stops early when most quads agree, and the same seed gives the same bits", "[pose][ransac]") {
   quadedge::PoseConfig config;
-  generated::Problem problem = drive();
+  generated::Problem problem = drive_with_outliers();
   problem.noise = {0.12, 0.4, 0.02};
   problem.outliers = 0.2;
   const auto good = generated::generate(problem, 44);
@@ -123,7 +123,7 @@ TEST_CASE("Without local optimisation the motion is the one of two quads as they
   quadedge::PoseConfig config;
   config.local_optimisation_rounds = 0;
   config.local_optimisation_widening = 1;
-  generated::Problem problem = drive();
+  generated::Problem problem = drive_with_outliers();
   problem.quads = 300;
   const auto exact = generated::generate(problem, 44);
   const Consensus found = search(problem, exact, config);

@@ -42,8 +42,8 @@ std::optional<Expected> contribution(const ReprojectionTerm& term, const quadedg
   return result;
 }
 
-struct Scene {
-  explicit Scene(int quads) {
+struct ManyQuads {
+  explicit ManyQuads(int quads) {
     generated::Random random(50);
     problem.rig = generated::crooked_rig();
     problem.near = 2;
@@ -81,7 +81,7 @@ TEST_CASE("Sums over reprojection terms are those of the Jacobians with the dept
   const StudentWeights weights{1.7, 5};
   const double offset = 0.2;
   for (int quads : {1, 7, 16, 2 * 1024 + 3, 5001}) {
-    Scene scene(quads);
+    ManyQuads scene(quads);
     REQUIRE(scene.terms.size() == scene.rows.size());
     std::vector<double> depth(scene.rows.size(), 0.0);
     for (int round = 0; round < 2; ++round) {  // from the second on the depths are not zero
@@ -122,7 +122,7 @@ TEST_CASE("Sums over reprojection terms are those of the Jacobians with the dept
 }
 
 TEST_CASE("A quad behind the camera counts nothing and keeps its depth and error", "[pose][reprojection_terms]") {
-  Scene scene(9);
+  ManyQuads scene(9);
   normal_by_pose(scene.terms, scene.pose, 0, {});
   const auto depth = scene.terms.depth, error = scene.terms.error;
   Eigen::Isometry3d away = Eigen::Isometry3d::Identity();
@@ -192,7 +192,7 @@ std::vector<EvaluateLanes> widths_of_this_machine() { return {at_x86_64}; }
 
 TEST_CASE("One quad alone and eight at once, at every width of vectors, give the same bits",
           "[pose][reprojection_terms]") {
-  Scene scene(2 * kLanes);
+  ManyQuads scene(2 * kLanes);
   Eigen::Isometry3d half_behind = scene.pose;  // half of the points end up behind the camera
   half_behind.translation().z() -= 5;
   for (const auto& pose : {scene.pose, half_behind}) {

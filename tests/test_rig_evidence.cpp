@@ -11,13 +11,14 @@ using odometry::RigFindings;
 namespace {
 
 /// Two frames of the room, rendered once.
-const RenderedScene& room() {
+const RenderedScene& evidence_room() {
   static const RenderedScene scene("room", 320, 200, 2, 6);
   return scene;
 }
 
 RigFindings examine(const StereoRig& rig, const Image& left, const Image& right, RigEvidence& evidence) {
-  return odometry::examine_frame(rig, {0, left.view(), right.view()}, room().config.stereo.max_disparity, evidence);
+  return odometry::examine_frame(rig, {0, left.view(), right.view()}, evidence_room().config.stereo.max_disparity,
+                                 evidence);
 }
 
 std::string mismatch(const StereoRig& rig, const Image& left, const Image& right) {
@@ -25,8 +26,8 @@ std::string mismatch(const StereoRig& rig, const Image& left, const Image& right
   return examine(rig, left, right, evidence).mismatch;
 }
 
-StereoRig turned(double degrees, const Eigen::Vector3d& axis) {
-  StereoRig rig = room().rig;
+StereoRig turned_rig(double degrees, const Eigen::Vector3d& axis) {
+  StereoRig rig = evidence_room().rig;
   rig.right_from_left.linear() = Eigen::AngleAxisd(degrees * kDegree, axis).toRotationMatrix();
   return rig;
 }
@@ -65,79 +66,81 @@ TEST_CASE("rig evidence: nothing speaks against the right calibration", "[odomet
 }
 
 TEST_CASE("rig evidence: what does not fit is named with its likely cause", "[odometry][rig]") {
-  const Image &left = room().left[0], &right = room().right[0];
-  CHECK_THAT(mismatch(room().rig, right, left), Contains("disparities are negative") && Contains("exchanged"));
-  StereoRig rig = room().rig;
+  const Image &left = evidence_room().left[0], &right = evidence_room().right[0];
+  CHECK_THAT(mismatch(evidence_room().rig, right, left), Contains("disparities are negative") && Contains("exchanged"));
+  StereoRig rig = evidence_room().rig;
   rig.right_from_left.translation() *= -1;
   CHECK_THAT(mismatch(rig, left, right), Contains("sign of the baseline"));
-  CHECK_THAT(mismatch(turned(3, Eigen::Vector3d::UnitX()), left, right), Contains("pitched"));
-  CHECK_THAT(mismatch(turned(4, Eigen::Vector3d::UnitZ()), left, right), Contains("rolled"));
-  rig = room().rig;
+  CHECK_THAT(mismatch(turned_rig(3, Eigen::Vector3d::UnitX()), left, right), Contains("pitched"));
+  CHECK_THAT(mismatch(turned_rig(4, Eigen::Vector3d::UnitZ()), left, right), Contains("rolled"));
+  rig = evidence_room().rig;
   rig.left.fx *= 1.2;
   rig.left.fy *= 1.2;
   CHECK_THAT(mismatch(rig, left, right), Contains("focal lengths"));
   Image negative = right;
   for (auto& value : negative.pixels) value = static_cast<std::uint8_t>(255 - value);
-  CHECK_THAT(mismatch(room().rig, left, negative), Contains("as their negative"));
+  CHECK_THAT(mismatch(evidence_room().rig, left, negative), Contains("as their negative"));
   const int last_column = right.width - 1, last_row = right.height - 1;
   const Image mirrored = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, y); });
-  CHECK_THAT(mismatch(room().rig, left, mirrored), Contains("is the right image mirrored?"));
+  CHECK_THAT(mismatch(evidence_room().rig, left, mirrored), Contains("is the right image mirrored?"));
   const Image upside_down = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, last_row - y); });
-  CHECK_THAT(mismatch(room().rig, left, upside_down), Contains("is the right image turned by 180 degrees?"));
+  CHECK_THAT(mismatch(evidence_room().rig, left, upside_down), Contains("is the right image turned by 180 degrees?"));
 }
 
 TEST_CASE("rig evidence: small errors are doubts, and do not stop anything", "[odometry][rig]") {
   RigEvidence evidence;
-  const RigFindings pitched = examine(turned(0.5, Eigen::Vector3d::UnitX()), room().left[0], room().right[0], evidence);
+  const RigFindings pitched =
+      examine(turned_rig(0.5, Eigen::Vector3d::UnitX()), evidence_room().left[0], evidence_room().right[0], evidence);
   CHECK(pitched.mismatch.empty());
   REQUIRE(pitched.doubts.size() == 1);
   CHECK_THAT(pitched.doubts[0], Contains("doubtful") && Contains("pitched"));
-  CHECK(evidence.searched_residual == Approx(room().rig.left.fy * 0.5 * kDegree).epsilon(0.15));
-  const RigFindings narrow = odometry::examine_frame(room().rig, room().frame(0), 4, evidence);
+  CHECK(evidence.searched_residual == Approx(evidence_room().rig.left.fy * 0.5 * kDegree).epsilon(0.15));
+  const RigFindings narrow = odometry::examine_frame(evidence_room().rig, evidence_room().frame(0), 4, evidence);
   CHECK(narrow.mismatch.empty());
   REQUIRE(narrow.doubts.size() == 1);
   CHECK_THAT(narrow.doubts[0], Contains("stereo.max_disparity too small"));
 }
 
 TEST_CASE("rig evidence: a camera that stands still while the other one does not is found", "[odometry][rig]") {
-  odometry::RigWatch watch(room().rig, room().config);
+  odometry::RigWatch watch(evidence_room().rig, evidence_room().config);
   RigEvidence evidence;
-  const Image &left = room().left[0], &right = room().right[0], &next = room().left[1];
+  const Image &left = evidence_room().left[0], &right = evidence_room().right[0], &next = evidence_room().left[1];
   CHECK(watch.judge({0, left.view(), right.view()}, {}, 0, evidence).mismatch.empty());
   CHECK(watch.judge({1, left.view(), right.view()}, {}, 0, evidence).mismatch.empty());  // the same frame again
   CHECK_THAT(watch.judge({2, next.view(), right.view()}, {}, 0, evidence).mismatch,
              Contains("does the right camera stand still?"));
-  CHECK(watch.judge({3, left.view(), room().right[1].view()}, {}, 0, evidence).mismatch.empty());
+  CHECK(watch.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0, evidence).mismatch.empty());
 }
 
 TEST_CASE("rig evidence: numbers that hardly any rig has are named", "[odometry][rig]") {
-  CHECK(odometry::implausible_numbers(room().rig).empty());
+  CHECK(odometry::implausible_numbers(evidence_room().rig).empty());
   const auto first_of = [](const StereoRig& rig) {
     const auto found = odometry::implausible_numbers(rig);
     return found.empty() ? std::string() : found.front();
   };
-  StereoRig rig = room().rig;
+  StereoRig rig = evidence_room().rig;
   rig.right_from_left.translation() *= 1000;
   CHECK_THAT(first_of(rig), Contains("millimetres"));
-  rig = room().rig;
+  rig = evidence_room().rig;
   rig.left.fx = rig.left.fy = 0.004;
   CHECK_THAT(first_of(rig), Contains("is it in pixels?"));
-  rig = room().rig;
+  rig = evidence_room().rig;
   rig.right.cx = -3;
   CHECK_THAT(first_of(rig), Contains("right camera's principal point") && Contains("outside"));
-  rig = room().rig;
+  rig = evidence_room().rig;
   rig.left.fy /= 2;
   CHECK_THAT(first_of(rig), Contains("squares"));
 }
 
 TEST_CASE("rig evidence: aligned patches say how far a rig of half a degree's pitch is off",
           "[odometry][rig][device]") {
-  const StereoRig rig = turned(0.3, Eigen::Vector3d::UnitX());
+  const StereoRig rig = turned_rig(0.3, Eigen::Vector3d::UnitX());
   Device device(all_devices().front(), kept_programs());
-  const auto frontend = frontend::make_frontend(rig, device, room().config);
-  const auto seen = frontend->process(room().frame(0));
+  const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);
+  const auto seen = frontend->process(evidence_room().frame(0));
   std::vector<odometry::ProbedSpot> spots;
-  odometry::EpipolarProbe(rig, room().config.stereo.max_disparity).align(room().frame(0), seen->edges, spots);
+  odometry::EpipolarProbe(rig, evidence_room().config.stereo.max_disparity)
+      .align(evidence_room().frame(0), seen->edges, spots);
   const odometry::EpipolarFit fit = odometry::fit_across(spots, rig.left.width, rig.left.height);
   REQUIRE(fit.samples > 30);
   CHECK(fit.offset == Approx(rig.left.fy * 0.3 * kDegree).epsilon(0.2));

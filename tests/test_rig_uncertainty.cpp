@@ -6,7 +6,7 @@ using namespace quadedge;
 
 namespace {
 
-constexpr double kSmall = 1e-6;
+constexpr double kTiny = 1e-6;
 
 Eigen::Isometry3d motion(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& way) {
   return Eigen::Translation3d(way) * Eigen::AngleAxisd(angle, axis.normalized());
@@ -16,7 +16,7 @@ pose::UncertainPose exact(const Eigen::Isometry3d& fixed_from_camera, double inv
   return {fixed_from_camera, PoseCovariance::Zero(), pose::rig_sensitivity(fixed_from_camera, inverse_depth)};
 }
 
-Eigen::Matrix<double, 6, 1> error_of(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
+Eigen::Matrix<double, 6, 1> relative_error(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
   const Eigen::AngleAxisd turn(estimate.linear() * truth.linear().transpose());
   Eigen::Matrix<double, 6, 1> error;
   error << estimate.translation() - truth.translation(), turn.angle() * turn.axis();
@@ -31,13 +31,13 @@ const Eigen::Isometry3d kFirst = motion(0.3, {1, 2, -1}, {0.4, -0.2, 1}),
 TEST_CASE("rig uncertainty: a turned optical frame and a longer baseline do to a motion what is said", "[pose]") {
   const RigSensitivity by_rig = pose::rig_sensitivity(kFirst, 0.2);
   for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Isometry3d turn = motion(kSmall, Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Zero());
-    const auto error = error_of(turn * kFirst * turn.inverse(), kFirst);
-    CHECK((error / kSmall - by_rig.col(1 + axis)).norm() < 1e-4);
+    const Eigen::Isometry3d turn = motion(kTiny, Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Zero());
+    const auto error = relative_error(turn * kFirst * turn.inverse(), kFirst);
+    CHECK((error / kTiny - by_rig.col(1 + axis)).norm() < 1e-4);
   }
   Eigen::Isometry3d longer = kFirst;
-  longer.translation() *= 1 + kSmall;
-  CHECK((error_of(longer, kFirst) / kSmall - by_rig.col(0)).norm() < 1e-4);
+  longer.translation() *= 1 + kTiny;
+  CHECK((relative_error(longer, kFirst) / kTiny - by_rig.col(0)).norm() < 1e-4);
 }
 
 TEST_CASE("rig uncertainty: along a chain the rig's errors add up to those of the whole motion", "[pose]") {

@@ -9,7 +9,7 @@ using namespace matching;
 namespace {
 
 /// Candidates of left edges on a rectified rig: position on the line [px], direction [degrees] and similarity of each.
-struct Lists {
+struct ClusterLists {
   reference::Candidates candidates;
   reference::CandidateScores scores;
   reference::RefinedCandidates refined;
@@ -18,7 +18,7 @@ struct Lists {
   struct Member {
     double position, degrees, similarity;
   };
-  explicit Lists(const std::vector<std::vector<Member>>& rows) {
+  explicit ClusterLists(const std::vector<std::vector<Member>>& rows) {
     candidates.first = {0};
     for (const auto& row : rows) {
       for (const Member& member : row) {
@@ -81,7 +81,8 @@ struct Lists {
 }  // namespace
 
 TEST_CASE("stereo clusters: cut at gaps, represented by the most alike member", "[stereo][matching]") {
-  const Lists lists({{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}, {4.5, 8, 0.85}}, {}, {{7, 0, 0.9}, {8, 0, 0.95}}});
+  const ClusterLists lists(
+      {{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}, {4.5, 8, 0.85}}, {}, {{7, 0, 0.9}, {8, 0, 0.95}}});
   const auto clusters = lists.clusters();
   // 3, 3.9, 4.5 chain up (gaps 0.9, 0.6), 5.5 is a gap of exactly 1 away; 7 and 8 as well.
   CHECK(clusters.first == std::vector<std::int32_t>{0, 2, 2, 4});
@@ -96,7 +97,8 @@ TEST_CASE("stereo clusters: cut at gaps, represented by the most alike member", 
 TEST_CASE("stereo clusters: directions are compared and averaged around the full turn", "[stereo][matching]") {
   // 178 and -179 degrees are 3 apart; 30 and 55 are 25 apart, over the limit of 20; 10 and -170 are opposite.
   const auto clusters =
-      Lists({{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}})
+      ClusterLists(
+          {{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}})
           .clusters();
   CHECK(clusters.first == std::vector<std::int32_t>{0, 1, 3, 5});
   // 178 with weight 1, 181 with weight exp(-0.25 / 8).
@@ -107,17 +109,17 @@ TEST_CASE("stereo clusters: directions are compared and averaged around the full
 
 TEST_CASE("stereo clusters: of equally alike members the first by number stands for the cluster",
           "[stereo][matching]") {
-  const auto clusters = Lists({{{1.5, 20, 0.9}, {1, 20, 0.9}},
-                               {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}},
-                               {{3.4, 20, 0.9}, {3.1, 20, 0.9003}}})
+  const auto clusters = ClusterLists({{{1.5, 20, 0.9}, {1, 20, 0.9}},
+                                      {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}},
+                                      {{3.4, 20, 0.9}, {3.1, 20, 0.9003}}})
                             .clusters();
   CHECK(clusters.anchor == std::vector<std::int32_t>{0, 2, 6});
 }
 
 TEST_CASE("stereo clusters: no more members than allowed, and none that a filter rejected", "[stereo][matching]") {
-  std::vector<Lists::Member> row;
+  std::vector<ClusterLists::Member> row;
   for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20, 0.8 + 0.01 * k});
-  Lists lists({row});
+  ClusterLists lists({row});
   CHECK(lists.clusters().first == std::vector<std::int32_t>{0, 2});  // 10 and 2
   CHECK(lists.clusters().position == std::vector<double>{4.5, 5.5});
   for (const std::size_t dead : {5, 6, 7}) lists.scores.state[dead] = 7;  // a gap of 2 px in the middle
@@ -128,13 +130,13 @@ TEST_CASE("stereo clusters: no more members than allowed, and none that a filter
 
 TEST_CASE("stereo clusters: devices agree with the reference on random lists", "[stereo][matching][device]") {
   Random random(19);
-  std::vector<std::vector<Lists::Member>> rows;
+  std::vector<std::vector<ClusterLists::Member>> rows;
   for (int i = 0; i < 251; ++i) {
     rows.emplace_back();
     for (int k = 0; k < i % 14; ++k) rows.back().push_back({random(4, 9), random(-180, 180), random(0.5, 1)});
     for (int k = 0; k < i % 5; ++k) rows.back().push_back({random(12, 14), random(20, 40), random(0.5, 1)});
   }
-  Lists lists(rows);
+  ClusterLists lists(rows);
   for (std::size_t c = 0; c < lists.refined.position.size(); c += 7) lists.scores.state[c] = 8;
   for (std::size_t c = 3; c < lists.refined.position.size(); c += 11) lists.scores.state[c] = kCandidateRepresented;
   CHECK(lists.clusters().position.size() > 500);
@@ -142,6 +144,6 @@ TEST_CASE("stereo clusters: devices agree with the reference on random lists", "
 }
 
 TEST_CASE("stereo clusters: few edges, and none", "[stereo][matching][device][oclgrind]") {
-  Lists({{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}}, {}, {{7, 0, 0.9}}}).compare_devices(0);
-  Lists({}).compare_devices(0);
+  ClusterLists({{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}}, {}, {{7, 0, 0.9}}}).compare_devices(0);
+  ClusterLists({}).compare_devices(0);
 }

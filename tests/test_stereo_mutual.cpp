@@ -11,7 +11,7 @@ using namespace matching;
 namespace {
 
 /// Two images of the smooth texture 6.3 px apart, with left edges at chosen positions and what each has chosen.
-struct Scene {
+struct MutualScene {
   StereoRig rig = flat_rig(97, 71);
   StereoConfig config;
   Config all;
@@ -21,7 +21,7 @@ struct Scene {
   reference::StereoClusters clusters;
   reference::StereoRelaxation relaxation;
 
-  Scene() {
+  MutualScene() {
     config.max_disparity = 20;
     geometry = make_epipolar_geometry(rig, config);
     clusters.first = {0};
@@ -92,7 +92,7 @@ struct Scene {
 }  // namespace
 
 TEST_CASE("stereo mutual: what an edge has chosen is placed on its line", "[stereo][matching][device]") {
-  Scene scene;
+  MutualScene scene;
   scene.left = make_edges({{40, 30, 1.2}, {60, 30, -1.0}, {50, 40, 1.6}, {70, 40, 1.6}}, 71);
   scene.right = make_edges({{33.7, 30, 1.2}, {53.7, 30, -1.0}, {43.7, 40, 1.6}}, 71);
   scene.add(0, 6.3, 1.2, 0.97);
@@ -110,7 +110,7 @@ TEST_CASE("stereo mutual: what an edge has chosen is placed on its line", "[ster
 }
 
 TEST_CASE("stereo mutual: one right edge serves only neighbours of its best left edge", "[stereo][matching][device]") {
-  Scene scene;
+  MutualScene scene;
   scene.left = make_edges({{40, 30, 1.2}, {41, 30, 1.2}, {43, 30, 1.2}}, 71);
   scene.right = make_edges({{33.7, 30, 1.2}}, 71);
   scene.config.mutual_radius = 1.5;
@@ -137,7 +137,7 @@ TEST_CASE("stereo mutual: devices agree with the reference on random choices, on
           "[stereo][matching][device][oclgrind]") {
   Random random(29);
   for (const int count : {301, 1, 0}) {
-    Scene scene;
+    MutualScene scene;
     std::vector<Edge> left, right;
     for (int i = 0; i < count; ++i) left.push_back({random(30, 80), random(14, 56), random(-kPi, kPi)});
     for (int j = 0; j < count / 3 + 1; ++j) right.push_back({random(14, 80), random(14, 56), random(-kPi, kPi)});

@@ -17,7 +17,7 @@ const double kOffset = patches.offset;
 
 /// A right image that shows the left one's texture at a disparity of 6.3 px everywhere, with edges all over it, and one
 /// candidate per left edge that lies up to 1.2 px beside the truth along the line and up to 0.4 px across it.
-struct Scene {
+struct RefinementScene {
   StereoRig rig = flat_rig(97, 71);
   StereoConfig config;
   Image left_image, right_image;
@@ -26,7 +26,7 @@ struct Scene {
   reference::CandidateScores scores;
   EpipolarGeometry geometry;
 
-  explicit Scene(int count, std::uint64_t seed = 2) {
+  explicit RefinementScene(int count, std::uint64_t seed = 2) {
     config.max_disparity = 20;
     // The candidates lie farther off than edges do: the images alone decide, and need more steps, down to the end.
     config.refine_prior_sigma = 100;
@@ -121,7 +121,7 @@ struct Scene {
 
 /// Candidates end at the true disparity, as exactly as 8 bits allow. Flat spots, where rounding counts more, are left
 /// out: less than 4 grey levels per px along the line.
-void check_disparity(const Scene& scene) {
+void check_disparity(const RefinementScene& scene) {
   auto result = scene.scores;
   const auto [positions, similarity] = scene.refine(result);
   std::vector<double> errors;
@@ -133,7 +133,7 @@ void check_disparity(const Scene& scene) {
     if (std::sqrt(std::inner_product(slopes.begin(), slopes.end(), slopes.begin(), 0.0) / 49) < 4) continue;
     CHECK(result.state[c] == kCandidateAlive);
     CHECK(similarity[c] > 0.99);
-    errors.push_back(positions[c] - Scene::kDisparity);
+    errors.push_back(positions[c] - RefinementScene::kDisparity);
   }
   CHECK(errors.size() > 90);
   check_subpixel(errors);
@@ -161,20 +161,20 @@ TEST_CASE("epipolar shift: along the tangent where it crosses the line, else str
 }
 
 TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px", "[stereo][matching]") {
-  check_disparity(Scene(150));
+  check_disparity(RefinementScene(150));
 }
 
 TEST_CASE("stereo refinement: another exposure of the right camera does no harm", "[stereo][matching][device]") {
-  Scene scene(150);
+  RefinementScene scene(150);
   scene.right_image =
-      image_of(97, 71, [](double x, double y) { return 20 + 0.9 * smooth_grey(x + Scene::kDisparity, y); });
+      image_of(97, 71, [](double x, double y) { return 20 + 0.9 * smooth_grey(x + RefinementScene::kDisparity, y); });
   check_disparity(scene);
   scene.compare_devices();
 }
 
 TEST_CASE("stereo refinement: a strong prior holds the shifted position, the default one weighs it against the images",
           "[stereo][matching][device]") {
-  Scene scene(60);
+  RefinementScene scene(60);
   auto result = scene.scores;
   const auto free = scene.refine(result).position;
   scene.config.refine_prior_sigma = 0.002;
@@ -190,9 +190,9 @@ TEST_CASE("stereo refinement: a strong prior holds the shifted position, the def
     const double start = reference::epipolar_shift(line, scene.right.x[c], y, scene.right.direction[c],
                                                    scene.config.shift_min_angle_rad(), scene.config.shift_max);
     CHECK(std::abs(held[c] - start) < 0.1);
-    if (std::abs(free[c] - start) > 0.5 && std::abs(free[c] - Scene::kDisparity) < 0.05) {
+    if (std::abs(free[c] - start) > 0.5 && std::abs(free[c] - RefinementScene::kDisparity) < 0.05) {
       ++moved;
-      CHECK(std::abs(weighed[c] - Scene::kDisparity) < std::abs(start - Scene::kDisparity));
+      CHECK(std::abs(weighed[c] - RefinementScene::kDisparity) < std::abs(start - RefinementScene::kDisparity));
     }
   }
   CHECK(moved > 10);
@@ -201,7 +201,7 @@ TEST_CASE("stereo refinement: a strong prior holds the shifted position, the def
 
 TEST_CASE("stereo refinement: rejects what leaves the clamp, finds unlike what is, and leaves the dead alone",
           "[stereo][matching]") {
-  Scene scene(60);
+  RefinementScene scene(60);
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] -= i % 3 == 0 ? 4.5f : 0.0f;
   scene.scores.state[1] = 5;
   auto result = scene.scores;
@@ -219,7 +219,7 @@ TEST_CASE("stereo refinement: rejects what leaves the clamp, finds unlike what i
 }
 
 TEST_CASE("stereo refinement: devices agree with the reference", "[stereo][matching][device]") {
-  Scene scene(400, 8);
+  RefinementScene scene(400, 8);
   scene.compare_devices();
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] += static_cast<float>(i % 5) - 2.0f;
   scene.scores.state[3] = 4;
@@ -227,7 +227,7 @@ TEST_CASE("stereo refinement: devices agree with the reference", "[stereo][match
 }
 
 TEST_CASE("stereo refinement: rows of several candidates, some at one position", "[stereo][matching][device]") {
-  Scene scene(300, 5);
+  RefinementScene scene(300, 5);
   scene.crowd();
   auto result = scene.scores;
   scene.refine(result);
@@ -236,9 +236,9 @@ TEST_CASE("stereo refinement: rows of several candidates, some at one position",
 }
 
 TEST_CASE("stereo refinement: few candidates, several in a row, and none", "[stereo][matching][device][oclgrind]") {
-  Scene(3).compare_devices();
-  Scene several(11);
+  RefinementScene(3).compare_devices();
+  RefinementScene several(11);
   several.crowd();
   several.compare_devices();
-  Scene(0).compare_devices();
+  RefinementScene(0).compare_devices();
 }

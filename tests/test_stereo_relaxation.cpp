@@ -9,14 +9,14 @@ using namespace matching;
 namespace {
 
 /// Left edges with clusters that the test makes up.
-struct Scene {
+struct RelaxationScene {
   StereoRig rig;
   StereoConfig config;
   EpipolarGeometry geometry;
   EdgeSet left;
   reference::StereoClusters clusters;
 
-  explicit Scene(const StereoRig& of_rig) : rig(of_rig) {
+  explicit RelaxationScene(const StereoRig& of_rig) : rig(of_rig) {
     config.max_disparity = 60;
     geometry = make_epipolar_geometry(rig, config);
     clusters.first = {0};
@@ -94,8 +94,8 @@ constexpr double kUpright = -0.5 * kPi;  // vertical, bright on the right
 
 /// A wall of upright edges every 4 px at `position`, edge by edge with `wrong` in addition: its distance from the right
 /// position, and its lead in similarity.
-Scene wall(double position, double wrong, double lead) {
-  Scene scene(flat_rig(97, 71));
+RelaxationScene wall(double position, double wrong, double lead) {
+  RelaxationScene scene(flat_rig(97, 71));
   for (int y = 12; y < 60; y += 4) {
     for (int x = 14; x < 84; x += 4) {
       if (wrong > 0) {
@@ -110,7 +110,7 @@ Scene wall(double position, double wrong, double lead) {
 
 /// Edges of a slanted plane that a rig sees, each with its true candidate and a wrong one somewhere before it, which is
 /// a little more similar for every other edge. \returns the true positions; NaN for edges that have no candidate.
-std::vector<double> see_plane(Scene& scene) {
+std::vector<double> see_plane(RelaxationScene& scene) {
   Random random(5);
   const Eigen::Vector3d normal = Eigen::Vector3d(0.5, -0.3, -1).normalized(), point(0, 0, 2.2);
   const auto seen = [&](double x, double y) -> Eigen::Vector2d {
@@ -140,7 +140,7 @@ std::vector<double> see_plane(Scene& scene) {
   return truth;
 }
 
-std::size_t right_choices(const Scene& scene, const std::vector<double>& truth) {
+std::size_t right_choices(const RelaxationScene& scene, const std::vector<double>& truth) {
   const auto relaxation = scene.relax();
   std::size_t right = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) right += scene.chosen(relaxation, i) == truth[i] ? 1 : 0;
@@ -150,7 +150,7 @@ std::size_t right_choices(const Scene& scene, const std::vector<double>& truth) 
 }  // namespace
 
 TEST_CASE("stereo relaxation: neighbours decide where similarity hardly does", "[stereo][matching]") {
-  Scene scene = wall(10, 0, 0);
+  RelaxationScene scene = wall(10, 0, 0);
   const auto some = scene.left.size() / 2;
   const Edge edge = {46.5, 35.5, kUpright};
   scene.add(edge, {{10, kUpright, 0.9}, {18, kUpright, 0.92}});
@@ -163,14 +163,14 @@ TEST_CASE("stereo relaxation: neighbours decide where similarity hardly does", "
 TEST_CASE("stereo relaxation: neighbours do not overrule a clear lead", "[stereo][matching]") {
   // Full support is worth ((1 + floor) / floor)^2 = 441 = exp(0.244 / scale).
   for (const auto& [lead, position] : {std::pair(0.2, 10.0), std::pair(0.3, 18.0)}) {
-    Scene scene = wall(10, 0, 0);
+    RelaxationScene scene = wall(10, 0, 0);
     scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}, {18, kUpright, 0.6 + lead}});
     CHECK(scene.chosen(scene.relax(), scene.left.size() - 1) == position);
   }
 }
 
 TEST_CASE("stereo relaxation: what a few edges know spreads through a repeated texture", "[stereo][matching]") {
-  Scene scene = wall(10, 8, 0.003);  // a period of 8 px: the wrong one is the more similar everywhere
+  RelaxationScene scene = wall(10, 8, 0.003);  // a period of 8 px: the wrong one is the more similar everywhere
   CHECK(scene.chosen(scene.relax(), 100) == 18);
   // One edge in seven shows something that does not repeat.
   for (std::size_t i = 0; i < scene.left.size(); i += 7) scene.clusters.similarity[2 * i + 1] = 0.1;
@@ -181,7 +181,7 @@ TEST_CASE("stereo relaxation: what a few edges know spreads through a repeated t
 }
 
 TEST_CASE("stereo relaxation: what neighbours agree with needs less similarity", "[stereo][matching]") {
-  Scene scene = wall(10, 0, 0);
+  RelaxationScene scene = wall(10, 0, 0);
   const auto wall_size = scene.left.size();
   scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}});    // agrees
   scene.add({50.5, 35.5, kUpright}, {{17, kUpright, 0.84}});   // does not
@@ -194,7 +194,7 @@ TEST_CASE("stereo relaxation: what neighbours agree with needs less similarity",
   CHECK(std::isnan(scene.chosen(relaxation, wall_size + 3)));
   CHECK(relaxation.score[wall_size] == Approx(0.6 + 0.4));
   CHECK(relaxation.score[wall_size + 2] == Approx(0.86 + 0.4 * 0.7));  // not asked: needs no support
-  Scene alone(flat_rig(97, 71));
+  RelaxationScene alone(flat_rig(97, 71));
   alone.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.84}, {14, kUpright, 0.5}});
   alone.add({90.5, 64.5, kUpright}, {{10, kUpright, 0.86}, {14, kUpright, 0.5}});
   CHECK(alone.relax().chosen == std::vector<std::int32_t>{-1, 2});
@@ -202,7 +202,7 @@ TEST_CASE("stereo relaxation: what neighbours agree with needs less similarity",
 
 TEST_CASE("stereo relaxation: of candidates that are believed alike the first is chosen",
           "[stereo][matching][device]") {
-  Scene scene(flat_rig(97, 71));
+  RelaxationScene scene(flat_rig(97, 71));
   scene.add({46.5, 35.5, kUpright}, {{8, kUpright, 0.9}, {12, kUpright, 0.9}});
   scene.add({52.5, 35.5, kUpright}, {{10, kUpright, 0.9}});
   const auto relaxation = scene.relax();
@@ -215,11 +215,11 @@ TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one of 
           "[stereo][matching][device]") {
   StereoRig flat = flat_rig(143, 97, 120, 0.25);
   for (const StereoRig& rig : {flat, crooked_rig()}) {
-    Scene scene(rig);
+    RelaxationScene scene(rig);
     const auto truth = see_plane(scene);
     CHECK(right_choices(scene, truth) > 810 * 97 / 100);
     scene.compare_devices(4);
-    Scene alone = scene;
+    RelaxationScene alone = scene;
     alone.config.relaxation_rounds = 0;
     CHECK(right_choices(alone, truth) == 360);  // of the odd ones those that have candidates
     alone.compare_devices(0);
@@ -230,9 +230,9 @@ TEST_CASE("stereo relaxation: devices agree with the reference on random cluster
           "[stereo][matching][device][oclgrind]") {
   Random random(31);
   for (const int count : {401, 1, 0}) {
-    Scene scene(flat_rig(97, 71));
+    RelaxationScene scene(flat_rig(97, 71));
     for (int i = 0; i < count; ++i) {
-      std::vector<Scene::Member> members;
+      std::vector<RelaxationScene::Member> members;
       for (int k = 0; k < i % 6; ++k) members.push_back({3.0 * k + random(0, 2), random(-kPi, kPi), random(0.3, 1)});
       scene.add({random(10, 86), random(10, 60), random(-kPi, kPi)}, members);
     }

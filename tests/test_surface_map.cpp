@@ -10,7 +10,7 @@ using namespace quadedge::evaluation;
 
 namespace {
 
-constexpr double kVertical = kPi / 2, kHorizontal = 0;
+constexpr double kVerticalLine = kPi / 2, kHorizontal = 0;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 template <class Value>
@@ -40,7 +40,7 @@ TEST_CASE("A slanted surface is read between its pixels exactly", "[matching]") 
 TEST_CASE("An edge on a depth step belongs to the nearer surface, on whichever side of the step it was detected",
           "[matching]") {
   for (const double x : {14.6, 15.4, 16.0, 16.8}) {
-    const auto point = surface_at(board(), x, 12.3, kVertical);
+    const auto point = surface_at(board(), x, 12.3, kVerticalLine);
     REQUIRE(point);
     CHECK(point->contour);
     CHECK(point->nearness == Approx(20));
@@ -48,10 +48,10 @@ TEST_CASE("An edge on a depth step belongs to the nearer surface, on whichever s
 }
 
 TEST_CASE("Away from a depth step an edge belongs to its own side, and just beside it nothing is said", "[matching]") {
-  CHECK(surface_at(board(), 13.2, 12, kVertical)->nearness == Approx(20));
-  CHECK_FALSE(surface_at(board(), 13.2, 12, kVertical)->contour);
-  CHECK_FALSE(surface_at(board(), 17.7, 12, kVertical));
-  CHECK(surface_at(board(), 19.0, 12, kVertical)->nearness == Approx(5));
+  CHECK(surface_at(board(), 13.2, 12, kVerticalLine)->nearness == Approx(20));
+  CHECK_FALSE(surface_at(board(), 13.2, 12, kVerticalLine)->contour);
+  CHECK_FALSE(surface_at(board(), 17.7, 12, kVerticalLine));
+  CHECK(surface_at(board(), 19.0, 12, kVerticalLine)->nearness == Approx(5));
 }
 
 TEST_CASE("A depth step that an edge runs into does not smear into it", "[matching]") {
@@ -66,9 +66,9 @@ TEST_CASE("A depth step that an edge runs into does not smear into it", "[matchi
 
 TEST_CASE("Nothing is said about an edge with an unknown pixel beside it", "[matching]") {
   const auto map = make_map(40, 30, [](int x, int) { return x == 20 ? static_cast<double>(kNan) : 5.0; });
-  CHECK_FALSE(surface_at(map, 20.2, 12, kVertical));
-  CHECK_FALSE(surface_at(map, 21.2, 12, kVertical));
-  CHECK(surface_at(map, 22.4, 12, kVertical));
+  CHECK_FALSE(surface_at(map, 20.2, 12, kVerticalLine));
+  CHECK_FALSE(surface_at(map, 21.2, 12, kVerticalLine));
+  CHECK(surface_at(map, 22.4, 12, kVerticalLine));
   CHECK(surface_at(map, 21.2, 12, kHorizontal));
 }
 

@@ -7,7 +7,7 @@ using namespace matching;
 
 namespace {
 
-constexpr int kWidth = 90;  // px
+constexpr int kRowWidth = 90;  // px
 
 EdgePositions positions_of(const std::vector<Edge>& edges) {
   EdgePositions positions;
@@ -58,7 +58,7 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
                              int height, double radius, double orientation, int step) {
   const auto predicted = positions_of(predicted_edges), current = positions_of(current_edges);
   reference::PointIndex index;
-  reference::make_point_index(current.x, current.y, kWidth, height, index);
+  reference::make_point_index(current.x, current.y, kRowWidth, height, index);
   const auto truth = reference::temporal_candidates(predicted, current, index, static_cast<float>(radius),
                                                     static_cast<float>(orientation), step);
   const auto certain = check_lists(truth.first, truth.target, predicted, current, radius, orientation, step);
@@ -67,7 +67,7 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
         INFO(name);
         stages::DevicePositions device_current, device_predicted;
         device_current.write(context, {current});
-        stages::DevicePointIndex device_index(kWidth, height), other(kWidth, height);
+        stages::DevicePointIndex device_index(kRowWidth, height), other(kRowWidth, height);
         stages::PointIndex(context, variants).run(device_current.list(), device_current.list(), device_index, other);
         device_predicted.write(context, {predicted});
         stages::TemporalCandidates stage(context, variants);
@@ -101,7 +101,7 @@ TEST_CASE("temporal candidates: a circle around the predicted position and a ful
       {24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
   const auto positions = positions_of(current);
   reference::PointIndex index;
-  reference::make_point_index(positions.x, positions.y, kWidth, 30, index);
+  reference::make_point_index(positions.x, positions.y, kRowWidth, 30, index);
   const auto lists = reference::temporal_candidates(positions_of(predicted), positions, index, 5.0f, 0.15f);
   CHECK(lists.first == std::vector<std::int32_t>{0, 2, 2, 3});
   CHECK(lists.target == std::vector<std::int32_t>{3, 0, 2});

@@ -18,7 +18,7 @@ struct MatchedRows {
   stages::TappedMatch tapped;  ///< of the tap form
 };
 
-constexpr int kWidth = 97, kHeight = 61;
+constexpr int kImageWidth = 97, kImageHeight = 61;
 
 /// A patch pair near one of a few prototypes, so that many edges look alike.
 void add_patches(Random& random, std::vector<std::int8_t>& patches) {
@@ -35,7 +35,7 @@ void add_patches(Random& random, std::vector<std::int8_t>& patches) {
 }
 
 /// A base rig and a current one whose edges lie about the predicted positions; `shuffled` numbers of the left edges.
-struct Scene {
+struct TemporalScene {
   StereoEdges base, current;
   std::vector<std::int8_t> base_left, base_right, left,
       right;  ///< patches: left ones by left edge, right ones by stereo edge
@@ -43,7 +43,7 @@ struct Scene {
   TemporalSearch search;
   TemporalConfig config;
 
-  Scene(int base_edges, int current_edges, std::uint64_t seed, int step = 1) {
+  TemporalScene(int base_edges, int current_edges, std::uint64_t seed, int step = 1) {
     Random random(seed);
     search.radius = 3;
     config.ncc_nearly_best = 0.97;  // so near that this filter too has something to do
@@ -73,7 +73,8 @@ struct Scene {
       // 7 shares no factor with the numbers of edges used: every left edge once.
       edges.left_index.push_back(count == 0 ? 0 : 7 * i % count);
       edges.right_index.push_back(i);
-      const float x = static_cast<float>(random(-4, kWidth + 3)), y = static_cast<float>(random(-4, kHeight + 3));
+      const float x = static_cast<float>(random(-4, kImageWidth + 3)),
+                  y = static_cast<float>(random(-4, kImageHeight + 3));
       edges.left_x.push_back(x);
       edges.left_y.push_back(y);
       edges.right_x.push_back(x - static_cast<float>(random(3, 5)));
@@ -103,14 +104,14 @@ struct Scene {
                of_left = described(left, current.left_index, left_sift),
                of_base_right = described(base_right, base.right_index, base_right_sift),
                of_right = described(right, current.right_index, right_sift);
-    return reference::temporal_match(search, current, {of_base_left, of_left, kWidth, kHeight},
-                                     {of_base_right, of_right, kWidth, kHeight}, config);
+    return reference::temporal_match(search, current, {of_base_left, of_left, kImageWidth, kImageHeight},
+                                     {of_base_right, of_right, kImageWidth, kImageHeight}, config);
   }
   /// Edges within the radius alone, as the reference finds them.
   reference::Candidates displaced(Side side) const {
     const EdgePositionsView edges = current.positions(side);
     reference::PointIndex index;
-    reference::make_point_index(edges.x, edges.y, kWidth, kHeight, index);
+    reference::make_point_index(edges.x, edges.y, kImageWidth, kImageHeight, index);
     return reference::temporal_candidates(side == Side::left ? search.left : search.right, edges, index, search.radius,
                                           4, search.step);
   }
@@ -140,7 +141,7 @@ struct Scene {
           upload_rig(context, current, left, right, left_sift, right_sift, device_current);
           stages::DevicePositions edges;
           edges.write(context, {current.positions(Side::left), current.positions(Side::right)});
-          stages::DevicePointIndex left_index(kWidth, kHeight), right_index(kWidth, kHeight);
+          stages::DevicePointIndex left_index(kImageWidth, kImageHeight), right_index(kImageWidth, kImageHeight);
           stages::PointIndex(context, variants).run(edges.list(0), edges.list(1), left_index, right_index);
           stages::DevicePositions predicted;
           predicted.write(context, {search.left, search.right});
@@ -206,13 +207,13 @@ struct Scene {
 
 TEST_CASE("temporal match: one kernel finds what the reference's cascade finds, and a tap sees why, to the last bit",
           "[temporal][matching][device]") {
-  for (const std::uint64_t seed : {3, 13, 23}) CHECK(Scene(600, 2400, seed).compare_devices() > 100);
-  CHECK(Scene(601, 2399, 4, 3).compare_devices() > 30);
+  for (const std::uint64_t seed : {3, 13, 23}) CHECK(TemporalScene(600, 2400, seed).compare_devices() > 100);
+  CHECK(TemporalScene(601, 2399, 4, 3).compare_devices() > 30);
 }
 
 TEST_CASE("temporal match: every filter of the tap form rejects something in these scenes", "[temporal][matching]") {
   // Without this the comparison above would say nothing of a filter.
-  const Scene scene(600, 2400, 3);
+  const TemporalScene scene(600, 2400, 3);
   const auto truth = scene.expected();
   CHECK(scene.displaced(Side::left).target.size() > truth.left.candidates.target.size() + 100);
   for (const auto filter : {TemporalFilter::ncc, TemporalFilter::nearly_best_ncc, TemporalFilter::agreement}) {
@@ -223,7 +224,7 @@ TEST_CASE("temporal match: every filter of the tap form rejects something in the
 }
 
 TEST_CASE("temporal match: SIFT distances of a tap decide nothing", "[temporal][matching][device]") {
-  Scene scene(101, 500, 9);
+  TemporalScene scene(101, 500, 9);
   const auto before = scene.expected().matches;
   for (auto& value : scene.base_left_sift) value = static_cast<std::uint8_t>(255 - value);
   int forms = 0;
@@ -237,14 +238,14 @@ TEST_CASE("temporal match: SIFT distances of a tap decide nothing", "[temporal][
 }
 
 TEST_CASE("temporal match: few edges, and none", "[temporal][matching][device][oclgrind]") {
-  Scene(5, 60, 5).compare_devices();
-  Scene(3, 0, 6).compare_devices();
-  Scene(0, 4, 7).compare_devices();
+  TemporalScene(5, 60, 5).compare_devices();
+  TemporalScene(3, 0, 6).compare_devices();
+  TemporalScene(0, 4, 7).compare_devices();
 }
 
 TEST_CASE("temporal match: a row with more candidates than there is room for says so",
           "[temporal][matching][device][oclgrind]") {
-  Scene scene(3, 170, 8);
+  TemporalScene scene(3, 170, 8);
   for (std::size_t j = 0; j < 170; ++j) {
     scene.current.left_x[j] = scene.base.left_x[2] + 6;
     scene.current.left_y[j] = scene.base.left_y[2];

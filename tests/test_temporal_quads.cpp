@@ -20,14 +20,14 @@ void add(StereoEdges& edges, double x, double y, double degrees) {
 }
 
 /// Rows of candidates in left and right lists, with what the filters said.
-struct Scene {
+struct QuadScene {
   StereoEdges current;
   TemporalSearch search;
   reference::Candidates left{{0}, {}}, right{{0}, {}};
   reference::CandidateScores left_scores, right_scores;
   TemporalConfig config;
 
-  Scene(int rows, int most, std::uint64_t seed, int step = 1) {
+  QuadScene(int rows, int most, std::uint64_t seed, int step = 1) {
     search.radius = 3;
     search.step = step;
     Random random(seed);
@@ -155,14 +155,14 @@ TEST_CASE("temporal best: among equals the predicted position decides, as far as
 }
 
 TEST_CASE("temporal quads: devices agree with the reference", "[temporal][matching][device]") {
-  const Scene scene(300, 14, 5);
+  const QuadScene scene(300, 14, 5);
   CHECK(scene.match().size() > 100);
   scene.compare_devices();
-  Scene(100, 9, 6, 7).compare_devices();
+  QuadScene(100, 9, 6, 7).compare_devices();
 }
 
 TEST_CASE("temporal quads: few candidates, and none", "[temporal][matching][device][oclgrind]") {
-  Scene(3, 5, 7).compare_devices();
-  Scene(2, 0, 8).compare_devices();
-  Scene(0, 0, 9).compare_devices();
+  QuadScene(3, 5, 7).compare_devices();
+  QuadScene(2, 0, 8).compare_devices();
+  QuadScene(0, 0, 9).compare_devices();
 }

@@ -10,7 +10,6 @@
 using namespace quadedge;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
-using dataset_files::read_text;
 using dataset_files::write_text;
 
 namespace {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMaxCosine = 0.97;
 
-OrientedPair moved(const OrientedPair& pair, const Eigen::Isometry3d& m) {
+OrientedPair moved_pair(const OrientedPair& pair, const Eigen::Isometry3d& m) {
   return {{m * pair.first.point, m.linear() * pair.first.tangent},
           {m * pair.second.point, m.linear() * pair.second.tangent}};
 }
@@ -23,7 +23,7 @@ TEST_CASE("Two exact quads give the exact motion", "[pose][two_quads]") {
     const OrientedPair pair{{random.uniform(1, 9) * random.unit(), random.unit()},
                             {random.uniform(1, 9) * random.unit(), random.unit()}};
     const Eigen::Isometry3d truth = random.motion(3.0, 5.0);
-    const auto found = solve_two_quads(pair, moved(pair, truth), kMaxCosine);
+    const auto found = solve_two_quads(pair, moved_pair(pair, truth), kMaxCosine);
     if (!found) continue;
     ++solved;
     CHECK((found->matrix() - truth.matrix()).norm() < 1e-9);
@@ -35,7 +35,7 @@ TEST_CASE("Coplanar vectors are no hindrance", "[pose][two_quads]") {
   generated::Random random(8);
   const OrientedPair pair{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{1, 0, 4}, Eigen::Vector3d::UnitY()}};
   const Eigen::Isometry3d truth = random.motion(1.0, 1.0);
-  const auto found = solve_two_quads(pair, moved(pair, truth), kMaxCosine);
+  const auto found = solve_two_quads(pair, moved_pair(pair, truth), kMaxCosine);
   REQUIRE(found);
   CHECK((found->matrix() - truth.matrix()).norm() < 1e-12);
 }
@@ -56,7 +56,7 @@ TEST_CASE("A noisy pair gives a rotation all the same, with the midpoint in its 
   for (int trial = 0; trial < 50; ++trial) {
     const OrientedPair before{{random.uniform(1, 9) * random.unit(), random.unit()},
                               {random.uniform(1, 9) * random.unit(), random.unit()}};
-    OrientedPair after = moved(before, random.motion(1.0, 1.0));
+    OrientedPair after = moved_pair(before, random.motion(1.0, 1.0));
     after.first.point += 0.1 * random.unit();
     after.second.point += 0.1 * random.unit();
     after.first.tangent = (after.first.tangent + 0.1 * random.unit()).normalized();

@@ -9,7 +9,7 @@ namespace quadedge::cli {
 namespace {
 
 // Where there are no words, bash completes file names (-o default).
-constexpr const char* kTail = R"(
+constexpr const char* kCompletionTail = R"(
   esac
   COMPREPLY=($(compgen -W "$words" -- "$current"))
 }
@@ -73,7 +73,7 @@ std::string bash_completion(const std::vector<DescribedCommand>& commands) {
       groups + "  esac\n  ((COMP_CWORD == 1)) && command=group words='" + joined(first) +
       "'\n  case \"$command $before\" in\n";
   for (const auto& command : commands) script += cases(command);
-  return script.substr(0, script.size() - 1) + kTail;
+  return script.substr(0, script.size() - 1) + kCompletionTail;
 }
 
 }  // namespace quadedge::cli

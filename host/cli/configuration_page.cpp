@@ -4,7 +4,7 @@
 namespace quadedge::cli {
 namespace {
 
-constexpr const char* kHead = R"(# Configuration
+constexpr const char* kPageHead = R"(# Configuration
 
 <!-- Made by `quadedge generate configuration > doc/configuration.md` from include/quadedge/constants.inc. -->
 
@@ -42,7 +42,7 @@ std::string row(const Constant& constant, const Config& defaults) {
 std::string configuration_page() {
   const Config defaults;
   const std::string columns = "| constant | default | unit | allowed | meaning | paper |\n|---|---|---|---|---|---|\n";
-  std::string page = kHead, section;
+  std::string page = kPageHead, section;
   page += "\n" + columns;
   for (const Constant& constant : constants()) {
     if (constant.section != section) {

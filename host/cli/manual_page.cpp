@@ -7,7 +7,7 @@
 namespace quadedge::cli {
 namespace {
 
-constexpr const char* kHead = R"(.SH NAME
+constexpr const char* kManualHead = R"(.SH NAME
 quadedge \- stereo visual odometry from quadruplets of third-order edges
 .SH SYNOPSIS
 .B quadedge
@@ -24,7 +24,7 @@ adds every constant of the method.
 .SH COMMANDS
 )";
 
-constexpr const char* kTail = R"(.SH CONFIGURATION FILE
+constexpr const char* kManualTail = R"(.SH CONFIGURATION FILE
 .B \-\-config
 .I FILE
 reads a TOML file. Its keys are the names of options without dashes; constants stand in tables:
@@ -117,9 +117,9 @@ std::string constant_section(const std::vector<DescribedCommand>& commands) {
 
 std::string manual_page(const std::vector<DescribedCommand>& commands) {
   std::string page =
-      std::string(".TH QUADEDGE 1 \"\" \"QuadEdge ") + QUADEDGE_VERSION + "\" \"User Commands\"\n" + kHead;
+      std::string(".TH QUADEDGE 1 \"\" \"QuadEdge ") + QUADEDGE_VERSION + "\" \"User Commands\"\n" + kManualHead;
   for (const auto& command : commands) page += command_section(command);
-  return page + constant_section(commands) + kTail;
+  return page + constant_section(commands) + kManualTail;
 }
 
 }  // namespace quadedge::cli

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMaxDisparity = 64;
 /// Published calibrations have two kinds of image: the wide "l" ones (above 900 columns) and the "s" ones, about 6 cm
 /// apart.
-constexpr double kFocalWide = 541.764, kFocalNarrow = 711.499, kBaseline = 0.06;
+constexpr double kFocalWide = 541.764, kFocalNarrow = 711.499, kTwoViewBaseline = 0.06;
 constexpr int kWideColumns = 900;
 
 std::string truth_of(const fs::path& folder) {
@@ -48,7 +48,7 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
     const ImageSize left{dataset.rig.left.width, dataset.rig.left.height};
     const ImageSize right{dataset.rig.right.width, dataset.rig.right.height};
     dataset.rig = rectified_rig(left.width > kWideColumns ? kFocalWide : kFocalNarrow, (left.width - 1) / 2.0,
-                                (left.height - 1) / 2.0, (left.width - 1) / 2.0, kBaseline);
+                                (left.height - 1) / 2.0, (left.width - 1) / 2.0, kTwoViewBaseline);
     dataset.rig.left.width = left.width;
     dataset.rig.left.height = left.height;
     dataset.rig.right.width = right.width;

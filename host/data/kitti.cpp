@@ -13,7 +13,7 @@ namespace {
 
 /// The road comes into view at about 6 m, cars and kerbs beside the lane at 3 m: 127-129 px with KITTI's f and
 /// baseline. Semi-global matching finds 99.9 % of sequence 06 below 116 px.
-constexpr double kNearestDepth = 3.0;  // m
+constexpr double kNearestRoadDepth = 3.0;  // m
 
 /// The sequence's own folder: `folder` itself, or the one named by --sequence below the root or below sequences/.
 fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
@@ -141,7 +141,7 @@ Dataset read_kitti_odometry(const fs::path& root, const DatasetOptions& options,
     left_from_camera0 = set_camera(dataset.rig.left, projections, grey ? "P0" : "P2", file);
     const Eigen::Vector3d right_from_camera0 = set_camera(dataset.rig.right, projections, grey ? "P1" : "P3", file);
     dataset.rig.right_from_left.translation() = right_from_camera0 - left_from_camera0;
-    dataset.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestDepth;
+    dataset.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestRoadDepth;
     set_sizes_from_first_frame(dataset);
   });
 

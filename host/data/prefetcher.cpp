@@ -31,7 +31,7 @@ void check_image(const Image& image, const std::string& source, const PinholeCam
 
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{50};  // between two questions whether to stop
+constexpr std::chrono::milliseconds kAskEvery{50};  // between two questions whether to stop
 
 /// The image files of a data set.
 class FileReader : public PairReader {
@@ -83,7 +83,7 @@ class FramePrefetcher::Implementation {
   std::optional<Frame> next() {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto is_ready = [this] { return !queue_.empty() || finished_; };
-    while (!changed_.wait_for(lock, kPatience, is_ready)) {
+    while (!changed_.wait_for(lock, kAskEvery, is_ready)) {
       if (asked_to_stop_ && asked_to_stop_()) return std::nullopt;
     }
     if (queue_.empty()) return std::nullopt;

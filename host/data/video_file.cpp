@@ -21,7 +21,7 @@ extern "C" {
 namespace quadedge::data {
 namespace {
 
-constexpr double kNanoseconds = 1e9;  // per second
+constexpr double kStampsPerSecond = 1e9;  // nanoseconds
 
 /// What the libraries complained of last, in this thread. They tell damage that they cover up in no other way.
 thread_local std::string complaint;
@@ -166,9 +166,9 @@ bool VideoFile::Implementation::decode() {
 /// A video may round its times; one whose pictures have none follows its rate.
 std::int64_t VideoFile::Implementation::stamp() const {
   if (frame_->best_effort_timestamp == AV_NOPTS_VALUE || first_time_ == AV_NOPTS_VALUE)
-    return fps_ > 0 ? std::llround(decoded_ / fps_ * kNanoseconds) : decoded_;
+    return fps_ > 0 ? std::llround(decoded_ / fps_ * kStampsPerSecond) : decoded_;
   return std::llround(static_cast<double>(frame_->best_effort_timestamp - first_time_) * av_q2d(time_base_) *
-                      kNanoseconds);
+                      kStampsPerSecond);
 }
 
 /// BGR, then grey as that of an image file.

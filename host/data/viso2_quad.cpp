@@ -8,9 +8,9 @@ namespace {
 
 // Calibration that the libviso2 demo sets in its source; no file holds it.
 constexpr double kFocal = 645.24, kCentreX = 635.96, kCentreY = 194.13;  // px
-constexpr double kBaseline = 0.5707;                                     // m
+constexpr double kQuadBaseline = 0.5707;                                 // m
 /// A car's camera sees the road from about 6 m on; what stands beside the lane comes as near as 3 m (123 px here).
-constexpr double kNearestDepth = 3.0;  // m
+constexpr double kNearestQuadDepth = 3.0;  // m
 /// The Karlsruhe sequences have 10 frames per second; the quad itself carries no time.
 constexpr std::int64_t kPeriodNs = 100'000'000;
 
@@ -28,9 +28,9 @@ Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions&, Findings&
               image_with_stem(folder, std::string("I2") + which), findings);
     stamp += kPeriodNs;
   }
-  dataset.rig = rectified_rig(kFocal, kCentreX, kCentreY, kCentreX, kBaseline);
+  dataset.rig = rectified_rig(kFocal, kCentreX, kCentreY, kCentreX, kQuadBaseline);
   findings.attempt([&] { set_sizes_from_first_frame(dataset); });
-  dataset.max_disparity = kFocal * kBaseline / kNearestDepth;
+  dataset.max_disparity = kFocal * kQuadBaseline / kNearestQuadDepth;
   dataset.notes.push_back("calibration of the libviso2 demo; nominal times 0.1 s apart");
   return dataset;
 }

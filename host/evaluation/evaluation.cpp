@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "common/numeric.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -16,8 +17,6 @@ namespace quadedge {
 namespace {
 
 using Pose = Eigen::Isometry3d;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegreesPerRadian = 57.295779513082320876798;
 
 /// One matched pair of poses.
 struct Match {

@@ -4,17 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "common/numeric.hpp"
 #include "evaluation/pools.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::evaluation {
-namespace {
-
-double ratio(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void FilterCounts::add_edge(std::int64_t candidates_of_edge, std::int64_t veridical_of_edge) {
   ++pool;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/numeric.hpp"
+
 namespace quadedge::evaluation {
 namespace {
 
@@ -40,10 +42,6 @@ struct FrameValues {
   }
   FilterSpread spread() const { return {deviation(recall), deviation(precision), deviation(ambiguity)}; }
 };
-
-double ratio(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : std::numeric_limits<double>::quiet_NaN();
-}
 
 std::vector<PooledRow> pool(const std::vector<const FilterTable*>& tables) {
   FilterTable sum;

@@ -5,14 +5,12 @@
 #include <limits>
 #include <random>
 
+#include "common/numeric.hpp"
 #include "evaluation/draw.hpp"
 #include "pose/two_quads.hpp"
 
 namespace quadedge::evaluation {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegreesPerRadian = 57.295779513082320876798;
 
 double median(std::vector<double> values) {
   if (values.size() < kFewestMotions) return kNan;

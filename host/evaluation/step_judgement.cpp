@@ -1,13 +1,10 @@
 #include "evaluation/step_judgement.hpp"
 
+#include "common/numeric.hpp"
 #include "evaluation/pose_lookup.hpp"
 
 namespace quadedge::evaluation {
-namespace {
-
-constexpr double kDegreesPerRadian = 57.295779513082320876798;
-
-}  // namespace
+namespace {}  // namespace
 
 StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
                           const std::vector<std::int64_t>& frames_ns, const StepLimits& limits,

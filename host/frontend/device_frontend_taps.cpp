@@ -18,7 +18,7 @@ const std::vector<float>* scores_for(const stages::JudgedCandidates& lists, Filt
 
 /// What a filter left, with the scores that the next one judges.
 template <class Filter>
-CandidateLists alive_after(const stages::JudgedCandidates& lists, Filter filter) {
+CandidateLists passing(const stages::JudgedCandidates& lists, Filter filter) {
   return lists.alive_after(order_of(filter), scores_for(lists, next(filter)));
 }
 
@@ -43,7 +43,7 @@ void DeviceFrontend::tap_candidates_without_limits() {
 void DeviceFrontend::tap_stereo() {
   const auto judged = candidates_.read_judged();
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
-    tap_->stereo_filter(filter, alive_after(judged, filter));
+    tap_->stereo_filter(filter, passing(judged, filter));
   const auto rows = static_cast<std::size_t>(candidates_.rows), size = static_cast<std::size_t>(candidates_.capacity);
   const auto count = clusters_.count.read(rows);
   const auto position = clusters_.packed.read(size),
@@ -103,10 +103,10 @@ void DeviceFrontend::tap_displaced(const TemporalSearch& search) {
 void DeviceFrontend::tap_temporal(TemporalFilter first, const stages::JudgedCandidates& left,
                                   const stages::JudgedCandidates& right) {
   for (auto filter = first; filter < TemporalFilter::agreement; filter = next(filter)) {
-    tap_->temporal_filter(filter, Side::left, alive_after(left, filter));
-    tap_->temporal_filter(filter, Side::right, alive_after(right, filter));
+    tap_->temporal_filter(filter, Side::left, passing(left, filter));
+    tap_->temporal_filter(filter, Side::right, passing(right, filter));
   }
-  const auto agreeing = alive_after(left, TemporalFilter::agreement);
+  const auto agreeing = passing(left, TemporalFilter::agreement);
   for (const Side side : kSides) tap_->temporal_filter(TemporalFilter::agreement, side, agreeing);
 }
 

@@ -10,7 +10,7 @@
 namespace quadedge::map {
 namespace {
 
-constexpr double kAlong = 0.5;  // px of curve to either side that an edge stands for
+constexpr double kEdgeReach = 0.5;  // px of curve to either side that an edge stands for
 
 /// Sum of the outer products of three orthogonal directions over the squares of their standard deviations.
 Eigen::Matrix3d information_of(const Eigen::Vector3d& ray, const Eigen::Vector3d& direction, double depth_sigma,
@@ -48,7 +48,7 @@ std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, c
     point->position = oriented.point;
     point->tangent = oriented.tangent;
     point->information = information_of(measured->ray, measured->direction, pose::depth_sigma(*measured, sigma),
-                                        kAlong * metres_per_pixel, noise.across * metres_per_pixel);
+                                        kEdgeReach * metres_per_pixel, noise.across * metres_per_pixel);
     point->inverse_depth = measured->inverse_depth;
     point->inverse_depth_per_pixel = measured->inverse_depth_per_pixel;
     point->disparity_sigma = sigma;

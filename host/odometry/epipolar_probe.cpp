@@ -12,28 +12,30 @@ namespace quadedge::odometry {
 namespace {
 
 constexpr int kAlignedSpots = 240;
-constexpr int kHalf = 5, kSide = 2 * kHalf + 1, kWithBorder = kSide + 2;  // patches of 11 x 11 samples
+constexpr int kProbeHalf = 5, kProbeSide = 2 * kProbeHalf + 1,
+              kWithBorder = kProbeSide + 2;  // patches of 11 x 11 samples
 constexpr int kSteps = 10;
-constexpr double kSettled = 0.01;  // px
-constexpr double kLongestWay = 4;  // px from where a refinement starts
-constexpr double kMinCorrelation = 0.8;
+constexpr double kSettledShift = 0.01;  // px
+constexpr double kLongestWay = 4;       // px from where a refinement starts
+constexpr double kMinProbeCorrelation = 0.8;
 constexpr double kMinRoundness = 0.03;  // determinant over squared trace of the structure tensor; 0.25 is a blob
 constexpr double kMaxSigma = 0.1;       // px; what says nothing across the line is left out
 constexpr double kAlong = 0.25, kAcross = 0.1;  // reach of the search, ratios of the left image's width and height
 constexpr double kCoarseWidth = 320;            // px
 
-/// Samples of a patch, from -kHalf - 1 to kHalf + 1 in both directions.
+/// Samples of a patch, from -kProbeHalf - 1 to kProbeHalf + 1 in both directions.
 using Samples = std::array<float, static_cast<std::size_t>(kWithBorder* kWithBorder)>;
 
 std::size_t at(int column, int row) {
-  return static_cast<std::size_t>((row + kHalf + 1) * kWithBorder + column + kHalf + 1);
+  return static_cast<std::size_t>((row + kProbeHalf + 1) * kWithBorder + column + kProbeHalf + 1);
 }
 
 Samples cut(const PinholeView& view, const Eigen::Vector2d& centre, const Eigen::Matrix2d& steps) {
   Samples samples;
   const PinholeView::Patch patch = view.patch(centre, steps);
-  for (int row = -kHalf - 1; row <= kHalf + 1; ++row)
-    for (int column = -kHalf - 1; column <= kHalf + 1; ++column) samples[at(column, row)] = patch.at(column, row);
+  for (int row = -kProbeHalf - 1; row <= kProbeHalf + 1; ++row)
+    for (int column = -kProbeHalf - 1; column <= kProbeHalf + 1; ++column)
+      samples[at(column, row)] = patch.at(column, row);
   return samples;
 }
 
@@ -44,14 +46,14 @@ struct Level {
 
 template <class Body>
 void for_inner(const Body& body) {
-  for (int row = -kHalf; row <= kHalf; ++row)
-    for (int column = -kHalf; column <= kHalf; ++column) body(column, row);
+  for (int row = -kProbeHalf; row <= kProbeHalf; ++row)
+    for (int column = -kProbeHalf; column <= kProbeHalf; ++column) body(column, row);
 }
 
 Level level_of(const Samples& samples) {
   Level level;
   for_inner([&](int column, int row) { level.mean += static_cast<double>(samples[at(column, row)]); });
-  level.mean /= kSide * kSide;
+  level.mean /= kProbeSide * kProbeSide;
   for_inner([&](int column, int row) {
     const double difference = static_cast<double>(samples[at(column, row)]) - level.mean;
     level.norm += difference * difference;
@@ -123,12 +125,12 @@ std::optional<ProbedSpot> EpipolarProbe::refine(const PinholeView& left, const P
   const auto its_line = line(spot);
   const auto here = at_infinity(spot), beside = at_infinity(spot + Eigen::Vector2d::UnitX()),
              below = at_infinity(spot + Eigen::Vector2d::UnitY());
-  if (!its_line || !here || !beside || !below || !left.holds(spot, kHalf + 1)) return std::nullopt;
+  if (!its_line || !here || !beside || !below || !left.holds(spot, kProbeHalf + 1)) return std::nullopt;
   Eigen::Matrix2d steps;  // how a patch that is a square in the left image lies in the right one
   steps << *beside - *here, *below - *here;
   const Samples wanted = cut(left, spot, Eigen::Matrix2d::Identity());
   const Level wanted_level = level_of(wanted);
-  const double reach = (kHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
+  const double reach = (kProbeHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
   const Eigen::Vector2d start = place;
   Alignment sums;
   for (int step = 0; step < kSteps; ++step) {
@@ -141,12 +143,12 @@ std::optional<ProbedSpot> EpipolarProbe::refine(const PinholeView& left, const P
     if (!(determinant > kMinRoundness * trace * trace)) return std::nullopt;  // an edge alone
     const Eigen::Vector2d move = steps * sums.normal.inverse() * sums.right_side;
     place += move;
-    if (move.norm() < kSettled) break;
+    if (move.norm() < kSettledShift) break;
   }
   const Eigen::Matrix2d covariance =
-      sums.cost / (kSide * kSide - 2) * steps * sums.normal.inverse() * steps.transpose();
+      sums.cost / (kProbeSide * kProbeSide - 2) * steps * sums.normal.inverse() * steps.transpose();
   const double sigma = std::sqrt(its_line->normal.dot(covariance * its_line->normal));
-  if (1 - sums.cost / 2 < kMinCorrelation || sigma > kMaxSigma) return std::nullopt;
+  if (1 - sums.cost / 2 < kMinProbeCorrelation || sigma > kMaxSigma) return std::nullopt;
   const Eigen::Vector2d from_infinity = place - its_line->infinity;
   return ProbedSpot{
       spot, from_infinity.dot(its_line->direction), from_infinity.dot(its_line->normal), sigma, true, its_line->normal,

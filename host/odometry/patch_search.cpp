@@ -6,7 +6,7 @@
 namespace quadedge::odometry {
 namespace {
 
-constexpr int kHalf = 4, kSide = 2 * kHalf + 1;  // patches of 9 x 9 px
+constexpr int kPatchHalf = 4, kPatchSide = 2 * kPatchHalf + 1;  // patches of 9 x 9 px
 constexpr double kMinCorrelation = 0.8;
 constexpr double kFlat = 1.5;     // standard deviation of a patch without contrast [grey levels]
 constexpr int kCell = 20;         // px; every cell gives one corner
@@ -48,9 +48,9 @@ double peak(double before, double middle, double after) {
 void measure_patches(GreyPlane& plane) {
   std::vector<double> grey(plane.grey.begin(), plane.grey.end()), squares(grey.size());
   std::transform(grey.begin(), grey.end(), squares.begin(), [](double value) { return value * value; });
-  const auto sums = box_sums(grey, plane.width, plane.height, kHalf),
-             square_sums = box_sums(squares, plane.width, plane.height, kHalf);
-  constexpr double kCount = kSide * kSide;
+  const auto sums = box_sums(grey, plane.width, plane.height, kPatchHalf),
+             square_sums = box_sums(squares, plane.width, plane.height, kPatchHalf);
+  constexpr double kCount = kPatchSide * kPatchSide;
   plane.mean.resize(grey.size());
   plane.norm.resize(grey.size());
   for (std::size_t i = 0; i < grey.size(); ++i) {
@@ -79,12 +79,12 @@ std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane) {
   yy = box_sums(yy, width, height, kCornerHalf);
   constexpr double kLimit = kMinCorner * (2 * kCornerHalf + 1) * (2 * kCornerHalf + 1);
   std::vector<Eigen::Vector2i> corners;
-  for (int top = kHalf; top < height - kHalf; top += kCell) {
-    for (int left = kHalf; left < width - kHalf; left += kCell) {
+  for (int top = kPatchHalf; top < height - kPatchHalf; top += kCell) {
+    for (int left = kPatchHalf; left < width - kPatchHalf; left += kCell) {
       double strongest = kLimit;
       Eigen::Vector2i place(-1, -1);
-      for (int y = top; y < std::min(top + kCell, height - kHalf); ++y) {
-        for (int x = left; x < std::min(left + kCell, width - kHalf); ++x) {
+      for (int y = top; y < std::min(top + kCell, height - kPatchHalf); ++y) {
+        for (int x = left; x < std::min(left + kCell, width - kPatchHalf); ++x) {
           const auto i = plane.index(x, y);
           const double half = 0.5 * (xx[i] + yy[i]);
           const double smaller = half - std::sqrt(std::max(0.0, half * half - (xx[i] * yy[i] - xy[i] * xy[i])));
@@ -103,17 +103,17 @@ std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to,
                                      const SearchBox& box) {
   const auto here = from.index(corner.x(), corner.y());
   if (!(from.norm[here] > 0)) return std::nullopt;
-  const int x_low = std::max(corner.x() - box.half_width, kHalf),
-            x_high = std::min(corner.x() + box.half_width, to.width - 1 - kHalf);
-  const int y_low = std::max(corner.y() - box.half_height, kHalf),
-            y_high = std::min(corner.y() + box.half_height, to.height - 1 - kHalf);
+  const int x_low = std::max(corner.x() - box.half_width, kPatchHalf),
+            x_high = std::min(corner.x() + box.half_width, to.width - 1 - kPatchHalf);
+  const int y_low = std::max(corner.y() - box.half_height, kPatchHalf),
+            y_high = std::min(corner.y() + box.half_height, to.height - 1 - kPatchHalf);
   const int columns = x_high - x_low + 1, rows = y_high - y_low + 1;
   if (columns < 1 || rows < 1) return std::nullopt;
   std::vector<float> correlation(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F);
   for (int y = y_low; y <= y_high; ++y) {
     float* const out = &correlation[static_cast<std::size_t>(y - y_low) * static_cast<std::size_t>(columns)];
-    for (int v = -kHalf; v <= kHalf; ++v) {
-      for (int u = -kHalf; u <= kHalf; ++u) {
+    for (int v = -kPatchHalf; v <= kPatchHalf; ++v) {
+      for (int u = -kPatchHalf; u <= kPatchHalf; ++u) {
         const float weight = from.grey[from.index(corner.x() + u, corner.y() + v)] - from.mean[here];
         const float* const row = &to.grey[to.index(x_low + u, y + v)];
         for (int i = 0; i < columns; ++i) out[i] += weight * row[i];

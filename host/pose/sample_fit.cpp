@@ -11,7 +11,7 @@ namespace {
 /// A block of residuals whose own unknown, with a standard normal prior, has been eliminated: error^T error is the
 /// block's cost.
 template <int Rows, int Columns>
-struct Eliminated {
+struct WithoutUnknown {
   Eigen::Matrix<double, Rows, 1> error;
   Eigen::Matrix<double, Rows, Columns> by_pose;
   double unknown = 0;  ///< its best value
@@ -21,7 +21,7 @@ struct Eliminated {
 /// S^-1/2 leaves a plain sum of squares.
 template <int Rows, int Columns>
 void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matrix<double, Rows, Columns>& by_pose,
-               const Eigen::Matrix<double, Rows, 1>& by_unknown, double at, Eliminated<Rows, Columns>& result) {
+               const Eigen::Matrix<double, Rows, 1>& by_unknown, double at, WithoutUnknown<Rows, Columns>& result) {
   const double square = by_unknown.squaredNorm();
   const double shrink = 1.0 / (1.0 + square);
   const double root = square > 0 ? (1.0 - std::sqrt(shrink)) / square : 0.0;
@@ -34,8 +34,8 @@ void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matr
 }
 
 struct EliminatedQuad {
-  Eliminated<3, 6> reprojection;
-  Eliminated<2, 3> direction;
+  WithoutUnknown<3, 6> reprojection;
+  WithoutUnknown<2, 3> direction;
 };
 
 /// \param depth the quad's own unknown \returns false for a point that is not in front of the current left camera.
@@ -55,7 +55,7 @@ bool evaluate(const SampleTerm& term, const PinholeCamera& left, const Eigen::Is
 /// Adds weight * J^T J and weight * J^T e of `Rows` residuals that depend on the first `Columns` unknowns. Plain loops:
 /// as Eigen products this function takes minutes to compile.
 template <int Rows, int Columns>
-void add_rows(const Eliminated<Rows, Columns>& block, double weight, Normal<6>& normal) {
+void add_rows(const WithoutUnknown<Rows, Columns>& block, double weight, Normal<6>& normal) {
   const double *by_unknowns = block.by_pose.data(), *errors = block.error.data();
   for (int c = 0; c < Columns; ++c) {
     for (int k = 0; k < Rows; ++k) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "common/numeric.hpp"
 #include "quadedge/error.hpp"
 #include "report/frames_table.hpp"
 #include "report/statistics.hpp"
@@ -13,7 +14,6 @@
 namespace quadedge::report {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<ErrorStatistics PoseErrors::*, 4> kErrors = {
     &PoseErrors::ape_rotation_deg, &PoseErrors::ape_translation_m, &PoseErrors::rpe_rotation_deg,
     &PoseErrors::rpe_translation_m};

@@ -9,7 +9,7 @@
 namespace quadedge::report {
 namespace {
 
-constexpr double kBrightness = 0.35;
+constexpr double kEdgesBrightness = 0.35;
 constexpr double kHalfStroke = 0.6;  // px of the image to either side of the edge
 
 /// Colour wheel: one colour per hue step of OpenCV (2 degrees), full saturation.
@@ -34,7 +34,7 @@ const cv::Scalar& direction_colour(const std::vector<cv::Scalar>& wheel, double 
 }  // namespace
 
 void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& edges) {
-  Canvas canvas(image, kBrightness, 2);
+  Canvas canvas(image, kEdgesBrightness, 2);
   const auto wheel = colour_wheel();
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const double dx = kHalfStroke * std::cos(edges.direction[i]), dy = kHalfStroke * std::sin(edges.direction[i]);

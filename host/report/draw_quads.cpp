@@ -11,10 +11,10 @@
 namespace quadedge::report {
 namespace {
 
-constexpr double kBrightness = 0.45;
+constexpr double kQuadsBrightness = 0.45;
 constexpr int kThumbnailWidth = 480;  // px
 constexpr int kCell = 16;             // px of the image; one motion is drawn per cell
-const cv::Scalar kWhite(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
+const cv::Scalar kText(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
 
 /// Length of the way between the two positions of a stereo edge, which is the disparity for a rectified rig [px].
 double disparity(const StereoEdges& stereo, std::size_t i) {
@@ -62,7 +62,7 @@ void paint(Canvas& canvas, const FrameDetails& details, const DisparityColours& 
 }  // namespace
 
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details) {
-  Canvas canvas(left, kBrightness, 0);
+  Canvas canvas(left, kQuadsBrightness, 0);
   paint(canvas, details, colours_of(details));
   const cv::Mat image = canvas.picture()(cv::Rect(0, 0, left.width * canvas.scale(), left.height * canvas.scale()));
   const double reduction = static_cast<double>(kThumbnailWidth) / image.cols;
@@ -73,7 +73,7 @@ void draw_quads_thumbnail(const std::string& path, const ImageView& left, const 
 }
 
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details) {
-  Canvas canvas(left, kBrightness, 2);
+  Canvas canvas(left, kQuadsBrightness, 2);
   const DisparityColours colours = colours_of(details);
   paint(canvas, details, colours);
   const auto inliers =
@@ -81,12 +81,12 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
 
   cv::Mat& picture = canvas.picture();
   int y = canvas.legend_y(0);
-  int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kWhite) + 6;
+  int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kText) + 6;
   x = colours.draw_bar(picture, x, y + 2);
   put_text(picture, fixed(colours.largest(), 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)",
-           x + 6, y, kWhite);
+           x + 6, y, kText);
   y = canvas.legend_y(1);
-  x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kWhite) + 10;
+  x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);
   x = put_text(picture, std::to_string(inliers) + " inliers", x + 38, y, kInlier) + 16;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kOutlier, 2);

@@ -9,8 +9,8 @@
 namespace quadedge::report {
 namespace {
 
-constexpr int kWidth = 1900;  // px of the picture that a pair should fill, at a whole scale
-constexpr int kGap = 6;       // px between views
+constexpr int kPairWidth = 1900;  // px of the picture that a pair should fill, at a whole scale
+constexpr int kGap = 6;           // px between views
 constexpr int kRegions = 3;
 constexpr double kRegionWidth = 72, kRegionHeight = 54;  // px of the image
 constexpr double kWholeBrightness = 0.5, kDetailBrightness = 0.7;
@@ -78,7 +78,7 @@ void MatchView::label(const std::string& text, const cv::Scalar& colour) {
 
 PairLayout::PairLayout(int left_width, int left_height, int right_width, int right_height, int text_lines)
     : left_width_(left_width), left_height_(left_height), right_width_(right_width), right_height_(right_height) {
-  scale_ = std::max(1, kWidth / (left_width + right_width));
+  scale_ = std::max(1, kPairWidth / (left_width + right_width));
   top_ = text_lines * kLegendLine;
   width_ = std::max((left_width + right_width) * scale_ + kGap, 1000);
   pair_bottom_ = top_ + std::max(left_height, right_height) * scale_;

@@ -8,7 +8,7 @@ namespace quadedge::report {
 namespace {
 
 constexpr std::array<const char*, 7> kPose = {"x", "y", "z", "qx", "qy", "qz", "qw"};
-constexpr std::array<const char*, 6> kErrors = {"x", "y", "z", "rx", "ry", "rz"};
+constexpr std::array<const char*, 6> kErrorNames = {"x", "y", "z", "rx", "ry", "rz"};
 
 std::string pose_header(const std::string& prefix) {
   std::string text;
@@ -18,8 +18,8 @@ std::string pose_header(const std::string& prefix) {
 
 std::string covariance_header(const std::string& prefix) {
   std::string text;
-  for (std::size_t i = 0; i < kErrors.size(); ++i) {
-    for (std::size_t j = i; j < kErrors.size(); ++j) text += "," + prefix + kErrors[i] + "_" + kErrors[j];
+  for (std::size_t i = 0; i < kErrorNames.size(); ++i) {
+    for (std::size_t j = i; j < kErrorNames.size(); ++j) text += "," + prefix + kErrorNames[i] + "_" + kErrorNames[j];
   }
   return text;
 }

@@ -31,7 +31,7 @@ std::string names_of_errors() {
   return names;
 }
 
-std::string errors(const PoseErrors& errors) {
+std::string error_columns(const PoseErrors& errors) {
   std::string fields;
   for (const auto* error :
        {&errors.ape_rotation_deg, &errors.ape_translation_m, &errors.rpe_rotation_deg, &errors.rpe_translation_m}) {
@@ -44,7 +44,8 @@ std::string accuracy(const std::optional<SummaryAccuracy>& accuracy) {
   constexpr int kColumns = 3 + 2 * 4 * 4;
   if (!accuracy) return std::string(kColumns, ',');
   return "," + std::to_string(accuracy->matched) + "," + field(accuracy->path_length_m) + "," +
-         field(accuracy->end_drift_percent) + errors(accuracy->origin_aligned) + errors(accuracy->se3_aligned);
+         field(accuracy->end_drift_percent) + error_columns(accuracy->origin_aligned) +
+         error_columns(accuracy->se3_aligned);
 }
 
 std::string latency(const LatencySummary& latency) {

@@ -1,6 +1,7 @@
 /// \file summary_json.cpp  Results of a batch as JSON, and read from the report.json of its sequences.
 #include <filesystem>
 
+#include "common/numeric.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
@@ -11,7 +12,6 @@ namespace quadedge::report {
 namespace {
 
 constexpr int kSummarySchema = 1;  // grows when a key changes its meaning
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Json read_json(const std::string& file, const char* expected) {
   try {

@@ -14,7 +14,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string errors(const PoseErrors& errors) {
+std::string error_cells(const PoseErrors& errors) {
   std::string cells;
   for (const auto* error :
        {&errors.ape_rotation_deg, &errors.ape_translation_m, &errors.rpe_rotation_deg, &errors.rpe_translation_m}) {
@@ -29,10 +29,10 @@ std::string error_table(const BatchSummary& summary, PoseErrors SummaryAccuracy:
       "| sequence | APE_R (deg) mean | std | APE_T (m) mean | std | RPE_R (deg) mean | std | RPE_T (m) mean | std |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& row : summary.rows) {
-    if (row.accuracy) text += "| " + escaped(row.member.name) + " |" + errors((*row.accuracy).*alignment) + "\n";
+    if (row.accuracy) text += "| " + escaped(row.member.name) + " |" + error_cells((*row.accuracy).*alignment) + "\n";
   }
-  text += "| **all, every pose counts the same** |" + errors((*summary.pooled).*alignment) + "\n";
-  text += "| **all, every sequence counts the same** |" + errors((*summary.average).*alignment) + "\n";
+  text += "| **all, every pose counts the same** |" + error_cells((*summary.pooled).*alignment) + "\n";
+  text += "| **all, every sequence counts the same** |" + error_cells((*summary.average).*alignment) + "\n";
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/gaussian_taps.hpp"
+#include "common/numeric.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 
@@ -10,7 +11,6 @@ namespace quadedge::stages {
 namespace {
 
 constexpr int kStripRows = 64;  // rows of the doubled grid that one work-item filters: two more are computed twice
-int round_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 
 }  // namespace
 

@@ -4,14 +4,13 @@
 #include <vector>
 
 #include "common/gaussian_taps.hpp"
+#include "common/numeric.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::stages {
 namespace {
 
 constexpr std::size_t kPadGroup = 32;  // work-items per group of the padding kernel
-
-int round_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
 
 std::string float_literal(double value) {
   std::ostringstream text;

@@ -1,5 +1,6 @@
 #include "stages/sift.hpp"
 
+#include "common/numeric.hpp"
 #include "opencl/variants.hpp"
 #include "stages/device_image.hpp"
 
@@ -7,8 +8,6 @@ namespace quadedge::stages {
 namespace {
 
 constexpr int kVector = 8;  // pixels per work-item of the maps
-
-int round_up(int value, int step) { return (value + step - 1) / step * step; }
 
 }  // namespace
 

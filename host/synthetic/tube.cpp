@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAmbient = 0.3;  // of cables: their two sides differ clearly
+constexpr double kTubeAmbient = 0.3;  // of cables: their two sides differ clearly
 
 /// Position and derivative of a uniform cubic B-spline in segment `i`, t in 0..1.
 std::pair<Vector3d, Vector3d> spline(const std::vector<Vector3d>& c, std::size_t i, double t) {
@@ -58,7 +58,7 @@ class VisibleLink : public VisibleSurface {
     const Vector3d tangent = ((1.0 - fraction) * start_tangent_ + fraction * end_tangent_).normalized();
     Vector3d normal = hit - along * axis_;
     normal -= normal.dot(tangent) * tangent;
-    return reflectance_ * shade(normal.normalized(), light_, kAmbient);
+    return reflectance_ * shade(normal.normalized(), light_, kTubeAmbient);
   }
 
   PixelBox pixels(const PinholeCamera& camera) const override {

@@ -1,0 +1,23 @@
+# quadedge_unity(TARGET) compiles up to a dozen files of a folder as one translation unit: most of the time goes into
+# headers, and it takes a third of it. Names that files have for themselves differ within a folder, or the compiler says
+# so. Files with compiler options of their own stay alone, as CMake has it.
+function(quadedge_unity target)
+  if(NOT QUADEDGE_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    cmake_path(IS_PREFIX CMAKE_SOURCE_DIR ${source} NORMALIZE is_ours)
+    cmake_path(IS_PREFIX CMAKE_BINARY_DIR ${source} NORMALIZE is_generated)
+    if(NOT is_ours OR is_generated)
+      continue()
+    endif()
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(GET folder FILENAME folder)
+    list(APPEND in_${folder} ${source})
+    list(LENGTH in_${folder} count)
+    math(EXPR group "(${count} - 1) / 12")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
+  endforeach()
+endfunction()
