@@ -50,7 +50,11 @@ PAGES = {
     ),
 }
 # What makes a part that measure.py does not.
-MADE_BY = {"drift": "scripts/drift.py", "truth": "scripts/truth_consistency.py"}
+MADE_BY = {
+    "drift": "scripts/drift.py",
+    "truth": "scripts/truth_consistency.py",
+    "roofline": "quadedge compare --device-model FILE --json doc/results/roofline.json",
+}
 NAMES = "DATA is the folder with the recorded sequences, OUT a folder for results."
 
 
