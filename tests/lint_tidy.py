@@ -73,6 +73,17 @@ def flags_of(file: Path, commands: dict[str, str]) -> list[str]:
     return kept
 
 
+def compiler_calls(build: Path) -> dict[str, str]:
+    """Source -> its compiler call; where several are compiled together, the call for all of them."""
+    commands = {}
+    for row in json.loads((build / "compile_commands.json").read_text()):
+        commands[row["file"]] = row["command"]
+        if Path(row["file"]).match("Unity/unity_*_cxx.cxx"):
+            together = re.findall(r'^#include "(.*)"$', Path(row["file"]).read_text(), re.MULTILINE)
+            commands.update(dict.fromkeys(together, row["command"]))
+    return commands
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("repository", type=lambda text: Path(text).resolve())
@@ -82,8 +93,7 @@ def main() -> int:
     parser.add_argument("--syntax", action="store_true", help="only let clang read the translation units")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
-    calls = json.loads((options.build / "compile_commands.json").read_text())
-    commands = {row["file"]: row["command"] for row in calls}
+    commands = compiler_calls(options.build)
     work = options.build / "lint"
     work.mkdir(exist_ok=True)
     tasks = []
