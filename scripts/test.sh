@@ -1,8 +1,15 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs all tests. Recorded data is found through QUADEDGE_DATA; tests that need it
 # say so and pass where it is not set.
-#   scripts/test.sh [CTEST OPTION...]      for example: scripts/test.sh -R edges
+#   scripts/test.sh [--all-runtimes] [CTEST OPTION...]      for example: scripts/test.sh -R edges
+# --all-runtimes first installs Intel's OpenCL for CPUs from PyPI into the virtual environment and runs the tests of
+# kernels, pipeline and recorded data on it as well (tests/run_other_runtime.sh).
 set -euo pipefail
+all_runtimes=false
+if [ "${1:-}" = --all-runtimes ]; then
+  all_runtimes=true
+  shift
+fi
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/packages.sh"
 
@@ -23,6 +30,8 @@ fi
 # The Python package, from the library that is built already; only its bindings are compiled.
 "$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation "$repository" \
   -C cmake.source-dir=python -C build-dir="$repository/build/python" -C cmake.define.quadedge_DIR="$repository/build"
+
+if $all_runtimes; then "$repository/tests/run_other_runtime.sh" "$repository/build"; fi
 
 # Tests side by side: many of them, such as the simulator and everything on the plain C++ reference, use one processor.
 exec ctest --test-dir "$repository/build" --output-on-failure --parallel "$(nproc)" "$@"

@@ -34,7 +34,7 @@ struct TrackedRoom {
     }
   }
   void track_into(const std::vector<EdgeMap*>& maps) const {
-    Device device("auto");
+    Device device("auto", kept_programs());
     StereoOdometry odometry(sequence.rig(), device, config);
     for (std::size_t i = 0; i < left.size(); ++i) {
       const StereoFrame frame{sequence.stamp_ns(static_cast<int>(i)), left[i].view(), right[i].view()};

@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "devices.hpp"
 #include "evaluation/matching_evaluation.hpp"
 #include "program.hpp"
 #include "quadedge/error.hpp"
@@ -52,7 +53,7 @@ void mirror(Values& values, int width) {
 }
 
 FilterCounts last_row(const MatchingSource& source) {
-  Device device("auto");
+  Device device("auto", kept_programs());
   const auto summary = summarise({evaluate_matching(source, device, {})});
   return summary.stereo.back().row.all;
 }

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "dataset_files.hpp"
+#include "devices.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/evaluation.hpp"
 #include "quadedge/odometry.hpp"
@@ -24,7 +25,7 @@ TrackedFrames track_dataset(const Dataset& dataset, const std::map<std::string, 
   Config config;
   config.stereo.max_disparity = dataset.max_disparity;
   config.variants = variants;
-  Device device;
+  Device device("auto", kept_programs());
   StereoOdometry odometry(dataset.rig, device, config);
   FramePrefetcher frames(dataset);
   TrackedFrames run;

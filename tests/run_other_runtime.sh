@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Intel's OpenCL for CPUs, a second implementation beside PoCL: the C++ tests of kernels, pipeline and recorded data on
+# it, then the same frames on both, whose poses agree (compare_poses.py). Recorded data is found through QUADEDGE_DATA.
+# What the runtime has built stays in BUILD/other_runtime for the next call.
+#   run_other_runtime.sh BUILD
+set -euo pipefail
+build="$(realpath "$1")"
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+venv="$build/venv" kept="$build/other_runtime" requirements="$here/requirements_intel.txt"
+if ! cmp -s "$requirements" "$venv/requirements_intel.txt"; then
+  echo "Installing Intel's OpenCL runtime into $venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements" || {
+    echo "--all-runtimes: Intel's OpenCL runtime cannot be installed from PyPI, see above" >&2
+    exit 1
+  }
+  cp "$requirements" "$venv/requirements_intel.txt"
+fi
+
+# Nothing is installed in the system: a folder with this runtime alone, and one with those that are installed too. The
+# program's own TBB (Debian's) is older than what the runtime needs, and the first one that is loaded serves both.
+mkdir -p "$kept"/{alone,both,lib}
+echo "$venv/lib/libintelocl.so" | tee "$kept/alone/intel.icd" >"$kept/both/intel.icd"
+cp "${OCL_ICD_VENDORS:-/etc/OpenCL/vendors}"/*.icd "$kept/both"
+ln -sf "$venv/lib/libtbb.so.12" "$kept/lib"
+export LD_LIBRARY_PATH="$kept/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+export XDG_CACHE_HOME="$kept/cache" OCL_ICD_VENDORS="$kept/both"
+devices="$("$build/quadedge" devices)"
+for device in 'Intel(R) OpenCL' 'Portable Computing Language'; do
+  grep -qF "$device" <<<"$devices" || {
+    echo -e "--all-runtimes: no device of $device among\n$devices" >&2
+    exit 1
+  }
+done
+
+start=$SECONDS
+OCL_ICD_VENDORS="$kept/alone" QUADEDGE_TEST_PROGRAMS="$XDG_CACHE_HOME/quadedge/programs" \
+  "$build/tests/quadedge_tests" "[device]~[cli],[real],[selftest]~[cli],[opencl]"
+echo "Tests on Intel's runtime: $((SECONDS - start)) s"
+
+# both NAME ARGUMENT...: `quadedge ARGUMENT...` on both runtimes.
+both() {
+  local name=$1
+  shift
+  "$build/quadedge" "$@" --device portable --quiet --force -o "$kept/$name-one" >/dev/null
+  "$build/quadedge" "$@" --device "intel(r) opencl" --quiet --force -o "$kept/$name-other" >/dev/null
+  echo -n "$name: "
+  "$venv/bin/python" "$here/compare_poses.py" "$kept/$name-one" "$kept/$name-other"
+}
+both room demo --frames 12
+data="${QUADEDGE_DATA:-/nowhere}"
+while read -r sequence frames; do
+  if [ -d "$data/$sequence" ]; then
+    both "$(basename "$sequence")" run "$data/$sequence" --frames ":$frames" </dev/null
+  else
+    echo "SKIPPED: no $sequence below QUADEDGE_DATA"
+  fi
+done <<'END'
+kitti_odometry/sequences/01 12
+kitti_odometry/sequences/06 12
+euroc_v1_01_easy_at_rest 12
+euroc_mh_01_easy 12
+karlsruhe_quad 2
+END
