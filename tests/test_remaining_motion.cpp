@@ -1,0 +1,103 @@
+#include <catch2/catch.hpp>
+
+#include "generated_quads.hpp"
+#include "odometry/remaining_motion.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+/// Stereo edges before a car's cameras that move by one of two motions, matched rightly.
+struct TwoMotions {
+  Config config;
+  StereoRig rig = generated::car_rig();
+  odometry::DisparityOffset offset{rig, config.pose};
+  odometry::StepBuilder steps{config, offset};
+  std::shared_ptr<frontend::Rig> before = std::make_shared<frontend::Rig>(), now = std::make_shared<frontend::Rig>();
+  odometry::MotionQuery query;
+  odometry::StepHandle confirmed;
+
+  /// `first` edges move by the motion that was confirmed, `others` by another one.
+  TwoMotions(const Eigen::Isometry3d& motion, int first, const Eigen::Isometry3d& other, int others) {
+    before->start(0);
+    now->start(1);
+    generated::Random random(3);
+    const generated::Noise noise{0.1, 0.1, 0.02};
+    for (int i = 0; i < first + others; ++i) {
+      const auto p = generated::random_point(rig, 5, 25, random);
+      const Eigen::Isometry3d& m = i < first ? motion : other;
+      append(before->edges, generated::disturb(rig, p, noise, true, random));
+      append(now->edges,
+             generated::disturb(rig, {m * p.point, Eigen::Vector3d(m.linear() * p.tangent)}, noise, false, random));
+    }
+    query.current = now;
+    query.base = before;
+    query.seed = 5;
+    confirmed = steps.take(query.base);
+    for (int i = 0; i < first + others; ++i) confirmed->matches.append(i, i, now->edges, 0.9F, 0);
+    steps.estimate(query, config.pose, motion, *confirmed);
+    confirmed->motion.current_from_previous = motion;
+  }
+
+  odometry::StepHandle propose() {
+    odometry::RemainingMotion hypothesis(steps, config);
+    odometry::Evidence evidence;
+    evidence.confirmed = confirmed.get();
+    return hypothesis.propose(query, evidence);
+  }
+
+ private:
+  static void append(StereoEdges& edges, const pose::StereoObservation& edge) {
+    const auto index = static_cast<std::int32_t>(edges.size());
+    edges.left_index.push_back(index);
+    edges.right_index.push_back(index);
+    edges.left_x.push_back(static_cast<float>(edge.left.x()));
+    edges.left_y.push_back(static_cast<float>(edge.left.y()));
+    edges.left_direction.push_back(static_cast<float>(edge.left_direction));
+    edges.right_x.push_back(static_cast<float>(edge.right.x()));
+    edges.right_y.push_back(static_cast<float>(edge.right.y()));
+    edges.right_direction.push_back(static_cast<float>(edge.right_direction));
+    edges.left_scale_drift.push_back(0);
+    edges.ncc.push_back(0.9F);
+  }
+};
+
+Eigen::Isometry3d sideways(double metres) { return Eigen::Isometry3d(Eigen::Translation3d(metres, 0, 0)); }
+
+}  // namespace
+
+TEST_CASE("remaining motion: what a confirmed motion does not explain closely moves otherwise", "[odometry]") {
+  // At 10 m 0.03 m are 2 px.
+  TwoMotions edges(sideways(0.2), 400, sideways(0.17), 300);
+  const auto step = edges.propose();
+  REQUIRE(step);
+  REQUIRE(step->ok());
+  CHECK(step->base == edges.query.base);
+  CHECK((step->motion.current_from_previous.translation() - sideways(0.17).translation()).norm() < 0.003);
+  // Nothing but what was left over: hardly an edge of the first motion, and most of the others.
+  CHECK(std::count_if(step->matches.previous.begin(), step->matches.previous.end(), [](int i) { return i < 400; }) <
+        40);
+  CHECK(step->matches.size() > 200);
+}
+
+TEST_CASE("remaining motion: where the confirmed motion explains everything there is none", "[odometry]") {
+  TwoMotions edges(sideways(0.2), 700, sideways(0.2), 0);
+  const auto step = edges.propose();
+  REQUIRE(step);
+  CHECK_FALSE(step->ok());
+  edges.confirmed.reset();
+  CHECK(edges.propose() == nullptr);
+}
+
+TEST_CASE("remaining motion: a motion since the key rig is told as one since the base", "[odometry]") {
+  TwoMotions edges(sideways(0.2), 400, sideways(0.17), 300);
+  const auto base = std::make_shared<frontend::Rig>();
+  edges.query.key = edges.query.base;
+  edges.query.base = base;
+  edges.query.base_from_key = sideways(0.05);
+  const auto step = edges.propose();
+  REQUIRE(step);
+  REQUIRE(step->ok());
+  CHECK(step->base == base);
+  CHECK((step->motion.current_from_previous.translation() - sideways(0.12).translation()).norm() < 0.003);
+}

@@ -1,0 +1,37 @@
+#include <catch2/catch.hpp>
+
+#include "generated_quads.hpp"
+#include "odometry/still_camera.hpp"
+
+using namespace quadedge;
+
+TEST_CASE("still camera: that nothing moved since the base is always proposed, whatever was found", "[odometry]") {
+  const Config config;
+  const StereoRig rig = generated::car_rig();
+  const odometry::DisparityOffset offset{rig, config.pose};
+  odometry::StepBuilder steps{config, offset};
+  odometry::StillCamera hypothesis(steps);
+  odometry::MotionQuery query;
+  query.base = std::make_shared<frontend::Rig>();
+  query.current = std::make_shared<frontend::Rig>();
+  query.prediction = Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3));
+
+  // A step of the pool that another hypothesis has used is as new.
+  steps.take(query.base)->motion.current_from_previous = *query.prediction;
+  const auto used = steps.take(query.base);
+  used->motion.current_from_previous = *query.prediction;
+  odometry::Evidence nothing, found;
+  found.confirmed = found.found_anywhere = used.get();
+  for (odometry::Evidence* evidence : {&nothing, &found}) {
+    const auto step = hypothesis.propose(query, *evidence);
+    REQUIRE(step);
+    CHECK(step->ok());
+    CHECK(step->base == query.base);
+    CHECK(step->motion.current_from_previous.matrix() == Eigen::Matrix4d::Identity());
+    CHECK(step->matches.size() == 0);
+  }
+  // It competes with motions a pixel apart, and costs nothing.
+  CHECK(hypothesis.asks_for_close_agreement());
+  CHECK_FALSE(hypothesis.is_costly());
+  CHECK_FALSE(hypothesis.trusts_prediction());
+}
