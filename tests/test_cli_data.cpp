@@ -45,54 +45,6 @@ TEST_CASE("bad data: an empty or missing folder is refused by name", "[cli]") {
   CHECK(run_program({"check", folder.path()}).code == 3);
 }
 
-TEST_CASE("bad data: a missing right image is refused by name", "[cli]") {
-  const DamagedSequence sequence;
-  const auto victim = sequence.image("rgb2", 2);
-  fs::remove(victim);
-  check_refused(run_program({"run", sequence.path()}), victim.filename().string());
-  const auto check = run_program({"check", sequence.path()});
-  CHECK(check.code == 3);
-  CHECK_THAT(check.err, Contains(victim.filename().string()));
-}
-
-TEST_CASE("bad data: an unreadable calibration is refused by name", "[cli]") {
-  const DamagedSequence sequence;
-  std::ofstream(sequence / "calibration.txt") << "focal length: about right\n";
-  check_refused(run_program({"run", sequence.path()}), "calibration.txt");
-}
-
-TEST_CASE("bad data: a baseline that is zero or no number is refused by name", "[cli]") {
-  for (const char* baseline : {"0", "nan"}) {
-    const DamagedSequence sequence;
-    std::ofstream(sequence / "extrinsics_1_2.txt") << "1 0 0 " << baseline << "\n0 1 0 0\n0 0 1 0\n";
-    check_refused(run_program({"run", sequence.path()}), "extrinsics_1_2.txt");
-  }
-}
-
-TEST_CASE("bad data: time stamps out of order are refused by name", "[cli]") {
-  const DamagedSequence sequence;
-  std::vector<std::string> rows;
-  std::ifstream list(sequence / "rgb.txt");
-  for (std::string row; std::getline(list, row);) rows.push_back(row);
-  list.close();
-  REQUIRE(rows.size() >= 4);
-  std::swap(rows[rows.size() - 1], rows[rows.size() - 2]);
-  std::ofstream swapped(sequence / "rgb.txt");
-  for (const auto& row : rows) swapped << row << "\n";
-  swapped.close();
-  check_refused(run_program({"run", sequence.path()}), "0.100000000");
-}
-
-TEST_CASE("bad data: an image of another size is refused by name", "[cli][device]") {
-  const DamagedSequence sequence;
-  const auto victim = sequence.image("rgb", 1);
-  cv::imwrite(victim.string(), cv::Mat(100, 160, CV_8UC1, cv::Scalar(90)));
-  const TemporaryFolder folder;
-  const auto result = run_program({"run", sequence.path(), "-o", folder / "out"});
-  check_refused(result, victim.filename().string());
-  CHECK_THAT(result.err, Contains("160") && Contains("320"));
-}
-
 TEST_CASE("edges: a file that is no image is refused by name", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "text.png") << "not an image";

@@ -61,6 +61,22 @@ TEST_CASE("run: folders, a video and a pipe of the same pictures give the same t
   CHECK_THAT(read_text(folder / "pipe/report.json"), Contains("\"dropped\": 0") && Contains("\"frames\": 4"));
 }
 
+TEST_CASE("match: a pair of a pipe is matched as the same pair of folders", "[cli][device]") {
+  const TemporaryFolder folder;
+  const auto of_folders = run_program({"match", "--left", small_sequence() + "/rgb", "--right",
+                                       small_sequence() + "/rgb2", "--fps", "20", "--frame", "1", "--calibration",
+                                       camera().calibration, "--csv", folder / "folders.csv"});
+  INFO(of_folders.err);
+  REQUIRE(of_folders.code == 0);
+  const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
+                           "' match - --frame 1 --fps 20 --queue 0 --quiet --calibration '" + camera().calibration +
+                           "' --csv '" + (folder / "pipe.csv") + "'";
+  CHECK(std::system(pipe.c_str()) == 0);
+  CHECK(read_text(folder / "pipe.csv") == read_text(folder / "folders.csv"));
+  CHECK(read_lines(folder / "pipe.csv").size() > 100);
+  CHECK(run_program({"match", "-", "right.png"}).code == 2);
+}
+
 TEST_CASE("run: pairs that a pipe brings too fast are counted in the report", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string all = own_camera::pgm_stream_of_small();

@@ -36,7 +36,8 @@ class MatchCommand : public Command {
            "  quadedge match left.png right.png --calibration camchain.yaml --ply points.ply";
   }
   void declare(Options& options) override {
-    options.positional("LEFT", left_, "left image file; without --calibration both are rectified already", false);
+    options.positional("LEFT", left_, "left image file; without --calibration both are rectified already; -: pictures from a pipe",
+                       false);
     options.positional("RIGHT", right_, "right image file", false);
     options.number("--frame", frame_, "of --left and --right, --video or -: which pair, from 0");
     options.text("--csv", csv_, "write positions and directions on both sides, likeness, and the point", "FILE");
@@ -48,6 +49,11 @@ class MatchCommand : public Command {
     method_.declare(options);
   }
   int run() override {
+    if (left_ == "-") {
+      if (!right_.empty()) throw UsageError("-: pictures from a pipe hold both views, or follow one another; no RIGHT");
+      left_.clear();
+      source_.read_pipe();
+    }
     Config config = method_.config();
     for (const auto& file : {csv_, ply_, draw_}) check_output_file(file, force_);
     const Pair pair = read_pair();

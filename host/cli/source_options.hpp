@@ -21,6 +21,8 @@ class SourceOptions {
  public:
   /// Declares PATH, or what else the command calls it. `help` describes it.
   void declare_path(Options& options, const std::string& help, const std::string& name = "PATH");
+  /// Pictures from a pipe, for a command whose positional arguments are something else.
+  void read_pipe() { path_ = "-"; }
   /// --left, --right, --video, --split, --calibration, --fps, --times, --queue, --fov, --mask, as a group.
   void declare(Options& options);
 

@@ -67,7 +67,7 @@ void read_frames(Dataset& dataset, const fs::path& folder, bool first_is_left, F
   }
   if (second != list.size()) {
     findings.error((folder / "rgb2").string(), std::to_string(second) + " images",
-                   std::to_string(list.size()) + " as in rgb");
+                   std::to_string(list.size()) + " as in " + (fs::exists(folder / "rgb.txt") ? "rgb.txt" : "rgb"));
   }
 }
 

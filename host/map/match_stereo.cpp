@@ -1,5 +1,6 @@
 #include "quadedge/match_stereo.hpp"
 
+#include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
 #include "map/measured_points.hpp"
 #include "odometry/equal_scale.hpp"
@@ -9,6 +10,7 @@ namespace quadedge {
 StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config) {
   check_rig(rig, "stereo rig");
   check_config(config);
+  RecordedImages(rig).check(frame.left, frame.right);
   StereoMatches matches;
   matches.rig = odometry::with_equal_scales(rig);
   const auto frontend = frontend::make_frontend(matches.rig, device, config);

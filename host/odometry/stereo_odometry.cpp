@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-#include "common/image_check.hpp"
+#include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
 #include "odometry/constant_velocity.hpp"
 #include "odometry/disparity_offset.hpp"
@@ -45,19 +45,6 @@ void add_message(const std::string& message, FrameResult& result) {
   result.message += (result.message.empty() ? "" : "; ") + message;
 }
 
-void check_image(const ImageView& image, const PinholeCamera& camera, int white, bool any_size, const char* side) {
-  check_pixels(image, std::string("the ") + side + " image");
-  if (image.white != white) {
-    throw DataError(std::string("the ") + side + " image has values to " + std::to_string(image.white) +
-                    ", the rig says to " + std::to_string(white));
-  }
-  if (!any_size && (image.width != camera.width || image.height != camera.height)) {
-    throw DataError(std::string("the ") + side + " image has " + std::to_string(image.width) + "x" +
-                    std::to_string(image.height) + " pixels, the calibration expects " + std::to_string(camera.width) +
-                    "x" + std::to_string(camera.height));
-  }
-}
-
 }  // namespace
 
 const char* to_string(FrameStatus status) {
@@ -75,9 +62,7 @@ const char* to_string(FrameStatus status) {
 class StereoOdometry::Implementation {
  public:
   Implementation(const StereoRig& rig, Device& device, const Config& config)
-      : recorded_{rig.left, rig.right, {}, {}, {}, {}, {}, rig.white},
-        left_any_size_(!rig.left_undistortion.empty()),
-        right_any_size_(!rig.right_undistortion.empty()),
+      : recorded_(rig),
         rig_(odometry::with_equal_scales(rig)),
         device_(device),
         config_(config),
@@ -106,8 +91,7 @@ class StereoOdometry::Implementation {
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
   void warn(const std::string& doubt, FrameResult& result);
 
-  StereoRig recorded_;  ///< the images' sizes, without tables and masks
-  bool left_any_size_, right_any_size_;
+  RecordedImages recorded_;
   StereoRig rig_;  ///< what edges are found in
   Device& device_;
   Config config_;
@@ -126,8 +110,7 @@ class StereoOdometry::Implementation {
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
-  check_image(frame.left, recorded_.left, recorded_.white, left_any_size_, "left");
-  check_image(frame.right, recorded_.right, recorded_.white, right_any_size_, "right");
+  recorded_.check(frame.left, frame.right);
   if (last_stamp_ns_ && frame.stamp_ns < *last_stamp_ns_) {
     throw DataError("the stamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
                     std::to_string(*last_stamp_ns_) + " ns, that of the frame before");

@@ -23,8 +23,8 @@ struct StereoMatches {
   StereoRig rig;  ///< in whose pixels edges are told; see StereoOdometry::rig()
 };
 
-/// Matches the edges of a pair on the chosen device. \throws DataError for an unusable rig, UsageError for a bad
-/// configuration, DeviceError.
+/// Matches the edges of a pair on the chosen device. \throws DataError for an unusable rig and for images that do not
+/// fit it, UsageError for a bad configuration, DeviceError.
 StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config);
 
 /// A rig for images that are rectified already and whose cameras are unknown: rows belong together, and depths mean

@@ -1,7 +1,9 @@
 """Results in rerun: files that its own command verifies, and that hold what was shown."""
 
+import signal
 import subprocess
 import sys
+import urllib.request
 from pathlib import Path
 
 import pytest
@@ -59,6 +61,19 @@ def test_results_without_their_recording(results, tmp_path):
     viewer.close()
     rerun_command("rrd", "verify", tmp_path / "room.rrd")
     assert "/world/path" in entities(tmp_path / "room.rrd")
+
+
+def test_a_browser_is_served_until_interrupted(results):
+    call = [sys.executable, "-m", "quadedge.view", results, "--web", "--no-images"]
+    with subprocess.Popen(call, stdout=subprocess.PIPE, text=True) as served:
+        try:
+            address = next(line.split()[1] for line in served.stdout if line.startswith("open"))
+            with urllib.request.urlopen(address, timeout=20) as page:
+                assert page.status == 200 and b"<html" in page.read()
+            assert "url=rerun" in address
+        finally:
+            served.send_signal(signal.SIGINT)
+        assert served.wait(20) == 0
 
 
 def test_live(room, tmp_path):

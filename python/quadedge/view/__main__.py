@@ -36,6 +36,8 @@ def _show(options: argparse.Namespace) -> None:
         frames = show_results(options.results, viewer, images=not options.no_images, data=options.data,
                               device=options.device)
         print(f"frames     {frames}" + (f"\nwritten    {options.save}" if options.save else ""))
+        if viewer.address:
+            print(f"open       {viewer.address}", flush=True)
         while options.web:
             time.sleep(1)
     except KeyboardInterrupt:

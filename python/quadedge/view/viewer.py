@@ -1,5 +1,8 @@
 """What a frame looks like on rerun's time line, live or from a finished run."""
 
+import contextlib
+import socket
+import urllib.parse
 from os import PathLike
 
 import numpy
@@ -31,11 +34,22 @@ def _colours_of(depth: numpy.ndarray) -> numpy.ndarray:
     return colours
 
 
+def _port(usual: int) -> int:
+    """The usual port, or any free one where another program has it."""
+    for port in (usual, 0):
+        with socket.socket() as test, contextlib.suppress(OSError):
+            test.bind(("", port))
+            return test.getsockname()[1]
+    raise OSError("no port is free")
+
+
 class Viewer:
     """Shows frames in rerun's viewer, or writes them to a file.
 
-    save: an .rrd file to write. web: serve the viewer to a browser. Without either a window opens.
+    save: an .rrd file to write. web: serve the viewer to a browser, at ``address``. Without either a window opens.
     """
+
+    address: str | None = None
 
     def __init__(self, name: str = "quadedge", *, save: str | PathLike | None = None, web: bool = False):
         self._rerun = _rerun()
@@ -43,7 +57,9 @@ class Viewer:
         if save is not None:
             self.recording.save(str(save))
         elif web:
-            self._rerun.serve_web_viewer(connect_to=self.recording.serve_grpc())
+            page, source = _port(9090), self.recording.serve_grpc(grpc_port=_port(9876))
+            self._rerun.serve_web_viewer(web_port=page, open_browser=False, connect_to=source)
+            self.address = f"http://localhost:{page}/?url={urllib.parse.quote(source, safe='')}"
         else:
             self.recording.spawn()
         self.recording.send_blueprint(self._blueprint())

@@ -1,0 +1,48 @@
+#pragma once
+/// \file recorded_images.hpp  What a pair of images has to be to belong to a rig.
+
+#include <string>
+
+#include "common/image_check.hpp"
+#include "quadedge/camera.hpp"
+
+namespace quadedge {
+
+/// The images that a rig expects: of its cameras' sizes, or of any where an undistortion table samples them.
+class RecordedImages {
+ public:
+  explicit RecordedImages(const StereoRig& rig)
+      : left_(size_of(rig.left, rig.left_undistortion)),
+        right_(size_of(rig.right, rig.right_undistortion)),
+        white_(rig.white) {}
+
+  /// \throws DataError for an image without pixels, a stride below a row's bytes, another size or depth.
+  void check(const ImageView& left, const ImageView& right) const {
+    check(left, left_, "the left image");
+    check(right, right_, "the right image");
+  }
+
+ private:
+  struct Size {
+    int width, height;  ///< 0: any
+  };
+
+  static Size size_of(const PinholeCamera& camera, const UndistortionTable& table) {
+    return table.empty() ? Size{camera.width, camera.height} : Size{0, 0};
+  }
+  void check(const ImageView& image, const Size& size, const std::string& name) const {
+    check_pixels(image, name);
+    if (image.white != white_)
+      throw DataError(name + " has values to " + std::to_string(image.white) + ", the rig says to " +
+                      std::to_string(white_));
+    if (size.width > 0 && (image.width != size.width || image.height != size.height))
+      throw DataError(name + " has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                      " pixels, the calibration expects " + std::to_string(size.width) + "x" +
+                      std::to_string(size.height));
+  }
+
+  Size left_, right_;
+  int white_;
+};
+
+}  // namespace quadedge

@@ -1,0 +1,179 @@
+/// Attacks by recordings that are damaged. A row says what is done to a sound one and what a user has to read; another
+/// attack is another row.
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <functional>
+#include <opencv2/imgcodecs.hpp>
+#include <sys/stat.h>
+
+#include "damaged_sequence.hpp"
+#include "program.hpp"
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct DataAttack {
+  std::string name;
+  std::function<void(const DamagedSequence&)> damage;
+  int code;                        ///< that `run` ends with
+  std::vector<std::string> words;  ///< on standard error
+};
+
+void replace_file(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+void change_file(const std::string& path, const std::function<std::string(const std::string&)>& change) {
+  replace_file(path, change(read_text(path)));
+}
+
+/// The second image of a folder in order of names.
+std::string second(const DamagedSequence& sequence, const std::string& folder) {
+  return sequence.image(folder, 1).string();
+}
+
+const std::vector<DataAttack>& data_attacks() {
+  using Sequence = const DamagedSequence&;
+  static const std::vector<DataAttack> attacks = {
+      // Images.
+      {"a left image is missing", [](Sequence s) { fs::remove(s.image("rgb", 2)); }, 3, {"rgb/", "no such file"}},
+      {"a right image is missing", [](Sequence s) { fs::remove(s.image("rgb2", 2)); }, 3, {"rgb2/", "no such file"}},
+      {"an image is empty", [](Sequence s) { replace_file(second(s, "rgb"), ""); }, 3, {"rgb/"}},
+      {"an image ends in the middle",
+       [](Sequence s) { fs::resize_file(second(s, "rgb2"), fs::file_size(second(s, "rgb2")) / 2); },
+       3,
+       {"rgb2/"}},
+      {"an image is a text", [](Sequence s) { replace_file(second(s, "rgb"), "no picture\n"); }, 3, {"rgb/"}},
+      {"an image has another size",
+       [](Sequence s) { cv::imwrite(second(s, "rgb"), cv::Mat(100, 160, CV_8UC1, cv::Scalar(90))); },
+       3,
+       {"rgb/", "160", "320"}},
+      {"an image has another depth",
+       [](Sequence s) { cv::imwrite(second(s, "rgb2"), cv::Mat(200, 320, CV_16UC1, cv::Scalar(9000))); },
+       3,
+       {"rgb2/"}},
+      {"an image is a folder",
+       [](Sequence s) {
+         const std::string path = second(s, "rgb");
+         fs::remove(path);
+         fs::create_directory(path);
+       },
+       3,
+       {"rgb/"}},
+      {"an image is a pipe that nobody writes to",
+       [](Sequence s) {
+         const std::string path = second(s, "rgb");
+         fs::remove(path);
+         REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+       },
+       3,
+       {"rgb/"}},
+      {"all images are black",
+       [](Sequence s) {
+         for (const char* folder : {"rgb", "rgb2"})
+           for (std::size_t i = 0; i < 4; ++i)
+             cv::imwrite(s.image(folder, i).string(), cv::Mat(200, 320, CV_8UC1, cv::Scalar(0)));
+       },
+       5,
+       {}},
+      // Cameras.
+      {"the calibration is missing", [](Sequence s) { fs::remove(s / "calibration.txt"); }, 3, {"calibration.txt"}},
+      {"the calibration is empty", [](Sequence s) { replace_file(s / "calibration.txt", ""); }, 3, {"calibration.txt"}},
+      {"the calibration is prose",
+       [](Sequence s) { replace_file(s / "calibration.txt", "focal length: about right\n"); },
+       3,
+       {"calibration.txt"}},
+      {"a focal length is negative",
+       [](Sequence s) { replace_file(s / "calibration.txt", "-184 184 163 97\n"); },
+       3,
+       {"calibration.txt", "-184"}},
+      {"a focal length is no number",
+       [](Sequence s) { replace_file(s / "calibration.txt", "nan 184 163 97\n"); },
+       3,
+       {"calibration.txt"}},
+      {"the baseline is zero",
+       [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n"); },
+       3,
+       {"extrinsics_1_2.txt", "baseline"}},
+      {"the baseline is no number",
+       [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "1 0 0 nan\n0 1 0 0\n0 0 1 0\n"); },
+       3,
+       {"extrinsics_1_2.txt"}},
+      {"the cameras' rotation is none",
+       [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "2 0 0 0.06\n0 1 0 0\n0 0 1 0\n"); },
+       3,
+       {"extrinsics_1_2.txt", "rotation"}},
+      {"the cameras' pose ends early",
+       [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "1 0 0 0.06\n0 1 0\n"); },
+       3,
+       {"extrinsics_1_2.txt"}},
+      // Lists.
+      {"the list of images is missing, and their names are the stamps",
+       [](Sequence s) { fs::remove(s / "rgb.txt"); },
+       0,
+       {}},
+      {"the list of images is empty", [](Sequence s) { replace_file(s / "rgb.txt", ""); }, 3, {"rgb.txt"}},
+      {"stamps go back",
+       [](Sequence s) {
+         change_file(s / "rgb.txt", [](const std::string& text) {
+           const std::size_t last = text.rfind('\n', text.size() - 2) + 1, before = text.rfind('\n', last - 2) + 1;
+           return text.substr(0, before) + text.substr(last) + text.substr(before, last - before);
+         });
+       },
+       3,
+       {"0.100000000", "increasing"}},
+      {"a row stands twice",
+       [](Sequence s) {
+         change_file(s / "rgb.txt",
+                     [](const std::string& text) { return text + text.substr(text.rfind('\n', text.size() - 2) + 1); });
+       },
+       3,
+       {"rgb.txt"}},
+      {"zeros in the list",
+       [](Sequence s) {
+         change_file(s / "rgb.txt", [](const std::string& text) { return text + std::string(1, '\0') + "1\n"; });
+       },
+       3,
+       {"rgb.txt"}},
+      {"the list begins with a byte order mark",
+       [](Sequence s) { change_file(s / "rgb.txt", [](const std::string& text) { return "\xEF\xBB\xBF" + text; }); },
+       0,
+       {}},
+      {"the list has Windows' line ends",
+       [](Sequence s) {
+         change_file(s / "rgb.txt", [](std::string text) {
+           for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 2))
+             text.insert(i, "\r");
+           return text;
+         });
+       },
+       0,
+       {}},
+      // Ground truth, which only evaluates.
+      {"there is no ground truth", [](Sequence s) { fs::remove(s / "groundtruth.txt"); }, 0, {}},
+      {"the ground truth is prose",
+       [](Sequence s) { replace_file(s / "groundtruth.txt", "somewhere in the room\n"); },
+       3,
+       {"groundtruth.txt"}},
+  };
+  return attacks;
+}
+
+}  // namespace
+
+TEST_CASE("attack: what is wrong with a recording is refused by name, and nothing else", "[cli][device]") {
+  for (const auto& attack : data_attacks()) {
+    DYNAMIC_SECTION(attack.name) {
+      const DamagedSequence sequence;
+      attack.damage(sequence);
+      const TemporaryFolder folder;
+      const auto result = run_program({"run", sequence.path(), "-o", folder / "out", "--quiet"});
+      INFO(result.err);
+      CHECK(result.code == attack.code);
+      for (const auto& word : attack.words) CHECK_THAT(result.err, Contains(word));
+      CHECK_THAT(result.err, !Contains("internal"));
+      if (attack.code == 3) CHECK_THAT(result.err, Contains("expected"));
+    }
+  }
+}

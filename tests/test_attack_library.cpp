@@ -1,0 +1,129 @@
+/// Attacks on the C++ interface. A row is a call that cannot be right, and what it throws; another attack is another
+/// row.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "devices.hpp"
+#include "frontends.hpp"
+#include "quadedge/calibration.hpp"
+#include "quadedge/dataset.hpp"
+#include "quadedge/detect_edges.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/evaluation.hpp"
+#include "quadedge/match_stereo.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/trajectory.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// What a call may need: sound, until the row changes it.
+struct Caller {
+  matching::RenderedScene scene{"room", 160, 100, 2};
+  Device device{"reference"};
+  StereoRig rig = scene.rig;
+  Config config = scene.config;
+  StereoFrame frame = scene.frame(0);
+  const Image small = Image(80, 60), deep = Image(160, 100, 65535);
+
+  void track() { StereoOdometry(rig, device, config).track(frame); }
+};
+
+struct LibraryAttack {
+  std::string name;
+  std::function<void(Caller&)> call;
+  enum { data, usage, device } error;
+  std::string words;
+};
+
+const std::vector<LibraryAttack>& library_attacks() {
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  using C = Caller&;
+  static const std::vector<LibraryAttack> attacks = {
+      {"no left image", [](C c) { c.frame.left = {}, c.track(); }, LibraryAttack::data, "left"},
+      {"no right image", [](C c) { c.frame.right = {}, c.track(); }, LibraryAttack::data, "right"},
+      {"an image of another size", [](C c) { c.frame.left = c.small.view(), c.track(); }, LibraryAttack::data, "80"},
+      {"an image of another depth", [](C c) { c.frame.right = c.deep.view(), c.track(); }, LibraryAttack::data,
+       "right"},
+      {"rows that overlap", [](C c) { c.frame.left.stride = 10, c.track(); }, LibraryAttack::data, "stride"},
+      {"rows that run backwards", [](C c) { c.frame.left.stride = -160, c.track(); }, LibraryAttack::data, "stride"},
+      {"a stamp that goes back",
+       [](C c) {
+         StereoOdometry odometry(c.rig, c.device, c.config);
+         odometry.track(c.frame);
+         c.frame.stamp_ns = -1;
+         odometry.track(c.frame);
+       },
+       LibraryAttack::data, "-1"},
+      {"no baseline", [](C c) { c.rig.right_from_left.setIdentity(), c.track(); }, LibraryAttack::data, "baseline"},
+      {"a baseline without end",
+       [](C c) {
+         c.rig.right_from_left.translation().x() = -std::numeric_limits<double>::infinity();
+         c.track();
+       },
+       LibraryAttack::data, ""},
+      {"a focal length of zero", [](C c) { c.rig.left.fx = 0, c.track(); }, LibraryAttack::data, ""},
+      {"a focal length that is no number", [](C c) { c.rig.right.fy = kNoNumber, c.track(); }, LibraryAttack::data, ""},
+      {"a rotation that is none", [](C c) { c.rig.right_from_left.linear() *= 2, c.track(); }, LibraryAttack::data, ""},
+      {"cameras without pixels", [](C c) { c.rig.left.width = 0, c.track(); }, LibraryAttack::data, ""},
+      {"a constant out of range", [](C c) { c.config.stereo.ncc_min = 7, c.track(); }, LibraryAttack::usage, "ncc_min"},
+      {"a constant that is no number", [](C c) { c.config.pose.inlier_distance = kNoNumber, c.track(); },
+       LibraryAttack::usage, "inlier_distance"},
+      {"an unknown kernel variant", [](C c) { c.config.variants["scan"] = "abacus", c.track(); }, LibraryAttack::usage,
+       "abacus"},
+      {"an unknown device", [](C) { Device{"abacus"}; }, LibraryAttack::device, "abacus"},
+      {"edges of no image", [](C c) { detect_edges({}, c.device, c.config); }, LibraryAttack::data, ""},
+      {"a pair of different heights",
+       [](C c) {
+         match_stereo({0, c.frame.left, c.small.view()}, c.rig, c.device, c.config);
+       },
+       LibraryAttack::data, "80"},
+      {"a recording that is not there", [](C) { open_dataset("/no/such/recording"); }, LibraryAttack::data, "no/such"},
+      {"a calibration that is not there", [](C) { read_calibration("/no/such.yaml"); }, LibraryAttack::data, "no/such"},
+      {"a trajectory that is not there", [](C) { read_trajectory("/no/such.txt"); }, LibraryAttack::data, "no/such"},
+      {"trajectories of different times",
+       [](C) {
+         evaluate_trajectory({{0, {}}, {1, {}}}, {{3'000'000'000, {}}, {4'000'000'000, {}}});
+       },
+       LibraryAttack::data, ""},
+      {"a trajectory of one pose",
+       [](C) {
+         evaluate_trajectory({{0, {}}}, {{0, {}}, {1, {}}});
+       },
+       LibraryAttack::data, ""},
+  };
+  return attacks;
+}
+
+std::string message_of(const LibraryAttack& attack, Caller& caller) {
+  try {
+    attack.call(caller);
+  } catch (const DataError& error) {
+    CHECK(attack.error == LibraryAttack::data);
+    return error.what();
+  } catch (const UsageError& error) {
+    CHECK(attack.error == LibraryAttack::usage);
+    return error.what();
+  } catch (const DeviceError& error) {
+    CHECK(attack.error == LibraryAttack::device);
+    return error.what();
+  }
+  return "nothing was thrown: internal";
+}
+
+}  // namespace
+
+TEST_CASE("attack: a call that cannot be right throws what says why", "[odometry]") {
+  CHECK_NOTHROW(Caller().track());
+  for (const auto& attack : library_attacks()) {
+    DYNAMIC_SECTION(attack.name) {
+      Caller caller;
+      CHECK_THAT(message_of(attack, caller), Contains(attack.words) && !Contains("internal"));
+    }
+  }
+}
