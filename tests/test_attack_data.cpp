@@ -33,6 +33,7 @@ std::string second(const DamagedSequence& sequence, const std::string& folder) {
   return sequence.image(folder, 1).string();
 }
 
+// LONG: a table, a row per attack.
 const std::vector<DataAttack>& data_attacks() {
   using Sequence = const DamagedSequence&;
   static const std::vector<DataAttack> attacks = {

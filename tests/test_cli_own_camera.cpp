@@ -63,9 +63,9 @@ TEST_CASE("run: folders, a video and a pipe of the same pictures give the same t
 
 TEST_CASE("match: a pair of a pipe is matched as the same pair of folders", "[cli][device]") {
   const TemporaryFolder folder;
-  const auto of_folders = run_program({"match", "--left", small_sequence() + "/rgb", "--right",
-                                       small_sequence() + "/rgb2", "--fps", "20", "--frame", "1", "--calibration",
-                                       camera().calibration, "--csv", folder / "folders.csv"});
+  const auto of_folders =
+      run_program({"match", "--left", small_sequence() + "/rgb", "--right", small_sequence() + "/rgb2", "--fps", "20",
+                   "--frame", "1", "--calibration", camera().calibration, "--csv", folder / "folders.csv"});
   INFO(of_folders.err);
   REQUIRE(of_folders.code == 0);
   const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +

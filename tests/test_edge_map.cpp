@@ -44,7 +44,7 @@ struct TrackedRoom {
   }
 };
 
-const TrackedRoom& room() {
+const TrackedRoom& tracked_room() {
   static const TrackedRoom all;
   return all;
 }
@@ -59,8 +59,8 @@ EdgeMapOptions seen_by(int views, std::size_t most = 2'000'000, bool tracks = fa
 
 /// Depths of points in the first view over the rendered ones at the same pixel, less one; sorted magnitudes.
 std::vector<double> depth_errors(const std::vector<MapPoint>& points) {
-  const auto depth = room().sequence.render(0, Side::left).depth;
-  const PinholeCamera& camera = room().sequence.rig().left;
+  const auto depth = tracked_room().sequence.render(0, Side::left).depth;
+  const PinholeCamera& camera = tracked_room().sequence.rig().left;
   std::vector<double> errors;
   for (const auto& point : points) {
     const Eigen::Vector2d pixel = camera.project(point.position);
@@ -82,9 +82,9 @@ std::vector<double> depth_errors(const std::vector<MapPoint>& points) {
 }  // namespace
 
 TEST_CASE("edge map: points lie on the rendered surfaces, and better the more rigs have seen them", "[map][device]") {
-  EdgeMap once(room().config, seen_by(1)), twice(room().config, seen_by(2)),
-      often(room().config, seen_by(5, 2'000'000, true));
-  room().track_into({&once, &twice, &often});
+  EdgeMap once(tracked_room().config, seen_by(1)), twice(tracked_room().config, seen_by(2)),
+      often(tracked_room().config, seen_by(5, 2'000'000, true));
+  tracked_room().track_into({&once, &twice, &often});
   CHECK(once.views().size() == 6);
   CHECK(once.views()[5].frame == 5);
   const auto a = once.points(), b = twice.points(), c = often.points();
@@ -110,7 +110,7 @@ TEST_CASE("edge map: points lie on the rendered surfaces, and better the more ri
 
   const auto sightings = often.sightings();
   REQUIRE(sightings.size() == c.size());
-  const PinholeCamera& camera = room().sequence.rig().left;
+  const PinholeCamera& camera = tracked_room().sequence.rig().left;
   std::vector<double> misses;
   for (std::size_t i = 0; i < c.size(); ++i) {
     CHECK(sightings[i].size() == static_cast<std::size_t>(c[i].views));
@@ -128,9 +128,10 @@ TEST_CASE("edge map: points lie on the rendered surfaces, and better the more ri
 
 TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded", "[map][device]") {
   const TemporaryFolder folder;
-  EdgeMap first(room().config, seen_by(2)), second(room().config, seen_by(2)), small(room().config, seen_by(2, 1000));
-  room().track_into({&first, &small});
-  room().track_into({&second});
+  EdgeMap first(tracked_room().config, seen_by(2)), second(tracked_room().config, seen_by(2)),
+      small(tracked_room().config, seen_by(2, 1000));
+  tracked_room().track_into({&first, &small});
+  tracked_room().track_into({&second});
   write_ply(folder / "first.ply", first.points());
   write_ply(folder / "second.ply", second.points());
   CHECK(read_text(folder / "first.ply") == read_text(folder / "second.ply"));

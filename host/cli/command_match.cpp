@@ -36,7 +36,8 @@ class MatchCommand : public Command {
            "  quadedge match left.png right.png --calibration camchain.yaml --ply points.ply";
   }
   void declare(Options& options) override {
-    options.positional("LEFT", left_, "left image file; without --calibration both are rectified already; -: pictures from a pipe",
+    options.positional("LEFT", left_,
+                       "left image file; without --calibration both are rectified already; -: pictures from a pipe",
                        false);
     options.positional("RIGHT", right_, "right image file", false);
     options.number("--frame", frame_, "of --left and --right, --video or -: which pair, from 0");
