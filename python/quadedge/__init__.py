@@ -15,12 +15,15 @@ down, z forward.
 """
 
 import importlib
+import importlib.metadata
 from typing import TYPE_CHECKING
 
 from .errors import DataError, DeviceError, Error, UsageError
 
 if TYPE_CHECKING:
     from ._quadedge import *  # noqa: F403
+
+    __version__: str
 
 _ERRORS = ("DataError", "DeviceError", "Error", "UsageError")
 _COMPILED = (
@@ -31,11 +34,13 @@ _COMPILED = (
     "presets", "read_grey_image", "synthetic",
 )  # fmt: skip
 
-__all__ = [*_ERRORS, *_COMPILED]
+__all__ = [*_ERRORS, *_COMPILED, "__version__"]
 
 
 def __getattr__(name: str):
     """Loads the compiled module with the first name that needs it."""
+    if name == "__version__":
+        return importlib.metadata.version("quadedge")
     if name in _COMPILED:
         try:
             compiled = importlib.import_module("._quadedge", __name__)

@@ -27,3 +27,9 @@ def test_exit_codes_are_the_commands():
 def test_unknown_names_are_attribute_errors():
     done = run_from_sources("import quadedge\nassert not hasattr(quadedge, 'no_such_name')")
     assert done.returncode == 0, done.stderr
+
+
+def test_the_version_is_that_of_the_program(command):
+    import quadedge
+
+    assert quadedge.__version__ in command("--version").stdout
