@@ -1,5 +1,5 @@
 # quadedge_unity(TARGET) compiles up to a dozen files of a folder as one translation unit: most of the time goes into
-# headers, and it takes a third of it. Names that files have for themselves differ within a folder, or the compiler says
+# headers. Names that files have for themselves differ within a folder, or the compiler says
 # so. Files with compiler options of their own stay alone, as CMake has it.
 function(quadedge_unity target)
   if(NOT QUADEDGE_UNITY)

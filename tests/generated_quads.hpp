@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pose/quads.hpp"
+#include "quadedge/edges.hpp"
 
 namespace generated {
 
@@ -71,6 +72,20 @@ inline quadedge::pose::StereoObservation observe(const quadedge::StereoRig& rig,
   };
   return {rig.left.project(p.point), rig.right.project(in_right), direction(rig.left, p.point, p.tangent),
           direction(rig.right, in_right, rig.right_from_left.linear() * p.tangent)};
+}
+
+/// Appends an observation to the stereo edges of a rig, with the index of its place.
+inline void append(quadedge::StereoEdges& edges, const quadedge::pose::StereoObservation& observation) {
+  const auto index = static_cast<std::int32_t>(edges.size());
+  edges.left_index.push_back(index);
+  edges.right_index.push_back(index);
+  edges.left_x.push_back(static_cast<float>(observation.left.x()));
+  edges.left_y.push_back(static_cast<float>(observation.left.y()));
+  edges.left_direction.push_back(static_cast<float>(observation.left_direction));
+  edges.right_x.push_back(static_cast<float>(observation.right.x()));
+  edges.right_y.push_back(static_cast<float>(observation.right.y()));
+  edges.right_direction.push_back(static_cast<float>(observation.right_direction));
+  edges.ncc.push_back(0.9F);
 }
 
 /// Standard deviations: across and along an edge [px], of directions [rad].

@@ -12,18 +12,7 @@ namespace {
 
 StereoEdges edges_of(const StereoRig& rig, const std::vector<pose::OrientedPoint>& points) {
   StereoEdges edges;
-  for (const auto& point : points) {
-    const auto seen = generated::observe(rig, point);
-    edges.left_index.push_back(0);
-    edges.right_index.push_back(0);
-    edges.left_x.push_back(static_cast<float>(seen.left.x()));
-    edges.left_y.push_back(static_cast<float>(seen.left.y()));
-    edges.left_direction.push_back(static_cast<float>(seen.left_direction));
-    edges.right_x.push_back(static_cast<float>(seen.right.x()));
-    edges.right_y.push_back(static_cast<float>(seen.right.y()));
-    edges.right_direction.push_back(static_cast<float>(seen.right_direction));
-    edges.ncc.push_back(1);
-  }
+  for (const auto& point : points) generated::append(edges, generated::observe(rig, point));
   return edges;
 }
 

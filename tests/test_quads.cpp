@@ -5,21 +5,7 @@
 
 using namespace quadedge::pose;
 
-namespace {
-
-void add_edge(quadedge::StereoEdges& edges, const StereoObservation& o) {
-  edges.left_index.push_back(static_cast<int>(edges.size()));
-  edges.right_index.push_back(static_cast<int>(edges.right_index.size()));
-  edges.left_x.push_back(static_cast<float>(o.left.x()));
-  edges.left_y.push_back(static_cast<float>(o.left.y()));
-  edges.left_direction.push_back(static_cast<float>(o.left_direction));
-  edges.right_x.push_back(static_cast<float>(o.right.x()));
-  edges.right_y.push_back(static_cast<float>(o.right.y()));
-  edges.right_direction.push_back(static_cast<float>(o.right_direction));
-  edges.ncc.push_back(0.9f);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("Quads take the detected positions, keep their match's row and leave out what has no depth",
           "[pose][quads]") {
@@ -36,9 +22,9 @@ TEST_CASE("Quads take the detected positions, keep their match's row and leave o
     truth.push_back(p);
     StereoObservation before = generated::observe(rig, p);
     if (i == 7) before.right.x() = before.left.x() + 3;  // behind the cameras
-    add_edge(previous, before);
+    generated::append(previous, before);
     const StereoObservation after = generated::observe(rig, {motion * p.point, motion.linear() * p.tangent});
-    add_edge(current, after);
+    generated::append(current, after);
     matches.previous.push_back(i);
     matches.current.push_back(i);
     matches.left_x.push_back(static_cast<float>(after.left.x()) +

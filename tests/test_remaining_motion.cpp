@@ -26,9 +26,9 @@ struct TwoMotions {
     for (int i = 0; i < first + others; ++i) {
       const auto p = generated::random_point(rig, 5, 25, random);
       const Eigen::Isometry3d& m = i < first ? motion : other;
-      append(before->edges, generated::disturb(rig, p, noise, true, random));
-      append(now->edges,
-             generated::disturb(rig, {m * p.point, Eigen::Vector3d(m.linear() * p.tangent)}, noise, false, random));
+      generated::append(before->edges, generated::disturb(rig, p, noise, true, random));
+      generated::append(now->edges, generated::disturb(rig, {m * p.point, Eigen::Vector3d(m.linear() * p.tangent)},
+                                                       noise, false, random));
     }
     query.current = now;
     query.base = before;
@@ -44,21 +44,6 @@ struct TwoMotions {
     odometry::Evidence evidence;
     evidence.confirmed = confirmed.get();
     return hypothesis.propose(query, evidence);
-  }
-
- private:
-  static void append(StereoEdges& edges, const pose::StereoObservation& edge) {
-    const auto index = static_cast<std::int32_t>(edges.size());
-    edges.left_index.push_back(index);
-    edges.right_index.push_back(index);
-    edges.left_x.push_back(static_cast<float>(edge.left.x()));
-    edges.left_y.push_back(static_cast<float>(edge.left.y()));
-    edges.left_direction.push_back(static_cast<float>(edge.left_direction));
-    edges.right_x.push_back(static_cast<float>(edge.right.x()));
-    edges.right_y.push_back(static_cast<float>(edge.right.y()));
-    edges.right_direction.push_back(static_cast<float>(edge.right_direction));
-    edges.left_scale_drift.push_back(0);
-    edges.ncc.push_back(0.9F);
   }
 };
 

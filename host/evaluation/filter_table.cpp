@@ -9,8 +9,6 @@
 #include "quadedge/error.hpp"
 
 namespace quadedge::evaluation {
-namespace {}  // namespace
-
 void FilterCounts::add_edge(std::int64_t candidates_of_edge, std::int64_t veridical_of_edge) {
   ++pool;
   found += veridical_of_edge > 0 ? 1 : 0;

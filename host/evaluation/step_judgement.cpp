@@ -4,8 +4,6 @@
 #include "evaluation/pose_lookup.hpp"
 
 namespace quadedge::evaluation {
-namespace {}  // namespace
-
 StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
                           const std::vector<std::int64_t>& frames_ns, const StepLimits& limits,
                           std::int64_t max_stamp_difference_ns) {

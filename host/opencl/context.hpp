@@ -87,7 +87,10 @@ class Context {
   void count_wait() { count(&Traffic::waits, 1); }
 
   /// The stage that the following commands belong to (profiling, traffic by stage).
-  void begin_stage(const std::string& stage) { stage_ = stage; }
+  void begin_stage(const std::string& stage) {
+    stage_ = stage;
+    traffic_of_stage_ = &stage_traffic_[stage];
+  }
   const std::string& stage() const { return stage_; }
   enum class Command { kernel, transfer };
   /// The event of the command that is enqueued next; null where nothing is profiled.
@@ -101,7 +104,7 @@ class Context {
  private:
   void count(std::size_t Traffic::*what, std::size_t number) {
     traffic_.*what += number;
-    stage_traffic_[stage_].*what += number;
+    traffic_of_stage_->*what += number;
   }
   void take_limits(const DeviceLimits& wished);
   std::string kernel_text(const std::string& file) const;
@@ -125,6 +128,7 @@ class Context {
   std::size_t bytes_ = 0, peak_bytes_ = 0;
   Traffic traffic_;
   std::map<std::string, Traffic> stage_traffic_;
+  Traffic* traffic_of_stage_ = &stage_traffic_["other"];  ///< of the stage begun last
   std::string stage_ = "other";
   struct Watched {
     std::string stage;
