@@ -32,7 +32,10 @@ def main() -> int:
             print("frames.csv differs:", *(f"{name} {x} | {y}" for name, x, y in zip(COUNTS, a, b)), sep="\n  ")
             return 1
     positions, rotations = (
-        [(numbers(a), numbers(b)) for a, b in zip(rows(one, "poses.csv", part), rows(other, "poses.csv", part), strict=True)]
+        [
+            (numbers(a), numbers(b))
+            for a, b in zip(rows(one, "poses.csv", part), rows(other, "poses.csv", part), strict=True)
+        ]
         for part in (POSITION, ROTATION)
     )
     apart = max(math.dist(a, b) for a, b in positions)
