@@ -104,22 +104,6 @@ static inline void cut_column(global const uint* corners, const int width, const
   }
 }
 
-// A column of patch_derivative().
-static inline void derivative_column(global const uint* corners, const int width, const int height,
-                                     const PatchFrame frame, const float ex, const float ey, const int wanted,
-                                     Exchange* exchange, float* column) {
-  PatchFrame ahead = frame, behind = frame;
-  ahead.x += 0.5f * ex;
-  ahead.y += 0.5f * ey;
-  behind.x -= 0.5f * ex;
-  behind.y -= 0.5f * ey;
-  float subtracted[kPatchSide] = {0.0f};
-  cut_column(corners, width, height, ahead, wanted, exchange, column);
-  cut_column(corners, width, height, behind, wanted, exchange, subtracted);
-#pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) column[i] -= subtracted[i];
-}
-
 // Sum of products of two columns.
 static inline float column_product(const float* a, const float* b) {
   float sum = 0.0f;
@@ -128,10 +112,11 @@ static inline float column_product(const float* a, const float* b) {
   return sum;
 }
 
-// align_edge(); patches of the group that end early wait for the others. ALIGN_LEFT where not `wanted`.
+// align_edge(); the samples of `fixed` and `derivative` stand GROUP apart. Patches of the group that end early wait for
+// the others. ALIGN_LEFT where not `wanted`.
 static inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving,
-                                const float ex, const float ey, const float* fixed, const float fixed_norm,
-                                const float* derivative, const float stiffness, const AlignmentSettings settings,
+                                const float ex, const float ey, local const float* fixed, const float fixed_norm,
+                                local const float* derivative, const float stiffness, const AlignmentSettings settings,
                                 const int wanted, Exchange* exchange, float* values, float* move) {
   float alpha = 0.0f;
   int status = wanted ? ALIGN_MOVED : ALIGN_LEFT, going = wanted;
@@ -146,9 +131,10 @@ static inline int align_columns(global const uint* corners, const int width, con
     float curvatures = 0.0f, slopes = 0.0f;
 #pragma unroll
     for (int i = 0; i < kPatchSide; ++i) {
-      const float residual = fixed[i] - gain * values[i];
-      const float weighted = settings.huber / max(fabs(residual), settings.huber) * derivative[i];
-      curvatures += weighted * derivative[i];
+      const float residual = fixed[GROUP * i] - gain * values[i];
+      const float slope = derivative[GROUP * i];
+      const float weighted = settings.huber / max(fabs(residual), settings.huber) * slope;
+      curvatures += weighted * slope;
       slopes += weighted * residual;
     }
     const float2 sums = sum_two_lanes(exchange, curvatures, slopes);

@@ -1,26 +1,13 @@
 // stereo_refinement_lanes.cl: stereo_refinement.cl with eight work-items per left edge, for GPUs.
 //
 // Needs direction.cl, epipolar.cl, photometric.cl, photometric_lanes.cl and candidate_positions.cl. In and out as
-// there, and the same bits: a work-item is one lane across the edge, its patches are columns in private memory, sums
-// over lanes go through local memory.
+// there, and the same bits: a work-item is one lane across the edge and holds its column of every patch, sums over
+// lanes go through local memory.
 // Groups of GROUP work-items refine one candidate of each of their edges at a time; the first lane of an edge keeps its
-// row of candidates. Local memory: EXCHANGE_FLOATS floats.
+// row of candidates. Local memory: EXCHANGE_FLOATS + 2 kPatchSide GROUP floats.
 // Reference: host/reference/stereo_refinement.cpp.
 
-// NCC of a side patch of the left edge, columns of 16 bytes apart, and the patch at `frame` of the right image.
-static inline float side_ncc(global const uint* corners, const int width, const int height, const PatchFrame frame,
-                             global const char* side_patch, const float inverse_norm, const int wanted,
-                             Exchange* exchange) {
-  float column[kPatchSide] = {0.0f}, own[kPatchSide];
-  cut_column(corners, width, height, frame, wanted, exchange, column);
-#pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) own[i] = (float)side_patch[16 * i + lane_of_item()];
-  const float2 sums = sum_two_lanes(exchange, column_product(column, column), column_product(column, own));
-  const float norm = sqrt(sums.x);
-  return norm < 1e-10f ? 0.0f : sums.y * inverse_norm / norm;
-}
-
-// LONG: a row from shift to similarity; its patches stay in private memory.
+// LONG: a row from shift to similarity; the left edge's patches stay in local memory.
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement(
     const StereoRefinementArguments args, global const int* first, global const int* target, global const float* ncc,
     global const uint* left_corners, global const uint* right_corners, global const char* left_patches,
@@ -28,6 +15,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     global float* similarity) {
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
+  // What serves all candidates of an edge, a column per work-item: registers are few.
+  local float fixed_columns[kPatchSide * GROUP], derivative_columns[kPatchSide * GROUP];
+  local float* fixed = fixed_columns + get_local_id(0);
+  local float* derivative = derivative_columns + get_local_id(0);
   const int lane = lane_of_item(), first_item = kPatchLanes * patch_in_group();
   // Surplus work-items work along with the last edge and an empty row for the barriers.
   const int wanted = (int)(get_global_id(0) / kPatchLanes), left_count = args.left.count;
@@ -59,15 +50,29 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   barrier(CLK_GLOBAL_MEM_FENCE);
   // From here on only the first lane reads and writes the row.
   const int keeper = lane == 0;
+  int alive = 0;
   if (keeper) {
     for (int c = begin; c < end; ++c) {
-      if (state[c] == kCandidateAlive) choose_representative(begin, c, ncc, position, state);
+      if (state[c] != kCandidateAlive) continue;
+      choose_representative(begin, c, ncc, position, state);
+      alive = 1;
     }
   }
+  const int has_candidates = tell(&exchange, alive ? 1.0f : 0.0f, 0.0f)[first_item] != 0.0f;
 
-  float fixed[kPatchSide] = {0.0f}, derivative[kPatchSide] = {0.0f}, values[kPatchSide] = {0.0f};
-  float fixed_norm = 0.0f;
-  int ready = 0;
+  // The left edge's patch and its derivative, the difference of two patches.
+  float values[kPatchSide] = {0.0f}, fixed_norm = 0.0f;
+#pragma unroll 1  // one copy of cut_column(): registers
+  for (int part = 0; part < 3; ++part) {
+    const float ahead = part == 0 ? 0.0f : part == 1 ? 0.5f : -0.5f;
+    const PatchFrame frame = patch_frame(x + ahead * line.ex, y + ahead * line.ey, cosine, sine, 0.0f, 0.0f);
+    cut_column(left_corners, args.left_width, args.left_height, frame, has_candidates, &exchange, values);
+    const float norm = sqrt(sum_lanes(&exchange, column_product(values, values)));
+    fixed_norm = part == 0 ? norm : fixed_norm;
+    local float* column = part == 0 ? fixed : derivative;
+#pragma unroll
+    for (int k = 0; k < kPatchSide; ++k) column[GROUP * k] = part < 2 ? values[k] : column[GROUP * k] - values[k];
+  }
   for (int c = begin;; ++c) {
     if (keeper) {
       while (c < end && state[c] != kCandidateAlive) ++c;
@@ -77,14 +82,6 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     const int living = told[first_item] != 0.0f;
     float s = told[GROUP + first_item];
     if (!any_patch(told)) break;
-    if (!ready) {  // an edge without a candidate now has none later
-      const PatchFrame frame = patch_frame(x, y, cosine, sine, 0.0f, 0.0f);
-      cut_column(left_corners, args.left_width, args.left_height, frame, living, &exchange, fixed);
-      derivative_column(left_corners, args.left_width, args.left_height, frame, line.ex, line.ey, living, &exchange,
-                        derivative);
-      fixed_norm = sqrt(sum_lanes(&exchange, column_product(fixed, fixed)));
-      ready = 1;
-    }
     // Patches are cut with the left direction in both images.
     const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
     float move = 0.0f;
@@ -93,26 +90,37 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
                       derivative, edge_stiffness, args.alignment, living, &exchange, values, &move);
     s += move;
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
-    cut_column(right_corners, args.right_width, args.right_height,
-               patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), aligned == ALIGN_MOVED, &exchange,
-               values);
-    const float2 sums = sum_two_lanes(&exchange, column_product(values, values), column_product(fixed, values));
-    const float norms = fixed_norm * sqrt(sums.x);
-    const float on_edge = norms < 1e-10f ? 0.0f : sums.y / norms;
-    // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
-    const int alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= args.similarity_min;
-    const float dark = side_ncc(right_corners, args.right_width, args.right_height,
-                                patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, args.patch_offset),
-                                side_patches, inverse_norms.x, alike, &exchange);
-    const float bright = side_ncc(right_corners, args.right_width, args.right_height,
-                                  patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, args.patch_offset),
-                                  side_patches + kPatchLanes, inverse_norms.y, alike, &exchange);
+    // On the edge, then on its dark and on its bright side.
+    float on_edge = 0.0f, beside = -1.0f;
+    int alike = aligned == ALIGN_MOVED;
+#pragma unroll 1  // one copy of cut_column(): registers
+    for (int place = 0; place < 3; ++place) {
+      const float side = place == 0 ? 0.0f : place == 1 ? 1.0f : -1.0f;
+      cut_column(right_corners, args.right_width, args.right_height,
+                 patch_frame(right_x_now, right_y_now, cosine, sine, side, args.patch_offset), alike, &exchange,
+                 values);
+      float own[kPatchSide];
+#pragma unroll
+      for (int k = 0; k < kPatchSide; ++k)
+        own[k] = place == 0 ? fixed[GROUP * k] : (float)side_patches[16 * k + (place == 1 ? 0 : kPatchLanes) + lane];
+      const float2 sums = sum_two_lanes(&exchange, column_product(values, values), column_product(own, values));
+      const float norm = sqrt(sums.x);
+      if (place == 0) {
+        const float norms = fixed_norm * norm;
+        on_edge = norms < 1e-10f ? 0.0f : sums.y / norms;
+        // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
+        alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= args.similarity_min;
+      } else if (alike) {
+        const float side_ncc = norm < 1e-10f ? 0.0f : sums.y * (place == 1 ? inverse_norms.x : inverse_norms.y) / norm;
+        beside = place == 1 ? side_ncc : fmax(beside, side_ncc);
+      }
+    }
     if (!found) continue;
     if (aligned == ALIGN_LEFT) {
       state[c] = (uchar)args.rejected_order;
     } else {
       position[c] = s;
-      similarity[c] = 0.5f * (on_edge + (alike ? fmax(dark, bright) : -1.0f));
+      similarity[c] = 0.5f * (on_edge + beside);
     }
   }
   if (keeper) follow_representatives(begin, end, args.rejected_order, position, state, similarity);

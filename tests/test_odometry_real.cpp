@@ -109,6 +109,7 @@ TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other var
                                                 {"stereo_relaxation", "group64"},
                                                 {"stereo_mutual", "group16"},
                                                 {"temporal_candidates", "group16"},
+                                                {"temporal_match", "rows32"},
                                                 {"temporal_quads", "group16"}})));
   CHECK(same_bytes(
       run,

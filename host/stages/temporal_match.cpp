@@ -9,7 +9,14 @@
 namespace quadedge::stages {
 namespace {
 
+bool in_groups(const opencl::Defines& defines) { return defines.count("GROUP") != 0; }
+
 cl::Program match_program(opencl::Context& context, const opencl::Defines& defines) {
+  if (in_groups(defines)) {
+    return context.program(
+        {"similarity.cl", "similarity_lanes.cl", "edge_positions.cl", "indexed_points.cl", "temporal_match_groups.cl"},
+        defines);
+  }
   return context.program({"similarity.cl", "edge_positions.cl", "indexed_points.cl", "temporal_match.cl"}, defines);
 }
 
@@ -21,6 +28,7 @@ TemporalMatch::TemporalMatch(opencl::Context& context, const TemporalConfig& con
   const auto& variant = opencl::choose_variant("temporal_match", context, variants);
   fused_ = variant.name != "lists";
   local_size_ = static_cast<std::size_t>(variant.local_size);
+  items_per_row_ = in_groups(variant.defines) ? local_size_ : 1;
   if (fused_) kernel_ = {context, match_program(context, variant.defines), "temporal_match"};
 }
 
@@ -81,9 +89,9 @@ std::optional<AliveRows> TemporalMatch::run(const DevicePositions& predicted, co
                                          limits.ncc_nearly_best,
                                          quad_choice(config_, search)};
   const auto launch = [&](const auto& kernel, auto&&... of_tap) {
-    kernel({rows, local_size_}, arguments, left_predicted.packed, left.points, left.cells, right.points, right.cells,
-           base.left_patches, base.left_index, base.right_patches, current.left_patches, current.left_index,
-           current.right_patches, current.packed, result_, of_tap...);
+    kernel({rows * items_per_row_, local_size_}, arguments, left_predicted.packed, left.points, left.cells,
+           right.points, right.cells, base.left_patches, base.left_index, base.right_patches, current.left_patches,
+           current.left_index, current.right_patches, current.packed, result_, of_tap...);
   };
   if (tapped == nullptr) {
     launch(kernel_);

@@ -68,7 +68,7 @@ class TemporalMatch {
   TemporalConfig config_;
   std::map<std::string, std::string> variants_;
   bool fused_;
-  std::size_t local_size_;
+  std::size_t local_size_, items_per_row_;
   opencl::Buffer<cl_int> result_;
   std::vector<cl_int> rows_;
   MatchKernel<> kernel_;
