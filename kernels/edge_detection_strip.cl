@@ -27,9 +27,10 @@ static inline uint lane_bits(const int16 lanes) {
 // magnitude).
 // Out: winners, the cells of grid row r from 4 * r * 2 * width on, in scan order; counts[r], for all 2 * height rows.
 // LONG: one pass over a strip; its sums stay in registers from row to row.
-kernel void edges_strip_maxima(const DetectionArguments args, global const float* threshold_of_frame,
-                               const int strip_rows, global const float* plane, global const float* taps,
-                               global float* scratch, const int line, global float* winners, global int* counts) {
+kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global const float* threshold_of_frame,
+                                          const int strip_rows, global const float* plane, global const float* taps,
+                                          global float* scratch, const int line, global float* winners,
+                                          global int* counts) {
   const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
   const float threshold = threshold_of_frame[0];
   const int strip = (int)get_global_id(0);
@@ -189,9 +190,9 @@ static inline void window_derivatives(global const float* plane, const int strid
 
 // Third-order direction and Newton step of the winners, written in their position in scan order.
 // One work-item = one row of the doubled grid, 8 edges at a time.
-kernel void edges_strip_directions(const DetectionArguments args, global const float* plane,
-                                   global const float* winners, global const int* counts, global const int* row_first,
-                                   global float* edges) {
+kernel IN_VECTORS void edges_strip_directions(const DetectionArguments args, global const float* plane,
+                                              global const float* winners, global const int* counts,
+                                              global const int* row_first, global float* edges) {
   const int row = (int)get_global_id(0);
   if (row >= 2 * args.height) return;
   const int stride = args.plane_stride, width = args.width, max_edges = args.max_edges;

@@ -7,9 +7,22 @@
 #define TILE_Y 8
 #endif
 
-#define TILE_ROWS (2 * TILE_Y + 2)   // rows of the doubled grid: the tile's and one more on either side
-#define TILE_CELLS (2 * TILE_X + 4)  // cells per row: those of the tile's pixels and of one more on either side
-#define TILE_COLUMNS (TILE_X + 2 + 2 * PAIRS)  // column sums that these cells need
+#define TILE_ROWS (2 * TILE_Y + 2)             // of the doubled grid: the tile's and one more on either side
+#define TILE_CELLS (2 * TILE_X + 2)            // per row, likewise
+#define TILE_COLUMNS (TILE_X + 2 + 2 * PAIRS)  // sums along y that these cells need
+#define TILE_BORDER (2 * TILE_CELLS + 2 * (TILE_ROWS - 2))  // cells around the tile's
+#define CELLS_OF_ITEM (4 * TILE_X * TILE_Y / LOCAL)         // of the tile's, each work-item's own
+
+// x, y = the gradient of cell (column, row) of a tile with its border, from the sums along y. A macro, because PoCL 3.1
+// gives a function that is called twice wrong local arrays.
+#define TILE_GRADIENT(x, y, row, column)                                                         \
+  {                                                                                              \
+    const int phase = ((column) + 1) & 1, at = (row)*TILE_COLUMNS + ((column) + 1) / 2 + RADIUS; \
+    SLOPE(float, x, SMOOTH_Y, SLOPE_TAPS(taps, phase), phase)                                    \
+    SMOOTH(float, y, SLOPE_Y, SMOOTH_TAPS(taps, phase), phase)                                   \
+  }
+#define SMOOTH_Y(k) smooth_y[at + (k)]
+#define SLOPE_Y(k) slope_y[at + (k)]
 
 // Gradient and maximum test of TILE_X x TILE_Y pixels per work-group of LOCAL.
 //
@@ -19,7 +32,8 @@ kernel void edges_tile_maxima(const DetectionArguments args, global const float*
                               global const float* plane, global const float* taps, global float* winners,
                               global uchar* flags) {
   local float smooth_y[TILE_ROWS * TILE_COLUMNS], slope_y[TILE_ROWS * TILE_COLUMNS];
-  local float gx[TILE_ROWS * TILE_CELLS], gy[TILE_ROWS * TILE_CELLS], magnitude[TILE_ROWS * TILE_CELLS];
+  local float magnitude[TILE_ROWS * TILE_CELLS];
+  float2 gradients[CELLS_OF_ITEM];  // in registers: local memory for them would keep groups away
   const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
   const float threshold = threshold_of_frame[0];
   const int item = (int)get_local_id(0);
@@ -37,36 +51,37 @@ kernel void edges_tile_maxima(const DetectionArguments args, global const float*
 #undef AT
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  // Along x: cells 2 (x0 - 1) .. 2 (x0 + TILE_X) + 1.
-  for (int i = item; i < TILE_ROWS * TILE_CELLS; i += LOCAL) {
-    const int phase = (i % TILE_CELLS) & 1;
-    const int column = i / TILE_CELLS * TILE_COLUMNS + (i % TILE_CELLS) / 2 + RADIUS;
-    float x_slope, y_slope;
-#define AT(k) smooth_y[column + (k)]
-    SLOPE(float, x_slope, AT, SLOPE_TAPS(taps, phase), phase)
-#undef AT
-#define AT(k) slope_y[column + (k)]
-    SMOOTH(float, y_slope, AT, SMOOTH_TAPS(taps, phase), phase)
-#undef AT
-    gx[i] = x_slope;
-    gy[i] = y_slope;
-    magnitude[i] = MAGNITUDE(x_slope, y_slope);
+  // Along x: the tile's cells, then those around them.
+  _Pragma("unroll") for (int n = 0; n < CELLS_OF_ITEM; ++n) {
+    const int i = n * LOCAL + item, row = i / (2 * TILE_X) + 1, column = i % (2 * TILE_X) + 1;
+    TILE_GRADIENT(gradients[n].x, gradients[n].y, row, column)
+    magnitude[row * TILE_CELLS + column] = MAGNITUDE(gradients[n].x, gradients[n].y);
+  }
+  for (int i = item; i < TILE_BORDER; i += LOCAL) {
+    const int side = i - 2 * TILE_CELLS;  // above and below, then left and right
+    const int row = side < 0 ? i / TILE_CELLS * (TILE_ROWS - 1) : side / 2 + 1;
+    const int column = side < 0 ? i % TILE_CELLS : side % 2 * (TILE_CELLS - 1);
+    float2 gradient;
+    TILE_GRADIENT(gradient.x, gradient.y, row, column)
+    magnitude[row * TILE_CELLS + column] = MAGNITUDE(gradient.x, gradient.y);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (int i = item; i < 4 * TILE_X * TILE_Y; i += LOCAL) {
-    const int cell_x = 2 * x0 + i % (2 * TILE_X), cell_y = 2 * y0 + i / (2 * TILE_X);
+  _Pragma("unroll") for (int n = 0; n < CELLS_OF_ITEM; ++n) {
+    const int i = n * LOCAL + item, row = i / (2 * TILE_X), column = i % (2 * TILE_X);
+    const int cell_x = 2 * x0 + column, cell_y = 2 * y0 + row;
     if (cell_x >= 2 * width || cell_y >= 2 * height) continue;
-    const int at = (i / (2 * TILE_X) + 1) * TILE_CELLS + i % (2 * TILE_X) + 2;
+    const int at = (row + 1) * TILE_CELLS + column + 1;
+    const float gx = gradients[n].x, gy = gradients[n].y;
     uchar won = 0;
     if (cell_x > 2 * margin && cell_x < 2 * (width - 1 - margin) && cell_y > 2 * margin &&
         cell_y < 2 * (height - 1 - margin) && magnitude[at] > threshold) {
       float ahead, behind;
       local const float* m = magnitude + at;
-      probes(gx[at], gy[at], m[-1], m[1], m[-TILE_CELLS], m[TILE_CELLS], m[-TILE_CELLS - 1], m[-TILE_CELLS + 1],
+      probes(gx, gy, m[-1], m[1], m[-TILE_CELLS], m[TILE_CELLS], m[-TILE_CELLS - 1], m[-TILE_CELLS + 1],
              m[TILE_CELLS - 1], m[TILE_CELLS + 1], &ahead, &behind);
       if (IS_MAXIMUM(m[0], ahead, behind)) {
         won = 1;
-        vstore4(parabola_peak(cell_x, cell_y, gx[at], gy[at], m[0], ahead, behind), (size_t)cell_y * 2 * width + cell_x,
+        vstore4(parabola_peak(cell_x, cell_y, gx, gy, m[0], ahead, behind), (size_t)cell_y * 2 * width + cell_x,
                 winners);
       }
     }
@@ -121,8 +136,8 @@ kernel void edges_tile_compact(global const uchar* flags, const int cells, globa
 // window.
 kernel void edges_tile_directions(const DetectionArguments args, global const float* plane, global const float* compact,
                                   global const int* rows, global const int* total, global float* edges) {
-  local float weights_y[LOCAL / 8][ORDERS][COLUMNS];
-  local float sums[DERIVATIVES][LOCAL];
+  // Weights along y of each edge's [ORDERS][COLUMNS], then sums [DERIVATIVES][LOCAL].
+  local float shared[LOCAL * (ORDERS * COLUMNS > 8 * DERIVATIVES ? ORDERS * COLUMNS / 8 : DERIVATIVES)];
   const int item = (int)get_local_id(0), lane = item & 7, group = item >> 3;
   const int n = (int)get_global_id(0) >> 3, stride = args.plane_stride;
   if ((int)get_group_id(0) * (LOCAL / 8) >= total[0]) return;  // the whole group; there is room for far more edges
@@ -130,11 +145,13 @@ kernel void edges_tile_directions(const DetectionArguments args, global const fl
   const float4 winner = active ? vload4(n, compact) : (float4)0.0f;
   const float x = AT_CELL ? 0.5f * floor(winner.w) : winner.x,
               y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
+  local float* weights_y = shared + group * ORDERS * COLUMNS;
+  local float* sums = shared;
   const int whole_x = (int)x, whole_y = (int)y;
   for (int k = lane; k < COLUMNS; k += 8) {
     float w[ORDERS];
     weights(y - (float)whole_y, k, w);
-    for (int order = 0; order < ORDERS; ++order) weights_y[group][order][k] = w[order];
+    for (int order = 0; order < ORDERS; ++order) weights_y[order * COLUMNS + k] = w[order];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   const float level = window_level(plane, stride, whole_x, whole_y);
@@ -142,9 +159,10 @@ kernel void edges_tile_directions(const DetectionArguments args, global const fl
   float s[DERIVATIVES];
   for (int column = lane; column < COLUMNS; column += 8) {
     float d[ORDERS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    for (int k = 0; k < TAPS; ++k) {
+    // Unrolled altogether it takes 170 registers on AMD.
+    _Pragma("unroll 6") for (int k = 0; k < TAPS; ++k) {
       const float grey = window[k * stride + column] - level;
-      for (int order = 0; order < ORDERS; ++order) d[order] = fma(weights_y[group][order][k], grey, d[order]);
+      for (int order = 0; order < ORDERS; ++order) d[order] = fma(weights_y[order * COLUMNS + k], grey, d[order]);
     }
     float w[ORDERS];
     weights(x - (float)whole_x, column, w);
@@ -152,16 +170,17 @@ kernel void edges_tile_directions(const DetectionArguments args, global const fl
     const float dy[DERIVATIVES] = {d[0], d[1], d[0], d[1], d[2], d[0], d[1], d[2], d[3], d[0], d[1], d[2], d[3], d[4]};
     for (int j = 0; j < DERIVATIVES; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
   }
-  for (int j = 0; j < DERIVATIVES; ++j) sums[j][item] = s[j];
+  barrier(CLK_LOCAL_MEM_FENCE);  // the weights have been used
+  for (int j = 0; j < DERIVATIVES; ++j) sums[j * LOCAL + item] = s[j];
   for (int distance = 4; distance > 0; distance /= 2) {
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane < distance) {
-      for (int j = 0; j < DERIVATIVES; ++j) sums[j][item] += sums[j][item + distance];
+      for (int j = 0; j < DERIVATIVES; ++j) sums[j * LOCAL + item] += sums[j * LOCAL + item + distance];
     }
   }
   if (active && lane == 0) {
     float d[DERIVATIVES], edge_x = winner.x, edge_y = winner.y, drift;
-    for (int j = 0; j < DERIVATIVES; ++j) d[j] = sums[j][item];
+    for (int j = 0; j < DERIVATIVES; ++j) d[j] = sums[j * LOCAL + item];
     edges[2 * args.max_edges + n] = third_order(d, args.newton_max, &edge_x, &edge_y, &drift);
     edges[n] = edge_x;
     edges[args.max_edges + n] = edge_y;

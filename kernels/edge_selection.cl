@@ -1,8 +1,8 @@
 // edge_selection.cl: which maxima become edges, before anything else is spent on them: those where a curve crosses one
 // of evenly spaced epipolar lines. doc/method.md section 1.
 //
-// Needs edge_detection.cl. In: the maxima of edge_detection_strip.cl (rows: packed at the start of their row) or of
-// edge_detection_tile.cl (cells: flags over the grid), which it thins out in place. An image's epipolar lines are
+// Needs edge_detection.cl. In: the maxima of edge_detection_strip.cl (rows: packed at the start of their row) or, with
+// IN_CELLS, of edge_detection_tile.cl (flags over the grid), which it thins out in place. An image's epipolar lines are
 // numbered by EpipolarRows, alike in both images, so that an edge and its counterpart stay together.
 // First maxima of both images are weighed with what each would add at a spacing of 1 px, then the spacing follows
 // from the budget, then the maxima are chosen. Sums are integers, whose order does not matter.
@@ -58,7 +58,9 @@
     return chosen && sine >= args->min_sine;                                                                      \
   }
 DEFINE_LATTICE(float, int, )
+#ifndef IN_CELLS
 DEFINE_LATTICE(float16, int16, 16)
+#endif
 
 // How many edges a maximum stands for at a spacing of 1 px, times kSelectionUnit.
 static inline int weight_of(const SelectionArguments* args, const float4 winner) {
@@ -66,6 +68,39 @@ static inline int weight_of(const SelectionArguments* args, const float4 winner)
   crossing(args, winner.x, winner.y, winner.w, &step, &sine);
   return sine < args->min_sine ? 0 : (int)rint((float)kSelectionUnit * step / density(sine));
 }
+
+// spacing[0] = distance of the lattice's lines at which the image with more edges has about `budget` of them [px]; 0:
+// all maxima are kept. The tally starts anew. One work-item.
+kernel void edge_selection_spacing(const int budget, global int* tally, global float* spacing) {
+  if (get_global_id(0) > 0) return;
+  const float wanted = (float)max(tally[0], tally[1]) / ((float)kSelectionUnit / kSelectionSample * (float)budget);
+  spacing[0] = wanted > kClosestSelection ? rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0f;
+  tally[0] = tally[1] = 0;
+}
+
+#ifdef IN_CELLS
+
+// tally[image] += the weights of the maxima of every kSelectionSample-th pair of rows. One work-item per cell.
+kernel void edge_selection_weigh_cells(const SelectionArguments args, global const float* winners,
+                                       global const uchar* flags, const int image, global int* tally) {
+  const size_t cell = get_global_id(0);
+  if (cell >= 4 * (size_t)args.width * args.height || !flags[cell]) return;
+  if ((int)(cell / (4 * (size_t)args.width)) % kSelectionSample != 0) return;
+  const int weight = weight_of(&args, vload4(cell, winners));
+  if (weight > 0) atomic_add(tally + image, weight);
+}
+
+// Takes the flag of the maxima that are not chosen. One work-item per cell.
+kernel void edge_selection_cells(const SelectionArguments args, global const float* spacing_of_frame,
+                                 global const float* winners, global uchar* flags) {
+  const size_t cell = get_global_id(0);
+  const float spacing = spacing_of_frame[0];
+  if (cell >= 4 * (size_t)args.width * args.height || spacing == 0.0f || !flags[cell]) return;
+  const float4 winner = vload4(cell, winners);
+  flags[cell] = (uchar)chosen(&args, winner.x, winner.y, winner.w, spacing);
+}
+
+#else
 
 // tally[image] += the weights of the maxima of every kSelectionSample-th pair of rows. One work-item per such pair.
 kernel void edge_selection_weigh_rows(const SelectionArguments args, global const float* winners,
@@ -78,25 +113,6 @@ kernel void edge_selection_weigh_rows(const SelectionArguments args, global cons
     for (int i = 0; i < counts[row]; ++i) sum += weight_of(&args, vload4(i, in_row));
   }
   if (sum > 0) atomic_add(tally + image, sum);
-}
-
-// The same of flagged cells. One work-item per cell.
-kernel void edge_selection_weigh_cells(const SelectionArguments args, global const float* winners,
-                                       global const uchar* flags, const int image, global int* tally) {
-  const size_t cell = get_global_id(0);
-  if (cell >= 4 * (size_t)args.width * args.height || !flags[cell]) return;
-  if ((int)(cell / (4 * (size_t)args.width)) % kSelectionSample != 0) return;
-  const int weight = weight_of(&args, vload4(cell, winners));
-  if (weight > 0) atomic_add(tally + image, weight);
-}
-
-// spacing[0] = distance of the lattice's lines at which the image with more edges has about `budget` of them [px]; 0:
-// all maxima are kept. The tally starts anew. One work-item.
-kernel void edge_selection_spacing(const int budget, global int* tally, global float* spacing) {
-  if (get_global_id(0) > 0) return;
-  const float wanted = (float)max(tally[0], tally[1]) / ((float)kSelectionUnit / kSelectionSample * (float)budget);
-  spacing[0] = wanted > kClosestSelection ? rint(wanted * kSelectionSteps) / kSelectionSteps : 0.0f;
-  tally[0] = tally[1] = 0;
 }
 
 // Keeps the chosen maxima of a row, in their order. One work-item per row of the doubled grid, sixteen maxima at a
@@ -123,12 +139,4 @@ kernel void edge_selection_rows(const SelectionArguments args, global const floa
   counts[row] = kept;
 }
 
-// Takes the flag of the maxima that are not chosen. One work-item per cell.
-kernel void edge_selection_cells(const SelectionArguments args, global const float* spacing_of_frame,
-                                 global const float* winners, global uchar* flags) {
-  const size_t cell = get_global_id(0);
-  const float spacing = spacing_of_frame[0];
-  if (cell >= 4 * (size_t)args.width * args.height || spacing == 0.0f || !flags[cell]) return;
-  const float4 winner = vload4(cell, winners);
-  flags[cell] = (uchar)chosen(&args, winner.x, winner.y, winner.w, spacing);
-}
+#endif

@@ -6,7 +6,8 @@
 // integers, first those of the gradient, then those of the noise; each row of the lattice has one of its own, so that
 // no order of work-items shows. Reference: host/reference/edge_threshold.cpp.
 //
-// GROUP 1: one work-item tallies a row of the lattice with float16; otherwise a group does, one point per work-item.
+// GROUP 1: one work-item tallies a row of the lattice with float16. Otherwise a group does, as many points at a time as
+// it has work-items for the columns of pixels around them.
 
 #ifndef GROUP
 #define GROUP 1
@@ -19,12 +20,16 @@ typedef struct __attribute__((packed)) {
 
 #define HALF_STEP (kThresholdStep / 2)
 #if GROUP == 1
+#define FORM IN_VECTORS
 #define POINTS 8  // of the lattice at once
 #define TALLY global
+#define COLUMN private
 #define COUNT(bin) ++tally[bin]
 #else
-#define POINTS 1
+#define FORM
+#define POINTS (GROUP > 2 * RADIUS ? (GROUP - 2 * RADIUS - 1) / kThresholdStep + 1 : 1)
 #define TALLY local
+#define COLUMN local
 #define COUNT(bin) atomic_inc(tally + (bin))
 #endif
 #define WINDOW_COLUMNS ((POINTS - 1) * kThresholdStep + 2 * RADIUS + 1)  // that the points' gradients need
@@ -65,13 +70,27 @@ DEFINE_NOISE(noise_response, float, int, (int), ONE)
 DEFINE_NOISE(noise_response16, float16, int16, convert_int16, LOAD)
 #endif
 
-// Tallies the gradient at `points` points, the first one `plane` points at.
+// Tallies the gradient at a pixel, from what the columns around it sum up to along y, RADIUS of them on either side.
+static inline void tally_gradient(const float grey, COLUMN const float* smooth_y, COLUMN const float* slope_y,
+                                  const ThresholdArguments args, global const float* taps, TALLY int* tally) {
+  if (grey <= 0.0f || grey >= args.white) return;
+  float gx, gy;
+#define AT(k) smooth_y[RADIUS + (k)]
+  SLOPE(float, gx, AT, SLOPE_TAPS(taps, 0), 0)
+#undef AT
+#define AT(k) slope_y[RADIUS + (k)]
+  SMOOTH(float, gy, AT, SMOOTH_TAPS(taps, 0), 0)
+#undef AT
+  COUNT(gradient_bin(MAGNITUDE(gx, gy)));
+}
+
+#if GROUP == 1
+
+// Tallies the gradient at `points` points, the first one `pixel` points at.
 static inline void tally_gradients(global const float* pixel, const int points, const ThresholdArguments args,
                                    global const float* taps, TALLY int* tally) {
   float smooth_y[WINDOW_COLUMNS + 15], slope_y[WINDOW_COLUMNS + 15];
-#define AT(k) AT_COLUMNS(pixel + i - RADIUS + (k)*args.plane_stride)
-#if GROUP == 1
-#define AT_COLUMNS(pointer) LOAD(pointer)
+#define AT(k) LOAD(pixel + i - RADIUS + (k)*args.plane_stride)
   for (int i = 0; i < WINDOW_COLUMNS; i += 16) {
     float16 g, dg;
     SMOOTH(float16, g, AT, SMOOTH_TAPS(taps, 0), 0)
@@ -79,34 +98,16 @@ static inline void tally_gradients(global const float* pixel, const int points, 
     vstore16(g, 0, smooth_y + i);
     vstore16(dg, 0, slope_y + i);
   }
-#else
-#define AT_COLUMNS(pointer) ONE(pointer)
-  for (int i = 0; i < WINDOW_COLUMNS; ++i) {
-    SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps, 0), 0)
-    SLOPE(float, slope_y[i], AT, SLOPE_TAPS(taps, 0), 0)
-  }
-#endif
 #undef AT
-#undef AT_COLUMNS
   for (int n = 0; n < points; ++n) {
-    const float grey = pixel[n * kThresholdStep];
-    if (grey <= 0.0f || grey >= args.white) continue;
-    const int column = RADIUS + n * kThresholdStep;
-    float gx, gy;
-#define AT(k) smooth_y[column + (k)]
-    SLOPE(float, gx, AT, SLOPE_TAPS(taps, 0), 0)
-#undef AT
-#define AT(k) slope_y[column + (k)]
-    SMOOTH(float, gy, AT, SMOOTH_TAPS(taps, 0), 0)
-#undef AT
-    COUNT(gradient_bin(MAGNITUDE(gx, gy)));
+    const int column = n * kThresholdStep;
+    tally_gradient(pixel[column], smooth_y + column, slope_y + column, args, taps, tally);
   }
 }
 
 // Tallies the noise operator in the row of pixels through the cells of `points` points.
 static inline void tally_noise(global const float* row, const int first_x, const int points,
                                const ThresholdArguments args, TALLY int* tally) {
-#if GROUP == 1
   const int16 lanes = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   for (int x = first_x; x < first_x + points * kThresholdStep; x += 16) {
     int responses[16];
@@ -115,31 +116,62 @@ static inline void tally_noise(global const float* row, const int first_x, const
     for (int k = 0; k < size; ++k)
       if (responses[k] >= 0) COUNT(kGradientBins + noise_bin(responses[k]));
   }
+}
+
 #else
-  for (int x = first_x; x < first_x + points * kThresholdStep; ++x) {
+
+// The same by all work-items of the group: a column each, which they share, then a point.
+static inline void tally_gradients(global const float* pixel, const int points, const ThresholdArguments args,
+                                   global const float* taps, local float* smooth_y, local float* slope_y,
+                                   TALLY int* tally) {
+  const int item = (int)get_local_id(0), columns = (points - 1) * kThresholdStep + 2 * RADIUS + 1;
+  barrier(CLK_LOCAL_MEM_FENCE);  // the columns of the points before have been used
+#define AT(k) ONE(pixel + i - RADIUS + (k)*args.plane_stride)
+  for (int i = item; i < columns; i += GROUP) {
+    SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps, 0), 0)
+    SLOPE(float, slope_y[i], AT, SLOPE_TAPS(taps, 0), 0)
+  }
+#undef AT
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (int n = item; n < points; n += GROUP) {
+    const int column = n * kThresholdStep;
+    tally_gradient(pixel[column], smooth_y + column, slope_y + column, args, taps, tally);
+  }
+}
+
+// A pixel each.
+static inline void tally_noise(global const float* row, const int first_x, const int points,
+                               const ThresholdArguments args, TALLY int* tally) {
+  for (int x = first_x + (int)get_local_id(0); x < first_x + points * kThresholdStep; x += GROUP) {
     const int response = noise_response(row + x, x, args);
     if (response >= 0) COUNT(kGradientBins + noise_bin(response));
   }
-#endif
 }
 
+#endif
+
 // One work-group = one row of the lattice. Out: its tally, number first_tally + group.
-kernel void edges_tally(const ThresholdArguments args, global const float* plane, global const float* taps,
-                        const int first_tally, global int* tallies) {
+kernel FORM void edges_tally(const ThresholdArguments args, global const float* plane, global const float* taps,
+                             const int first_tally, global int* tallies) {
   const int item = (int)get_local_id(0), lattice_row = (int)get_group_id(0);
   global int* result = tallies + (first_tally + lattice_row) * kThresholdBins;
 #if GROUP == 1
   global int* tally = result;
 #else
   local int tally[kThresholdBins];
+  local float smooth_y[WINDOW_COLUMNS], slope_y[WINDOW_COLUMNS];
 #endif
   for (int bin = item; bin < kThresholdBins; bin += GROUP) tally[bin] = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
   const int y = lattice_row * kThresholdStep + HALF_STEP, points = args.width / kThresholdStep;
   global const float* row = plane + (y + PAD_Y) * args.plane_stride + PAD_X;
-  for (int first = item * POINTS; first < points; first += GROUP * POINTS) {
+  for (int first = 0; first < points; first += POINTS) {
     const int count = min(POINTS, points - first), x = first * kThresholdStep;
+#if GROUP == 1
     tally_gradients(row + x + HALF_STEP, count, args, taps, tally);
+#else
+    tally_gradients(row + x + HALF_STEP, count, args, taps, smooth_y, slope_y, tally);
+#endif
     tally_noise(row, x, count, args, tally);
   }
 #if GROUP != 1

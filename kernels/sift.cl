@@ -51,8 +51,8 @@ static inline float8 pixels8(global const Pixel* row, const int x, const int wid
   return vload8(0, values);
 }
 
-kernel void sift_blur_down(global const uchar* bytes, const int width, const int height, const int stride,
-                           global float* plane) {
+kernel IN_VECTORS void sift_blur_down(global const uchar* bytes, const int width, const int height, const int stride,
+                                      global float* plane) {
   const int x = (int)get_global_id(0) * 8 - 8, y = (int)get_global_id(1);
   global const Pixel* image = (global const Pixel*)bytes;
   if (x >= stride - 2 * kSiftPadding + 8 || y >= height) return;
@@ -64,7 +64,8 @@ kernel void sift_blur_down(global const uchar* bytes, const int width, const int
   vstore8(sum, 0, plane + (size_t)y * stride + kSiftPadding + x);
 }
 
-kernel void sift_blur_along(global const float* plane, const int height, const int stride, global float* blurred) {
+kernel IN_VECTORS void sift_blur_along(global const float* plane, const int height, const int stride,
+                                       global float* blurred) {
   const int x = (int)get_global_id(0) * 8, y = (int)get_global_id(1);
   if (x >= stride - 2 * kSiftPadding || y >= height) return;
   global const float* p = plane + (size_t)y * stride + kSiftPadding + x;
@@ -73,8 +74,8 @@ kernel void sift_blur_along(global const float* plane, const int height, const i
   vstore8(sum, 0, blurred + (size_t)y * stride + kSiftPadding + x);
 }
 
-kernel void sift_gradient(global const float* blurred, const int width, const int height, const int stride,
-                          global float* magnitude, global float* angle) {
+kernel IN_VECTORS void sift_gradient(global const float* blurred, const int width, const int height, const int stride,
+                                     global float* magnitude, global float* angle) {
   const int column = (int)get_global_id(0) * 8, row = (int)get_global_id(1);
   if (column >= stride || row >= height + 2 * kSiftPadding) return;
   const int x = column - kSiftPadding, y = row - kSiftPadding;
@@ -161,8 +162,8 @@ static inline float8 two_bins(const float low, const float high, const int bin) 
 #define LANE(T, vectors, k) ((const T*)(vectors))[k]
 
 // LONG: the histogram stays in registers from the first sample to the last byte.
-kernel void sift_describe(const SiftArguments args, global const float* magnitude, global const float* angle,
-                          global const float* positions, global uchar* descriptors) {
+kernel IN_VECTORS void sift_describe(const SiftArguments args, global const float* magnitude, global const float* angle,
+                                     global const float* positions, global uchar* descriptors) {
   const int width = args.width, height = args.height, stride = args.stride, count = args.edges.count;
   const float offset = args.offset;
   global const float* xs = positions + args.edges.first;

@@ -24,11 +24,12 @@ static inline float better_side(global const uint* corners, const int width, con
 }
 
 // LONG: a row from shift to similarity; its patches stay in private memory.
-kernel void stereo_refinement(const StereoRefinementArguments args, global const int* first, global const int* target,
-                              global const float* ncc, global const uint* left_corners,
-                              global const uint* right_corners, global const char* left_patches,
-                              global const float* left_edges, global const float* right_edges, global uchar* state,
-                              global float* position, global float* similarity) {
+kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, global const int* first,
+                                         global const int* target, global const float* ncc,
+                                         global const uint* left_corners, global const uint* right_corners,
+                                         global const char* left_patches, global const float* left_edges,
+                                         global const float* right_edges, global uchar* state, global float* position,
+                                         global float* similarity) {
   const int i = (int)get_global_id(0);
   if (i >= args.left.count) return;
   const int begin = first[i], end = min(first[i + 1], args.capacity);

@@ -174,23 +174,22 @@ static inline int count_groups(const int* edges, const int count, const PackedPo
 
 // LONG: a row from the index to its quad, all of it in private memory.
 #ifdef LANES
-// Written in vectors: without the hint Intel's compiler for CPUs also lays work-items side by side, and takes a minute.
-__attribute__((vec_type_hint(float16)))
+IN_VECTORS
 #endif
-kernel void
-temporal_match(const TemporalMatchArguments args, global const float* predicted, global const float* left_points,
-               global const int* left_cells, global const float* right_points, global const int* right_cells,
-               global const char* base_left_patches, global const int* base_left_index,
-               global const char* base_right_patches, global const char* left_patches, global const int* left_index,
-               global const char* right_patches, global const float* current,
-               global int* result
+kernel void temporal_match(const TemporalMatchArguments args, global const float* predicted,
+                           global const float* left_points, global const int* left_cells,
+                           global const float* right_points, global const int* right_cells,
+                           global const char* base_left_patches, global const int* base_left_index,
+                           global const char* base_right_patches, global const char* left_patches,
+                           global const int* left_index, global const char* right_patches, global const float* current,
+                           global int* result
 #ifdef TAP
-               // Lists of both sides: row 2 r is the left one of row r, 2 r + 1 the right one. In the first
-               // of two launches capacity is 0, and only `seen_counts` is written.
-               ,
-               global const int* seen_first, const int seen_capacity, global int* seen_counts, global int* seen,
-               global const uchar* base_left_sift, global const uchar* base_right_sift, global const uchar* left_sift,
-               global const uchar* right_sift
+                           // Lists of both sides: row 2 r is the left one of row r, 2 r + 1 the right one. In the first
+                           // of two launches capacity is 0, and only `seen_counts` is written.
+                           ,
+                           global const int* seen_first, const int seen_capacity, global int* seen_counts,
+                           global int* seen, global const uchar* base_left_sift, global const uchar* base_right_sift,
+                           global const uchar* left_sift, global const uchar* right_sift
 #endif
 ) {
   const int row = (int)get_global_id(0);

@@ -6,9 +6,9 @@
 // One work-item = one row.
 // Needs direction.cl and wide_samples.cl before it. Reference: host/reference/wide_description.cpp.
 
-kernel void wide_describe(global const float* small, const int small_width, const int small_height,
-                          global const float* edges, const int stride, const int rows, const int step,
-                          global uchar* descriptors) {
+kernel IN_VECTORS void wide_describe(global const float* small, const int small_width, const int small_height,
+                                     global const float* edges, const int stride, const int rows, const int step,
+                                     global uchar* descriptors) {
   const int row = (int)get_global_id(0);
   if (row >= rows) return;
   const int edge = row * step;

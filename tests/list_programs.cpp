@@ -13,6 +13,7 @@
 #include "opencl/variants.hpp"
 #include "quadedge/device.hpp"
 #include "quadedge/synthetic.hpp"
+#include "stages/long_loop.hpp"
 
 namespace {
 
@@ -65,7 +66,10 @@ int main(int count, char** arguments) {
     const auto frontend = frontend::make_frontend(rig, device, of_gpus ? every_stage() : config_with(number));
     Tap tap;  // whose form of a kernel is a program of its own
     if (!of_gpus) frontend->set_tap(&tap);
-    if (!of_gpus) bench::measure_ceilings(*device.context(), 1, 0);
+    if (!of_gpus) {
+      bench::measure_ceilings(*device.context(), 1, 0);
+      stages::long_loop_difference(*device.context());
+    }
     for (const auto& program : device.context()->programs()) programs.insert(program);
   }
   for (const auto& program : programs) std::puts(program.c_str());

@@ -140,7 +140,7 @@ TEST_CASE("edge selection: devices keep exactly the maxima that the reference ru
                    kept_right = reference::kept_by_selection(right, all[1].maxima, spacing);
         REQUIRE(count_kept(kept_left) < all[0].maxima.x.size() / 2);
 
-        stages::EdgeSelection selection(context, config, left, right);
+        stages::EdgeSelection selection(context, config, left, right, in_left.maxima());
         selection.run(in_left.maxima(), in_right.maxima());
         selection.request();
         CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));

@@ -58,6 +58,17 @@ TEST_CASE("self-test: rows that differ are counted and the first is shown", "[se
   CHECK_THAT(frontend::difference(found, expected, 0.5), Contains("0 results where the reference has 100"));
 }
 
+TEST_CASE("self-test: a driver that ends long loops is named, although small frames come out right", "[selftest]") {
+  const TemporaryFolder folder;
+  copy_kernels(folder / "kernels", "long_loop.cl", "i < rounds", "i < min(rounds, 65535)");
+  DeviceOptions options;
+  options.kernel_folder = folder / "kernels";
+  Device device(all_devices().front(), options);
+  const auto result = self_test(device);
+  CHECK(result.stage == "long_loop");
+  CHECK_THAT(result.difference, Contains("1000000 rounds"));
+}
+
 TEST_CASE("self-test: a device that computes wrongly is refused by stage, and --trust goes on", "[selftest][cli]") {
   const TemporaryFolder folder;
   // Hardly any similarity is enough.

@@ -33,7 +33,7 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
     plane.prepare(pixels);
     threshold.run(plane, nullptr);
     detection.find_maxima(plane, threshold.values());
-    stages::EdgeMask(context, mask, config.edges.margin).run(detection.maxima());
+    stages::EdgeMask(context, mask, config.edges.margin, detection.maxima()).run(detection.maxima());
     detection.take_directions(plane, device_edges);
     device_edges.read_count();
     edges = device_edges.read(image.height);

@@ -19,7 +19,7 @@ DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& ca
     : undistortion(context, table, camera.width, camera.height, config.variants, white),
       plane(context, camera.width, camera.height, config.edges.sigma, white),
       detection(context, camera.width, camera.height, config.edges, config.variants),
-      mask(context, hidden, config.edges.margin),
+      mask(context, hidden, config.edges.margin, detection.maxima()),
       patches(context, camera.width, camera.height, config.patches, config.variants, white),
       sift(context, camera.width, camera.height, config.sift, config.variants, white) {}
 
@@ -32,7 +32,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.white, config),
       threshold_(context, config.edges, config.variants),
       selection_(context, config.edges, selection_arguments(rig, Side::left, config.stereo),
-                 selection_arguments(rig, Side::right, config.stereo)),
+                 selection_arguments(rig, Side::right, config.stereo), left_.detection.maxima()),
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
       refinement_(context, config.stereo, config.patches.offset, config.variants, rig.white),

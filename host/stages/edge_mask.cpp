@@ -4,13 +4,16 @@
 
 namespace quadedge::stages {
 
-EdgeMask::EdgeMask(opencl::Context& context, const PixelMask& mask, int margin)
+EdgeMask::EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima)
     : context_(context), width_(mask.width), height_(mask.height), local_size_(context.is_cpu() ? 1 : 64) {
   if (mask.empty()) return;
   hidden_.write(context, with_border(mask, margin).hidden);
-  const cl::Program program = context.program({"edge_mask.cl"}, {});
-  rows_ = {context, program, "edge_mask_rows"};
-  cells_ = {context, program, "edge_mask_cells"};
+  const cl::Program program = context.program({"edge_mask.cl"}, maxima.defines());
+  if (maxima.in_cells) {
+    cells_ = {context, program, "edge_mask_cells"};
+  } else {
+    rows_ = {context, program, "edge_mask_rows"};
+  }
 }
 
 void EdgeMask::run(EdgeMaxima& maxima) {

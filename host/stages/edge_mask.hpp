@@ -12,7 +12,8 @@ namespace quadedge::stages {
 class EdgeMask {
  public:
   /// \param margin edges.margin [px]
-  EdgeMask(opencl::Context& context, const PixelMask& mask, int margin);
+  /// \param maxima what run() is going to be given
+  EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima);
 
   /// Enqueues only.
   void run(EdgeMaxima& maxima);

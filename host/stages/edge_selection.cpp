@@ -5,17 +5,22 @@
 namespace quadedge::stages {
 
 EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
-                             const SelectionArguments& right)
+                             const SelectionArguments& right, const EdgeMaxima& maxima)
     : context_(context), budget_(config.budget), local_size_(context.is_cpu() ? 1 : 64), left_(left), right_(right) {
   spacing_.write(context, {0.0F});
   if (budget_ == 0) return;
   tally_.write(context, {0, 0});
-  const cl::Program program = context.program({"edge_detection.cl", "edge_selection.cl"}, gradient_defines(config));
-  weigh_rows_ = {context, program, "edge_selection_weigh_rows"};
-  weigh_cells_ = {context, program, "edge_selection_weigh_cells"};
+  opencl::Defines defines = gradient_defines(config);
+  defines.merge(maxima.defines());
+  const cl::Program program = context.program({"edge_detection.cl", "edge_selection.cl"}, defines);
   space_ = {context, program, "edge_selection_spacing"};
-  choose_rows_ = {context, program, "edge_selection_rows"};
-  choose_cells_ = {context, program, "edge_selection_cells"};
+  if (maxima.in_cells) {
+    weigh_cells_ = {context, program, "edge_selection_weigh_cells"};
+    choose_cells_ = {context, program, "edge_selection_cells"};
+  } else {
+    weigh_rows_ = {context, program, "edge_selection_weigh_rows"};
+    choose_rows_ = {context, program, "edge_selection_rows"};
+  }
 }
 
 void EdgeSelection::weigh(const SelectionArguments& arguments, const EdgeMaxima& maxima, cl_int image) {

@@ -12,8 +12,9 @@ namespace quadedge::stages {
 class EdgeSelection {
  public:
   /// \param left, right see selection_arguments()
+  /// \param maxima what run() is going to be given
   EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
-                const SelectionArguments& right);
+                const SelectionArguments& right, const EdgeMaxima& maxima);
 
   /// Enqueues the selection in both images. With edges.budget = 0 nothing happens.
   void run(EdgeMaxima& left, EdgeMaxima& right);

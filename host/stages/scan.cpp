@@ -5,8 +5,8 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr std::size_t kGroups = 32;
-constexpr int kSmall = 4096;  // one group is enough up to here
+constexpr std::size_t kGroups = 32, kSingleItems = 8;  // of many work-items, of one
+constexpr int kSmall = 4096;                           // one group is enough up to here
 
 }  // namespace
 
@@ -16,21 +16,17 @@ Scan::Scan(opencl::Context& context, const std::map<std::string, std::string>& v
   opencl::Defines defines = variant.defines;
   defines["SCAN_LOCAL"] = std::to_string(variant.local_size);
   const cl::Program program = context.program({"scan.cl"}, defines);
-  sums_ = {context, program, "scan_sums"};
-  write_ = {context, program, "scan_write"};
-  group_sums_.ensure(context, kGroups);
+  kernel_ = {context, program, "scan"};
 }
 
 void Scan::run(const opencl::Buffer<cl_int>& counts, int count, int capacity, opencl::Buffer<cl_int>& first,
                opencl::Buffer<cl_int>& total) {
   first.ensure(*context_, static_cast<std::size_t>(count) + 1);
   total.ensure(*context_, 2);
-  const std::size_t groups = count <= kSmall ? 1 : kGroups;
-  const opencl::Range range(groups * local_size_, local_size_);
+  const std::size_t groups = count <= kSmall ? 1 : local_size_ == 1 ? kSingleItems : kGroups;
   const std::string user = context_->stage();
   context_->begin_stage("scan");
-  if (groups > 1) sums_(range, counts, count, group_sums_);
-  write_(range, counts, count, group_sums_, capacity, first, total);
+  kernel_({groups * local_size_, local_size_}, counts, count, capacity, first, total);
   context_->begin_stage(user);
 }
 

@@ -8,7 +8,7 @@
 
 namespace quadedge::stages {
 
-/// Exclusive scan of counts with a capacity. Deterministic; owns its scratch memory. Stage "scan" of the variants.
+/// Exclusive scan of counts with a capacity. Deterministic. Stage "scan" of the variants.
 class Scan {
  public:
   Scan() = default;
@@ -24,10 +24,7 @@ class Scan {
  private:
   opencl::Context* context_ = nullptr;
   std::size_t local_size_ = 1;
-  opencl::Kernel<opencl::In<cl_int>, cl_int, opencl::Out<cl_int>> sums_;
-  opencl::Kernel<opencl::In<cl_int>, cl_int, opencl::In<cl_int>, cl_int, opencl::Out<cl_int>, opencl::Out<cl_int>>
-      write_;
-  opencl::Buffer<cl_int> group_sums_;
+  opencl::Kernel<opencl::In<cl_int>, cl_int, cl_int, opencl::Out<cl_int>, opencl::Out<cl_int>> kernel_;
 };
 
 }  // namespace quadedge::stages

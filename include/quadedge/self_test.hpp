@@ -16,7 +16,8 @@ struct SelfTestResult {
 };
 
 /// Runs every stage on a small built-in pair of frames, with a search of each kind, and compares what each leaves with
-/// stored results of the plain C++ reference. Takes tens of milliseconds once the kernels are built.
+/// stored results of the plain C++ reference; before that a long loop (`long_loop`), which some drivers cut short.
+/// Takes tens of milliseconds once the kernels are built.
 /// \param variants  stage -> kernel variant, as in Config
 /// \throws DeviceError when a kernel does not build or run
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants = {});
