@@ -8,7 +8,17 @@
 
 namespace quadedge::odometry {
 
-/// Bilinear interpolation of value(column, row) over a grid of width x height; beyond it the border is replicated.
+/// Bilinear interpolation of value(column, row) at a position that has a place of the grid on each of its four sides.
+template <class Value>
+float bilinear_inside(double x, double y, const Value& value) {
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
+  const float above = (1 - fx) * value(x0, y0) + fx * value(x0 + 1, y0);
+  const float below = (1 - fx) * value(x0, y0 + 1) + fx * value(x0 + 1, y0 + 1);
+  return (1 - fy) * above + fy * below;
+}
+
+/// The same over a grid of width x height; beyond it the border is replicated.
 template <class Value>
 float bilinear(int width, int height, double x, double y, const Value& value) {
   x = std::clamp(x, 0.0, width - 1.0);

@@ -22,12 +22,15 @@ CoarseSearch::CoarseSearch(frontend::Frontend& frontend, StepBuilder& steps, con
       limits_(limits_of_proposals(config)),
       edges_(config.temporal.coarse_edges),
       radius_(radius),
-      trusts_prediction_(trusts_prediction) {}
+      trusts_prediction_(trusts_prediction) {
+  // A motion that is optimised locally says well enough where to look, and what is found there makes it exact.
+  limits_.refine = config.pose.refine && config.pose.local_optimisation_rounds == 0;
+}
 
 StepHandle CoarseSearch::propose(const MotionQuery& query, Evidence&) {
   if (trusts_prediction_ && !query.prediction) return nullptr;
   const StereoEdges& edges = query.base->edges;
-  const int every = std::max(1, static_cast<int>(edges.size()) / edges_);
+  const int every = std::max(1, (static_cast<int>(edges.size()) + edges_ - 1) / edges_);
   predict_positions(steps_.calibration(), edges, steps_.measured(*query.base), query.prediction, radius_, every,
                     search_);
   search_.coarse = true;

@@ -12,6 +12,7 @@ constexpr int kSettledStep = 16;  ///< every so many edges tell it
 
 StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely) {
   PoseConfig limits = config_.pose;
+  limits.min_hypotheses = 0;  // the proposal has drawn them: as many more as its inliers leave in doubt
   if (closely) limits.inlier_distance *= kCloseAgreement;
   if (query.key) {
     StepHandle step = match(query, query.key, limits, current_from_base * query.base_from_key);

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tbb/parallel_for.h>
 
@@ -23,43 +22,29 @@ constexpr double kMaxSigma = 0.1;       // px; what says nothing across the line
 constexpr double kAlong = 0.25, kAcross = 0.1;  // reach of the search, ratios of the left image's width and height
 constexpr double kCoarseWidth = 320;            // px
 
-/// Samples of a patch, from -kProbeHalf - 1 to kProbeHalf + 1 in both directions.
-using Samples = std::array<float, static_cast<std::size_t>(kWithBorder* kWithBorder)>;
-
-std::size_t at(int column, int row) {
-  return static_cast<std::size_t>((row + kProbeHalf + 1) * kWithBorder + column + kProbeHalf + 1);
-}
+/// Samples of a patch, from -kProbeHalf - 1 to kProbeHalf + 1 in both directions; columns of the image stand in
+/// columns.
+using Samples = Eigen::Array<float, kWithBorder, kWithBorder, Eigen::RowMajor>;
 
 Samples cut(const PinholeView& view, const Eigen::Vector2d& centre, const Eigen::Matrix2d& steps) {
   Samples samples;
-  const PinholeView::Patch patch = view.patch(centre, steps);
-  for (int row = -kProbeHalf - 1; row <= kProbeHalf + 1; ++row)
-    for (int column = -kProbeHalf - 1; column <= kProbeHalf + 1; ++column)
-      samples[at(column, row)] = patch.at(column, row);
+  view.patch(centre, steps).sample(kProbeHalf + 1, samples.data());
   return samples;
+}
+
+/// The samples but for the border, moved by so many columns and rows.
+auto inner(const Samples& samples, int column = 0, int row = 0) {
+  return samples.block<kProbeSide, kProbeSide>(1 + row, 1 + column);
 }
 
 /// Mean of the inner samples, and the norm of what differs from it.
 struct Level {
-  double mean = 0, norm = 0;
+  float mean = 0, norm = 0;
 };
 
-template <class Body>
-void for_inner(const Body& body) {
-  for (int row = -kProbeHalf; row <= kProbeHalf; ++row)
-    for (int column = -kProbeHalf; column <= kProbeHalf; ++column) body(column, row);
-}
-
 Level level_of(const Samples& samples) {
-  Level level;
-  for_inner([&](int column, int row) { level.mean += static_cast<double>(samples[at(column, row)]); });
-  level.mean /= kProbeSide * kProbeSide;
-  for_inner([&](int column, int row) {
-    const double difference = static_cast<double>(samples[at(column, row)]) - level.mean;
-    level.norm += difference * difference;
-  });
-  level.norm = std::sqrt(level.norm);
-  return level;
+  const float mean = inner(samples).mean();
+  return {mean, (inner(samples) - mean).matrix().norm()};
 }
 
 /// Normal equations of the move that makes one patch of another, both at equal contrast.
@@ -70,17 +55,18 @@ struct Alignment {
 };
 
 Alignment compare(const Samples& wanted, const Level& wanted_level, const Samples& found, const Level& found_level) {
+  using Inner = Eigen::Array<float, kProbeSide, kProbeSide, Eigen::RowMajor>;
+  const float half = 0.5F / found_level.norm;
+  const Inner difference = (inner(wanted) - wanted_level.mean) * (1 / wanted_level.norm) -
+                           (inner(found) - found_level.mean) * (1 / found_level.norm),
+              slope_x = (inner(found, 1, 0) - inner(found, -1, 0)) * half,
+              slope_y = (inner(found, 0, 1) - inner(found, 0, -1)) * half;
+  const auto sum = [](const auto& values) { return static_cast<double>(values.sum()); };
   Alignment sums;
-  for_inner([&](int column, int row) {
-    const double difference = (static_cast<double>(wanted[at(column, row)]) - wanted_level.mean) / wanted_level.norm -
-                              (static_cast<double>(found[at(column, row)]) - found_level.mean) / found_level.norm;
-    const Eigen::Vector2d slope(
-        static_cast<double>(found[at(column + 1, row)] - found[at(column - 1, row)]) / (2 * found_level.norm),
-        static_cast<double>(found[at(column, row + 1)] - found[at(column, row - 1)]) / (2 * found_level.norm));
-    sums.normal += slope * slope.transpose();
-    sums.right_side += slope * difference;
-    sums.cost += difference * difference;
-  });
+  const double xy = sum(slope_x * slope_y);
+  sums.normal << sum(slope_x.square()), xy, xy, sum(slope_y.square());
+  sums.right_side << sum(slope_x * difference), sum(slope_y * difference);
+  sums.cost = sum(difference.square());
   return sums;
 }
 

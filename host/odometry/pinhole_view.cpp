@@ -34,9 +34,26 @@ PinholeView::Patch PinholeView::patch(const Eigen::Vector2d& position, const Eig
   return {recorded_, recorded_position(position), slope * steps};
 }
 
-float PinholeView::Patch::at(int column, int row) const {
-  const Eigen::Vector2d position = middle_ + steps_ * Eigen::Vector2d(column, row);
-  return grey_at(recorded_, position.x(), position.y());
+void PinholeView::Patch::sample(int half, float* values) const {
+  const auto take = [&](const auto& grey) {
+    for (int row = -half; row <= half; ++row) {
+      for (int column = -half; column <= half; ++column) {
+        const Eigen::Vector2d position = middle_ + steps_ * Eigen::Vector2d(column, row);
+        *values++ = grey(position.x(), position.y());
+      }
+    }
+  };
+  const Eigen::Vector2d reach = half * steps_.cwiseAbs().rowwise().sum();
+  const Eigen::Vector2d first = middle_ - reach, last = middle_ + reach;
+  const bool is_inside = first.minCoeff() >= 0 && last.x() < recorded_.width - 1 && last.y() < recorded_.height - 1;
+  if (!is_inside || recorded_.white != kWhite8) {
+    take([&](double x, double y) { return grey_at(recorded_, x, y); });
+    return;
+  }
+  const auto value = [&](int column, int row) {
+    return static_cast<float>(recorded_.pixels[row * recorded_.stride + column]);
+  };
+  take([&](double x, double y) { return bilinear_inside(x, y, value); });
 }
 
 }  // namespace quadedge::odometry

@@ -38,7 +38,8 @@ class PinholeView {
 
 class PinholeView::Patch {
  public:
-  float at(int column, int row) const;
+  /// The samples of columns and rows -half to half, row-major.
+  void sample(int half, float* values) const;
 
  private:
   friend class PinholeView;

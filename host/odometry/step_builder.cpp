@@ -21,7 +21,7 @@ StepHandle StepBuilder::take(const frontend::RigHandle& base) {
 void StepBuilder::estimate(const MotionQuery& query, const PoseConfig& limits,
                            const std::optional<Eigen::Isometry3d>& initial, MotionStep& step) {
   const auto start = Clock::now();
-  quad_builder_.build(calibration(), measured(*step.base), query.current->edges, step.matches,
+  quad_builder_.build(measured(*step.base), query.current->edges, measured(*query.current), step.matches,
                       pose::QuadLimits(config_), step.quads);
   step.quads.scoring.half_length =
       pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));

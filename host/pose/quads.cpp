@@ -103,37 +103,32 @@ void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_ep
 
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits) {
-  MeasuredEdges measured;
-  measure_edges(rig, previous, limits.min_epipolar_angle, measured);
+  MeasuredEdges before, after;
+  measure_edges(rig, previous, limits.min_epipolar_angle, before);
+  measure_edges(rig, current, limits.min_epipolar_angle, after);
   QuadObservations quads;
-  QuadBuilder().build(rig, measured, current, matches, limits, quads);
+  QuadBuilder().build(before, current, after, matches, limits, quads);
   return quads;
 }
 
-void QuadBuilder::build(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
-                        const TemporalMatches& matches, const QuadLimits& limits, QuadObservations& quads) {
+void QuadBuilder::build(const MeasuredEdges& previous, const StereoEdges& current,
+                        const MeasuredEdges& current_measured, const TemporalMatches& matches,
+                        const QuadLimits& limits, QuadObservations& quads) {
   const auto before = [&](std::size_t i) -> const auto& {
     return previous[static_cast<std::size_t>(matches.previous[i])];
   };
-  const auto edge_after = [&](std::size_t i) {
-    return observation(current, static_cast<std::size_t>(matches.current[i]));
+  const auto after = [&](std::size_t i) -> const auto& {
+    return current_measured[static_cast<std::size_t>(matches.current[i])];
   };
-  if (after_.size() < matches.size()) after_.resize(matches.size());
-  for_row_blocks(matches.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      after_[i] = std::nullopt;
-      if (before(i)) after_[i] = measure(rig, edge_after(i), limits.min_epipolar_angle);
-    }
-  });
   rows_.clear();
   for (std::size_t i = 0; i < matches.size(); ++i)
-    if (after_[i]) rows_.push_back(i);
+    if (before(i) && after(i)) rows_.push_back(i);
   quads.resize(rows_.size());
   for_row_blocks(rows_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       const std::size_t i = rows_[q];
-      quads.set(q, *before(i), *after_[i], edge_after(i), matches.ncc[i], matches.rivals[i],
-                static_cast<std::int32_t>(i), limits);
+      quads.set(q, *before(i), *after(i), observation(current, static_cast<std::size_t>(matches.current[i])),
+                matches.ncc[i], matches.rivals[i], static_cast<std::int32_t>(i), limits);
     }
   });
 }

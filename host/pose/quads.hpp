@@ -78,16 +78,16 @@ void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_ep
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,
                              const TemporalMatches& matches, const QuadLimits& limits);
 
-/// build_quads() with the previous edges measured beforehand, and with buffers that are kept between calls.
+/// build_quads() with all edges measured beforehand, and with buffers that are kept between calls.
 class QuadBuilder {
  public:
-  void build(const StereoRig& rig, const MeasuredEdges& previous, const StereoEdges& current,
+  /// \param current_measured of the edges `current`
+  void build(const MeasuredEdges& previous, const StereoEdges& current, const MeasuredEdges& current_measured,
              const TemporalMatches& matches, const QuadLimits& limits, QuadObservations& quads);
   /// \param spacing the larger distance of the lines on which the edges of the two rigs lie; 0: all edges [px]
   static float half_length(double spacing);
 
  private:
-  MeasuredEdges after_;
   std::vector<std::size_t> rows_;
 };
 
