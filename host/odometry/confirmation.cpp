@@ -1,5 +1,7 @@
 #include "odometry/confirmation.hpp"
 
+#include <algorithm>
+
 #include "odometry/prediction.hpp"
 
 namespace quadedge::odometry {
@@ -16,9 +18,19 @@ StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry
   if (closely) limits.inlier_distance *= kCloseAgreement;
   if (query.key) {
     StepHandle step = match(query, query.key, limits, current_from_base * query.base_from_key);
+    if (step->ok() && !closely && !acceptance_.is_confident(*step)) take_support_of_base(query, limits, *step);
     if (step->ok()) return step;
   }
   return match(query, query.base, limits, current_from_base);
+}
+
+/// Of a key rig that comes out of sight few edges are found; where the base's, which is nearer, follow the same motion,
+/// they speak for it.
+void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
+  const Eigen::Isometry3d key_from_base = query.base_from_key.inverse();
+  const StepHandle by_base = match(query, query.base, limits, by_key.motion.current_from_previous * key_from_base);
+  if (by_base->ok() && acceptance_.are_one(*by_base, by_key, query.base_from_key))
+    by_key.support = std::max(by_key.support, by_base->support);
 }
 
 StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,

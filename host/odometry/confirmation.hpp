@@ -18,13 +18,16 @@ class Confirmation {
   Confirmation(const Config& config, frontend::Frontend& frontend, StepBuilder& steps, Acceptance& acceptance)
       : config_(config), frontend_(frontend), steps_(steps), acceptance_(acceptance) {}
 
-  /// The motion since the key rig or, where that one is out of sight, since the base. \param current_from_base proposed
+  /// The motion since the key rig or, where that one is out of sight, since the base. Little support by the key
+  /// rig is made up for by the base's. \param current_from_base proposed
   /// \param closely inliers lie within a third of the usual distance
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely = false);
 
  private:
   StepHandle match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
                    Eigen::Isometry3d current_from_base);
+
+  void take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key);
 
   Config config_;
   frontend::Frontend& frontend_;

@@ -70,6 +70,12 @@ Alignment compare(const Samples& wanted, const Level& wanted_level, const Sample
   return sums;
 }
 
+/// What became of a corner that was sought.
+struct Sought {
+  bool has_line = false, is_negative = false;
+  std::optional<ProbedSpot> found;
+};
+
 /// The pixel that a given right image has where the calibration means `at`.
 Eigen::Vector2d turned(const Eigen::Vector2d& at, ImageTurn turn, const PinholeCamera& camera) {
   const Eigen::Vector2d middle(0.5 * (camera.width - 1), 0.5 * (camera.height - 1)), from = at - middle;
@@ -179,33 +185,44 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
   result.max_disparity = max_disparity_;
   const double along = std::min(0.5 * rig_.left.width, std::max(kAlong * rig_.left.width, 1.25 * max_disparity_)),
                across = kAcross * rig_.left.height;
-  for (const Eigen::Vector2i& corner : find_corners(before)) {
+  const auto seek = [&](const Eigen::Vector2i& corner) {
+    Sought sought;
     const Eigen::Vector2d spot = in_left(corner.x(), corner.y());
     const auto its_line = line(spot);
-    if (!its_line) continue;
+    if (!its_line) return sought;
     // The line's direction among coarse pixels.
     const Eigen::Vector3d ahead = h_.inverse() * (its_line->infinity + its_line->direction).homogeneous();
     const Eigen::Vector2d direction = (ahead.hnormalized() - spot).normalized();
     const SearchBox box{static_cast<int>((std::abs(direction.x()) * along + std::abs(direction.y()) * across) / scale),
                         static_cast<int>((std::abs(direction.y()) * along + std::abs(direction.x()) * across) / scale)};
-    ++result.sought;
+    sought.has_line = true;
     const auto there = best_match(before, after, corner, box);
-    if (!there) continue;
+    if (!there) return sought;
     const Eigen::Vector2i landed = there->at.array().round().cast<int>().matrix();
     const auto back = best_match(after, before, landed, box);
-    if (!back || (back->at - corner.cast<double>()).norm() > 1.5) continue;
-    if (there->correlation < 0) {
-      ++result.negative;
-      continue;
-    }
+    if (!back || (back->at - corner.cast<double>()).norm() > 1.5) return sought;
+    sought.is_negative = there->correlation < 0;
     const auto place = at_infinity(in_left(there->at.x(), there->at.y()));
-    if (!place) continue;
-    const auto fine = turn == ImageTurn::none ? refine(left, right, spot, *place) : std::nullopt;
+    if (sought.is_negative || !place) return sought;
+    sought.found = turn == ImageTurn::none ? refine(left, right, spot, *place) : std::nullopt;
     const Eigen::Vector2d from_infinity = *place - its_line->infinity;
-    result.found.push_back(fine ? *fine
-                                : ProbedSpot{spot, from_infinity.dot(its_line->direction),
-                                             from_infinity.dot(its_line->normal), 0.3 * scale, false, its_line->normal,
-                                             -1});
+    if (!sought.found)
+      sought.found = ProbedSpot{spot,
+                                from_infinity.dot(its_line->direction),
+                                from_infinity.dot(its_line->normal),
+                                0.3 * scale,
+                                false,
+                                its_line->normal,
+                                -1};
+    return sought;
+  };
+  const auto corners = find_corners(before);
+  std::vector<Sought> all(corners.size());
+  tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t i) { all[i] = seek(corners[i]); });
+  for (const Sought& sought : all) {
+    result.sought += sought.has_line ? 1 : 0;
+    result.negative += sought.is_negative ? 1 : 0;
+    if (sought.found) result.found.push_back(*sought.found);
   }
   return result;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/vector_clones.hpp"
+
 namespace quadedge::odometry {
 namespace {
 
@@ -35,6 +37,21 @@ std::vector<double> box_sums(const std::vector<double>& values, int width, int h
     }
   }
   return sums;
+}
+
+/// Adds the products of a patch around `corner` with those whose middles are `columns` places from column `x` of row
+/// `y` on.
+QUADEDGE_VECTOR_CLONES
+void add_products(const GreyPlane& from, const Eigen::Vector2i& corner, const GreyPlane& to, int x, int y, int columns,
+                  float* products) {
+  const float mean = from.mean[from.index(corner.x(), corner.y())];
+  for (int v = -kPatchHalf; v <= kPatchHalf; ++v) {
+    for (int u = -kPatchHalf; u <= kPatchHalf; ++u) {
+      const float weight = from.grey[from.index(corner.x() + u, corner.y() + v)] - mean;
+      const float* const row = &to.grey[to.index(x + u, y + v)];
+      for (int i = 0; i < columns; ++i) products[i] += weight * row[i];
+    }
+  }
 }
 
 /// The top of the parabola through three values, as a move from the middle one.
@@ -112,13 +129,7 @@ std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to,
   std::vector<float> correlation(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F);
   for (int y = y_low; y <= y_high; ++y) {
     float* const out = &correlation[static_cast<std::size_t>(y - y_low) * static_cast<std::size_t>(columns)];
-    for (int v = -kPatchHalf; v <= kPatchHalf; ++v) {
-      for (int u = -kPatchHalf; u <= kPatchHalf; ++u) {
-        const float weight = from.grey[from.index(corner.x() + u, corner.y() + v)] - from.mean[here];
-        const float* const row = &to.grey[to.index(x_low + u, y + v)];
-        for (int i = 0; i < columns; ++i) out[i] += weight * row[i];
-      }
-    }
+    add_products(from, corner, to, x_low, y, columns, out);
     for (int i = 0; i < columns; ++i) {
       const float norm = to.norm[to.index(x_low + i, y)];
       out[i] = norm > 0 ? out[i] / (from.norm[here] * norm) : 0.0F;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <tbb/parallel_for.h>
 #include <vector>
 
 namespace quadedge::odometry {
@@ -27,13 +28,13 @@ void measure_patches(GreyPlane& plane);
 template <class Value>
 GreyPlane sample_plane(int width, int height, const Value& value) {
   GreyPlane plane{width, height, {}, {}, {}};
-  plane.grey.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y) {
+  plane.grey.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      plane.grey.push_back(0.25F * (value(x - 0.25, y - 0.25) + value(x + 0.25, y - 0.25) + value(x - 0.25, y + 0.25) +
-                                    value(x + 0.25, y + 0.25)));
+      plane.grey[plane.index(x, y)] = 0.25F * (value(x - 0.25, y - 0.25) + value(x + 0.25, y - 0.25) +
+                                               value(x - 0.25, y + 0.25) + value(x + 0.25, y + 0.25));
     }
-  }
+  });
   measure_patches(plane);
   return plane;
 }

@@ -112,8 +112,8 @@ QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, 
 }
 
 void QuadBuilder::build(const MeasuredEdges& previous, const StereoEdges& current,
-                        const MeasuredEdges& current_measured, const TemporalMatches& matches,
-                        const QuadLimits& limits, QuadObservations& quads) {
+                        const MeasuredEdges& current_measured, const TemporalMatches& matches, const QuadLimits& limits,
+                        QuadObservations& quads) {
   const auto before = [&](std::size_t i) -> const auto& {
     return previous[static_cast<std::size_t>(matches.previous[i])];
   };
