@@ -18,9 +18,10 @@ fi
 
 # Nothing is installed in the system: a folder with this runtime alone, and one with those that are installed too. The
 # program's own TBB (Debian's) is older than what the runtime needs, and the first one that is loaded serves both.
+rm -rf "$kept"/{alone,both}
 mkdir -p "$kept"/{alone,both,lib}
 echo "$venv/lib/libintelocl.so" | tee "$kept/alone/intel.icd" >"$kept/both/intel.icd"
-cp "${OCL_ICD_VENDORS:-/etc/OpenCL/vendors}"/*.icd "$kept/both"
+find -L "${OCL_ICD_VENDORS:-/etc/OpenCL/vendors}" -name '*.icd' -exec cp {} "$kept/both" ';'  # a folder or a file
 ln -sf "$venv/lib/libtbb.so.12" "$kept/lib"
 export LD_LIBRARY_PATH="$kept/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 export XDG_CACHE_HOME="$kept/cache" OCL_ICD_VENDORS="$kept/both"
