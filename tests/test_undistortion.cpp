@@ -53,12 +53,15 @@ TEST_CASE("undistortion: every device and variant equals the reference exactly",
       for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
         for (const int white : {255, 4095, 65535}) {
           const Image image = pattern(width + 2, height + 3, white);
-          const auto table = shift_table(width, height, 0.37f, 1.61f);
-          stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}}, white);
-          opencl::Buffer<cl_uchar> result;
-          stage.run(image.view(), result);
-          const Image expected = reference::undistort(image.view(), table);
-          CHECK(result.read(expected.pixels.size()) == expected.pixels);
+          for (const auto& [dx, dy] : {std::pair{0.37f, 1.61f}, {-3.25f, 4.8f}}) {  // the second leaves the image
+            const auto table = shift_table(width, height, dx, dy);
+            stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}},
+                                       white);
+            opencl::Buffer<cl_uchar> result;
+            stage.run(image.view(), result);
+            const Image expected = reference::undistort(image.view(), table);
+            CHECK(result.read(expected.pixels.size()) == expected.pixels);
+          }
         }
       }
     }
