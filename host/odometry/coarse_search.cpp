@@ -22,10 +22,7 @@ CoarseSearch::CoarseSearch(frontend::Frontend& frontend, StepBuilder& steps, con
       limits_(limits_of_proposals(config)),
       edges_(config.temporal.coarse_edges),
       radius_(radius),
-      trusts_prediction_(trusts_prediction) {
-  // A motion that is optimised locally says well enough where to look, and what is found there makes it exact.
-  limits_.refine = config.pose.refine && config.pose.local_optimisation_rounds == 0;
-}
+      trusts_prediction_(trusts_prediction) {}
 
 StepHandle CoarseSearch::propose(const MotionQuery& query, Evidence&) {
   if (trusts_prediction_ && !query.prediction) return nullptr;
@@ -36,7 +33,7 @@ StepHandle CoarseSearch::propose(const MotionQuery& query, Evidence&) {
   search_.coarse = true;
   StepHandle step = steps_.take(query.base);
   frontend_.match(*query.base, search_, step->matches);
-  steps_.estimate(query, limits_, query.prediction, *step);
+  steps_.propose(query, limits_, query.prediction, *step);
   return step;
 }
 

@@ -8,7 +8,7 @@ Relocalisation::Relocalisation(frontend::Frontend& frontend, StepBuilder& steps,
 StepHandle Relocalisation::propose(const MotionQuery& query, Evidence& evidence) {
   StepHandle step = steps_.take(query.base);
   frontend_.match_anywhere(*query.base, step->matches);
-  steps_.estimate(query, limits_, std::nullopt, *step);
+  steps_.propose(query, limits_, std::nullopt, *step);
   evidence.found_anywhere = step.get();
   return step;
 }

@@ -21,7 +21,7 @@ StepHandle RemainingMotion::propose(const MotionQuery& query, Evidence& evidence
     step->matches.append(first.matches.previous[m], first.matches.current[m], query.current->edges,
                          first.matches.ncc[m], first.matches.rivals[m]);
   }
-  steps_.estimate(query, limits_, std::nullopt, *step);
+  steps_.propose(query, limits_, std::nullopt, *step);
   if (step->base != query.base) {
     step->motion.current_from_previous = step->motion.current_from_previous * query.base_from_key.inverse();
     step->base = query.base;

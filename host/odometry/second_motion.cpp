@@ -19,7 +19,7 @@ StepHandle SecondMotion::propose(const MotionQuery& query, Evidence& evidence) {
     step->matches.append(first.matches.previous[m], first.matches.current[m], query.current->edges,
                          first.matches.ncc[m], first.matches.rivals[m]);
   }
-  steps_.estimate(query, limits_, std::nullopt, *step);
+  steps_.propose(query, limits_, std::nullopt, *step);
   return step;
 }
 

@@ -18,14 +18,15 @@ StepHandle StepBuilder::take(const frontend::RigHandle& base) {
   return step;
 }
 
-void StepBuilder::estimate(const MotionQuery& query, const PoseConfig& limits,
-                           const std::optional<Eigen::Isometry3d>& initial, MotionStep& step) {
+void StepBuilder::find_motion(const MotionQuery& query, const PoseConfig& limits,
+                              const std::optional<Eigen::Isometry3d>& initial, pose::RefinementGoal goal,
+                              MotionStep& step) {
   const auto start = Clock::now();
   quad_builder_.build(measured(*step.base), query.current->edges, measured(*query.current), step.matches,
                       pose::QuadLimits(config_), step.quads);
   step.quads.scoring.half_length =
       pose::QuadBuilder::half_length(std::max(step.base->edges_spacing, query.current->edges_spacing));
-  estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(), step.motion);
+  estimator_.estimate(calibration(), step.quads, limits, query.seed, initial, offset_.variance(), step.motion, goal);
   pose_ms_ += milliseconds_since(start);
 }
 

@@ -25,8 +25,15 @@ class StepBuilder {
 
   /// The motion that the step's matches agree on. \param initial a hypothesis beside the samples, current_from_base
   void estimate(const MotionQuery& query, const PoseConfig& limits, const std::optional<Eigen::Isometry3d>& initial,
-                MotionStep& step);
-  /// Time that estimate() took since the last call [ms].
+                MotionStep& step) {
+    find_motion(query, limits, initial, pose::RefinementGoal::pose_and_covariance, step);
+  }
+  /// The same without what only a motion that was confirmed needs: covariance and offset.
+  void propose(const MotionQuery& query, const PoseConfig& limits, const std::optional<Eigen::Isometry3d>& initial,
+               MotionStep& step) {
+    find_motion(query, limits, initial, pose::RefinementGoal::pose, step);
+  }
+  /// Time that both took since the last call [ms].
   double take_pose_ms() { return std::exchange(pose_ms_, 0); }
 
   /// The rig's edges, measured with the calibration as far as it is known.
@@ -35,6 +42,9 @@ class StepBuilder {
   const StereoRig& calibration() const { return offset_.rig(); }
 
  private:
+  void find_motion(const MotionQuery& query, const PoseConfig& limits, const std::optional<Eigen::Isometry3d>& initial,
+                   pose::RefinementGoal goal, MotionStep& step);
+
   Config config_;
   const DisparityOffset& offset_;
   Pool<MotionStep> steps_;

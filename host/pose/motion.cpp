@@ -47,7 +47,7 @@ MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& qua
 
 void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
                                std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
-                               double offset_variance, MotionEstimate& estimate) {
+                               double offset_variance, MotionEstimate& estimate, RefinementGoal goal) {
   std::vector<std::uint8_t> inlier = std::move(estimate.inlier);
   estimate = {};
   estimate.inlier = std::move(inlier);
@@ -64,7 +64,7 @@ void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& qua
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   bool solved = true;
   if (config.refine) {
-    const Refined refined = refine(quads, rig, config, pose, offset_variance, refinement_, estimate.inlier);
+    const Refined refined = refine(quads, rig, config, pose, offset_variance, refinement_, estimate.inlier, goal);
     pose = refined.current_from_previous;
     covariance = refined.covariance;
     solved = refined.solved;

@@ -54,7 +54,8 @@ class MotionEstimator {
  public:
   /// \param estimate is replaced
   void estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
-                const std::optional<Eigen::Isometry3d>& initial, double offset_variance, MotionEstimate& estimate);
+                const std::optional<Eigen::Isometry3d>& initial, double offset_variance, MotionEstimate& estimate,
+                RefinementGoal goal = RefinementGoal::pose_and_covariance);
 
  private:
   ConsensusWorkspace consensus_;

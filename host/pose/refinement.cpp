@@ -70,10 +70,14 @@ class Refinement {
              std::vector<std::uint8_t>& inlier, Refined& result)
       : quads_(quads), rig_(rig), config_(config), noise_(config), work_(work), inlier_(inlier), result_(result) {}
 
-  void run(double offset_variance) {
+  void run(double offset_variance, RefinementGoal goal) {
     // Every n-th quad finds the pose, all of them make it exact.
     const std::size_t every = std::max<std::size_t>(1, quads_.size() / kSelectionQuads);
     alternate(every);
+    if (goal == RefinementGoal::pose) {
+      result_.inliers = find_inliers();
+      return;
+    }
     if (result_.solved && every > 1) {
       select(1);
       take_selected();
@@ -160,10 +164,10 @@ class Refinement {
 
 Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial, double offset_variance, RefinementWorkspace& workspace,
-               std::vector<std::uint8_t>& inlier) {
+               std::vector<std::uint8_t>& inlier, RefinementGoal goal) {
   Refined result;
   result.current_from_previous = initial;
-  Refinement(quads, rig, config, workspace, inlier, result).run(offset_variance);
+  Refinement(quads, rig, config, workspace, inlier, result).run(offset_variance, goal);
   return result;
 }
 

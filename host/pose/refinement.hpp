@@ -21,6 +21,9 @@ struct RefinementWorkspace {
   CovarianceWorkspace covariance;
 };
 
+/// What refine() looks for: of a motion that a wider search will measure, the pose is enough.
+enum class RefinementGoal { pose, pose_and_covariance };
+
 /// What refine() leaves.
 struct Refined {
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();  ///< left cameras, metres
@@ -34,7 +37,8 @@ struct Refined {
 /// them, config.refine_rounds times or until the selection hardly changes; of many quads a part settles the selection.
 /// A fit ends after kFitSteps or with a step below kFitTolerance standard deviations of the pose; the
 /// variance of the errors is measured anew in each step, by the median. Then all inliers go into fit_offset() with a
-/// prior of `offset_variance` [px^2], or into one more fit where that is 0.
+/// prior of `offset_variance` [px^2], or into one more fit where that is 0. With RefinementGoal::pose there is neither
+/// offset nor covariance.
 ///
 /// Each quad's true depth is eliminated in closed form, which is the Schur complement of a bundle adjustment of the two
 /// rigs. Measured on generated quads (f 700 px, base line 0.54 m, 1.2 m forward, 1000 quads, 300 trials), error along
@@ -52,6 +56,6 @@ struct Refined {
 /// \param inlier one byte per quad, selected at the final pose
 Refined refine(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                const Eigen::Isometry3d& initial, double offset_variance, RefinementWorkspace& workspace,
-               std::vector<std::uint8_t>& inlier);
+               std::vector<std::uint8_t>& inlier, RefinementGoal goal = RefinementGoal::pose_and_covariance);
 
 }  // namespace quadedge::pose
