@@ -37,10 +37,9 @@ static inline float16 between(global const uchar* bytes, const int last_word, co
   return (1.0f - fx) * left + fx * right;
 }
 
-kernel __attribute__((vec_type_hint(float16))) void undistort(global const uchar* recorded, const int source_width,
-                                                              const int source_height, global const float* source_x,
-                                                              global const float* source_y, global uchar* image,
-                                                              const int count) {
+kernel IN_VECTORS void undistort(global const uchar* recorded, const int source_width, const int source_height,
+                                 global const float* source_x, global const float* source_y, global uchar* image,
+                                 const int count) {
   const int first = LANES * (int)get_global_id(0);
   global Pixel* target = (global Pixel*)image;
   const int last_word = source_width * source_height * (int)sizeof(Pixel) - 4;
