@@ -162,32 +162,48 @@ void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, st
               spots.end());
 }
 
+/// Both images, small, as the left camera would see what lies at infinity, so that a disparity is all that is left.
+struct EpipolarProbe::CoarseViews {
+  double scale;  ///< left pixels per coarse one
+  GreyPlane left, right;
+
+  /// A place of a coarse image in the left one [px].
+  static Eigen::Vector2d in_left(double x, double y, double scale) {
+    return {(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5};
+  }
+  Eigen::Vector2d in_left(const Eigen::Vector2d& at) const { return in_left(at.x(), at.y(), scale); }
+};
+
+EpipolarProbe::CoarseViews EpipolarProbe::coarse_views(const PinholeView& left, const PinholeView& right,
+                                                       ImageTurn turn) const {
+  const double scale = std::max(1.0, std::round(rig_.left.width / kCoarseWidth));
+  const int width = static_cast<int>(rig_.left.width / scale), height = static_cast<int>(rig_.left.height / scale);
+  return {scale,
+          sample_plane(width, height,
+                       [&](double x, double y) {
+                         const Eigen::Vector2d place = CoarseViews::in_left(x, y, scale);
+                         return left.at(place.x(), place.y());
+                       }),
+          sample_plane(width, height, [&](double x, double y) {
+            const auto place = at_infinity(CoarseViews::in_left(x, y, scale));
+            if (!place) return 0.0F;
+            const Eigen::Vector2d given = turned(*place, turn, rig_.right);
+            return right.at(given.x(), given.y());
+          })};
+}
+
 ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
-  const double scale = std::max(1.0, std::round(rig_.left.width / kCoarseWidth));  // left pixels per coarse one
-  const auto in_left = [&](double x, double y) {
-    return Eigen::Vector2d((x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
-  };
-  const int width = static_cast<int>(rig_.left.width / scale), height = static_cast<int>(rig_.left.height / scale);
-  // Both as the left camera would see what lies at infinity, so that a disparity is all that is left.
-  const GreyPlane before = sample_plane(width, height, [&](double x, double y) {
-    const Eigen::Vector2d place = in_left(x, y);
-    return left.at(place.x(), place.y());
-  });
-  const GreyPlane after = sample_plane(width, height, [&](double x, double y) {
-    const auto place = at_infinity(in_left(x, y));
-    if (!place) return 0.0F;
-    const Eigen::Vector2d given = turned(*place, turn, rig_.right);
-    return right.at(given.x(), given.y());
-  });
+  const CoarseViews views = coarse_views(left, right, turn);
+  const double scale = views.scale;
   ProbeSearch result;
   result.max_disparity = max_disparity_;
   const double along = std::min(0.5 * rig_.left.width, std::max(kAlong * rig_.left.width, 1.25 * max_disparity_)),
                across = kAcross * rig_.left.height;
   const auto seek = [&](const Eigen::Vector2i& corner) {
     Sought sought;
-    const Eigen::Vector2d spot = in_left(corner.x(), corner.y());
+    const Eigen::Vector2d spot = views.in_left(corner.cast<double>());
     const auto its_line = line(spot);
     if (!its_line) return sought;
     // The line's direction among coarse pixels.
@@ -196,13 +212,13 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
     const SearchBox box{static_cast<int>((std::abs(direction.x()) * along + std::abs(direction.y()) * across) / scale),
                         static_cast<int>((std::abs(direction.y()) * along + std::abs(direction.x()) * across) / scale)};
     sought.has_line = true;
-    const auto there = best_match(before, after, corner, box);
+    const auto there = best_match(views.left, views.right, corner, box);
     if (!there) return sought;
     const Eigen::Vector2i landed = there->at.array().round().cast<int>().matrix();
-    const auto back = best_match(after, before, landed, box);
+    const auto back = best_match(views.right, views.left, landed, box);
     if (!back || (back->at - corner.cast<double>()).norm() > 1.5) return sought;
     sought.is_negative = there->correlation < 0;
-    const auto place = at_infinity(in_left(there->at.x(), there->at.y()));
+    const auto place = at_infinity(views.in_left(there->at));
     if (sought.is_negative || !place) return sought;
     sought.found = turn == ImageTurn::none ? refine(left, right, spot, *place) : std::nullopt;
     const Eigen::Vector2d from_infinity = *place - its_line->infinity;
@@ -216,7 +232,7 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
                                 -1};
     return sought;
   };
-  const auto corners = find_corners(before);
+  const auto corners = find_corners(views.left);
   std::vector<Sought> all(corners.size());
   tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t i) { all[i] = seek(corners[i]); });
   for (const Sought& sought : all) {

@@ -58,6 +58,8 @@ class EpipolarProbe {
   };
   std::optional<Line> line(const Eigen::Vector2d& left) const;
   std::optional<Eigen::Vector2d> at_infinity(const Eigen::Vector2d& left) const;
+  struct CoarseViews;
+  CoarseViews coarse_views(const PinholeView& left, const PinholeView& right, ImageTurn turn) const;
   std::optional<ProbedSpot> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& spot,
                                    Eigen::Vector2d at) const;
 
