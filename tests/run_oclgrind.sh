@@ -8,15 +8,15 @@ folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 status=0
 oclgrind --check-api --data-races --inst-counts --log "$folder/log" "$tests" "[oclgrind]" >"$folder/out" || status=$?
-grep -vE "^Instructions executed|^ +[0-9,]+ - |^$" "$folder/out" || true
+grep -avE "^Instructions executed|^ +[0-9,]+ - |^$" "$folder/out" || true
 if [ -s "$folder/log" ]; then
   echo "oclgrind reports:"
   head -100 "$folder/log"
   exit 1
 fi
 cat "$kernels"/*.cl | tr '\n' ' ' |
-  grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +)?void +[a-z_0-9]+' | sed 's/.* //' | sort -u >"$folder/all"
-grep -oE "^Instructions executed for kernel '[a-z_0-9]+'" "$folder/out" | cut -d"'" -f2 | sort -u >"$folder/run"
+  grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +|[A-Z_]+ +)?void +[a-z_0-9]+' | sed 's/.* //' | sort -u >"$folder/all"
+grep -aoE "^Instructions executed for kernel '[a-z_0-9]+'" "$folder/out" | cut -d"'" -f2 | sort -u >"$folder/run"
 never="$(comm -23 "$folder/all" "$folder/run")"
 if [ -n "$never" ]; then
   echo "kernels that no [oclgrind] test runs:" $never

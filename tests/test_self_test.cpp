@@ -7,6 +7,7 @@
 #include "opencl/variants.hpp"
 #include "program.hpp"
 #include "quadedge/self_test.hpp"
+#include "stages/long_loop.hpp"
 
 using namespace quadedge;
 using Catch::Matchers::Contains;
@@ -56,6 +57,14 @@ TEST_CASE("self-test: rows that differ are counted and the first is shown", "[se
              Contains("1 of them are wrong and 1 are missing") && Contains("(70 0 0 0 0)"));
   found.rows.clear();
   CHECK_THAT(frontend::difference(found, expected, 0.5), Contains("0 results where the reference has 100"));
+}
+
+TEST_CASE("self-test: a long loop reaches its end on every device", "[selftest][device][oclgrind]") {
+  for (const auto& index : all_devices()) {
+    Device device(index, kept_programs());
+    const bool is_slow = device.info().name.find("Oclgrind") != std::string::npos;  // minutes for the whole loop
+    CHECK(stages::long_loop_difference(*device.context(), is_slow ? 1000 : stages::kLongLoop).empty());
+  }
 }
 
 TEST_CASE("self-test: a driver that ends long loops is named, although small frames come out right", "[selftest]") {

@@ -7,8 +7,7 @@ namespace quadedge::opencl {
 const std::vector<Variant>& all_variants() {
   // LONG: a table. One row per variant; rows of one stage stand together.
   static const std::vector<Variant> table = {
-      {"undistortion", "lanes16", {{"LANES", "16"}}, 16, true, false, "one work-item per 16 pixels, groups of 16"},
-      {"undistortion", "item64", {}, 64, false, true, "one work-item per pixel, groups of 64"},
+      {"undistortion", "item64", {}, 64, true, true, "one work-item per pixel, groups of 64"},
       {"undistortion", "item16", {}, 16, false, false, "one work-item per pixel, groups of 16"},
       {"scan", "serial", {}, 1, true, false, "one work-item per part of the counts"},
       {"scan", "group256", {}, 256, false, true, "work-groups of 256 with their sums in local memory", 2048},

@@ -14,8 +14,6 @@ Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& ta
   if (!active_) return;
   const auto& variant = opencl::choose_variant("undistortion", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  if (const auto lanes = variant.defines.find("LANES"); lanes != variant.defines.end())
-    pixels_per_item_ = std::stoul(lanes->second);
   kernel_ = {context, context.program({"undistortion.cl"}, image_defines(white, variant.defines)), "undistort"};
   source_x_.write(context, table.source_x);
   source_y_.write(context, table.source_y);
@@ -43,8 +41,7 @@ void Undistortion::run(const ImageView& recorded, opencl::Buffer<cl_uchar>& imag
   }
   upload(recorded, recorded_);
   image.ensure(context_, pixels_ * bytes_per_pixel_);
-  const std::size_t items = (pixels_ + pixels_per_item_ - 1) / pixels_per_item_;
-  kernel_({items, local_size_}, recorded_, recorded.width, recorded.height, source_x_, source_y_, image,
+  kernel_({pixels_, local_size_}, recorded_, recorded.width, recorded.height, source_x_, source_y_, image,
           static_cast<cl_int>(pixels_));
 }
 

@@ -27,7 +27,7 @@ class Undistortion {
 
   opencl::Context& context_;
   std::size_t pixels_ = 0, bytes_per_pixel_;
-  std::size_t local_size_ = 1, pixels_per_item_ = 1;
+  std::size_t local_size_ = 1;
   bool active_ = false;
   opencl::Buffer<cl_float> source_x_, source_y_;
   opencl::Buffer<cl_uchar> recorded_;
