@@ -15,7 +15,8 @@ if [ -s "$folder/log" ]; then
   exit 1
 fi
 cat "$kernels"/*.cl | tr '\n' ' ' |
-  grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +|[A-Z_]+ +)?void +[a-z_0-9]+' | sed 's/.* //' | sort -u >"$folder/all"
+  grep -oE 'kernel +(__attribute__\(\([^;{]*\)\)\) +|[A-Z_]+ +)?void +[a-z_0-9]+' |
+  sed 's/.* //' | sort -u >"$folder/all"
 grep -aoE "^Instructions executed for kernel '[a-z_0-9]+'" "$folder/out" | cut -d"'" -f2 | sort -u >"$folder/run"
 never="$(comm -23 "$folder/all" "$folder/run")"
 if [ -n "$never" ]; then
