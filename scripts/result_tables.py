@@ -53,7 +53,6 @@ PAGES = {
 MADE_BY = {
     "drift": "scripts/drift.py",
     "truth": "scripts/truth_consistency.py",
-    "roofline": "quadedge compare --device-model FILE --json doc/results/roofline.json",
 }
 NAMES = "DATA is the folder with the recorded sequences, OUT a folder for results."
 

@@ -372,57 +372,6 @@ def truth(results):
     return table(head, rows) + f"\nConstants (radians, seconds, metres): {constants}. " + stamp(found)
 
 
-def roofline(results):
-    """Estimates of a frame on models of GPUs, one column per model; what was counted comes first."""
-    result = results["roofline"]
-    estimates = result["estimates"]
-    rows = []
-    for index, count in enumerate(result["counted"]["stages"]):
-        stages = [estimate["stages"][index] for estimate in estimates]
-        rows.append(
-            [
-                count["stage"],
-                f"{count['least_bytes'] / 1e6:.2f}",
-                f"{count['least_operations'] / 1e6:.1f}",
-                f"{count['launches']:.1f}",
-                f"{count['writes']:.1f}",
-                f"{count['waits']:.1f}",
-                f"{(count['to_device_bytes'] + count['to_host_bytes']) / 1e6:.2f}",
-                *(f"{stage['estimate_ms']:.3f} ms, {stage['bound']}" for stage in stages),
-            ]
-        )
-    blank = [""] * 6
-    rows.append(["device", *blank, *(f"{estimate['device_estimate_ms']:.2f} ms" for estimate in estimates)])
-    rows.append(["host, measured", *blank, *[f"{result['host_measured_ms']:.1f} ms"] * len(estimates)])
-    rows.append(["frame", *blank, *(f"{estimate['frame_estimate_ms']:.1f} ms" for estimate in estimates)])
-    goals = [
-        f"The goal on the model {estimate['model']['name']} is {estimate['model']['goal_ms']:g} ms; in the way, by this"
-        f" estimate: {', '.join(estimate['in_the_way']) or 'nothing'}. "
-        for estimate in estimates
-        if estimate["model"]["goal_ms"]
-    ]
-    counted = result["counted"]
-    return (
-        table(
-            [
-                "stage",
-                "least MB",
-                "Mflop",
-                "launches",
-                "copies to the device",
-                "waits",
-                "MB copied",
-                *(f"estimate, {estimate['model']['name']}" for estimate in estimates),
-            ],
-            rows,
-        )
-        + f"\nEstimates, not measured; behind each the part of it that is the largest. {''.join(goals)}Counted on"
-        f" {counted['frames']} frames of the built-in room ({counted['edges_left']:.0f} and"
-        f" {counted['edges_right']:.0f} edges), with the forms of GPUs; the host's median is of the same frames, on"
-        f" {result['device']['name']}. Commit {result['commit']}, {result['date'][:10]}.\n"
-    )
-
-
 TABLES = {
     "accuracy": accuracy,
     "systems": systems,
@@ -439,5 +388,4 @@ TABLES = {
     "consistency": consistency,
     "drift": drift_over_scenes,
     "truth": truth,
-    "roofline": roofline,
 }

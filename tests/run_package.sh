@@ -41,7 +41,7 @@ if dpkg-deb --field "$program" Depends | grep -q -- -dev; then
   echo "$program: depends on a development package" >&2
   exit 1
 fi
-holds "$program" usr/bin/quadedge usr/share/quadedge/paper.toml usr/share/quadedge/devices/h100.toml \
+holds "$program" usr/bin/quadedge usr/share/quadedge/paper.toml \
   usr/share/man/man1/quadedge.1 usr/share/bash-completion/completions/quadedge \
   usr/share/doc/quadedge/{LICENSE,README.md,CHANGELOG.md,doc/method.md}
 expect "$development" Depends libeigen3-dev libtbb-dev ocl-icd-opencl-dev libopencv-calib3d-dev libyaml-cpp-dev \

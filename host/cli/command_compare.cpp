@@ -5,18 +5,15 @@
 #include <cstdio>
 
 #include "benchmark/latency.hpp"
-#include "benchmark/roofline.hpp"
 #include "benchmark/variant_comparison.hpp"
 #include "benchmark/variants_file.hpp"
 #include "cli/bench_options.hpp"
 #include "cli/command.hpp"
 #include "cli/command_line.hpp"
 #include "cli/console.hpp"
-#include "cli/estimate_tables.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
-#include "cli/rendering_status.hpp"
 #include "cli/saved_variants.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
@@ -55,24 +52,17 @@ class CompareCommand : public Command {
  public:
   std::string name() const override { return "compare"; }
   std::string about() const override {
-    return "check and measure every kernel variant of every stage on the same input, or estimate a frame on a GPU that "
-           "is not there";
+    return "check and measure every kernel variant of every stage on the same input";
   }
   std::string examples() const override {
-    return "  quadedge compare --stage edge_detection\n"
-           "  quadedge compare --device-model config/devices/h100.toml";
+    return "  quadedge compare --stage edge_detection";
   }
 
   void declare(Options& options) override {
     options.text("--stage", stage_, "only this stage (`quadedge variants`)", "STAGE");
     options.text("--size", size_, "images of the built-in sequence that is measured on [px]; default 942x489", "WxH");
     options.number("--edges", edges_, "choose edges.threshold for so many edges per image; 0: as configured");
-    options.number("--repetitions", repetitions_,
-                   "measurements of each variant, in turn with the others; frames that an estimate is of");
-    options.repeated("--device-model", models_,
-                     "instead of measuring variants, estimate a frame on the GPU of this file (config/devices), "
-                     "repeatable",
-                     "FILE");
+    options.number("--repetitions", repetitions_, "measurements of each variant, in turn with the others");
     options.flag("--save", save_, "keep the fastest variants for this device; `run`, `demo` and `bench` then use them");
     options.text("--json", json_, "write all figures", "FILE");
     options.flag("--force", force_, "replace a file that exists");
@@ -84,7 +74,6 @@ class CompareCommand : public Command {
     const auto stages = chosen_stages();
     if (edges_ < 0) throw UsageError("--edges " + std::to_string(edges_) + ": expected 0 or more");
     if (repetitions_ < 1) throw UsageError("--repetitions " + std::to_string(repetitions_) + ": expected 1 or more");
-    if (!models_.empty()) return estimate();
     Config config = method_.config();
     check_output_file(json_, force_);
     Device device = method_.open_device(true);
@@ -126,44 +115,6 @@ class CompareCommand : public Command {
   }
 
  private:
-  /// A frame of the built-in sequence on every model, counted on the device that is there.
-  int estimate() {
-    constexpr int kWarmUp = 3;
-    if (!stage_.empty() || save_) throw UsageError("--device-model is about whole frames: without --stage and --save");
-    if (repetitions_ < 2) throw UsageError("--repetitions: an estimate is of 2 frames or more");
-    std::vector<bench::DeviceModel> models;
-    for (const auto& file : models_) models.push_back(bench::read_device_model(file));
-    Config config = method_.config();
-    check_output_file(json_, force_);
-    SyntheticOptions scene;
-    scene.frames = 1 + kWarmUp + repetitions_;
-    set_size(scene, size_);
-    RenderingStatus rendering(quiet_, nullptr);
-    const auto source =
-        make_synthetic_source(scene, [&](const data::RenderingProgress& frames) { return rendering.show(frames); });
-    if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
-      config.stereo.max_disparity = source->max_disparity();
-    std::vector<FramePrefetcher::Frame> frames;
-    while (auto frame = source->next()) frames.push_back(std::move(*frame));
-    Device device = method_.open_device();
-    if (device.is_reference()) throw UsageError("the reference device has no kernels to count");
-    if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(frames.front(), edges_, device, config);
-    Progress progress(quiet_);
-    const bench::Subject subject{source->rig(), frames, config,
-                                 [&](bool profiling) { return method_.open_device(profiling); },
-                                 [&](const char* pass, int done, int total) { progress.update(pass, done, total); }};
-    const bench::FrameCount count = bench::count_stages(subject, kWarmUp);
-    print_count(count, source->facts(), device.info());
-    std::vector<bench::FrameEstimate> estimates;
-    for (const auto& model : models) {
-      estimates.push_back(bench::estimate_frame(model, count));
-      print_estimate(estimates.back());
-    }
-    if (json_.empty()) return static_cast<int>(ExitCode::done);
-    data::write_atomically(json_, bench::estimates_json(device.info(), config, count, estimates, command_line()));
-    return static_cast<int>(ExitCode::done);
-  }
-
   std::vector<std::string> chosen_stages() const {
     auto stages = bench::stages_with_variants();
     if (stage_.empty()) return stages;
@@ -201,7 +152,6 @@ class CompareCommand : public Command {
   }
 
   std::string stage_, size_, json_;
-  std::vector<std::string> models_;
   int edges_ = kBenchEdges, repetitions_ = 9;
   bool save_ = false, force_ = false, quiet_ = false;
   MethodOptions method_;

@@ -76,21 +76,16 @@ class Context {
     std::size_t launches = 0, writes = 0, to_device = 0, to_host = 0, waits = 0;
   };
   const Traffic& traffic() const { return traffic_; }
-  /// The same by stage; a wait belongs to the stage whose results it is for, the one begun last.
-  const std::map<std::string, Traffic>& stage_traffic() const { return stage_traffic_; }
-  void count_launch() { count(&Traffic::launches, 1); }
+  void count_launch() { ++traffic_.launches; }
   void count_to_device(std::size_t bytes) {
-    count(&Traffic::writes, 1);
-    count(&Traffic::to_device, bytes);
+    ++traffic_.writes;
+    traffic_.to_device += bytes;
   }
-  void count_to_host(std::size_t bytes) { count(&Traffic::to_host, bytes); }
-  void count_wait() { count(&Traffic::waits, 1); }
+  void count_to_host(std::size_t bytes) { traffic_.to_host += bytes; }
+  void count_wait() { ++traffic_.waits; }
 
-  /// The stage that the following commands belong to (profiling, traffic by stage).
-  void begin_stage(const std::string& stage) {
-    stage_ = stage;
-    traffic_of_stage_ = &stage_traffic_[stage];
-  }
+  /// The stage that profiling books the following commands under.
+  void begin_stage(const std::string& stage) { stage_ = stage; }
   const std::string& stage() const { return stage_; }
   enum class Command { kernel, transfer };
   /// The event of the command that is enqueued next; null where nothing is profiled.
@@ -102,10 +97,6 @@ class Context {
   const std::vector<StageProfile>& last_profile() const { return last_profile_; }
 
  private:
-  void count(std::size_t Traffic::*what, std::size_t number) {
-    traffic_.*what += number;
-    traffic_of_stage_->*what += number;
-  }
   void take_limits(const DeviceLimits& wished);
   std::string kernel_text(const std::string& file) const;
   /// Compiles. \param what  the program's name in messages
@@ -127,8 +118,6 @@ class Context {
   std::map<std::string, cl::Program> programs_;
   std::size_t bytes_ = 0, peak_bytes_ = 0;
   Traffic traffic_;
-  std::map<std::string, Traffic> stage_traffic_;
-  Traffic* traffic_of_stage_ = &stage_traffic_["other"];  ///< of the stage begun last
   std::string stage_ = "other";
   struct Watched {
     std::string stage;
