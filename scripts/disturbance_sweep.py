@@ -30,7 +30,7 @@ SCENES = ("room", "cables", "facade")
 KINDS = {
     "gain": ("light of every second frame, factor", (0.5, 0.7, 1, 1.4, 2), ()),
     "right-gain": ("exposure of the right camera, factor", (0.5, 0.7, 1, 1.4, 2), ()),
-    "blur": ("motion blur, camera in the hand [px]", (0, 1, 2, 3, 4, 5), ("--path", "handheld")),
+    "blur": ("motion blur, handheld camera [px]", (0, 1, 2, 3, 4, 5), ("--path", "handheld")),
     "noise": ("camera noise [grey levels]", (0, 1.5, 3, 5, 8), ()),
     "mover": ("ratio of the image covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4), ()),
 }

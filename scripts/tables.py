@@ -14,7 +14,20 @@ SYSTEMS = {
     "paper": "QuadEdge, paper.toml",
     "opencv": "OpenCV SIFT + PnP",
 }
-STEPS = "keyframes"  # judged step by step: errors over all its frames say nothing
+STEPS = "keyframes"  # evaluated step by step only, because frames are lost
+
+
+def counted(number, noun):
+    return f"{number} {noun}" + ("" if number == 1 else "s")
+
+
+def named(row):
+    """The sequence of a row, with the number of frames that its errors are about."""
+    title = row["title"].removesuffix(", flight")
+    if not row["from_frame"]:
+        return f"{title}, {counted(row['frames'], 'frame')}"
+    frames = counted(row["frames"] - row["from_frame"], "frame")
+    return f"{title.split(',')[0]}, {frames} from frame {row['from_frame']}"
 
 
 def table(head, rows):
@@ -27,7 +40,7 @@ def number(value, digits=3):
 
 
 def length(metres):
-    """In the unit that a reader would choose."""
+    """In metres, centimetres or millimetres, whichever suits the size."""
     if metres is None:
         return "-"
     return (
@@ -42,7 +55,7 @@ def percent(value):
 
 
 def drift(row):
-    """In percent of the path; nothing of a camera at rest."""
+    """In percent of the path length; a dash for a camera at rest."""
     return f"{number(row['end_drift_percent'], 2)} %" if row.get("path_length_m", 0) > 0.5 else "-"
 
 
@@ -57,7 +70,7 @@ def command_list(rows):
 
 
 def on_other_path(row):
-    """A rendered scene on another path than the ellipse: these have a table of their own."""
+    """A rendered scene on another path than the ellipse: those are in a separate table."""
     return "-" in row["sequence"]
 
 
@@ -67,7 +80,7 @@ def errors(results, systems):
     for row in results["accuracy"]["rows"]:
         if row["system"] not in systems or row["sequence"] == STEPS or on_other_path(row):
             continue
-        cells = ["" if row["title"] == shown else row["title"]]
+        cells = ["" if named(row) == shown else named(row)]
         if len(systems) > 1:
             cells.append(SYSTEMS[row["system"]])
         cells += [
@@ -79,7 +92,7 @@ def errors(results, systems):
             drift(row),
         ]
         rows.append(cells)
-        shown = row["title"]
+        shown = named(row)
     return (
         table(
             [
@@ -111,7 +124,7 @@ def steps(results):
     judged = [row for row in results["accuracy"]["rows"] if row["sequence"] == STEPS and "steps" in row]
     rows = [[SYSTEMS[row["system"]], *(row["steps"][name] for name in ("right", "wrong", "lost"))] for row in judged]
     return (
-        table(["EuRoC V1_01 key frames", "steps right", "wrong, reported as good", "said to be lost"], rows)
+        table([named(judged[0]) if judged else "", "steps right", "wrong, reported as tracked", "reported lost"], rows)
         + "\n"
         + stamp(results["accuracy"])
     )
@@ -138,14 +151,14 @@ def paths(results):
         )
     head = ["scene, path", "system", "tracked", "steps right", "wrong", "lost"]
     return (
-        table([*head, "RPE rotation [deg]", "RPE translation", "path", "end drift"], rows)
+        table([*head, "RPE rotation [deg]", "RPE translation", "path length", "end drift"], rows)
         + "\n"
         + stamp(results["accuracy"])
     )
 
 
 def step_error(row):
-    """Mean error in mm and what went wrong; nothing where a value was not measured."""
+    """Mean error in mm and the numbers of wrong and lost steps; empty where a value was not measured."""
     if row is None:
         return ""
     error = row["rpe_translation_m"]
@@ -165,9 +178,8 @@ def disturbances(results):
             found = {row["value"]: row for row in kept if row["kind"] == kind and row["scene"] == scene}
             cells = [step_error(found.get(value)) for value in values]
             rows.append(["", scene, *cells, *[""] * (width - len(cells))])
-    frames = kept[0]["frames"]
     return (
-        table(["mm", f"{frames - 1} steps each", *[""] * width], rows)
+        table(["error per step [mm]", f"{counted(kept[0]['frames'], 'frame')} each", *[""] * width], rows)
         + "\n"
         + stamp(results["disturbances"])
     )
@@ -178,7 +190,7 @@ def beside(results):
     by_title = {}
     for row in results["accuracy"]["rows"]:
         if row["sequence"] != STEPS and not on_other_path(row):
-            by_title.setdefault(row["title"], {})[row["system"]] = row
+            by_title.setdefault(named(row), {})[row["system"]] = row
     rows = []
     for title, found in by_title.items():
         cells = [title]
@@ -259,7 +271,7 @@ def speed(results):
 
 
 def presets(results):
-    """One row per preset: time of a frame, and errors from frame to frame on all sequences."""
+    """One column per preset: time per frame, and errors from frame to frame on all sequences."""
     if "speed" not in results:
         return "*Not measured yet: `scripts/measure.py --only speed`.*\n"
     times = {(row.get("preset", "default"), row["title"].rsplit(",", 1)[0]): row for row in results["speed"]["rows"]}
@@ -267,12 +279,12 @@ def presets(results):
     errors_of = {}
     for row in results["accuracy"]["rows"]:
         if row["sequence"] != STEPS and not on_other_path(row) and "rpe_translation_m" in row:
-            errors_of.setdefault(row["title"], {})[row["system"]] = row
+            errors_of.setdefault(named(row), {})[row["system"]] = row
     rows = []
     for title in timed:
         found = [times.get((preset, title)) for preset in PRESETS]
         cells = [f"{row['median_ms']:.0f} ms, {row['frame_over_sift']:.2f} S" if row else "-" for row in found]
-        rows.append([f"frame, {title}", *cells])
+        rows.append([f"time per frame, {title.removesuffix(', flight')}", *cells])
     for title, found in errors_of.items():
         cells = [
             f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if row else "-"
@@ -289,7 +301,7 @@ def presets(results):
 
 
 def light(results):
-    """Steps over contrast, light and gamma, with the fixed threshold of edges and the automatic one."""
+    """Steps over contrast, light and gamma, with the fixed edge threshold and the automatic one."""
     kept = results["light"]["rows"]
     runs = {(row["scene"], row["kind"], row["value"], row["threshold"] == 0): row for row in kept}
     lines = []
@@ -302,11 +314,11 @@ def light(results):
             cells += [f"{row['right']}, {row['wrong']}, {row['lost']}", f"{row['edges']:.0f}"]
         lines.append([*cells, number(found["edge_threshold"])])
     head = ["", "scene", "fixed: right, wrong, lost", "edges", "automatic: right, wrong, lost", "edges", "threshold"]
-    return table(head, lines) + f"\n{kept[0]['frames'] - 1} steps each. " + stamp(results["light"])
+    return table(head, lines) + f"\n{counted(kept[0]['frames'], 'frame')} each. " + stamp(results["light"])
 
 
 def peers(results):
-    """Other systems; QuadEdge's own time and drift are the measured ones."""
+    """Other systems; QuadEdge's time and drift come from the measurements."""
     kept = results["peers"]
     rows = [list(row) for row in kept["rows"]]
     own = [
@@ -324,7 +336,7 @@ def peers(results):
 
 
 def drift_over_scenes(results):
-    """End errors after long rendered sequences, with those of another program beside them where there are any."""
+    """End errors of long rendered sequences, and those of other versions where they were measured."""
     rows = []
     for row in results["drift"]["rows"]:
         for name, found in (("before", row.get("before")), ("all edges", row.get("all_edges")), ("now", row)):
@@ -334,12 +346,12 @@ def drift_over_scenes(results):
             parts = ", ".join(f"{part:+.1f}" for part in found["mean_end_parts_mm"])
             rows.append([row["scene"], name, f"{ends} mm", f"{found['end_percent']:.3f} %", f"({parts}) mm",
                          f"{number(found['rms_mm'], 2)} mm"])
-    head = ["scene", "", "end error of each texture", "mean, of the way", "mean vector", "rms along the way"]
+    head = ["scene", "", "end error of each texture", "mean, of the path length", "mean vector", "rms along the path"]
     return table(head, rows) + "\n" + stamp(results["drift"])
 
 
 def consistency(results):
-    """What the covariances promise of motions over several lengths, and what the errors are."""
+    """Errors of motions over several lengths beside the deviations that their covariances predict."""
     rows, shown = [], None
     for row in results["accuracy"]["rows"]:
         if row["sequence"] == STEPS or on_other_path(row):
@@ -348,17 +360,17 @@ def consistency(results):
             if step["frames"] not in (1, 10, 20, 40, 100):
                 continue
             squares = [step[f"normalised_error_squared{by}"]["pose"] for by in ("_by_edges", "")]
-            rows.append(["" if row["title"] == shown else row["title"], step["frames"], length(step["error_m"]),
+            rows.append(["" if named(row) == shown else named(row), step["frames"], length(step["error_m"]),
                          length(step["promised_m"]), number(step["error_deg"]), number(step["promised_deg"]),
                          *(number(value) for value in squares)])
-            shown = row["title"]
-    head = ["sequence", "frames", "translation: error, rms", "promised", "rotation: error [deg]", "promised",
+            shown = named(row)
+    head = ["sequence", "frames apart", "translation: error, rms", "predicted", "rotation: error [deg]", "predicted",
             "NEES, edges alone", "NEES, with the rig"]
     return table(head, rows) + "\n" + stamp(results["accuracy"])
 
 
 def truth(results):
-    """Errors of a recording before and after constants of its truth are taken away."""
+    """Errors of a recording before and after fitted constants of its ground truth are removed."""
     found = results["truth"]
     rows = [
         [row["frames"], length(row["way_mm"] / 1e3),
@@ -366,8 +378,8 @@ def truth(results):
                                                 "promised_mm"))]
         for row in found["rows"]
     ]
-    head = ["frames", "way", "error, rms", "eight constants of the truth removed", "found on the other half",
-            "promised"]
+    head = ["frames apart", "displacement, mean", "error, rms", "after removing eight constants of the ground truth",
+            "constants fitted on the other half", "predicted"]
     constants = ", ".join(f"{name} {value:+.4f}" for name, value in found["constants"].items())
     return table(head, rows) + f"\nConstants (radians, seconds, metres): {constants}. " + stamp(found)
 

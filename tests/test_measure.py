@@ -58,9 +58,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert row["commands"][0] == "quadedge demo --scene cables --frames 3 -o OUT/default/cables", row["commands"]
     assert result["commit"] and len(result["date"]) == 10, result
     page = (out / "accuracy.md").read_text()
-    assert (
-        "| rendered cables | QuadEdge | 3 / 3 |" in page and row["commands"][1] in page and result["commit"] in page
-    ), page
+    assert "| rendered cables, 3 frames | QuadEdge | 3 / 3 |" in page and result["commit"] in page, page
+    assert row["commands"][1] in page, page
     assert "<svg" in (out / "cables.svg").read_text()
 
     # What is complete serves again; a changed page is seen.
@@ -79,13 +78,18 @@ with tempfile.TemporaryDirectory() as folder:
     end = "<!-- end of table -->\n"
     text = f"before\n<!-- table: accuracy -->\nold\n{end}after\n<!-- table: speed -->\n{end}"
     filled = result_tables.BLOCK.sub(lambda block: block[1] + result_tables.render(block[2], results) + block[3], text)
-    assert "old" not in filled and "| rendered cables | 3 / 3 |" in filled and "Not measured yet" in filled, filled
+    assert "old" not in filled and "| rendered cables, 3 frames | 3 / 3 |" in filled, filled
+    assert "Not measured yet" in filled, filled
     assert filled.startswith("before\n") and "<!-- end of table -->\nafter\n" in filled, filled
 
     # Other paths have a table of their own; of a disturbance every value has its column, with what was lost.
     handheld = {**row, "title": "rendered cables, handheld", "sequence": "cables-handheld"}
     results["accuracy"] = {**result, "rows": [row, handheld]}
     assert "handheld" not in result_tables.render("systems", results)
+    later = {**row, "title": "KITTI 06, from frame 2", "from_frame": 2}
+    flight = {**row, "title": "EuRoC MH_01, flight", "sequence": "flight"}
+    shown = result_tables.render("beside", {"accuracy": {**result, "rows": [later, flight]}})
+    assert "| KITTI 06, 1 frame from frame 2 |" in shown and "| EuRoC MH_01, 3 frames |" in shown, shown
     shown = result_tables.render("paths", results)
     assert "| cables | QuadEdge | 3 / 3 | 2 | 0 | 0 |" in shown and "| cables, handheld | QuadEdge |" in shown, shown
     swept = [
@@ -94,7 +98,7 @@ with tempfile.TemporaryDirectory() as folder:
     ]
     results["disturbances"] = {**result, "rows": swept}
     shown = result_tables.render("disturbances", results)
-    assert "|  | facade | 1.23 |  | -, 3 lost |  |" in shown and "4 steps each" in shown, shown
+    assert "|  | facade | 1.23 |  | -, 3 lost |  |" in shown and "5 frames each" in shown, shown
 
     # A program that fails is said, with its complaint; figures of a few frames do not get into the documentation.
     failed = run(
