@@ -36,7 +36,7 @@ BenchQuads::BenchQuads(std::size_t wanted) : sequence(options()) {
   for (std::size_t i = 0; i < wanted; ++i) {
     const std::size_t q = i % seen.quads.size();
     matches.append(seen.quads.previous[q], seen.quads.current[q], seen.current, seen.quads.ncc[q],
-                   seen.quads.rivals[q]);
+                   seen.quads.competing_clusters[q]);
   }
   quads = pose::build_quads(sequence.rig(), seen.previous, seen.current, matches, pose::QuadLimits(config));
   motion = sequence.world_from_left(1).inverse() * sequence.world_from_left(0);

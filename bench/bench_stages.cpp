@@ -59,7 +59,7 @@ void run_stage(benchmark::State& state, const std::string& stage, const std::str
     (void)unused;
     frontend->process(second.view());
     frontend->match(*warm.first, search, matches);
-    frontend->match_anywhere(*warm.first, matches);
+    frontend->match_globally(*warm.first, matches);
     double ms = 0;
     for (const auto& row : device.context()->take_profile()) {
       if (row.stage == stage) ms += row.kernel_ms;

@@ -3,16 +3,16 @@
 // Host and device must round alike: a*b+c is never fused.
 #pragma OPENCL FP_CONTRACT OFF
 
-// WHITE: largest value of the recorded images' pixels, 0 to 255 grey levels whatever their depth.
-#ifndef WHITE
-#define WHITE 255
+// MAX_VALUE: largest value of the recorded images' pixels, 0 to 255 grey levels whatever their depth.
+#ifndef MAX_VALUE
+#define MAX_VALUE 255
 #endif
-#if WHITE > 255
+#if MAX_VALUE > 255
 typedef ushort Pixel;
 #else
 typedef uchar Pixel;
 #endif
-#define GREY_PER_VALUE (255.0f / (float)WHITE)
+#define GREY_PER_VALUE (255.0f / (float)MAX_VALUE)
 
 // For kernels written in vectors: without the hint Intel's compiler for CPUs also lays their work-items side by side,
 // which takes it two to four times as long, and a minute for temporal_match.cl. Others do not care.

@@ -53,7 +53,7 @@ static inline int noise_bin_start(const int bin) { return bin < 16 ? bin : (8 + 
 // pixels is black or white, and at the image's border.
 #define DEFINE_NOISE(NAME, T, I, CONVERT, AT)                                                 \
   static inline I NAME(global const float* pixel, const I x, const ThresholdArguments args) { \
-    T sum = 0.0f, low = args.white, high = 0.0f;                                              \
+    T sum = 0.0f, low = args.max_grey, high = 0.0f;                                           \
     for (int row = -1; row <= 1; ++row) {                                                     \
       global const float* middle = pixel + row * args.plane_stride;                           \
       const T a = AT(middle - 1), b = AT(middle), c = AT(middle + 1);                         \
@@ -61,7 +61,7 @@ static inline int noise_bin_start(const int bin) { return bin < 16 ? bin : (8 + 
       low = fmin(low, fmin(a, fmin(b, c)));                                                   \
       high = fmax(high, fmax(a, fmax(b, c)));                                                 \
     }                                                                                         \
-    const I counts = (x > 0) & (x < args.width - 1) & (low > 0.0f) & (high < args.white);     \
+    const I counts = (x > 0) & (x < args.width - 1) & (low > 0.0f) & (high < args.max_grey);  \
     return counts ? CONVERT(fabs(sum) / args.quantum + 0.5f) : (I)(-1);                       \
   }
 #define ONE(pointer) (*(pointer))
@@ -73,7 +73,7 @@ DEFINE_NOISE(noise_response16, float16, int16, convert_int16, LOAD)
 // Tallies the gradient at a pixel, from what the columns around it sum up to along y, RADIUS of them on either side.
 static inline void tally_gradient(const float grey, COLUMN const float* smooth_y, COLUMN const float* slope_y,
                                   const ThresholdArguments args, global const float* taps, TALLY int* tally) {
-  if (grey <= 0.0f || grey >= args.white) return;
+  if (grey <= 0.0f || grey >= args.max_grey) return;
   float gx, gy;
 #define AT(k) smooth_y[RADIUS + (k)]
   SLOPE(float, gx, AT, SLOPE_TAPS(taps, 0), 0)

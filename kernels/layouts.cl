@@ -121,7 +121,7 @@ FLOAT_CONSTANT kThresholdHold = 1.25f;
 typedef struct {
   int width, height;      // of the image
   int plane_stride;       // floats per row of the padded image
-  float white;            // grey level at which the camera saturates
+  float max_grey;         // grey level at which the camera saturates
   float quantum;          // grey levels between neighbouring values of the recorded image
   float area;             // ratio of the image whose gradient shall exceed the threshold
   float per_noise;        // threshold per grey level of the noise's standard deviation
@@ -290,7 +290,7 @@ typedef struct {
   float cluster_orientation;  // rad
 } QuadChoice;
 
-// A row of temporal_match.cl and temporal_quads.cl, ints: current edge or -1, rivals, score as bits, flags.
+// A row of temporal_match.cl and temporal_quads.cl, ints: current edge or -1, competing clusters, score as bits, flags.
 enum {
   kQuadRowInts = 4,
   kLeftAlive = 1,   // flag: the left list kept a candidate before the agreement

@@ -42,7 +42,7 @@ static inline PatchFrame patch_frame(const float x, const float y, const float c
   (uint16)(p[k.s0], p[k.s1], p[k.s2], p[k.s3], p[k.s4], p[k.s5], p[k.s6], p[k.s7], p[k.s8], p[k.s9], p[k.sa], p[k.sb], \
            p[k.sc], p[k.sd], p[k.se], p[k.sf])
 #define CORNER(N, packed, shift, mask) (convert_float##N(as_int##N(packed >> shift & (uint##N)(mask))) * GREY_PER_VALUE)
-#if WHITE > 255
+#if MAX_VALUE > 255
 #define CORNERS(N, corners, k)                                                            \
   const int##N above_ = 2 * (k), below_ = above_ + 1;                                     \
   const uint##N upper_ = GATHER##N(corners, above_), lower_ = GATHER##N(corners, below_); \

@@ -54,7 +54,7 @@ static inline int any_patch(local const float* told) {
 
 // Grey level of a corner (pixel_corners.cl).
 static inline float corner_grey(global const uint* corners, const int pixel, const int corner) {
-#if WHITE > 255
+#if MAX_VALUE > 255
   return (float)(int)(corners[2 * pixel + corner / 2] >> (16 * (corner & 1)) & 65535u) * GREY_PER_VALUE;
 #else
   return (float)(int)(corners[pixel] >> (8 * corner) & 255u) * GREY_PER_VALUE;

@@ -10,7 +10,7 @@ kernel void pixel_corners(global const uchar* bytes, const int width, const int 
   const int right = min(x + 1, width - 1);
   global const Pixel* above = (global const Pixel*)bytes + y * width;
   global const Pixel* below = (global const Pixel*)bytes + min(y + 1, height - 1) * width;
-#if WHITE > 255
+#if MAX_VALUE > 255
   corners[2 * (y * width + x)] = (uint)above[x] | (uint)above[right] << 16;
   corners[2 * (y * width + x) + 1] = (uint)below[x] | (uint)below[right] << 16;
 #else

@@ -1,6 +1,7 @@
 // temporal_match.cl: the whole temporal cascade of one row in one work-item: displacement, orientation, NCC and nearly
-// best NCC in both images, agreement, the best and its rivals. The same as temporal_candidates.cl, candidate_filters.cl
-// without SIFT and temporal_quads.cl one after the other, without lists in global memory.
+// best NCC in both images, agreement, the best and the competing clusters. The same as
+// temporal_candidates.cl, candidate_filters.cl without SIFT and temporal_quads.cl one after the other, without lists in
+// global memory.
 //
 // Needs similarity.cl, edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in
 // both current images (NaN: none), the point indices of the current stereo edges of both sides, side patches, with the

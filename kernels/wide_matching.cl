@@ -6,7 +6,7 @@
 // Out per row: the column with the highest similarity, the first on a tie, or -1 where
 //   - another row farther than `neighbourhood` px from this one is at least as alike to that column, or
 //   - a column farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test against
-//   a rival elsewhere).
+//   a match elsewhere).
 // One work-item = one row. Reference: host/reference/wide_matching.cpp.
 
 #define BLOCKS (kWideBytes / 16)
@@ -61,7 +61,8 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
     if (!wide_apart(row_edges, row_edges + row_stride, other * row_step, row * row_step, neighbourhood)) continue;
     if (wide_product(&found, row_descriptors + (size_t)other * kWideBytes) >= highest) return;
   }
-  const float limit = SQUARE - (SQUARE - highest) / (ratio * ratio);  // similarity of a rival that is too near
+  const float limit =
+      SQUARE - (SQUARE - highest) / (ratio * ratio);  // similarity from which a match elsewhere is too good
   for (int column = 0; column < columns; ++column) {
     if (!wide_apart(column_edges, column_edges + column_stride, column * column_step, winner * column_step,
                     neighbourhood))

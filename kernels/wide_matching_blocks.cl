@@ -9,7 +9,7 @@
 #ifndef ROWS
 #define ROWS 8
 #endif
-#define LISTED 64         // blocks of columns that may hold a rival, per row
+#define LISTED 64         // blocks of columns that may hold a competing match, per row
 #define SQUARE 262144.0f  // 512^2
 
 kernel void wide_transpose(global const uchar* descriptors, const int count, global uchar* blocks) {
@@ -53,7 +53,7 @@ static inline float wide_highest(const float16 v) {
   return fmax(two.x, two.y);
 }
 
-// The similarity above which a rival elsewhere is too near to one of `highest`.
+// The similarity above which a match elsewhere is too close to one of `highest`.
 static inline float wide_limit(const float highest, const float ratio) {
   return SQUARE - (SQUARE - highest) / (ratio * ratio);
 }
@@ -108,8 +108,8 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
         while (of_lane[lane] != here) ++lane;
         winner[r] = block * kBlockLanes + lane;
       }
-      // The limit only rises: what it has passed is no rival. A full list is cleared of that; LISTED + 1 says it did
-      // not suffice.
+      // The limit only rises: whatever it has passed does not compete. A full list is cleared of that;
+      // LISTED + 1 says it did not suffice.
       const float limit = wide_limit(highest[r], ratio);
       if (here <= limit || listed[r] > LISTED) continue;
       if (listed[r] == LISTED) {

@@ -119,7 +119,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_match(const 
     }
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  for (int from = 0; from < columns; from += GROUP) {  // a rival column that is too near
+  for (int from = 0; from < columns; from += GROUP) {  // a column elsewhere whose similarity is too close
     const int count = min(GROUP, columns - from);
     load_tile(column_words, from, count, tile);
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -83,7 +83,8 @@ inline bool same_bytes(const StereoEdges& a, const StereoEdges& b) {
 }
 inline bool same_bytes(const TemporalMatches& a, const TemporalMatches& b) {
   return a.previous == b.previous && a.current == b.current && a.left_x == b.left_x && a.left_y == b.left_y &&
-         a.right_x == b.right_x && a.right_y == b.right_y && a.ncc == b.ncc && a.rivals == b.rivals;
+         a.right_x == b.right_x && a.right_y == b.right_y && a.ncc == b.ncc &&
+         a.competing_clusters == b.competing_clusters;
 }
 inline bool same_bytes(const EdgeSet& a, const EdgeSet& b) {
   return a.x == b.x && a.y == b.y && a.direction == b.direction && a.strength == b.strength &&

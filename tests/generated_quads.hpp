@@ -215,7 +215,7 @@ inline void append(quadedge::pose::QuadObservations& quads, const quadedge::pose
   both(quads.previous, others.previous);
   both(quads.current, others.current);
   both(quads.ncc, others.ncc);
-  both(quads.rivals, others.rivals);
+  both(quads.competing_clusters, others.competing_clusters);
   both(quads.match, others.match);
   for (std::size_t row = 0; row < others.scoring.size(); ++row) quads.scoring.append_row(others.scoring, row);
 }

@@ -31,7 +31,7 @@ inline std::string write_calibration_of_small(const std::string& file) {
 
 /// Both views side by side, or one above the other.
 inline quadedge::Image joined(const quadedge::Image& left, const quadedge::Image& right, bool beside = true) {
-  quadedge::Image both(left.width * (beside ? 2 : 1), left.height * (beside ? 1 : 2), left.white);
+  quadedge::Image both(left.width * (beside ? 2 : 1), left.height * (beside ? 1 : 2), left.max_value);
   for (int y = 0; y < left.height; ++y) {
     for (int x = 0; x < left.width; ++x) {
       both.set(x, y, left.view().value(x, y));
@@ -44,11 +44,11 @@ inline quadedge::Image joined(const quadedge::Image& left, const quadedge::Image
 /// A picture as binary PGM.
 inline std::string pgm(const quadedge::Image& image) {
   std::string text = "P5\n# a picture\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n" +
-                     std::to_string(image.white) + "\n";
+                     std::to_string(image.max_value) + "\n";
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const int value = image.view().value(x, y);
-      if (image.white > 255) text += static_cast<char>(value >> 8);
+      if (image.max_value > 255) text += static_cast<char>(value >> 8);
       text += static_cast<char>(value & 255);
     }
   }

@@ -78,17 +78,17 @@ TEST_CASE("acceptance: what moves otherwise is a ratio of the image, and two mot
   // The thing holds two thirds of the edges: that many lie where few move as the scene does, the rest the other way.
   seen.area_of(scene.motion);
   CHECK(seen.step.moving_ratio > 0.5);
-  CHECK(Acceptance::leaves_most_over(seen.step));
+  CHECK(Acceptance::is_minority_motion(seen.step));
   seen.area_of(thing.motion);
   CHECK(seen.step.moving_ratio > 0.2);
   CHECK(seen.step.moving_ratio < 0.4);
-  CHECK_FALSE(Acceptance::leaves_most_over(seen.step));
+  CHECK_FALSE(Acceptance::is_minority_motion(seen.step));
 
   thing.motion = scene.motion;
   TwoMotions alike(thing, scene);
   alike.area_of(scene.motion);
   CHECK(alike.step.moving_ratio < 0.02);
-  CHECK_FALSE(Acceptance::leaves_much_over(alike.step));
+  CHECK_FALSE(Acceptance::has_secondary_motion(alike.step));
 
   const Config config;
   const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
@@ -98,12 +98,12 @@ TEST_CASE("acceptance: what moves otherwise is a ratio of the image, and two mot
   near.motion.current_from_previous = shift(0.005, 0) * scene.motion;
   other.motion.current_from_previous = shift(0.6, 0);
   const Eigen::Isometry3d same_base = Eigen::Isometry3d::Identity();
-  CHECK(acceptance.are_one(alike.step, near, same_base));
-  CHECK_FALSE(acceptance.are_rivals(alike.step, near, same_base));
-  CHECK_FALSE(acceptance.are_one(alike.step, other, same_base));
-  CHECK(acceptance.are_rivals(alike.step, other, same_base));
-  other.explained_area = 0.1 * alike.step.explained_area;  // a small thing is no rival
-  CHECK_FALSE(acceptance.are_rivals(alike.step, other, same_base));
+  CHECK(acceptance.are_same_motion(alike.step, near, same_base));
+  CHECK_FALSE(acceptance.are_competing(alike.step, near, same_base));
+  CHECK_FALSE(acceptance.are_same_motion(alike.step, other, same_base));
+  CHECK(acceptance.are_competing(alike.step, other, same_base));
+  other.explained_area = 0.1 * alike.step.explained_area;  // a small thing does not compete
+  CHECK_FALSE(acceptance.are_competing(alike.step, other, same_base));
 }
 
 TEST_CASE("acceptance: what stands still against the motion says that the camera may stand still", "[odometry]") {
@@ -120,15 +120,15 @@ TEST_CASE("acceptance: what stands still against the motion says that the camera
   Acceptance acceptance(config, offset);
   TwoMotions seen(thing, scene);
   seen.area_of(thing.motion);
-  CHECK(acceptance.leaves_a_still_world(seen.step));
+  CHECK(acceptance.contradicts_static_scene(seen.step));
   seen.area_of(scene.motion);
-  CHECK_FALSE(acceptance.leaves_a_still_world(seen.step));
+  CHECK_FALSE(acceptance.contradicts_static_scene(seen.step));
   // What is so far away that it hardly moves agrees with the motion as well.
   scene.motion = thing.motion;
   scene.near = scene.far = 2000;
   TwoMotions far(thing, scene);
   far.area_of(thing.motion);
-  CHECK_FALSE(acceptance.leaves_a_still_world(far.step));
+  CHECK_FALSE(acceptance.contradicts_static_scene(far.step));
 }
 
 TEST_CASE("acceptance: what support is enough follows from what motions have reached lately", "[odometry]") {
@@ -205,21 +205,21 @@ TEST_CASE("acceptance: edges found anywhere bear out the motion that brought the
   generated::Problem problem;
   problem.motion = shift(0.1, -0.9);
   problem.quads = 40;
-  MotionStep anywhere, step;
-  anywhere.quads = generated::generate(problem, 3).quads;
+  MotionStep global, step;
+  global.quads = generated::generate(problem, 3).quads;
   step.base = query.base;
   step.motion.current_from_previous = problem.motion;
-  CHECK(acceptance.is_seen(anywhere, query, step));
+  CHECK(acceptance.agrees_with_global_matches(global, query, step));
   step.motion.current_from_previous = shift(-1, 0.9);
-  CHECK_FALSE(acceptance.is_seen(anywhere, query, step));
+  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step));
   // Measured against the key rig.
   step.base = query.key;
   step.motion.current_from_previous = problem.motion * query.base_from_key;
-  CHECK(acceptance.is_seen(anywhere, query, step));
+  CHECK(acceptance.agrees_with_global_matches(global, query, step));
   // Neighbours on one curve count once.
   problem.quads = 1;
   problem.copies = 40;
-  anywhere.quads = generated::generate(problem, 4).quads;
-  REQUIRE(anywhere.quads.size() == 40);
-  CHECK_FALSE(acceptance.is_seen(anywhere, query, step));
+  global.quads = generated::generate(problem, 4).quads;
+  REQUIRE(global.quads.size() == 40);
+  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step));
 }

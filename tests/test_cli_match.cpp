@@ -34,7 +34,7 @@ TEST_CASE("match: left points stand as edges prints them, and points lie where t
   for (const auto& row : read_lines(folder / "edges.csv")) edges.insert(row.substr(0, row.rfind(',')));
   const auto rows = read_lines(folder / "matches.csv");
   REQUIRE(rows.size() > 200);
-  CHECK(rows[0] == "left_x,left_y,left_direction_rad,right_x,right_y,right_direction_rad,likeness,x_m,y_m,z_m");
+  CHECK(rows[0] == "left_x,left_y,left_direction_rad,right_x,right_y,right_direction_rad,ncc,x_m,y_m,z_m");
   const auto& rig = own_camera::small_dataset().rig;
   std::size_t strangers = 0, points = 0, wrong = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {

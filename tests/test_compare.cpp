@@ -231,12 +231,12 @@ TEST_CASE("compare: the first difference names stage, edge and value", "[bench]"
   for (int i = 0; i < 5; ++i) {
     a.left_edges.x.push_back(static_cast<float>(i));
     a.current.ncc.push_back(0.5F);
-    a.quads.rivals.push_back(i);
+    a.quads.competing_clusters.push_back(i);
   }
   CHECK(bench::first_difference(a, a).empty());
   auto b = a;
-  b.quads.rivals[3] = 7;
-  CHECK(bench::first_difference(a, b) == "temporal_match, quad 3: rivals is 3 instead of 7");
+  b.quads.competing_clusters[3] = 7;
+  CHECK(bench::first_difference(a, b) == "temporal_match, quad 3: competing clusters is 3 instead of 7");
   b.current.ncc.pop_back();
   CHECK(bench::first_difference(a, b) ==
         "stereo_mutual, stereo edge of the second frame: 5 instead of 4 values of NCC");

@@ -36,7 +36,7 @@ TEST_CASE("images: colour becomes luminance, 16 bits keep their depth", "[datase
   write_image(folder / "deep.png", 33, 21, CV_16UC1);
   const Image deep = read_grey_image(folder / "deep.png");
   const cv::Mat expected = pattern(33, 21);  // the 16-bit pattern is 257 times this one
-  CHECK(deep.white == 65535);
+  CHECK(deep.max_value == 65535);
   for (int y = 0; y < 21; ++y) {
     for (int x = 0; x < 33; ++x) {
       REQUIRE(deep.view().value(x, y) == 257 * expected.at<std::uint8_t>(y, x));
@@ -45,17 +45,17 @@ TEST_CASE("images: colour becomes luminance, 16 bits keep their depth", "[datase
   }
 }
 
-TEST_CASE("images: the largest value of a PGM is white", "[dataset]") {
+TEST_CASE("images: the header of a PGM gives its largest value", "[dataset]") {
   const TemporaryFolder folder;
   write_text(folder / "dim.pgm", "P5 3 1 100\n" + std::string({'\0', '\x32', '\x64'}));
   const Image dim = read_grey_image(folder / "dim.pgm");
-  CHECK(dim.white == 100);
+  CHECK(dim.max_value == 100);
   CHECK(dim.view().at(0, 0) == 0);
   CHECK(dim.view().at(1, 0) == Approx(127.5));
   CHECK(dim.view().at(2, 0) == Approx(255));
   write_text(folder / "twelve.pgm", "P5 2 1 4095\n" + std::string({'\x0f', '\xff', '\x08', '\x00'}));
   const Image twelve = read_grey_image(folder / "twelve.pgm");
-  CHECK(twelve.white == 4095);
+  CHECK(twelve.max_value == 4095);
   CHECK(twelve.view().value(0, 0) == 4095);
   CHECK(twelve.view().value(1, 0) == 2048);
   CHECK(twelve.view().at(0, 0) == Approx(255));

@@ -30,7 +30,7 @@ struct Input {
   opencl::Buffer<cl_float> threshold;
 
   Input(opencl::Context& context, const Image& image, const EdgesConfig& config)
-      : plane(context, image.width, image.height, config.sigma, image.white) {
+      : plane(context, image.width, image.height, config.sigma, image.max_value) {
     opencl::Buffer<cl_uchar> pixels;
     pixels.write(context, image.pixels);
     plane.prepare(pixels);

@@ -18,26 +18,26 @@ using namespace quadedge;
 namespace {
 
 /// Normal noise around `level`, rounded and clipped as a camera does it.
-Image noisy_image(int width, int height, double level, double sigma, int white = kWhite8, unsigned seed = 1) {
+Image noisy_image(int width, int height, double level, double sigma, int max_value = kMaxValue8, unsigned seed = 1) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(level, sigma);
-  Image image(width, height, white);
+  Image image(width, height, max_value);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const double value = normal(generator) * white / kWhite8;
-      image.set(x, y, static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(white))));
+      const double value = normal(generator) * max_value / kMaxValue8;
+      image.set(x, y, static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(max_value))));
     }
   }
   return image;
 }
 
 /// The picture with its differences from `middle` scaled, in another depth.
-Image flattened(const Image& image, double contrast, int white, double middle = 128) {
-  Image result(image.width, image.height, white);
+Image flattened(const Image& image, double contrast, int max_value, double middle = 128) {
+  Image result(image.width, image.height, max_value);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const double grey = middle + contrast * (static_cast<double>(image.view().at(x, y)) - middle);
-      result.set(x, y, static_cast<int>(std::lround(grey * white / kWhite8)));
+      result.set(x, y, static_cast<int>(std::lround(grey * max_value / kMaxValue8)));
     }
   }
   return result;
@@ -56,7 +56,7 @@ std::vector<ThresholdAndNoise> measure(Device& device, const std::string& varian
   for (const auto& images : frames) {
     std::vector<stages::PaddedPlane> planes;
     for (const Image& image : images) {
-      planes.emplace_back(context, image.width, image.height, config.sigma, image.white);
+      planes.emplace_back(context, image.width, image.height, config.sigma, image.max_value);
       opencl::Buffer<cl_uchar> pixels;
       pixels.write(context, image.pixels);
       planes.back().prepare(pixels);
@@ -183,9 +183,9 @@ TEST_CASE("edge threshold: follows the contrast, and the edges stay", "[edges][d
   for (const auto& index : all_devices()) {
     Device device(index, kept_programs());
     const std::size_t edges = detect_edges(bright.view(), device, {}).size();
-    for (const auto& [contrast, white] : {std::pair{0.2, 255}, {0.1, 4095}, {0.05, 65535}, {0.004, 65535}}) {
-      INFO(device.info().name << " " << contrast << " " << white);
-      const Image dim = flattened(bright, contrast, white);
+    for (const auto& [contrast, max_value] : {std::pair{0.2, 255}, {0.1, 4095}, {0.05, 65535}, {0.004, 65535}}) {
+      INFO(device.info().name << " " << contrast << " " << max_value);
+      const Image dim = flattened(bright, contrast, max_value);
       const EdgeSet found = detect_edges(dim.view(), device, {});
       CHECK(static_cast<double>(found.size()) > 0.75 * static_cast<double>(edges));
       CHECK(static_cast<double>(found.size()) < 1.5 * static_cast<double>(edges));

@@ -137,8 +137,8 @@ TEST_CASE("frontend: found anywhere, edges are the reference's on every device, 
     Device device(device_name, kept_programs());
     const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
     const auto first = frontend->process(scene.frame(0)), second = frontend->process(scene.frame(1));
-    const auto matches = frontend->match_anywhere(*first);
-    CHECK(same_bytes(matches, frontend->match_anywhere(*first)));
+    const auto matches = frontend->match_globally(*first);
+    CHECK(same_bytes(matches, frontend->match_globally(*first)));
     const StereoEdges& before = first->edges;
     std::size_t right = 0;
     for (std::size_t m = 0; m < matches.size(); ++m) {
@@ -190,7 +190,7 @@ TEST_CASE("frontend: a rig that is held stays as it was, one that nobody holds s
     const auto other = frontend::make_frontend(scene.rig, device, scene.config);
     other->process(scene.frame(1));
     CHECK_THROWS_AS(other->match(*held, search_around(edges, 12)), std::invalid_argument);
-    CHECK_THROWS_AS(other->match_anywhere(*held), std::invalid_argument);
+    CHECK_THROWS_AS(other->match_globally(*held), std::invalid_argument);
   }
 }
 

@@ -112,7 +112,7 @@ TEST_CASE("image depth: a hundredth of the contrast in 16 bits is tracked like t
 TEST_CASE("image depth: images of another depth than the rig's are refused", "[odometry][device]") {
   const RenderedScene scene("room", 160, 100, 1);
   StereoRig rig = scene.rig;
-  rig.white = 65535;
+  rig.max_value = 65535;
   Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(rig, device, scene.config);
   CHECK_THROWS_AS(odometry.track(scene.frame(0)), DataError);

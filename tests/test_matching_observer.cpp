@@ -129,7 +129,7 @@ TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time 
   matches.right_x = {15.1F, 38, 45};
   matches.left_y = matches.right_y = {10, 30, 40};
   matches.ncc = {1, 1, 1};
-  matches.rivals = {3, 1, 5};
+  matches.competing_clusters = {3, 1, 5};
   observer.quads(matches);
   result.status = FrameStatus::tracked;
   result.search = 0;

@@ -18,14 +18,14 @@ class CountingFrontend : public frontend::Frontend {
     largest_radius = std::max(largest_radius, search.radius);
     reference_->match(base, search, matches);
   }
-  void match_anywhere(const frontend::Rig& base, TemporalMatches& matches) override {
-    ++anywhere;
-    reference_->match_anywhere(base, matches);
+  void match_globally(const frontend::Rig& base, TemporalMatches& matches) override {
+    ++global;
+    reference_->match_globally(base, matches);
   }
   EdgeSet edges(Side side) override { return reference_->edges(side); }
   std::size_t device_bytes() const override { return 0; }
 
-  int coarse = 0, guided = 0, anywhere = 0;
+  int coarse = 0, guided = 0, global = 0;
   float largest_radius = 0;
 
  private:
@@ -54,7 +54,7 @@ struct TwoFrames {
   /// Finds the motion and compares it with the true one.
   void check(const std::optional<Eigen::Isometry3d>& prediction) {
     query.prediction = prediction;
-    frontend->coarse = frontend->guided = frontend->anywhere = 0;
+    frontend->coarse = frontend->guided = frontend->global = 0;
     frontend->largest_radius = 0;
     const auto step = search->find(query);
     REQUIRE(step->ok());
@@ -77,13 +77,13 @@ TEST_CASE("motion search: a good prediction ends it, any other calls for edges f
   frames.check(frames.truth());
   CHECK(frames.frontend->coarse == 1);
   CHECK(frames.frontend->guided > 0);
-  CHECK(frames.frontend->anywhere == 0);
+  CHECK(frames.frontend->global == 0);
   frames.check(std::nullopt);
   CHECK(frames.frontend->coarse == 0);
-  CHECK(frames.frontend->anywhere == 1);
+  CHECK(frames.frontend->global == 1);
   frames.check(turned(frames.truth()));
   CHECK(frames.frontend->coarse == 1);
-  CHECK(frames.frontend->anywhere == 1);
+  CHECK(frames.frontend->global == 1);
 }
 
 TEST_CASE("motion search: without edges found anywhere the coarse search widens", "[odometry]") {
@@ -95,7 +95,7 @@ TEST_CASE("motion search: without edges found anywhere the coarse search widens"
   frames.check(std::nullopt);
   CHECK(frames.frontend->coarse == 1);
   CHECK(frames.frontend->largest_radius == static_cast<float>(wide));
-  CHECK(frames.frontend->anywhere == 0);
+  CHECK(frames.frontend->global == 0);
 }
 
 TEST_CASE("motion search: the key rig is preferred, and holding no step holds no rig", "[odometry]") {

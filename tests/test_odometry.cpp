@@ -280,7 +280,7 @@ TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odo
 TEST_CASE("odometry: a stride below a row's bytes is refused, of 8 and of 16 bits", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoRig deep = room().rig;
-  deep.white = 65535;
+  deep.max_value = 65535;
   const Image bytes(240, 150), words(240, 150, 65535);
   for (const auto& [rig, image, row] :
        {std::tuple<StereoRig, ImageView, std::ptrdiff_t>{room().rig, bytes.view(), 240}, {deep, words.view(), 480}}) {

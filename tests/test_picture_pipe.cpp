@@ -15,16 +15,17 @@ namespace {
 
 constexpr int kPipeWidth = 12, kPipeHeight = 7;
 
-Image piped_picture(int number, int width = kPipeWidth, int white = 255) {
-  Image image(width, kPipeHeight, white);
+Image piped_picture(int number, int width = kPipeWidth, int max_value = 255) {
+  Image image(width, kPipeHeight, max_value);
   for (int y = 0; y < kPipeHeight; ++y)
-    for (int x = 0; x < width; ++x) image.set(x, y, (13 * number + 5 * x + 3 * y) * (white / 255) % (white + 1));
+    for (int x = 0; x < width; ++x)
+      image.set(x, y, (13 * number + 5 * x + 3 * y) * (max_value / 255) % (max_value + 1));
   return image;
 }
 
-std::string pairs(int count, int white = 255) {
+std::string pairs(int count, int max_value = 255) {
   std::string text;
-  for (int i = 0; i < 2 * count; ++i) text += own_camera::pgm(piped_picture(i, kPipeWidth, white));
+  for (int i = 0; i < 2 * count; ++i) text += own_camera::pgm(piped_picture(i, kPipeWidth, max_value));
   return text;
 }
 
@@ -69,17 +70,17 @@ std::string pipe_complaint(const std::string& bytes, Split split = Split::none) 
 }  // namespace
 
 TEST_CASE("pipe: pictures are read in turn, at any depth, with stamps by their number", "[data]") {
-  for (const int white : {255, 4095, 65535}) {
-    const Source source(pairs(3, white));
+  for (const int max_value : {255, 4095, 65535}) {
+    const Source source(pairs(3, max_value));
     const auto reader = make_picture_pipe(source.descriptor(), {Split::none, 10, 0})->open();
     for (int i = 0; i < 3; ++i) {
       const auto pair = reader->next();
       REQUIRE(pair);
       CHECK(pair->number == i);
       CHECK(pair->stamp_ns == i * 100'000'000);
-      CHECK(pair->left.white == white);
-      CHECK(pair->left.pixels == piped_picture(2 * i, kPipeWidth, white).pixels);
-      CHECK(pair->right.pixels == piped_picture(2 * i + 1, kPipeWidth, white).pixels);
+      CHECK(pair->left.max_value == max_value);
+      CHECK(pair->left.pixels == piped_picture(2 * i, kPipeWidth, max_value).pixels);
+      CHECK(pair->right.pixels == piped_picture(2 * i + 1, kPipeWidth, max_value).pixels);
     }
     CHECK_FALSE(reader->next());
   }

@@ -33,7 +33,7 @@ TEST_CASE("Quads take the detected positions, keep their match's row and leave o
     matches.right_x.push_back(static_cast<float>(after.right.x()) + 0.9f);
     matches.right_y.push_back(static_cast<float>(after.right.y()));
     matches.ncc.push_back(static_cast<float>(i) / 20.0f);
-    matches.rivals.push_back(i % 3);
+    matches.competing_clusters.push_back(i % 3);
   }
   const QuadObservations quads = build_quads(rig, previous, current, matches, generated::limits());
   REQUIRE(quads.size() == 19);
@@ -41,7 +41,7 @@ TEST_CASE("Quads take the detected positions, keep their match's row and leave o
   for (std::size_t k = 0; k < quads.size(); ++k) {
     const std::size_t i = k < 7 ? k : k + 1;
     CHECK(quads.match[k] == static_cast<int>(i));
-    CHECK(quads.rivals[k] == static_cast<int>(i) % 3);
+    CHECK(quads.competing_clusters[k] == static_cast<int>(i) % 3);
     CHECK(quads.ncc[k] == Approx(static_cast<double>(i) / 20.0).margin(1e-6));
     const Eigen::Vector3d after = motion * truth[i].point;
     CHECK((quads.previous[k].oriented_point().point - truth[i].point).norm() < 1e-4 * truth[i].point.norm());

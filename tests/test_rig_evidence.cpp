@@ -138,7 +138,7 @@ TEST_CASE("rig evidence: aligned patches say how far a rig of half a degree's pi
   Device device(all_devices().front(), kept_programs());
   const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);
   const auto seen = frontend->process(evidence_room().frame(0));
-  std::vector<odometry::ProbedSpot> spots;
+  std::vector<odometry::CornerMatch> spots;
   odometry::EpipolarProbe(rig, evidence_room().config.stereo.max_disparity)
       .align(evidence_room().frame(0), seen->edges, spots);
   const odometry::EpipolarFit fit = odometry::fit_across(spots, rig.left.width, rig.left.height);

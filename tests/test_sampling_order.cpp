@@ -4,10 +4,11 @@
 
 using namespace quadedge::pose;
 
-TEST_CASE("Quads are sampled by fewest rivals, then highest NCC, then lowest index", "[pose][sampling_order]") {
+TEST_CASE("Quads are sampled by fewest competing clusters, then highest NCC, then lowest index",
+          "[pose][sampling_order]") {
   QuadObservations quads;
   quads.resize(6);
-  quads.rivals = {1, 0, 0, 0, 0, 2};
+  quads.competing_clusters = {1, 0, 0, 0, 0, 2};
   quads.ncc = {1.0f, 0.7f, 0.9f, -0.5f, 0.9f, 1.0f};
   std::vector<SamplingOrder::Entry> buffer;
   SamplingOrder order(quads, buffer);

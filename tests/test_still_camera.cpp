@@ -21,7 +21,7 @@ TEST_CASE("still camera: that nothing moved since the base is always proposed, w
   const auto used = steps.take(query.base);
   used->motion.current_from_previous = *query.prediction;
   odometry::Evidence nothing, found;
-  found.confirmed = found.found_anywhere = used.get();
+  found.confirmed = found.global_matches = used.get();
   for (odometry::Evidence* evidence : {&nothing, &found}) {
     const auto step = hypothesis.propose(query, *evidence);
     REQUIRE(step);

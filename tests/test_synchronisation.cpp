@@ -27,16 +27,16 @@ Synchronisation watched(double late, double calibration) {
 }  // namespace
 
 TEST_CASE("synchronisation: a late camera is told by how much, early ones too", "[odometry][rig]") {
-  CHECK(watched(1, 0).lateness() == Approx(1).margin(0.02));
-  CHECK(watched(1, 2).lateness() == Approx(1).margin(0.02));
-  CHECK(watched(-0.5, 0).lateness() == Approx(-0.5).margin(0.02));
+  CHECK(watched(1, 0).time_offset_frames() == Approx(1).margin(0.02));
+  CHECK(watched(1, 2).time_offset_frames() == Approx(1).margin(0.02));
+  CHECK(watched(-0.5, 0).time_offset_frames() == Approx(-0.5).margin(0.02));
 }
 
 TEST_CASE("synchronisation: errors of the calibration and few samples say nothing", "[odometry][rig]") {
-  CHECK(watched(0, 0).lateness() == 0);
-  CHECK(watched(0, 2).lateness() == 0);
-  CHECK(watched(0.05, 0).lateness() == 0);  // within what one does not warn about
-  Synchronisation still;                    // nothing moves: late or not cannot be told
+  CHECK(watched(0, 0).time_offset_frames() == 0);
+  CHECK(watched(0, 2).time_offset_frames() == 0);
+  CHECK(watched(0.05, 0).time_offset_frames() == 0);  // within what one does not warn about
+  Synchronisation still;                              // nothing moves: late or not cannot be told
   for (int i = 0; i < 1000; ++i) still.add(0.001 * (i % 100), 0.01 * (i % 7), 0.5, 0);
-  CHECK(still.lateness() == 0);
+  CHECK(still.time_offset_frames() == 0);
 }

@@ -191,7 +191,7 @@ struct TemporalScene {
       CHECK(found->right_alive == truth.right.alive_rows);
       CHECK(found->quads.previous == truth.matches.previous);
       CHECK(found->quads.current == truth.matches.current);
-      CHECK(found->quads.rivals == truth.matches.rivals);
+      CHECK(found->quads.competing_clusters == truth.matches.competing_clusters);
       CHECK(found->quads.ncc == truth.matches.ncc);
       CHECK(found->quads.right_x == truth.matches.right_x);
       if (!tapped) return;

@@ -86,7 +86,7 @@ struct QuadScene {
                        const auto found = stage.collect(device_edges, current, search, predicted.list(), device_left);
                        CHECK(found.previous == truth.previous);
                        CHECK(found.current == truth.current);
-                       CHECK(found.rivals == truth.rivals);
+                       CHECK(found.competing_clusters == truth.competing_clusters);
                        CHECK(found.ncc == truth.ncc);
                        CHECK(found.left_x == truth.left_x);
                        CHECK(found.right_y == truth.right_y);
@@ -110,7 +110,7 @@ TEST_CASE("temporal agreement: a candidate needs its counterpart alive in the ot
   CHECK(agreement[0] == Approx(0.8));
 }
 
-TEST_CASE("temporal best: chained positions are one group, others are rivals, ties go to the first",
+TEST_CASE("temporal best: chained positions are one group, others compete, ties go to the first",
           "[temporal][matching]") {
   StereoEdges current;
   add(current, 5, 5, 10);
@@ -129,12 +129,12 @@ TEST_CASE("temporal best: chained positions are one group, others are rivals, ti
   REQUIRE(matches.size() == 1);
   CHECK(matches.previous[0] == 0);
   CHECK(matches.current[0] == 0);
-  CHECK(matches.rivals[0] == 2);
+  CHECK(matches.competing_clusters[0] == 2);
   CHECK(matches.left_x[0] == 5.0f);
   CHECK(matches.right_x[0] == 1.0f);
   CHECK(matches.ncc[0] == 0.9f);
   scores.state[2] = 7;  // the link is gone: four groups
-  CHECK(reference::temporal_best(lists, scores, agreement, current, config, search).rivals[0] == 3);
+  CHECK(reference::temporal_best(lists, scores, agreement, current, config, search).competing_clusters[0] == 3);
 }
 
 TEST_CASE("temporal best: among equals the predicted position decides, as far as its weight goes",

@@ -9,11 +9,11 @@ using namespace quadedge;
 
 namespace {
 
-Image pattern(int width, int height, int white = kWhite8) {
-  Image image(width, height, white);
+Image pattern(int width, int height, int max_value = kMaxValue8) {
+  Image image(width, height, max_value);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image.set(x, y, (x * 37 + y * 101 + x * y * 5) * (white / kWhite8) % (white + 1));
+      image.set(x, y, (x * 37 + y * 101 + x * y * 5) * (max_value / kMaxValue8) % (max_value + 1));
     }
   }
   return image;
@@ -51,12 +51,12 @@ TEST_CASE("undistortion: every device and variant equals the reference exactly",
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "undistortion") continue;
       for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
-        for (const int white : {255, 4095, 65535}) {
-          const Image image = pattern(width + 2, height + 3, white);
+        for (const int max_value : {255, 4095, 65535}) {
+          const Image image = pattern(width + 2, height + 3, max_value);
           for (const auto& [dx, dy] : {std::pair{0.37f, 1.61f}, {-3.25f, 4.8f}}) {  // the second leaves the image
             const auto table = shift_table(width, height, dx, dy);
             stages::Undistortion stage(*device.context(), table, width, height, {{"undistortion", variant.name}},
-                                       white);
+                                       max_value);
             opencl::Buffer<cl_uchar> result;
             stage.run(image.view(), result);
             const Image expected = reference::undistort(image.view(), table);

@@ -12,16 +12,16 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Pictures that differ from one another in every pixel, of every depth.
-Image picture(int number, int width = 48, int height = 32, int white = 255) {
-  Image image(width, height, white);
+Image picture(int number, int width = 48, int height = 32, int max_value = 255) {
+  Image image(width, height, max_value);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) image.set(x, y, (37 * number + 5 * x + 11 * y + x * y) % (white + 1));
+    for (int x = 0; x < width; ++x) image.set(x, y, (37 * number + 5 * x + 11 * y + x * y) % (max_value + 1));
   return image;
 }
 
-std::string stream(int first, int count, int width = 48, int height = 32, int white = 255) {
+std::string stream(int first, int count, int width = 48, int height = 32, int max_value = 255) {
   std::string text;
-  for (int i = first; i < first + count; ++i) text += own_camera::pgm(picture(i, width, height, white));
+  for (int i = first; i < first + count; ++i) text += own_camera::pgm(picture(i, width, height, max_value));
   return text;
 }
 
@@ -48,8 +48,8 @@ std::string read_all(const std::string& file, int& pictures) {
 
 TEST_CASE("video: lossless grey pictures come back byte for byte, at their depth", "[data]") {
   const TemporaryFolder folder;
-  for (const auto& [white, format] : {std::pair<int, const char*>{255, "gray"}, {65535, "gray16le"}}) {
-    const std::string file = video(folder, stream(0, 5, 48, 32, white), std::string("-c:v ffv1 -pix_fmt ") + format,
+  for (const auto& [max_value, format] : {std::pair<int, const char*>{255, "gray"}, {65535, "gray16le"}}) {
+    const std::string file = video(folder, stream(0, 5, 48, 32, max_value), std::string("-c:v ffv1 -pix_fmt ") + format,
                                    std::string(format) + ".mkv");
     VideoFile read(file);
     CHECK(read.promised() == 5);
@@ -57,8 +57,8 @@ TEST_CASE("video: lossless grey pictures come back byte for byte, at their depth
     for (int i = 0; i < 5; ++i) {
       const auto next = read.next();
       REQUIRE(next);
-      CHECK(next->image.white == white);
-      CHECK(next->image.pixels == picture(i, 48, 32, white).pixels);
+      CHECK(next->image.max_value == max_value);
+      CHECK(next->image.pixels == picture(i, 48, 32, max_value).pixels);
       CHECK(next->stamp_ns == i * 50'000'000);
     }
     CHECK_FALSE(read.next());

@@ -68,7 +68,7 @@ TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& curr
     CHECK(found.previous == expected.previous);
     CHECK(found.current == expected.current);
     CHECK(found.ncc == expected.ncc);
-    CHECK(found.rivals == expected.rivals);
+    CHECK(found.competing_clusters == expected.competing_clusters);
     CHECK(found.left_x == expected.left_x);
     CHECK(found.right_x == expected.right_x);
   });
@@ -84,10 +84,10 @@ TEST_CASE("wide matching: about as many edges take part as wanted", "[wide]") {
   CHECK(wide_step(30000, 3000) == 10);
 }
 
-TEST_CASE("wide matching: a rival elsewhere makes a match ambiguous, a neighbour does not",
+TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a neighbour does not",
           "[wide][device][oclgrind]") {
-  // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 see rivals at a distance: angles of 20 and
-  // 24 degrees have distances of ratio 0.84, 20 and 40 degrees of 0.51.
+  // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 see competing matches at a distance: angles
+  // of 20 and 24 degrees have distances of ratio 0.84, 20 and 40 degrees of 0.51.
   std::vector<std::uint8_t> rows, columns;
   for (int axis : {0, 2, 4}) add_descriptor(rows, axis, axis + 1, 0);
   add_descriptor(columns, 0, 1, 20);

@@ -103,7 +103,8 @@ void compare(const char* stage, const char* row, const TemporalMatches& a, const
              std::string& found) {
   Difference(stage, row, found)("previous edge", a.previous, b.previous)("current edge", a.current, b.current)(
       "left x", a.left_x, b.left_x)("left y", a.left_y, b.left_y)("right x", a.right_x, b.right_x)(
-      "right y", a.right_y, b.right_y)("NCC", a.ncc, b.ncc)("rivals", a.rivals, b.rivals);
+      "right y", a.right_y, b.right_y)("NCC", a.ncc, b.ncc)("competing clusters", a.competing_clusters,
+                                                            b.competing_clusters);
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher:
   output.previous = output.first->edges;
   output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
   output.quads = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, false));
-  output.anywhere = frontend.match_anywhere(*output.first);
+  output.global_matches = frontend.match_globally(*output.first);
   output.left_edges = frontend.edges(Side::left);
   output.right_edges = frontend.edges(Side::right);
   output.current = now->edges;
@@ -140,7 +141,7 @@ std::string first_difference(const FrontendOutput& a, const FrontendOutput& b) {
   compare("stereo edge of the second frame", a.current, b.current, found);
   compare("temporal_match", "quad of the coarse search", a.coarse, b.coarse, found);
   compare("temporal_match", "quad", a.quads, b.quads, found);
-  compare("wide_matching", "quad found anywhere", a.anywhere, b.anywhere, found);
+  compare("wide_matching", "quad of the global search", a.global_matches, b.global_matches, found);
   return found;
 }
 

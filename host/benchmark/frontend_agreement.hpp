@@ -13,8 +13,8 @@ struct FrontendOutput {
   frontend::RigHandle first;  ///< the first frame's rig
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
-  TemporalMatches coarse, quads;  ///< by a coarse search with its strict limits, and by a guided one
-  TemporalMatches anywhere;       ///< edges found anywhere in the left image
+  TemporalMatches coarse, quads;   ///< by a coarse search with its strict limits, and by a guided one
+  TemporalMatches global_matches;  ///< between edges anywhere in the left image
 };
 
 /// Edges of the first frame stay where they were in both later images, within the radius of a coarse or of a guided

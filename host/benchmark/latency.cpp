@@ -26,8 +26,8 @@ class Detector {
  public:
   Detector(opencl::Context& context, const ImageView& image, const Config& config)
       : context_(context),
-        upload_(context, {}, image.width, image.height, config.variants, image.white),
-        plane_(context, image.width, image.height, config.edges.sigma, image.white),
+        upload_(context, {}, image.width, image.height, config.variants, image.max_value),
+        plane_(context, image.width, image.height, config.edges.sigma, image.max_value),
         threshold_(context, config.edges, config.variants),
         detection_(context, image.width, image.height, config.edges, config.variants) {}
 

@@ -41,7 +41,7 @@ class MatchCommand : public Command {
                        false);
     options.positional("RIGHT", right_, "right image file", false);
     options.number("--frame", frame_, "of --left and --right, --video or -: which pair, from 0");
-    options.text("--csv", csv_, "write positions and directions on both sides, likeness, and the point", "FILE");
+    options.text("--csv", csv_, "write positions and directions on both sides, ncc, and the point", "FILE");
     options.text("--ply", ply_, "write the points as a binary PLY file; needs a calibration", "FILE");
     options.text("--draw", draw_, "write a picture of the stereo edges (PNG)", "FILE");
     options.flag("--force", force_, "replace files that exist");
@@ -87,12 +87,12 @@ class MatchCommand : public Command {
     source_.refuse_all();
     pair.left = read_grey_image(left_);
     pair.right = read_grey_image(right_);
-    if (pair.left.white != pair.right.white || pair.left.height != pair.right.height)
+    if (pair.left.max_value != pair.right.max_value || pair.left.height != pair.right.height)
       throw DataError(right_ + ": found " + std::to_string(pair.right.height) + " rows and values to " +
-                      std::to_string(pair.right.white) + ", expected " + std::to_string(pair.left.height) + " and " +
-                      std::to_string(pair.left.white) + " as in " + left_);
+                      std::to_string(pair.right.max_value) + ", expected " + std::to_string(pair.left.height) +
+                      " and " + std::to_string(pair.left.max_value) + " as in " + left_);
     pair.rig = rectified_images(pair.left.width, pair.left.height, pair.right.width, pair.right.height);
-    pair.rig.white = pair.left.white;
+    pair.rig.max_value = pair.left.max_value;
     pair.max_disparity = kUsualRange * pair.left.width;
     return pair;
   }

@@ -14,7 +14,7 @@ class RecordedImages {
   explicit RecordedImages(const StereoRig& rig)
       : left_(size_of(rig.left, rig.left_undistortion)),
         right_(size_of(rig.right, rig.right_undistortion)),
-        white_(rig.white) {}
+        max_value_(rig.max_value) {}
 
   /// \throws DataError for an image without pixels, a stride below a row's bytes, another size or depth.
   void check(const ImageView& left, const ImageView& right) const {
@@ -32,9 +32,9 @@ class RecordedImages {
   }
   void check(const ImageView& image, const Size& size, const std::string& name) const {
     check_pixels(image, name);
-    if (image.white != white_)
-      throw DataError(name + " has values to " + std::to_string(image.white) + ", the rig says to " +
-                      std::to_string(white_));
+    if (image.max_value != max_value_)
+      throw DataError(name + " has values to " + std::to_string(image.max_value) + ", the rig says to " +
+                      std::to_string(max_value_));
     if (size.width > 0 && (image.width != size.width || image.height != size.height))
       throw DataError(name + " has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
                       " pixels, the calibration expects " + std::to_string(size.width) + "x" +
@@ -42,7 +42,7 @@ class RecordedImages {
   }
 
   Size left_, right_;
-  int white_;
+  int max_value_;
 };
 
 }  // namespace quadedge

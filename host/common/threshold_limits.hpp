@@ -8,7 +8,7 @@
 
 namespace quadedge {
 
-constexpr double kWhiteLevel = 255;  ///< grey level at which a camera saturates, whatever the depth of its images
+constexpr double kMaxGrey = 255;  ///< grey level at which a camera saturates, whatever the depth of its images
 
 /// Lower limits of an automatic threshold [grey levels per px].
 struct ThresholdLimits {

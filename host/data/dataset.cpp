@@ -94,11 +94,11 @@ void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
 }
 
 /// Largest value of an image's pixels. What is wrong with the image is said by who reads it.
-int white_of(const std::string& file) {
+int max_value_of(const std::string& file) {
   try {
-    return image_size(file).white;
+    return image_size(file).max_value;
   } catch (const DataError&) {
-    return kWhite8;
+    return kMaxValue8;
   }
 }
 
@@ -110,7 +110,7 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
   dataset.format = layout.name;
   if (!dataset.frames.empty()) {
     findings.attempt([&] { apply_users_cameras(dataset, options); });
-    dataset.rig.white = white_of(dataset.frames.front().left);
+    dataset.rig.max_value = max_value_of(dataset.frames.front().left);
   } else if (findings.errors().empty()) {
     findings.error(dataset.path, "no stereo frame", "at least one");
   }

@@ -22,7 +22,7 @@ void make_folder(const fs::path& folder) {
 }
 
 void write_png(const fs::path& file, const Image& image) {
-  const cv::Mat pixels(image.height, image.width, image.white > kWhite8 ? CV_16U : CV_8U,
+  const cv::Mat pixels(image.height, image.width, image.max_value > kMaxValue8 ? CV_16U : CV_8U,
                        const_cast<std::uint8_t*>(image.pixels.data()));
   std::vector<unsigned char> bytes;
   if (!cv::imencode(".png", pixels, bytes)) throw DataError(file.string() + ": the image could not be encoded as PNG");

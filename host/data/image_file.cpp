@@ -17,7 +17,7 @@ namespace data {
 namespace {
 
 using namespace std::string_view_literals;
-constexpr int kWhite16 = 65535;
+constexpr int kMaxValue16 = 65535;
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n"sv;
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at, int count) {
@@ -40,7 +40,7 @@ ImageSize check_png(std::string_view bytes, const std::string& file) {
     if (length > bytes.size() - at - 12) truncated(file, bytes, "PNG", "a complete one, closed by its IEND chunk");
     if (type == "IHDR"sv && length >= 8) {
       size = {static_cast<int>(big_endian(bytes, at + 8, 4)), static_cast<int>(big_endian(bytes, at + 12, 4))};
-      if (length > 8 && big_endian(bytes, at + 16, 1) == 16) size.white = kWhite16;
+      if (length > 8 && big_endian(bytes, at + 16, 1) == 16) size.max_value = kMaxValue16;
     }
     if (type == "IEND"sv) return size;
     at += 12 + length;
@@ -89,7 +89,7 @@ ImageSize check_pnm(std::string_view bytes, const std::string& file) {
     return value;
   };
   const int width = next_number(), height = next_number(), largest = next_number();
-  if (largest < 1 || largest > kWhite16)
+  if (largest < 1 || largest > kMaxValue16)
     fail(file, "a PNM with the largest value " + std::to_string(largest), "1 to 65535");
   const ImageSize size{width, height, largest};
   const std::size_t per_pixel = (bytes[1] == '6' ? 3U : 1U) * bytes_per_pixel(largest);
@@ -149,10 +149,10 @@ Image decode_grey_image(std::string_view bytes, const std::string& name) {
   if (decoded.empty())
     data::fail(name, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
   if (decoded.channels() == 3) cv::cvtColor(decoded, decoded, cv::COLOR_BGR2GRAY);
-  const int type = size.white > kWhite8 ? CV_16UC1 : CV_8UC1;
+  const int type = size.max_value > kMaxValue8 ? CV_16UC1 : CV_8UC1;
   if (decoded.type() != type) data::fail(name, "an unusual pixel type", "8 or 16 bit grey or colour");
-  cv::min(decoded, size.white, decoded);  // a header may promise less than its pixels hold
-  Image image(decoded.cols, decoded.rows, size.white);
+  cv::min(decoded, size.max_value, decoded);  // a header may promise less than its pixels hold
+  Image image(decoded.cols, decoded.rows, size.max_value);
   const cv::Mat target(image.height, image.width, type, image.pixels.data());
   decoded.copyTo(target);
   return image;

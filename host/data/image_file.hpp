@@ -13,7 +13,7 @@ namespace quadedge::data {
 /// Columns and rows, and the largest value of a pixel.
 struct ImageSize {
   int width = 0, height = 0;
-  int white = kWhite8;
+  int max_value = kMaxValue8;
   bool operator==(const ImageSize& other) const { return width == other.width && height == other.height; }
   bool operator!=(const ImageSize& other) const { return !(*this == other); }
 };

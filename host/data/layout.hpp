@@ -64,7 +64,7 @@ DatasetCheck check_opened(Dataset dataset, const Findings& findings,
                           const std::function<void(const Dataset&, const StereoPair&)>& seen);
 
 /// An image and what it has to be: pixels as the camera's, values as the rig's. \throws DataError that names `source`.
-void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int white);
+void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int max_value);
 
 /// Folder and files that a dataset's rig was read from, for messages.
 std::string calibration_of(const Dataset& dataset);

@@ -21,7 +21,7 @@ namespace quadedge::data {
 namespace {
 
 constexpr const char* kName = "the pipe";
-constexpr int kPatience = 100;  // ms between two looks whether to stop
+constexpr int kPollInterval = 100;  // ms between checks for a request to stop
 
 /// stop() was called.
 struct Stopped : std::exception {};
@@ -70,7 +70,7 @@ class PipeReader : public PairReader {
     for (;;) {
       if (stop_) throw Stopped();
       pollfd waiting{descriptor_, POLLIN, 0};
-      const int ready = poll(&waiting, 1, kPatience);
+      const int ready = poll(&waiting, 1, kPollInterval);
       if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
       const ssize_t count = read(descriptor_, buffer_.data(), buffer_.size());
       if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
@@ -112,12 +112,12 @@ class PipeReader : public PairReader {
     ImageSize size;
     size.width = header_number();
     size.height = header_number();
-    size.white = header_number();
-    if (size.width < 1 || size.height < 1 || size.white < 1 || size.white > 65535) refuse_header();
+    size.max_value = header_number();
+    if (size.width < 1 || size.height < 1 || size.max_value < 1 || size.max_value > 65535) refuse_header();
     if (pictures_ == 0) first_ = size;
-    if (size != first_ || size.white != first_.white) {
-      fail(kName, picture() + " of " + to_string(size) + " pixels, values to " + std::to_string(size.white),
-           to_string(first_) + ", to " + std::to_string(first_.white) + ", as the first one");
+    if (size != first_ || size.max_value != first_.max_value) {
+      fail(kName, picture() + " of " + to_string(size) + " pixels, values to " + std::to_string(size.max_value),
+           to_string(first_) + ", to " + std::to_string(first_.max_value) + ", as the first one");
     }
     Image image = read_pixels(size, kind == '6' ? 3 : 1);
     ++pictures_;
@@ -125,7 +125,7 @@ class PipeReader : public PairReader {
   }
 
   Image read_pixels(ImageSize size, int channels) {
-    const bool deep = size.white > kWhite8;
+    const bool deep = size.max_value > kMaxValue8;
     cv::Mat samples(size.height, size.width, CV_MAKETYPE(deep ? CV_16U : CV_8U, channels));
     const std::size_t needed = samples.total() * samples.elemSize();
     for (std::size_t have = 0; have < needed;) {
@@ -144,8 +144,8 @@ class PipeReader : public PairReader {
       }
     }
     if (channels == 3) cv::cvtColor(samples, samples, cv::COLOR_RGB2GRAY);
-    cv::min(samples, size.white, samples);  // a header may promise less than its pixels hold
-    Image image(size.width, size.height, size.white);
+    cv::min(samples, size.max_value, samples);  // a header may promise less than its pixels hold
+    Image image(size.width, size.height, size.max_value);
     std::memcpy(image.pixels.data(), samples.data, image.pixels.size());
     return image;
   }

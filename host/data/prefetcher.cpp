@@ -16,14 +16,14 @@
 namespace quadedge {
 namespace data {
 
-void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int white) {
+void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int max_value) {
   if (image.width != camera.width || image.height != camera.height) {
     fail(source, to_string({image.width, image.height}) + " pixels",
          to_string({camera.width, camera.height}) + " as the calibration and the other frames");
   }
-  if (image.white != white) {
-    fail(source, "values to " + std::to_string(image.white),
-         "to " + std::to_string(white) + " as in the first left image");
+  if (image.max_value != max_value) {
+    fail(source, "values to " + std::to_string(image.max_value),
+         "to " + std::to_string(max_value) + " as in the first left image");
   }
 }
 
@@ -64,7 +64,7 @@ class FramePrefetcher::Implementation {
         path_(dataset.path),
         left_(dataset.rig.left),
         right_(dataset.rig.right),
-        white_(dataset.rig.white),
+        max_value_(dataset.rig.max_value),
         longest_queue_(static_cast<std::size_t>(dataset.stream ? std::max(0, dataset.stream->longest_queue()) : 0)),
         ahead_(static_cast<std::size_t>(std::max(1, ahead))),
         asked_to_stop_(std::move(stop)),
@@ -120,8 +120,8 @@ class FramePrefetcher::Implementation {
     try {
       auto pair = pairs_->next();
       if (!pair) return std::nullopt;
-      data::check_image(pair->left, source_of(*pair, Side::left), left_, white_);
-      data::check_image(pair->right, source_of(*pair, Side::right), right_, white_);
+      data::check_image(pair->left, source_of(*pair, Side::left), left_, max_value_);
+      data::check_image(pair->right, source_of(*pair, Side::right), right_, max_value_);
       static_cast<StereoPair&>(item.frame) = std::move(*pair);
     } catch (...) {
       item.problem = std::current_exception();
@@ -156,7 +156,7 @@ class FramePrefetcher::Implementation {
   const std::vector<FrameFiles> frames_;
   const std::string path_;
   const PinholeCamera left_, right_;
-  const int white_;
+  const int max_value_;
   const std::size_t longest_queue_;  ///< 0: the stream waits
   const std::size_t ahead_;
   const std::function<bool()> asked_to_stop_;

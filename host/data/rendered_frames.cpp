@@ -51,7 +51,7 @@ std::string pgm_head(const Image& image) {
   ContentHash hash;
   hash.add({reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size()});
   return "P5\n# XXH3 " + hash.hex() + "\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n" +
-         std::to_string(image.white) + "\n";
+         std::to_string(image.max_value) + "\n";
 }
 
 std::string pgm(const Image& image) {
@@ -153,7 +153,7 @@ void RenderedFrames::make_folder() {
 /// Returns true where the view had to be rendered.
 bool RenderedFrames::make_view(int frame, Side side, Image& image) {
   const auto& camera = sequence_.rig().left;
-  image = Image(camera.width, camera.height, sequence_.rig().white);
+  image = Image(camera.width, camera.height, sequence_.rig().max_value);
   const std::string file = view_file(folder_, frame, side);
   if (!folder_.empty() && read_view(file, image)) return false;
   image = sequence_.render(frame, side).image;

@@ -11,8 +11,8 @@ namespace {
 
 /// The part of an image that begins at a pixel.
 Image part_of(const Image& whole, int x, int y, int width, int height) {
-  Image part(width, height, whole.white);
-  const std::size_t pixel = bytes_per_pixel(whole.white), row = pixel * static_cast<std::size_t>(width);
+  Image part(width, height, whole.max_value);
+  const std::size_t pixel = bytes_per_pixel(whole.max_value), row = pixel * static_cast<std::size_t>(width);
   for (int i = 0; i < height; ++i) {
     const std::size_t from =
         static_cast<std::size_t>(y + i) * static_cast<std::size_t>(whole.width) + static_cast<std::size_t>(x);

@@ -203,7 +203,7 @@ void check_source(const StereoSource& source) {
     throw UsageError("--queue " + std::to_string(source.queue) + ": expected 0 (wait for every pair) or more");
 }
 
-ImageSize size_of(const Image& image) { return {image.width, image.height, image.white}; }
+ImageSize size_of(const Image& image) { return {image.width, image.height, image.max_value}; }
 
 /// The rig for images of these sizes. \throws DataError where the calibration is for others.
 void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const std::string& images, Dataset& dataset) {
@@ -211,7 +211,7 @@ void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const 
   set_image_sizes(*dataset.calibration, left, right, images);
   dataset.rig = make_rig(*dataset.calibration, source.fov);
   if (!source.mask.empty()) mask_rig(dataset.rig, source.mask);
-  dataset.rig.white = left.white;
+  dataset.rig.max_value = left.max_value;
   dataset.max_disparity = usual_max_disparity(dataset.rig);
 }
 

@@ -51,14 +51,14 @@ using Owned = std::unique_ptr<T, Closer>;
 
 /// Samples of the picture's first plane, which is grey or luma, brought to their full range.
 Image first_plane(const AVFrame& frame, const AVPixFmtDescriptor& format, bool broadcast) {
-  const int bits = format.comp[0].depth, white = (1 << bits) - 1;
-  Image image(frame.width, frame.height, white);
+  const int bits = format.comp[0].depth, max_value = (1 << bits) - 1;
+  Image image(frame.width, frame.height, max_value);
   // 16 to 235 of 8 bits, and the same shifted for more.
   const double black = broadcast ? std::ldexp(16, bits - 8) : 0;
-  const double scale = broadcast ? white / std::ldexp(219, bits - 8) : 1;
-  std::vector<int> value(static_cast<std::size_t>(white) + 1);
-  for (int i = 0; i <= white; ++i)
-    value[static_cast<std::size_t>(i)] = std::clamp(static_cast<int>(std::lround((i - black) * scale)), 0, white);
+  const double scale = broadcast ? max_value / std::ldexp(219, bits - 8) : 1;
+  std::vector<int> value(static_cast<std::size_t>(max_value) + 1);
+  for (int i = 0; i <= max_value; ++i)
+    value[static_cast<std::size_t>(i)] = std::clamp(static_cast<int>(std::lround((i - black) * scale)), 0, max_value);
   for (int y = 0; y < frame.height; ++y) {
     const std::uint8_t* row = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
     for (int x = 0; x < frame.width; ++x) {
@@ -66,7 +66,7 @@ Image first_plane(const AVFrame& frame, const AVPixFmtDescriptor& format, bool b
       int word = *sample;
       if (bits > 8)
         word = (format.flags & AV_PIX_FMT_FLAG_BE) ? sample[0] << 8 | sample[1] : sample[1] << 8 | sample[0];
-      image.set(x, y, value[static_cast<std::size_t>((word >> format.comp[0].shift) & white)]);
+      image.set(x, y, value[static_cast<std::size_t>((word >> format.comp[0].shift) & max_value)]);
     }
   }
   return image;
@@ -182,7 +182,7 @@ Image VideoFile::Implementation::by_colour(AVPixelFormat format, bool deep) {
   const int strides[] = {static_cast<int>(bgr.step)};
   sws_scale(to_bgr_.get(), frame_->data, frame_->linesize, 0, frame_->height, rows, strides);
   cv::cvtColor(bgr, result, cv::COLOR_BGR2GRAY);
-  Image image(frame_->width, frame_->height, deep ? 65535 : kWhite8);
+  Image image(frame_->width, frame_->height, deep ? 65535 : kMaxValue8);
   result.copyTo(cv::Mat(image.height, image.width, deep ? CV_16UC1 : CV_8UC1, image.pixels.data()));
   return image;
 }

@@ -189,8 +189,8 @@ void MatchingObserver::measure_quads(const TemporalMatches& matches) {
                    is_veridical(search_->later[1], i, matches.right_x[k], matches.right_y[k], tolerance_);
     ++candidates[i];
     true_candidates[i] = static_cast<std::uint8_t>(true_candidates[i] + veridical[k]);
-    if (search_->quad_pools.paired[i] != 0) measured.rivals_paired += matches.rivals[k];
-    if (search_->quad_pools.all[i] != 0) measured.rivals_all += matches.rivals[k];
+    if (search_->quad_pools.paired[i] != 0) measured.competing_paired += matches.competing_clusters[k];
+    if (search_->quad_pools.all[i] != 0) measured.competing_all += matches.competing_clusters[k];
   }
   for (std::size_t i = 0; i < rows; ++i) {
     if (search_->quad_pools.all[i] != 0) measured.quads_all.add_edge(candidates[i], true_candidates[i]);

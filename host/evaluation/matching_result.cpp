@@ -61,21 +61,21 @@ std::vector<PooledRow> pool(const std::vector<const FilterTable*>& tables) {
 /// The frames with a matching in time.
 void pool_quads(const std::vector<const TemporalMatching*>& frames, MatchingSummary& summary) {
   FrameValues paired, all;
-  std::int64_t rivals_paired = 0, rivals_all = 0;
+  std::int64_t competing_paired = 0, competing_all = 0;
   for (const auto* frame : frames) {
     summary.quads_paired.counts.add(frame->quads_paired);
     summary.quads_all.counts.add(frame->quads_all);
-    rivals_paired += frame->rivals_paired;
-    rivals_all += frame->rivals_all;
+    competing_paired += frame->competing_paired;
+    competing_all += frame->competing_all;
     paired.add(frame->quads_paired.recall(), frame->quads_paired.precision(),
-               ratio(frame->rivals_paired, frame->quads_paired.candidates));
+               ratio(frame->competing_paired, frame->quads_paired.candidates));
     all.add(frame->quads_all.recall(), frame->quads_all.precision(),
-            ratio(frame->rivals_all, frame->quads_all.candidates));
+            ratio(frame->competing_all, frame->quads_all.candidates));
   }
   summary.quads_paired.std = paired.spread();
   summary.quads_all.std = all.spread();
-  summary.quads_paired.ambiguity_mean = ratio(rivals_paired, summary.quads_paired.counts.candidates);
-  summary.quads_all.ambiguity_mean = ratio(rivals_all, summary.quads_all.counts.candidates);
+  summary.quads_paired.ambiguity_mean = ratio(competing_paired, summary.quads_paired.counts.candidates);
+  summary.quads_all.ambiguity_mean = ratio(competing_all, summary.quads_all.counts.candidates);
   for (std::size_t order = 0; order < summary.constraints.size(); ++order) {
     PooledConstraint& row = summary.constraints[order];
     std::vector<double> recall, precision;

@@ -29,8 +29,8 @@ struct EdgeCensus {
 struct TemporalMatching {
   FilterTable left, right;  ///< Table 2
   FilterCounts quads_paired, quads_all;
-  std::int64_t rivals_paired = 0, rivals_all = 0;  ///< further clusters that the quads' edges of a pool had
-  PairMeasurement pairs;                           ///< Table 3 and Figure 7
+  std::int64_t competing_paired = 0, competing_all = 0;  ///< further clusters that the quads' edges of a pool had
+  PairMeasurement pairs;                                 ///< Table 3 and Figure 7
 
   FilterTable& table(Side side) { return side == Side::left ? left : right; }
 };
@@ -72,7 +72,7 @@ struct PooledRow {
   FilterSpread paired_std, all_std;
 };
 
-/// Quads of one pool. Ambiguity is rivals per quad: further clusters of the quad's previous edge.
+/// Quads of one pool. Ambiguity is the mean number of competing clusters of the quad's previous edge.
 struct PooledQuads {
   FilterCounts counts;
   double ambiguity_mean = 0;  ///< NaN without quads

@@ -23,8 +23,8 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
     found = edges.size();
   } else {
     auto& context = *device.context();
-    stages::Undistortion upload(context, {}, image.width, image.height, config.variants, image.white);
-    stages::PaddedPlane plane(context, image.width, image.height, config.edges.sigma, image.white);
+    stages::Undistortion upload(context, {}, image.width, image.height, config.variants, image.max_value);
+    stages::PaddedPlane plane(context, image.width, image.height, config.edges.sigma, image.max_value);
     stages::EdgeThreshold threshold(context, config.edges, config.variants);
     stages::EdgeDetection detection(context, image.width, image.height, config.edges, config.variants);
     opencl::Buffer<cl_uchar> pixels;

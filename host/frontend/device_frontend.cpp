@@ -15,27 +15,27 @@ DeviceRig::DeviceRig(const StereoRig& calibration) {
 }
 
 DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
-                               const PixelMask& hidden, int white, const Config& config)
-    : undistortion(context, table, camera.width, camera.height, config.variants, white),
-      plane(context, camera.width, camera.height, config.edges.sigma, white),
+                               const PixelMask& hidden, int max_value, const Config& config)
+    : undistortion(context, table, camera.width, camera.height, config.variants, max_value),
+      plane(context, camera.width, camera.height, config.edges.sigma, max_value),
       detection(context, camera.width, camera.height, config.edges, config.variants),
       mask(context, hidden, config.edges.margin, detection.maxima()),
-      patches(context, camera.width, camera.height, config.patches, config.variants, white),
-      sift(context, camera.width, camera.height, config.sift, config.variants, white) {}
+      patches(context, camera.width, camera.height, config.patches, config.variants, max_value),
+      sift(context, camera.width, camera.height, config.sift, config.variants, max_value) {}
 
 DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
     : context_(context),
       config_(config),
       epipolar_(make_epipolar_geometry(rig, config.stereo)),
       calibration_(rig),
-      left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.white, config),
-      right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.white, config),
+      left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.max_value, config),
+      right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.max_value, config),
       threshold_(context, config.edges, config.variants),
       selection_(context, config.edges, selection_arguments(rig, Side::left, config.stereo),
                  selection_arguments(rig, Side::right, config.stereo), left_.detection.maxima()),
       stereo_candidates_(context, config.variants),
       filters_(context, config.variants),
-      refinement_(context, config.stereo, config.patches.offset, config.variants, rig.white),
+      refinement_(context, config.stereo, config.patches.offset, config.variants, rig.max_value),
       clustering_(context, config.stereo, config.variants),
       relaxation_(context, rig.left.width, rig.left.height, config.stereo, config.variants),
       mutual_(context, config.stereo, config.variants),
@@ -43,7 +43,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       temporal_candidates_(context, config.variants),
       temporal_quads_(context, config.temporal, config.variants),
       temporal_match_(context, config.temporal, config.variants),
-      wide_description_(context, rig.left.width, rig.left.height, config.variants, rig.white),
+      wide_description_(context, rig.left.width, rig.left.height, config.variants, rig.max_value),
       wide_matching_(context, config.temporal, config.variants),
       left_index_(rig.left.width, rig.left.height),
       right_index_(rig.right.width, rig.right.height) {
@@ -187,7 +187,7 @@ void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, Te
   if (tap_ != nullptr) tap_->quads(matches);
 }
 
-void DeviceFrontend::match_anywhere(const Rig& base, TemporalMatches& matches) {
+void DeviceFrontend::match_globally(const Rig& base, TemporalMatches& matches) {
   const stages::DeviceStereoEdges& before = rigs_.own(base).on_device;
   const stages::DeviceStereoEdges& current = rigs_.current().on_device;
   const int before_step = wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);

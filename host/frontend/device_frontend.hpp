@@ -37,7 +37,7 @@ class DeviceFrontend : public Frontend {
 
   RigHandle process(const StereoFrame& frame) override;
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_anywhere(const Rig& base, TemporalMatches& matches) override;
+  void match_globally(const Rig& base, TemporalMatches& matches) override;
   EdgeSet edges(Side side) override;
   void set_tap(Tap* tap) override;
   std::size_t device_bytes() const override { return context_.bytes(); }
@@ -53,7 +53,7 @@ class DeviceFrontend : public Frontend {
     stages::Sift sift;
     stages::DeviceEdges edges;
     Camera(opencl::Context& context, const PinholeCamera& camera, const UndistortionTable& table,
-           const PixelMask& hidden, int white, const Config& config);
+           const PixelMask& hidden, int max_value, const Config& config);
   };
 
   /// Detects the edges of both images and waits for their number.
@@ -96,7 +96,7 @@ class DeviceFrontend : public Frontend {
   stages::WideMatching wide_matching_;
 
   stages::DeviceCandidates candidates_, temporal_left_, temporal_right_;
-  opencl::Buffer<cl_float> small_;  ///< scratch of match_anywhere(), as are these descriptors
+  opencl::Buffer<cl_float> small_;  ///< scratch of match_globally(), as are these descriptors
   opencl::Buffer<cl_uchar> wide_before_, wide_now_;
   stages::DeviceRefined refined_;
   stages::DeviceClusters clusters_;

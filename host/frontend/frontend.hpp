@@ -35,19 +35,19 @@ class Frontend {
   /// the next call; it is overwritten then unless somebody holds a handle.
   virtual RigHandle process(const StereoFrame& frame) = 0;
   /// Stage 6: quads between an earlier rig, the base, and the current one. `search` has one entry per stereo edge of
-  /// the base. Replaces `matches`, as match_anywhere() does.
+  /// the base. Replaces `matches`, as match_globally() does.
   virtual void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
   /// Quads between a part of a base's edges and the current rig, found anywhere in the left image by what surrounds
   /// them.
-  virtual void match_anywhere(const Rig& base, TemporalMatches& matches) = 0;
+  virtual void match_globally(const Rig& base, TemporalMatches& matches) = 0;
   TemporalMatches match(const Rig& base, const TemporalSearch& search) {
     TemporalMatches matches;
     match(base, search, matches);
     return matches;
   }
-  TemporalMatches match_anywhere(const Rig& base) {
+  TemporalMatches match_globally(const Rig& base) {
     TemporalMatches matches;
-    match_anywhere(base, matches);
+    match_globally(base, matches);
     return matches;
   }
 

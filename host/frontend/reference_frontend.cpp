@@ -17,7 +17,7 @@ namespace {
 
 Image pinhole_image(const ImageView& recorded, const UndistortionTable& table) {
   if (!table.empty()) return reference::undistort(recorded, table);
-  Image image(recorded.width, recorded.height, recorded.white);
+  Image image(recorded.width, recorded.height, recorded.max_value);
   const std::ptrdiff_t row = image.view().stride;
   for (int y = 0; y < recorded.height; ++y) {
     std::copy_n(recorded.pixels + y * recorded.stride, row, image.pixels.begin() + y * row);
@@ -134,7 +134,7 @@ void ReferenceFrontend::match(const Rig& base, const TemporalSearch& search, Tem
   matches.search = counts_.searches++;
 }
 
-void ReferenceFrontend::match_anywhere(const Rig& base, TemporalMatches& matches) {
+void ReferenceFrontend::match_globally(const Rig& base, TemporalMatches& matches) {
   const auto describe_some = [](const ReferenceRig& rig, int wanted) {
     const int step = wide_step(rig.edges.size(), wanted);
     return reference::WideEdges{rig.edges, step,

@@ -23,7 +23,7 @@ class ReferenceFrontend : public Frontend {
 
   RigHandle process(const StereoFrame& frame) override;
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_anywhere(const Rig& base, TemporalMatches& matches) override;
+  void match_globally(const Rig& base, TemporalMatches& matches) override;
   EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
 

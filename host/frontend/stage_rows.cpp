@@ -178,7 +178,7 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
                       edges);
   collector.add_quads("temporal_candidates, temporal_quads",
                       frontend->match(*base, without_motion(edges, config.temporal.radius, true)), edges);
-  collector.add_quads("wide_description, wide_matching", frontend->match_anywhere(*base), edges);
+  collector.add_quads("wide_description, wide_matching", frontend->match_globally(*base), edges);
   return std::move(collector.stages);
 }
 

@@ -22,7 +22,7 @@ constexpr double kLongestSlide = 2;         ///< px of a point along its tangent
 constexpr double kTurn = 15 * kPi / 180;    ///< rad between the directions of a projected tangent and an edge
 constexpr double kDeviations = 3;           ///< of the disparity
 constexpr double kPoseNoise = 0.5;          ///< px of disparity that poses may be wrong by between two key rigs
-constexpr int kPatience = 20;               ///< key rigs that a point may go unseen before enough of them have seen it
+constexpr int kMaxUnseenViews = 20;         ///< key rigs for which a point with few views may go unseen
 constexpr std::size_t kMostSightings = 8;
 constexpr std::int32_t kNone = -1;
 
@@ -132,7 +132,7 @@ bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& r
     const bool is_new = offers_[i].point == kNone;
     note_sighting(index, is_new ? edges.left_x[i] : offers_[i].x, is_new ? edges.left_y[i] : offers_[i].y);
   }
-  const std::int32_t oldest = number() - kPatience;
+  const std::int32_t oldest = number() - kMaxUnseenViews;
   keep_only([&](const Point& point) { return point.views >= options_.min_views || point.last_view >= oldest; });
   make_room();
   return true;

@@ -80,15 +80,15 @@ void Acceptance::measure_area(const EdgePositions& predicted, MotionStep& step) 
   step.moving_ratio = in_view > 0 ? elsewhere / in_view : 0;
 }
 
-bool Acceptance::leaves_a_still_world(const MotionStep& step) {
+bool Acceptance::contradicts_static_scene(const MotionStep& step) {
   if (!step.ok()) return false;
   const double close = kCloseAgreement * config_.pose.inlier_distance, turn = config_.pose.inlier_orientation_rad();
   const auto& quads = step.quads.scoring;
   pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous), 2 * close, turn,
                        agrees_);
-  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn, stands_);
+  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn, is_still_);
   std::size_t still = 0;
-  for (std::size_t q = 0; q < quads.size(); ++q) still += stands_[q] != 0 && agrees_[q] == 0 ? 1 : 0;
+  for (std::size_t q = 0; q < quads.size(); ++q) still += is_still_[q] != 0 && agrees_[q] == 0 ? 1 : 0;
   return static_cast<double>(still) > kStillAnyhow * static_cast<double>(quads.size());
 }
 
@@ -105,17 +105,18 @@ bool Acceptance::is_confident(const MotionStep& step) const {
   return step.ok() && (!can_ask_further || step.support >= confident_support());
 }
 
-bool Acceptance::leaves_much_over(const MotionStep& step) { return step.moving_ratio > kMuchLeftOver; }
+bool Acceptance::has_secondary_motion(const MotionStep& step) { return step.moving_ratio > kMuchLeftOver; }
 
-bool Acceptance::leaves_most_over(const MotionStep& step) { return step.moving_ratio > kMostLeftOver; }
+bool Acceptance::is_minority_motion(const MotionStep& step) { return step.moving_ratio > kMostLeftOver; }
 
-bool Acceptance::are_rivals(const MotionStep& found, const MotionStep& other,
-                            const Eigen::Isometry3d& base_from_other) {
+bool Acceptance::are_competing(const MotionStep& found, const MotionStep& other,
+                               const Eigen::Isometry3d& base_from_other) {
   if (!found.ok() || !other.ok() || other.explained_area < kNearlyAsMuch * found.explained_area) return false;
-  return !are_one(found, other, base_from_other);
+  return !are_same_motion(found, other, base_from_other);
 }
 
-bool Acceptance::are_one(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other) {
+bool Acceptance::are_same_motion(const MotionStep& found, const MotionStep& other,
+                                 const Eigen::Isometry3d& base_from_other) {
   const Eigen::Isometry3d motion = other.motion.current_from_previous * base_from_other.inverse();
   pose::select_inliers(found.quads.scoring, pose::LaterCameras(offset_.rig(), motion), config_.pose.inlier_distance,
                        config_.pose.inlier_orientation_rad(), agrees_);
@@ -128,12 +129,13 @@ bool Acceptance::are_one(const MotionStep& found, const MotionStep& other, const
   return shared >= kTheSameMotion * inliers;
 }
 
-bool Acceptance::is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step) {
+bool Acceptance::agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query,
+                                            const MotionStep& step) {
   Eigen::Isometry3d current_from_base = step.motion.current_from_previous;
   if (step.base != query.base) current_from_base = current_from_base * query.base_from_key.inverse();
-  pose::select_inliers(found_anywhere.quads.scoring, pose::LaterCameras(offset_.rig(), current_from_base),
+  pose::select_inliers(global_matches.quads.scoring, pose::LaterCameras(offset_.rig(), current_from_base),
                        config_.temporal.wide_inlier_distance, config_.pose.inlier_orientation_rad(), agrees_);
-  return pose::count_cells(found_anywhere.quads.scoring, agrees_, config_.pose.inflation_cell) >=
+  return pose::count_cells(global_matches.quads.scoring, agrees_, config_.pose.inflation_cell) >=
          config_.pose.min_inliers;
 }
 

@@ -30,7 +30,7 @@ class Acceptance {
 
   /// Whether a part of the image stands still that the motion would have moved. Nothing stands still by chance, and
   /// what is far away moves with the motion found as well: either the camera did not move, or something moves with it.
-  bool leaves_a_still_world(const MotionStep& step);
+  bool contradicts_static_scene(const MotionStep& step);
 
   /// Whether a motion near the prediction is believed without asking further.
   bool is_confident(const MotionStep& step) const;
@@ -40,20 +40,20 @@ class Acceptance {
 
   /// Whether so much of the image moves otherwise that it may hold the world's motion: another one has to be looked
   /// for.
-  static bool leaves_much_over(const MotionStep& step);
+  static bool has_secondary_motion(const MotionStep& step);
   /// Whether most of the image moves otherwise.
-  static bool leaves_most_over(const MotionStep& step);
+  static bool is_minority_motion(const MotionStep& step);
 
   /// Whether another motion explains nearly as large an area as the one found, and is none that a fit would have led
   /// to as well. \param base_from_other between the rigs that both are measured against
-  bool are_rivals(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
+  bool are_competing(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
   /// Whether most inliers of the motion found agree with another one as well.
-  bool are_one(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
+  bool are_same_motion(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
 
   /// Whether edges found anywhere agree with a motion: in as many cells of the image as an estimate needs inliers. A
   /// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,
   /// count once.
-  bool is_seen(const MotionStep& found_anywhere, const MotionQuery& query, const MotionStep& step);
+  bool agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query, const MotionStep& step);
 
  private:
   /// temporal.confident_support, or less where the scene's edges do not let any motion reach as much.
@@ -66,9 +66,9 @@ class Acceptance {
   Config config_;
   const DisparityOffset& offset_;
   static constexpr double kUnknownSupport = 1;
-  double reached_support_ = kUnknownSupport;   ///< lately
-  std::vector<Cell> cells_;                    ///< kept for their memory, as are these
-  std::vector<std::uint8_t> agrees_, stands_;  ///< one per quad
+  double reached_support_ = kUnknownSupport;     ///< lately
+  std::vector<Cell> cells_;                      ///< kept for their memory, as are these
+  std::vector<std::uint8_t> agrees_, is_still_;  ///< one per quad
 };
 
 }  // namespace quadedge::odometry

@@ -29,7 +29,7 @@ StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry
 void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
   const Eigen::Isometry3d key_from_base = query.base_from_key.inverse();
   const StepHandle by_base = match(query, query.base, limits, by_key.motion.current_from_previous * key_from_base);
-  if (by_base->ok() && acceptance_.are_one(*by_base, by_key, query.base_from_key))
+  if (by_base->ok() && acceptance_.are_same_motion(*by_base, by_key, query.base_from_key))
     by_key.support = std::max(by_key.support, by_base->support);
 }
 

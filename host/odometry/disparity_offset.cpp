@@ -20,7 +20,7 @@ StereoRig with_disparity_offset(const StereoRig& rig, double offset) {
   moved.left = rig.left;
   moved.right = rig.right;
   moved.right_from_left = rig.right_from_left;
-  moved.white = rig.white;
+  moved.max_value = rig.max_value;
   moved.right.cx -= offset * nearer.x();
   moved.right.cy -= offset * nearer.y();
   return moved;

@@ -19,7 +19,7 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-EpipolarFit fit_across(const std::vector<ProbedSpot>& spots, int width, int height) {
+EpipolarFit fit_across(const std::vector<CornerMatch>& spots, int width, int height) {
   EpipolarFit fit;
   if (spots.size() < kMinSpots) return fit;
   fit.samples = static_cast<int>(spots.size());
@@ -29,7 +29,7 @@ EpipolarFit fit_across(const std::vector<ProbedSpot>& spots, int width, int heig
   distances.clear();
   for (const auto& spot : spots) distances.push_back(spot.across);
   Eigen::Vector3d terms(median(distances), 0, 0);
-  const auto row = [&](const ProbedSpot& spot) {
+  const auto row = [&](const CornerMatch& spot) {
     return Eigen::Vector3d(1, spot.left.x() / width - 0.5, spot.left.y() / height - 0.5);
   };
   for (int round = 0; round <= kRounds; ++round) {

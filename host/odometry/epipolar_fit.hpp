@@ -17,6 +17,6 @@ struct EpipolarFit {
 };
 
 /// Robust fit (iterated least squares with Cauchy weights); all zero for fewer than 12 spots.
-EpipolarFit fit_across(const std::vector<ProbedSpot>& spots, int width, int height);
+EpipolarFit fit_across(const std::vector<CornerMatch>& spots, int width, int height);
 
 }  // namespace quadedge::odometry

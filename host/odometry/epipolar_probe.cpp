@@ -73,7 +73,7 @@ Alignment compare(const Samples& wanted, const Level& wanted_level, const Sample
 /// What became of a corner that was sought.
 struct Sought {
   bool has_line = false, is_negative = false;
-  std::optional<ProbedSpot> found;
+  std::optional<CornerMatch> found;
 };
 
 /// The pixel that a given right image has where the calibration means `at`.
@@ -112,8 +112,8 @@ std::optional<EpipolarProbe::Line> EpipolarProbe::line(const Eigen::Vector2d& le
   return Line{*infinity, direction, {direction.y(), -direction.x()}};
 }
 
-std::optional<ProbedSpot> EpipolarProbe::refine(const PinholeView& left, const PinholeView& right,
-                                                const Eigen::Vector2d& spot, Eigen::Vector2d place) const {
+std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const PinholeView& right,
+                                                 const Eigen::Vector2d& spot, Eigen::Vector2d place) const {
   const auto its_line = line(spot);
   const auto here = at_infinity(spot), beside = at_infinity(spot + Eigen::Vector2d::UnitX()),
              below = at_infinity(spot + Eigen::Vector2d::UnitY());
@@ -142,12 +142,12 @@ std::optional<ProbedSpot> EpipolarProbe::refine(const PinholeView& left, const P
   const double sigma = std::sqrt(its_line->normal.dot(covariance * its_line->normal));
   if (1 - sums.cost / 2 < kMinProbeCorrelation || sigma > kMaxSigma) return std::nullopt;
   const Eigen::Vector2d from_infinity = place - its_line->infinity;
-  return ProbedSpot{
+  return CornerMatch{
       spot, from_infinity.dot(its_line->direction), from_infinity.dot(its_line->normal), sigma, true, its_line->normal,
       -1};
 }
 
-void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<ProbedSpot>& spots) const {
+void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& spots) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
   const std::size_t step = std::max<std::size_t>(edges.size() / kAlignedSpots, 1), first = step / 2;
@@ -155,10 +155,10 @@ void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, st
   tbb::parallel_for(std::size_t{0}, spots.size(), [&](std::size_t k) {
     const std::size_t i = first + k * step;
     const auto spot = refine(left, right, {edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]});
-    spots[k] = spot.value_or(ProbedSpot());
+    spots[k] = spot.value_or(CornerMatch());
     spots[k].edge = spot ? static_cast<int>(i) : -1;
   });
-  spots.erase(std::remove_if(spots.begin(), spots.end(), [](const ProbedSpot& spot) { return spot.edge < 0; }),
+  spots.erase(std::remove_if(spots.begin(), spots.end(), [](const CornerMatch& spot) { return spot.edge < 0; }),
               spots.end());
 }
 
@@ -223,13 +223,13 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
     sought.found = turn == ImageTurn::none ? refine(left, right, spot, *place) : std::nullopt;
     const Eigen::Vector2d from_infinity = *place - its_line->infinity;
     if (!sought.found)
-      sought.found = ProbedSpot{spot,
-                                from_infinity.dot(its_line->direction),
-                                from_infinity.dot(its_line->normal),
-                                0.3 * scale,
-                                false,
-                                its_line->normal,
-                                -1};
+      sought.found = CornerMatch{spot,
+                                 from_infinity.dot(its_line->direction),
+                                 from_infinity.dot(its_line->normal),
+                                 0.3 * scale,
+                                 false,
+                                 its_line->normal,
+                                 -1};
     return sought;
   };
   const auto corners = find_corners(views.left);

@@ -15,7 +15,7 @@
 namespace quadedge::odometry {
 
 /// A spot of the left image, found in the right one.
-struct ProbedSpot {
+struct CornerMatch {
   Eigen::Vector2d left = Eigen::Vector2d::Zero();  ///< [px]
   double along = 0;        ///< position along the epipolar line from the point at infinity on [px]: the disparity
   double across = 0;       ///< distance from the line [px]
@@ -30,10 +30,10 @@ enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
 
 /// What a search found.
 struct ProbeSearch {
-  int sought = 0;                 ///< spots
-  std::vector<ProbedSpot> found;  ///< in the right image and, from there, in the left one again
-  int negative = 0;               ///< of the found ones, those whose right patch is a negative of the left one
-  double max_disparity = 0;       ///< largest allowed disparity in the middle of the image [px]
+  int sought = 0;                  ///< spots
+  std::vector<CornerMatch> found;  ///< in the right image and, from there, in the left one again
+  int negative = 0;                ///< of the found ones, those whose right patch is a negative of the left one
+  double max_disparity = 0;        ///< largest allowed disparity in the middle of the image [px]
 };
 
 /// Any rig; recorded images, distorted or not. Works on the host, on few spots.
@@ -44,7 +44,7 @@ class EpipolarProbe {
 
   /// Aligns patches of about 240 of the stereo edges in both directions, starting where the cascade found
   /// them. A few pixels off are seen. Steady frames allocate nothing.
-  void align(const StereoFrame& frame, const StereoEdges& edges, std::vector<ProbedSpot>& spots) const;
+  void align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& spots) const;
 
   /// Seeks corners of the left image in the right one by normalised correlation: over a quarter of the image's width to
   /// both sides along the line, and a tenth of it across. Done on images of about 320 px width, which takes some ten
@@ -60,8 +60,8 @@ class EpipolarProbe {
   std::optional<Eigen::Vector2d> at_infinity(const Eigen::Vector2d& left) const;
   struct CoarseViews;
   CoarseViews coarse_views(const PinholeView& left, const PinholeView& right, ImageTurn turn) const;
-  std::optional<ProbedSpot> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& spot,
-                                   Eigen::Vector2d at) const;
+  std::optional<CornerMatch> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& spot,
+                                    Eigen::Vector2d at) const;
 
   StereoRig rig_;
   double max_disparity_;

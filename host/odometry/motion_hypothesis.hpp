@@ -8,7 +8,7 @@ namespace quadedge::odometry {
 
 /// What the hypotheses before this one have found of the same frame.
 struct Evidence {
-  const MotionStep* found_anywhere = nullptr;  ///< edges found anywhere in the image; null unless looked for
+  const MotionStep* global_matches = nullptr;  ///< edges found anywhere in the image; null unless looked for
   const MotionStep* confirmed = nullptr;       ///< the first motion that all edges confirm; null unless there is one
 };
 

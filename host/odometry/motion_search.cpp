@@ -48,32 +48,32 @@ StepHandle MotionSearch::search(const MotionQuery& query) {
   const auto is_expected = [&](Trial& trial) {
     return trial.hypothesis->trusts_prediction() && acceptance_.is_confident(*trial.outcome());
   };
-  const auto stands = [&](Trial& trial) {
-    return !in_doubt_ && is_expected(trial) && !Acceptance::leaves_most_over(*trial.outcome());
+  const auto prediction_holds = [&](Trial& trial) {
+    return !in_doubt_ && is_expected(trial) && !Acceptance::is_minority_motion(*trial.outcome());
   };
-  const auto leaves_something_over = [&](const MotionStep& step) {
-    return Acceptance::leaves_much_over(step) || acceptance_.leaves_a_still_world(step);
+  const auto leaves_doubt = [&](const MotionStep& step) {
+    return Acceptance::has_secondary_motion(step) || acceptance_.contradicts_static_scene(step);
   };
   for (const auto& hypothesis : hypotheses_) {
     // Where a part of the image moves otherwise than predicted, what costs little is tried beside the prediction; where
     // most of it does, all.
-    if (hypothesis->is_costly() && !trials.empty() && stands(trials.front())) continue;
+    if (hypothesis->is_costly() && !trials.empty() && prediction_holds(trials.front())) continue;
     try_hypothesis(*hypothesis);
-    if (trials.size() == 1 && !in_doubt_ && is_expected(trials.front()) &&
-        !leaves_something_over(*trials.front().outcome()))
+    if (trials.size() == 1 && !in_doubt_ && is_expected(trials.front()) && !leaves_doubt(*trials.front().outcome()))
       return std::move(trials.front().outcome());
   }
-  if (stands(trials.front()) && !is_expected(choose()))
+  if (prediction_holds(trials.front()) && !is_expected(choose()))
     for (const auto& hypothesis : hypotheses_)
       if (hypothesis->is_costly()) try_hypothesis(*hypothesis);
   Trial& chosen = choose();
-  const bool is_ambiguous = Acceptance::leaves_most_over(*chosen.outcome()) ||
-                            acceptance_.leaves_a_still_world(*chosen.outcome()) || has_rival(chosen, trials, query);
+  const bool is_ambiguous = Acceptance::is_minority_motion(*chosen.outcome()) ||
+                            acceptance_.contradicts_static_scene(*chosen.outcome()) ||
+                            has_competing_motion(chosen, trials, query);
   StepHandle found = std::move(chosen.outcome());
   found->ambiguous = is_ambiguous;
   const bool was_expected = chosen.hypothesis->trusts_prediction() && acceptance_.is_confident(*found);
-  if (found->ok() && !was_expected && evidence.found_anywhere != nullptr &&
-      !acceptance_.is_seen(*evidence.found_anywhere, query, *found))
+  if (found->ok() && !was_expected && evidence.global_matches != nullptr &&
+      !acceptance_.agrees_with_global_matches(*evidence.global_matches, query, *found))
     found->motion.status = pose::MotionStatus::no_consensus;
   return found;
 }
@@ -105,17 +105,17 @@ MotionSearch::Trial& MotionSearch::with_all_inliers(Trial& chosen, std::vector<T
   for (Trial& trial : trials) {
     const MotionStep& other = *trial.outcome();
     if (trial.hypothesis->asks_for_close_agreement() || !trial.confirmed || !other.ok()) continue;
-    if (acceptance_.are_one(found, other, base_from_base(found, other, query))) return trial;
+    if (acceptance_.are_same_motion(found, other, base_from_base(found, other, query))) return trial;
   }
   return chosen;
 }
 
-bool MotionSearch::has_rival(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query) {
+bool MotionSearch::has_competing_motion(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query) {
   const MotionStep& found = *chosen.outcome();
   for (Trial& trial : trials) {
     const MotionStep& other = *trial.outcome();
     if (&trial == &chosen || !trial.confirmed) continue;
-    if (acceptance_.are_rivals(found, other, base_from_base(found, other, query))) return true;
+    if (acceptance_.are_competing(found, other, base_from_base(found, other, query))) return true;
   }
   return false;
 }

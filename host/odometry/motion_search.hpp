@@ -45,7 +45,7 @@ class MotionSearch {
   /// From the base of another step to that of the one found; one of them may be the key rig.
   static Eigen::Isometry3d base_from_base(const MotionStep& found, const MotionStep& other, const MotionQuery& query);
   /// Whether another motion that was confirmed could be the world's as well.
-  bool has_rival(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query);
+  bool has_competing_motion(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query);
 
   StepBuilder steps_;
   Acceptance acceptance_;

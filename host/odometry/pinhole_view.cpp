@@ -46,7 +46,7 @@ void PinholeView::Patch::sample(int half, float* values) const {
   const Eigen::Vector2d reach = half * steps_.cwiseAbs().rowwise().sum();
   const Eigen::Vector2d first = middle_ - reach, last = middle_ + reach;
   const bool is_inside = first.minCoeff() >= 0 && last.x() < recorded_.width - 1 && last.y() < recorded_.height - 1;
-  if (!is_inside || recorded_.white != kWhite8) {
+  if (!is_inside || recorded_.max_value != kMaxValue8) {
     take([&](double x, double y) { return grey_at(recorded_, x, y); });
     return;
   }

@@ -3,17 +3,17 @@
 namespace quadedge::odometry {
 
 Relocalisation::Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config)
-    : frontend_(frontend), steps_(steps), limits_(limits_of_found_anywhere(config)) {}
+    : frontend_(frontend), steps_(steps), limits_(limits_of_global_matches(config)) {}
 
 StepHandle Relocalisation::propose(const MotionQuery& query, Evidence& evidence) {
   StepHandle step = steps_.take(query.base);
-  frontend_.match_anywhere(*query.base, step->matches);
+  frontend_.match_globally(*query.base, step->matches);
   steps_.propose(query, limits_, std::nullopt, *step);
-  evidence.found_anywhere = step.get();
+  evidence.global_matches = step.get();
   return step;
 }
 
-PoseConfig limits_of_found_anywhere(const Config& config) {
+PoseConfig limits_of_global_matches(const Config& config) {
   PoseConfig limits = limits_of_proposals(config);
   limits.inlier_distance = config.temporal.wide_inlier_distance;
   return limits;

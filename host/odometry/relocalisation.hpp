@@ -20,6 +20,6 @@ class Relocalisation : public MotionHypothesis {
 };
 
 /// Limits for the motion of edges found anywhere: a found edge may be a neighbour of the right one.
-PoseConfig limits_of_found_anywhere(const Config& config);
+PoseConfig limits_of_global_matches(const Config& config);
 
 }  // namespace quadedge::odometry

@@ -19,7 +19,7 @@ StepHandle RemainingMotion::propose(const MotionQuery& query, Evidence& evidence
     if (agrees_[q] != 0) continue;
     const auto m = static_cast<std::size_t>(first.quads.match[q]);
     step->matches.append(first.matches.previous[m], first.matches.current[m], query.current->edges,
-                         first.matches.ncc[m], first.matches.rivals[m]);
+                         first.matches.ncc[m], first.matches.competing_clusters[m]);
   }
   steps_.propose(query, limits_, std::nullopt, *step);
   if (step->base != query.base) {

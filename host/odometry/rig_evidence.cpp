@@ -27,7 +27,7 @@ double largest_disparity(const StereoRig& rig, const Config& config) {
 /// A number that two different images hardly share.
 std::uint64_t fingerprint(const ImageView& image) {
   std::uint64_t hash = 1469598103934665603U;
-  const std::size_t bytes = bytes_per_pixel(image.white) * static_cast<std::size_t>(image.width);
+  const std::size_t bytes = bytes_per_pixel(image.max_value) * static_cast<std::size_t>(image.width);
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* row = image.pixels + y * image.stride;
     for (std::size_t i = 0; i < bytes; i += sizeof(std::uint64_t)) {
@@ -57,9 +57,9 @@ RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, c
                              RigEvidence& evidence) {
   const ProbeSearch search = probe.search(frame);
   // Along a thin curve a coarse place says little of the distance from the line.
-  std::vector<ProbedSpot> aligned;
+  std::vector<CornerMatch> aligned;
   std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
-               [](const ProbedSpot& spot) { return spot.is_aligned; });
+               [](const CornerMatch& spot) { return spot.is_aligned; });
   EpipolarFit fit = fit_across(aligned, rig.left.width, rig.left.height);
   if (fit.samples == 0) {
     fit = fit_across(search.found, rig.left.width, rig.left.height);
@@ -135,14 +135,14 @@ std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, co
     next_y_[before] = matches.left_y[m];
     const int at = sampled_[static_cast<std::size_t>(matches.current[m])];
     if (at < 0 || std::isnan(last_x_[before])) continue;
-    const ProbedSpot& spot = spots_[static_cast<std::size_t>(at)];
+    const CornerMatch& spot = spots_[static_cast<std::size_t>(at)];
     const Eigen::Vector2d motion = spot.left - Eigen::Vector2d(last_x_[before], last_y_[before]);
     synchronisation_.add(spot.left.x() / rig_.left.width - 0.5, spot.left.y() / rig_.left.height - 0.5, spot.across,
                          motion.dot(spot.normal));
   }
   last_x_.swap(next_x_);
   last_y_.swap(next_y_);
-  const double late = synchronisation_.lateness();
+  const double late = synchronisation_.time_offset_frames();
   if (late == 0) return {};
   char text[200];
   std::snprintf(

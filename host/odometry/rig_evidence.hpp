@@ -38,8 +38,8 @@ class RigWatch {
   StereoRig rig_;
   EpipolarProbe probe_;
   Synchronisation synchronisation_;
-  std::vector<ProbedSpot> spots_;  ///< of the last frame judged
-  std::vector<int> sampled_;       ///< the spot of every stereo edge, or -1; kept for its memory
+  std::vector<CornerMatch> spots_;  ///< of the last frame judged
+  std::vector<int> sampled_;        ///< the spot of every stereo edge, or -1; kept for its memory
   // Where the edges of a base were in the frame before:
   int base_frame_ = -1, last_frame_ = -1;
   std::vector<float> last_x_, last_y_, next_x_, next_y_;

@@ -81,7 +81,7 @@ void take_search(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence&
   evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
   if (search.found.empty()) return;
   int aligned = 0, on_line = 0, negative = 0, beyond = 0;
-  for (const ProbedSpot& spot : search.found) {
+  for (const CornerMatch& spot : search.found) {
     negative += spot.along < -1 - 2 * spot.sigma ? 1 : 0;
     beyond += spot.along > search.max_disparity + 1 + 2 * spot.sigma ? 1 : 0;
     aligned += spot.is_aligned ? 1 : 0;

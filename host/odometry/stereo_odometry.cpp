@@ -105,8 +105,8 @@ class StereoOdometry::Implementation {
   frontend::RigHandle current_;  ///< of the frame tracked last; null before the first one
   odometry::StepHandle step_;    ///< its motion; null where none was looked for
   std::optional<std::int64_t> last_stamp_ns_;
-  std::vector<double> distances_;  ///< buffer of median_parallax()
-  std::set<std::string> told_;     ///< kinds of doubts: their words before the first number
+  std::vector<double> distances_;   ///< buffer of median_parallax()
+  std::set<std::string> reported_;  ///< kinds of doubts: their words before the first number
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
@@ -274,7 +274,7 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
 
 /// Every kind of doubt is told once.
 void StereoOdometry::Implementation::warn(const std::string& doubt, FrameResult& result) {
-  if (doubt.empty() || !told_.insert(doubt.substr(doubt.find_first_of("abcdefghijklmnopqrstuvwxyz"), 25)).second)
+  if (doubt.empty() || !reported_.insert(doubt.substr(doubt.find_first_of("abcdefghijklmnopqrstuvwxyz"), 25)).second)
     return;
   result.warning += (result.warning.empty() ? "" : "; ") + doubt;
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMinSamples = 200;
 constexpr double kSigmas = 10;          // neighbours err together
-constexpr double kLeastLateness = 0.3;  // frame intervals; hardware triggers stay below a hundredth
+constexpr double kMinTimeOffset = 0.3;  // frame intervals; hardware triggers stay below a hundredth
 
 }  // namespace
 
@@ -21,14 +21,14 @@ void Synchronisation::add(double u, double v, double across, double motion) {
   ++count_;
 }
 
-double Synchronisation::lateness() const {
+double Synchronisation::time_offset_frames() const {
   if (count_ < kMinSamples) return 0;
   const Eigen::FullPivLU<Eigen::Matrix<double, 7, 7>> solver(normal_);
   if (!solver.isInvertible()) return 0;
   const Terms terms = solver.solve(right_side_);
   const double variance = (squares_ - terms.dot(right_side_)) / (count_ - 7);
   const double sigma = std::sqrt(std::fmax(variance, 0) * solver.inverse()(6, 6));
-  return std::abs(terms[6]) > kLeastLateness && std::abs(terms[6]) > kSigmas * sigma ? terms[6] : 0;
+  return std::abs(terms[6]) > kMinTimeOffset && std::abs(terms[6]) > kSigmas * sigma ? terms[6] : 0;
 }
 
 }  // namespace quadedge::odometry

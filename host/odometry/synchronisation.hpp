@@ -16,7 +16,7 @@ class Synchronisation {
   void add(double u, double v, double across, double motion);
 
   /// Frame intervals that the right camera is late, below zero for the left one; 0 where it is not significant.
-  double lateness() const;
+  double time_offset_frames() const;
 
  private:
   using Terms = Eigen::Matrix<double, 7, 1>;

@@ -50,12 +50,12 @@ void QuadObservations::resize(std::size_t quads) {
   current.resize(quads);
   scoring.resize(quads);
   ncc.resize(quads);
-  rivals.resize(quads);
+  competing_clusters.resize(quads);
   match.resize(quads);
 }
 
 void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
-                           const StereoObservation& current_edge, float ncc_value, std::int32_t rival_count,
+                           const StereoObservation& current_edge, float ncc_value, std::int32_t competing,
                            std::int32_t match_number, const QuadLimits& limits) {
   previous[i] = before;
   current[i] = after;
@@ -78,19 +78,19 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
   const double* value = values;
   for (auto column : kColumns) (scoring.*column)[i] = static_cast<float>(*value++);
   ncc[i] = ncc_value;
-  rivals[i] = rival_count;
+  competing_clusters[i] = competing;
   match[i] = match_number;
 }
 
 bool QuadObservations::append(const StereoRig& rig, const StereoObservation& previous_edge,
-                              const StereoObservation& current_edge, float ncc_value, std::int32_t rival_count,
+                              const StereoObservation& current_edge, float ncc_value, std::int32_t competing,
                               std::int32_t match_number, const QuadLimits& limits) {
   const auto before = measure(rig, previous_edge, limits.min_epipolar_angle);
   if (!before) return false;
   const auto after = measure(rig, current_edge, limits.min_epipolar_angle);
   if (!after) return false;
   resize(size() + 1);
-  set(size() - 1, *before, *after, current_edge, ncc_value, rival_count, match_number, limits);
+  set(size() - 1, *before, *after, current_edge, ncc_value, competing, match_number, limits);
   return true;
 }
 
@@ -128,7 +128,7 @@ void QuadBuilder::build(const MeasuredEdges& previous, const StereoEdges& curren
     for (std::size_t q = begin; q < end; ++q) {
       const std::size_t i = rows_[q];
       quads.set(q, *before(i), *after(i), observation(current, static_cast<std::size_t>(matches.current[i])),
-                matches.ncc[i], matches.rivals[i], static_cast<std::int32_t>(i), limits);
+                matches.ncc[i], matches.competing_clusters[i], static_cast<std::int32_t>(i), limits);
     }
   });
 }

@@ -49,19 +49,19 @@ struct ScoringArrays {
 struct QuadObservations {
   std::vector<StereoMeasurement> previous, current;  ///< in the left camera's frame of their time
   ScoringArrays scoring;
-  std::vector<float> ncc;            ///< similarity, higher is better
-  std::vector<std::int32_t> rivals;  ///< how many other matches the previous edge has (0: unambiguous)
-  std::vector<std::int32_t> match;   ///< the caller's number for the quad (row of TemporalMatches)
+  std::vector<float> ncc;                        ///< similarity, higher is better
+  std::vector<std::int32_t> competing_clusters;  ///< how many other matches the previous edge has (0: unambiguous)
+  std::vector<std::int32_t> match;               ///< the caller's number for the quad (row of TemporalMatches)
 
   std::size_t size() const { return previous.size(); }
   /// Appends a quad from its four edges. Pixels and radians. \returns false, and appends nothing, when one of the two
   /// stereo edges has no depth or no tangent (see measure()).
   bool append(const StereoRig& rig, const StereoObservation& previous_edge, const StereoObservation& current_edge,
-              float ncc_value, std::int32_t rival_count, std::int32_t match_number, const QuadLimits& limits);
+              float ncc_value, std::int32_t competing, std::int32_t match_number, const QuadLimits& limits);
   void resize(std::size_t quads);
   /// Sets quad `i`, see append().
   void set(std::size_t i, const StereoMeasurement& before, const StereoMeasurement& after,
-           const StereoObservation& current_edge, float ncc_value, std::int32_t rival_count, std::int32_t match_number,
+           const StereoObservation& current_edge, float ncc_value, std::int32_t competing, std::int32_t match_number,
            const QuadLimits& limits);
 };
 

@@ -18,7 +18,8 @@ inline std::uint32_t ordered_bits(float value) {
   return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
 }
 
-/// Quads by their matching quality: fewest rivals, then highest NCC, then lowest index. Sorted as far as asked for.
+/// Quads by their matching quality: fewest competing clusters, then highest NCC, then lowest index. Sorted as far as
+/// asked for.
 class SamplingOrder {
  public:
   /// A quad and how far behind others it stands.
@@ -31,8 +32,8 @@ class SamplingOrder {
   SamplingOrder(const QuadObservations& quads, std::vector<Entry>& order) : order_(order) {
     order_.resize(quads.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      const auto rivals = static_cast<std::uint64_t>(static_cast<std::uint32_t>(quads.rivals[i]));
-      order_[i] = {rivals << 32 | ~ordered_bits(quads.ncc[i]), static_cast<std::int32_t>(i)};
+      const auto competing = static_cast<std::uint64_t>(static_cast<std::uint32_t>(quads.competing_clusters[i]));
+      order_[i] = {competing << 32 | ~ordered_bits(quads.ncc[i]), static_cast<std::int32_t>(i)};
     }
   }
 

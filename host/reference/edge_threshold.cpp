@@ -39,7 +39,7 @@ double grey_at(const ImageView& image, int x, int y) {
   return static_cast<double>(image.at(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1)));
 }
 
-bool is_saturated(double grey) { return grey <= 0 || grey >= kWhiteLevel; }
+bool is_saturated(double grey) { return grey <= 0 || grey >= kMaxGrey; }
 
 double gradient_magnitude(const ImageView& image, int x, int y, double sigma) {
   const int radius = kernel_radius(sigma);
@@ -67,7 +67,7 @@ int noise_response(const ImageView& image, int x, int y) {
       sum += kWeights[dy + 1] * kWeights[dx + 1] * grey;
     }
   }
-  return static_cast<int>(std::lround(std::abs(sum) * image.white / kWhiteLevel));
+  return static_cast<int>(std::lround(std::abs(sum) * image.max_value / kMaxGrey));
 }
 
 template <std::size_t N>
@@ -123,7 +123,7 @@ double EdgeThreshold::next(const std::vector<ImageView>& images) {
   if (config_.threshold > 0) return config_.threshold;
   ContrastTally tally;
   for (const ImageView& image : images) tally.add(image, config_.sigma);
-  const double step = kWhiteLevel / images.front().white;  // [grey levels]
+  const double step = kMaxGrey / images.front().max_value;  // [grey levels]
   noise_ = step * tally.noise();
   const ThresholdLimits limits = threshold_limits(config_);
   const double gradient =

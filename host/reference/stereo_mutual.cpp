@@ -19,8 +19,8 @@ StereoEdges stereo_mutual(const StereoClusters& clusters, const StereoRelaxation
   for (std::size_t i = 0; i < best.size(); ++i) {
     if (best[i] < 0) continue;
     const auto c = static_cast<std::size_t>(best[i]);
-    const std::size_t rival = owner.at(clusters.anchor[c]);
-    if (std::hypot(left.x[rival] - left.x[i], left.y[rival] - left.y[i]) > config.mutual_radius) continue;
+    const std::size_t best_left = owner.at(clusters.anchor[c]);
+    if (std::hypot(left.x[best_left] - left.x[i], left.y[best_left] - left.y[i]) > config.mutual_radius) continue;
     const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
     edges.left_index.push_back(static_cast<std::int32_t>(i));
     edges.right_index.push_back(clusters.anchor[c]);

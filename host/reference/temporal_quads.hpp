@@ -14,8 +14,9 @@ std::vector<float> temporal_agreement(const Candidates& left_candidates, Candida
                                       const Candidates& right_candidates, const CandidateScores& right);
 
 /// The quad of every row: its most alike candidate, after distance_weight (d / radius)^2 is taken away, d the distance
-/// from the predicted left position. Along a curve that looks the same everywhere the prediction decides. `rivals`
-/// counts further groups of candidates that do not chain up with the winner's (doc/method.md section 4, filter 8).
+/// from the predicted left position. Along a curve that looks the same everywhere the prediction decides.
+/// `competing_clusters` counts further groups of candidates that do not chain up with the winner's (doc/method.md
+/// section 4, filter 8).
 ///
 /// The paper's photometric refinement in time is left out: positions detected in both rigs are better than refined
 /// ones, and in a search that a coarse motion guides it rejected nothing but true quads (rendered room: 70.7 % recall

@@ -5,7 +5,7 @@
 namespace quadedge::reference {
 
 Image undistort(const ImageView& recorded, const UndistortionTable& table) {
-  Image image(table.width, table.height, recorded.white);
+  Image image(table.width, table.height, recorded.max_value);
   for (std::size_t i = 0; i < table.source_x.size(); ++i) {
     const float x = std::clamp(table.source_x[i], 0.0f, static_cast<float>(recorded.width - 1));
     const float y = std::clamp(table.source_y[i], 0.0f, static_cast<float>(recorded.height - 1));

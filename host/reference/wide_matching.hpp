@@ -18,8 +18,8 @@ struct WideEdges {
 };
 
 /// Finds the earlier edges among the current ones, anywhere in the left image: the most alike, if it is mutually best
-/// and no rival elsewhere comes near (config.wide_ratio; "elsewhere": farther than config.wide_neighbourhood px). The
-/// matches' ncc is the cosine of the two descriptors; they have no rivals.
+/// and no match elsewhere is nearly as good (config.wide_ratio; "elsewhere": farther than config.wide_neighbourhood
+/// px). The matches' ncc is the cosine of the two descriptors; they have no competing clusters.
 TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config);
 
 }  // namespace quadedge::reference

@@ -5,7 +5,7 @@
 namespace quadedge::report {
 
 std::string matches_csv(const StereoMatches& matches, bool depths) {
-  std::string text = "left_x,left_y,left_direction_rad,right_x,right_y,right_direction_rad,likeness,x_m,y_m,z_m\n";
+  std::string text = "left_x,left_y,left_direction_rad,right_x,right_y,right_direction_rad,ncc,x_m,y_m,z_m\n";
   const StereoEdges& edges = matches.edges;
   char row[240];
   for (std::size_t i = 0; i < edges.size(); ++i) {

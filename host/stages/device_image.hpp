@@ -8,9 +8,9 @@
 
 namespace quadedge::stages {
 
-/// The defines of programs that read images whose largest value is `white`, on top of others.
-inline opencl::Defines image_defines(int white, opencl::Defines others = {}) {
-  if (white != kWhite8) others["WHITE"] = std::to_string(white);
+/// The defines of programs that read images whose largest value is `max_value`, on top of others.
+inline opencl::Defines image_defines(int max_value, opencl::Defines others = {}) {
+  if (max_value != kMaxValue8) others["MAX_VALUE"] = std::to_string(max_value);
   return others;
 }
 

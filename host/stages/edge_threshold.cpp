@@ -21,11 +21,11 @@ EdgeThreshold::EdgeThreshold(opencl::Context& context, const EdgesConfig& config
 
 ThresholdArguments EdgeThreshold::arguments(const PaddedPlane& plane) const {
   const ThresholdLimits limits = threshold_limits(config_);
-  const double step = kWhiteLevel / plane.white();  // [grey levels]
+  const double step = kMaxGrey / plane.max_value();  // [grey levels]
   return {plane.width(),
           plane.height(),
           plane.stride(),
-          static_cast<float>(kWhiteLevel),
+          static_cast<float>(kMaxGrey),
           static_cast<float>(step),
           static_cast<float>(config_.threshold_area),
           static_cast<float>(limits.per_noise),

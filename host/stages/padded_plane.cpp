@@ -45,8 +45,8 @@ opencl::Defines gradient_defines(const EdgesConfig& config) {
           {"AT_CELL", config.direction_at == "cell" ? "1" : "0"}};
 }
 
-PaddedPlane::PaddedPlane(opencl::Context& context, int width, int height, double sigma, int white)
-    : width_(width), height_(height), white_(white) {
+PaddedPlane::PaddedPlane(opencl::Context& context, int width, int height, double sigma, int max_value)
+    : width_(width), height_(height), max_value_(max_value) {
   if (width < 1 || height < 1) throw UsageError("edge detection needs an image of at least 1 x 1 pixels");
   const int radius = kernel_radius(sigma);
   const int pad_x = 16 * ((radius + 18) / 16), pad_y = radius + 2;  // as in kernels/edge_detection.cl
@@ -57,7 +57,7 @@ PaddedPlane::PaddedPlane(opencl::Context& context, int width, int height, double
   EdgesConfig config;
   config.sigma = sigma;
   pad_ = {context,
-          context.program({"edge_detection.cl", "padded_plane.cl"}, image_defines(white, gradient_defines(config))),
+          context.program({"edge_detection.cl", "padded_plane.cl"}, image_defines(max_value, gradient_defines(config))),
           "edges_pad"};
 }
 

@@ -11,21 +11,21 @@ namespace quadedge::stages {
 /// one, for all stages that look at its gradient.
 class PaddedPlane {
  public:
-  /// For images of width x height pixels with values to `white`. \throws UsageError for an empty one.
-  PaddedPlane(opencl::Context& context, int width, int height, double sigma, int white = kWhite8);
+  /// For images of width x height pixels with values to `max_value`. \throws UsageError for an empty one.
+  PaddedPlane(opencl::Context& context, int width, int height, double sigma, int max_value = kMaxValue8);
 
   /// Enqueues the padding of `image` (packed, height x width); part of the stage begun last.
   void prepare(const opencl::Buffer<cl_uchar>& image);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  int stride() const { return stride_; }  ///< floats per row
-  int white() const { return white_; }    ///< largest value of the image's pixels
+  int stride() const { return stride_; }        ///< floats per row
+  int max_value() const { return max_value_; }  ///< largest value of the image's pixels
   const opencl::Buffer<cl_float>& pixels() const { return pixels_; }
   const opencl::Buffer<cl_float>& taps() const { return taps_; }
 
  private:
-  int width_, height_, white_, stride_, rows_;
+  int width_, height_, max_value_, stride_, rows_;
   opencl::Buffer<cl_float> pixels_, taps_;
   opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::Out<cl_float>, cl_int> pad_;
 };

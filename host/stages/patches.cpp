@@ -6,17 +6,17 @@
 namespace quadedge::stages {
 
 Patches::Patches(opencl::Context& context, int width, int height, const PatchesConfig& config,
-                 const std::map<std::string, std::string>& variants, int white)
+                 const std::map<std::string, std::string>& variants, int max_value)
     : context_(context),
       width_(width),
       height_(height),
       offset_(static_cast<float>(config.offset)),
-      corners_(context, white) {
+      corners_(context, max_value) {
   const auto& variant = opencl::choose_variant("patches", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   items_per_edge_ = std::stoul(variant.defines.at("ITEMS_PER_EDGE"));
   const auto program = context.program({"direction.cl", "photometric.cl", "photometric_lanes.cl", "patches.cl"},
-                                       image_defines(white, variant.defines));
+                                       image_defines(max_value, variant.defines));
   kernel_ = {context, program, "side_patches"};
 }
 

@@ -15,9 +15,9 @@ namespace quadedge::stages {
 /// patches can be cut anew at refined positions. Variants of the stage "patches".
 class Patches {
  public:
-  /// For images of width x height pixels with values to `white`.
+  /// For images of width x height pixels with values to `max_value`.
   Patches(opencl::Context& context, int width, int height, const PatchesConfig& config,
-          const std::map<std::string, std::string>& variants, int white = kWhite8);
+          const std::map<std::string, std::string>& variants, int max_value = kMaxValue8);
 
   /// Takes the next image (packed, height x width): prepares bilinear sampling.
   void prepare(const opencl::Buffer<cl_uchar>& image);

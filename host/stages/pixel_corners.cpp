@@ -4,10 +4,10 @@
 
 namespace quadedge::stages {
 
-PixelCorners::PixelCorners(opencl::Context& context, int white)
+PixelCorners::PixelCorners(opencl::Context& context, int max_value)
     : context_(&context),
-      words_per_pixel_(bytes_per_pixel(white)),
-      kernel_(context, context.program({"pixel_corners.cl"}, image_defines(white)), "pixel_corners") {}
+      words_per_pixel_(bytes_per_pixel(max_value)),
+      kernel_(context, context.program({"pixel_corners.cl"}, image_defines(max_value)), "pixel_corners") {}
 
 void PixelCorners::prepare(const opencl::Buffer<cl_uchar>& image, int width, int height) {
   width_ = width;

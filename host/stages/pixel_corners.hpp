@@ -9,7 +9,7 @@ namespace quadedge::stages {
 /// Holds the corners of one image, kernels/pixel_corners.cl, until the next one.
 class PixelCorners {
  public:
-  explicit PixelCorners(opencl::Context& context, int white = kWhite8);
+  explicit PixelCorners(opencl::Context& context, int max_value = kMaxValue8);
 
   /// Enqueues the preparation of `image` (packed, height x width); part of the stage begun last.
   void prepare(const opencl::Buffer<cl_uchar>& image, int width, int height);

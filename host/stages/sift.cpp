@@ -12,7 +12,7 @@ constexpr int kVector = 8;  // pixels per work-item of the maps
 }  // namespace
 
 Sift::Sift(opencl::Context& context, int width, int height, const SiftConfig& config,
-           const std::map<std::string, std::string>& variants, int white)
+           const std::map<std::string, std::string>& variants, int max_value)
     : context_(context),
       width_(width),
       height_(height),
@@ -21,7 +21,7 @@ Sift::Sift(opencl::Context& context, int width, int height, const SiftConfig& co
   const auto& variant = opencl::choose_variant("sift", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   items_per_edge_ = std::stoul(variant.defines.at("ITEMS_PER_EDGE"));
-  const auto program = context.program({"direction.cl", "sift.cl"}, image_defines(white, variant.defines));
+  const auto program = context.program({"direction.cl", "sift.cl"}, image_defines(max_value, variant.defines));
   blur_down_ = {context, program, "sift_blur_down"};
   blur_along_ = {context, program, "sift_blur_along"};
   gradient_ = {context, program, "sift_gradient"};

@@ -17,7 +17,7 @@ class Sift {
  public:
   /// For images of width x height pixels.
   Sift(opencl::Context& context, int width, int height, const SiftConfig& config,
-       const std::map<std::string, std::string>& variants, int white = kWhite8);
+       const std::map<std::string, std::string>& variants, int max_value = kMaxValue8);
 
   /// Takes the next image (packed, height x width): prepares the gradient of the blurred image.
   void prepare(const opencl::Buffer<cl_uchar>& image);

@@ -9,13 +9,13 @@
 
 namespace quadedge::stages {
 StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
-                                   const std::map<std::string, std::string>& variants, int white)
+                                   const std::map<std::string, std::string>& variants, int max_value)
     : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const bool lanes = variant.defines.count("GROUP") != 0;
   items_per_edge_ = lanes ? kPatchLanes : 1;
-  const opencl::Defines defines = image_defines(white, variant.defines);
+  const opencl::Defines defines = image_defines(max_value, variant.defines);
   const auto program = lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl",
                                                 "candidate_positions.cl", "stereo_refinement_lanes.cl"},
                                                defines)

@@ -24,7 +24,7 @@ struct DeviceRefined {
 class StereoRefinement {
  public:
   StereoRefinement(opencl::Context& context, const StereoConfig& config, double patch_offset,
-                   const std::map<std::string, std::string>& variants, int white = kWhite8);
+                   const std::map<std::string, std::string>& variants, int max_value = kMaxValue8);
 
   /// Living candidates get a position and a similarity; those that diverge are rejected. Both images prepared for
   /// sampling; `left_patches`: the side patches of the left edges, see host/reference/patches.hpp.

@@ -6,15 +6,15 @@
 namespace quadedge::stages {
 
 Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
-                           const std::map<std::string, std::string>& variants, int white)
+                           const std::map<std::string, std::string>& variants, int max_value)
     : context_(context),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
-      bytes_per_pixel_(bytes_per_pixel(white)),
+      bytes_per_pixel_(bytes_per_pixel(max_value)),
       active_(!table.empty()) {
   if (!active_) return;
   const auto& variant = opencl::choose_variant("undistortion", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  kernel_ = {context, context.program({"undistortion.cl"}, image_defines(white, variant.defines)), "undistort"};
+  kernel_ = {context, context.program({"undistortion.cl"}, image_defines(max_value, variant.defines)), "undistort"};
   source_x_.write(context, table.source_x);
   source_y_.write(context, table.source_y);
 }

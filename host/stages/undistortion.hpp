@@ -13,10 +13,10 @@ namespace quadedge::stages {
 /// Uploads one camera's images and undoes the lens distortion; without a table it only uploads.
 class Undistortion {
  public:
-  /// `table` may be empty: the recorded images are pinhole images of width x height already. `white`: the largest value
-  /// of their pixels.
+  /// `table` may be empty: the recorded images are pinhole images of width x height already. `max_value`: the largest
+  /// value of their pixels.
   Undistortion(opencl::Context& context, const UndistortionTable& table, int width, int height,
-               const std::map<std::string, std::string>& variants, int white = kWhite8);
+               const std::map<std::string, std::string>& variants, int max_value = kMaxValue8);
 
   /// Enqueues upload and undistortion. `image` receives the packed pinhole image, height x width.
   /// The recorded image may have any size when there is a table.

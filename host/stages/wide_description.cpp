@@ -7,7 +7,7 @@
 namespace quadedge::stages {
 
 WideDescription::WideDescription(opencl::Context& context, int width, int height,
-                                 const std::map<std::string, std::string>& variants, int white)
+                                 const std::map<std::string, std::string>& variants, int max_value)
     : context_(context), width_(width), small_width_(width / kWideShrink), small_height_(height / kWideShrink) {
   const auto& variant = opencl::choose_variant("wide_description", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
@@ -15,7 +15,7 @@ WideDescription::WideDescription(opencl::Context& context, int width, int height
   items_per_row_ = grouped ? kWideCells * kWideCells : 1;
   const auto program = context.program(
       {"direction.cl", "wide_samples.cl", grouped ? "wide_description_groups.cl" : "wide_description.cl"},
-      image_defines(white, variant.defines));
+      image_defines(max_value, variant.defines));
   shrink_ = {context, program, "wide_shrink"};
   describe_ = {context, program, "wide_describe"};
 }

@@ -14,7 +14,7 @@ class WideDescription {
  public:
   /// For left images of width x height pixels.
   WideDescription(opencl::Context& context, int width, int height, const std::map<std::string, std::string>& variants,
-                  int white = kWhite8);
+                  int max_value = kMaxValue8);
 
   /// Keeps what a later description of edges in `image` (packed, height x width) needs.
   void prepare(const opencl::Buffer<cl_uchar>& image, opencl::Buffer<cl_float>& small);

@@ -59,9 +59,9 @@ void check(const SyntheticOptions& options) {
 
 /// The camera's answer to an exposure: saturated, bent by its gamma, then flattened. Grey levels, 0 to 255.
 double tone(double grey, const SyntheticOptions& options) {
-  constexpr double kWhite = kWhite8, kMiddle = 128.0;
-  grey = std::clamp(grey, 0.0, kWhite);
-  if (options.gamma != 1.0) grey = kWhite * std::pow(grey / kWhite, 1.0 / options.gamma);
+  constexpr double kMax = kMaxValue8, kMiddle = 128.0;
+  grey = std::clamp(grey, 0.0, kMax);
+  if (options.gamma != 1.0) grey = kMax * std::pow(grey / kMax, 1.0 / options.gamma);
   if (options.contrast != 1.0) grey = kMiddle + options.contrast * (grey - kMiddle);
   return grey;
 }
@@ -87,7 +87,7 @@ StereoCalibration calibrate(const SyntheticOptions& options) {
 
 StereoRig rig_of(const StereoCalibration& calibration, int bits) {
   StereoRig rig = make_rig(calibration);
-  rig.white = (1 << bits) - 1;
+  rig.max_value = (1 << bits) - 1;
   return rig;
 }
 
@@ -183,14 +183,14 @@ RenderedView SyntheticSequence::render(int frame, Side side) const {
       options.light * (frame % 2 == 1 ? options.gain : 1.0) * (side == Side::right ? options.right_gain : 1.0);
 
   RenderedView view;
-  view.image = Image(options.width, options.height, rig().white);
+  view.image = Image(options.width, options.height, rig().max_value);
   view.depth = std::move(radiance.depth);
   const std::uint64_t key = synthetic::combine(synthetic::combine(options.seed, frame), index_of(side));
   for (std::size_t i = 0; i < radiance.grey.size(); ++i) {
     double grey = gain * radiance.grey[i];
     if (options.noise > 0.0)
       grey += options.noise * synthetic::normal(synthetic::combine(key, static_cast<std::int64_t>(i)));
-    const double value = tone(grey, options) * view.image.white / kWhite8;
+    const double value = tone(grey, options) * view.image.max_value / kMaxValue8;
     view.image.set(static_cast<int>(i) % options.width, static_cast<int>(i) / options.width,
                    static_cast<int>(std::floor(value + 0.5)));
   }

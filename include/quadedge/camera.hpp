@@ -54,7 +54,7 @@ struct StereoRig {
   UndistortionTable left_undistortion, right_undistortion;  ///< empty where the recorded images are pinhole images
   PixelMask left_mask, right_mask;                          ///< no edges within edges.margin of them; empty: none
 
-  int white = 255;  ///< largest value of the recorded images' pixels, see ImageView
+  int max_value = 255;  ///< largest value of the recorded images' pixels, see ImageView
 
   double baseline() const { return right_from_left.translation().norm(); }
 };

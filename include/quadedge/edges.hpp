@@ -73,24 +73,24 @@ struct StereoEdges {
 
 /// Matches in time between the stereo edges of two rigs: quads that close the circle. doc/method.md section 4.
 struct TemporalMatches {
-  std::vector<std::int32_t> previous;   ///< index into the previous rig's stereo edges
-  std::vector<std::int32_t> current;    ///< index into the current rig's stereo edges
-  std::vector<float> left_x, left_y;    ///< detected position in the current left image, pixels
-  std::vector<float> right_x, right_y;  ///< its refined right point
-  std::vector<float> ncc;               ///< mean of the left and the right similarity
-  std::vector<std::int32_t> rivals;     ///< how many other clusters the previous edge has (0: unambiguous)
-  int search = -1;                      ///< number of the search in time that found them, see Tap; -1: none
+  std::vector<std::int32_t> previous;            ///< index into the previous rig's stereo edges
+  std::vector<std::int32_t> current;             ///< index into the current rig's stereo edges
+  std::vector<float> left_x, left_y;             ///< detected position in the current left image, pixels
+  std::vector<float> right_x, right_y;           ///< its refined right point
+  std::vector<float> ncc;                        ///< mean of the left and the right similarity
+  std::vector<std::int32_t> competing_clusters;  ///< how many other clusters the previous edge has (0: unambiguous)
+  int search = -1;                               ///< number of the search in time that found them, see Tap; -1: none
 
   std::size_t size() const { return previous.size(); }
   /// Keeps the memory.
   void clear() {
-    for (auto* values : {&previous, &current, &rivals}) values->clear();
+    for (auto* values : {&previous, &current, &competing_clusters}) values->clear();
     for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
     search = -1;
   }
   /// Adds a match with stereo edge `current_edge` of `edges`, at its positions.
   void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity,
-              std::int32_t rival_count) {
+              std::int32_t competing) {
     const auto j = static_cast<std::size_t>(current_edge);
     previous.push_back(previous_edge);
     current.push_back(current_edge);
@@ -99,7 +99,7 @@ struct TemporalMatches {
     right_x.push_back(edges.right_x[j]);
     right_y.push_back(edges.right_y[j]);
     ncc.push_back(similarity);
-    rivals.push_back(rival_count);
+    competing_clusters.push_back(competing);
   }
 };
 

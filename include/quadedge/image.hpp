@@ -9,29 +9,29 @@
 
 namespace quadedge {
 
-constexpr int kWhite8 = 255;  ///< largest value of a pixel of 8 bits
+constexpr int kMaxValue8 = 255;  ///< largest value of a pixel of 8 bits
 
-/// Bytes of a pixel whose largest value is `white`.
-constexpr std::size_t bytes_per_pixel(int white) { return white > kWhite8 ? 2 : 1; }
+/// Bytes of a pixel whose largest value is `max_value`.
+constexpr std::size_t bytes_per_pixel(int max_value) { return max_value > kMaxValue8 ? 2 : 1; }
 
 /// A view of a grey image that somebody else owns. height x width, row-major; the centre of the top-left pixel is (0,
-/// 0). Pixels are bytes, or 16-bit words in the machine's byte order where `white` is more than 255. Whatever their
-/// depth, 0 to white are 0 to 255 grey levels, so that every threshold keeps its meaning.
+/// 0). Pixels are bytes, or 16-bit words in the machine's byte order where `max_value` is more than 255. Whatever their
+/// depth, 0 to max_value are 0 to 255 grey levels, so that every threshold keeps its meaning.
 struct ImageView {
   const std::uint8_t* pixels = nullptr;
   int width = 0;
   int height = 0;
-  std::ptrdiff_t stride = 0;  ///< bytes from one row to the next, at least those of a row's pixels
-  int white = kWhite8;        ///< value of a saturated pixel: 255, 4095 of 12 bits, 65535 of 16 bits
+  std::ptrdiff_t stride = 0;   ///< bytes from one row to the next, at least those of a row's pixels
+  int max_value = kMaxValue8;  ///< value of a saturated pixel: 255, 4095 of 12 bits, 65535 of 16 bits
 
   /// A view of pixels of 16 bits. `stride` in pixels.
-  static ImageView of_words(const std::uint16_t* words, int width, int height, std::ptrdiff_t stride, int white) {
-    return {reinterpret_cast<const std::uint8_t*>(words), width, height, 2 * stride, white};
+  static ImageView of_words(const std::uint16_t* words, int width, int height, std::ptrdiff_t stride, int max_value) {
+    return {reinterpret_cast<const std::uint8_t*>(words), width, height, 2 * stride, max_value};
   }
 
-  /// The stored value of a pixel, 0 to white.
+  /// The stored value of a pixel, 0 to max_value.
   int value(int x, int y) const {
-    if (white <= kWhite8) return pixels[y * stride + x];
+    if (max_value <= kMaxValue8) return pixels[y * stride + x];
     std::uint16_t word = 0;
     std::memcpy(&word, pixels + y * stride + 2 * x, sizeof word);
     return word;
@@ -39,8 +39,8 @@ struct ImageView {
   /// Grey level of a pixel, 0 to 255; of 8-bit images the value itself.
   float at(int x, int y) const {
     const int stored = value(x, y);
-    return white == kWhite8 ? static_cast<float>(stored)
-                            : static_cast<float>(stored) * (255.0F / static_cast<float>(white));
+    return max_value == kMaxValue8 ? static_cast<float>(stored)
+                                   : static_cast<float>(stored) * (255.0F / static_cast<float>(max_value));
   }
   bool empty() const { return pixels == nullptr || width <= 0 || height <= 0; }
 };
@@ -50,24 +50,24 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;  ///< height x width pixels as in ImageView, row-major
-  int white = kWhite8;               ///< as in ImageView
+  int max_value = kMaxValue8;        ///< as in ImageView
 
   Image() = default;
-  Image(int width_, int height_, int white_ = kWhite8)
+  Image(int width_, int height_, int max_value_ = kMaxValue8)
       : width(width_),
         height(height_),
-        pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * bytes_per_pixel(white_)),
-        white(white_) {}
+        pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * bytes_per_pixel(max_value_)),
+        max_value(max_value_) {}
 
   ImageView view() const {
-    return {pixels.data(), width, height, static_cast<std::ptrdiff_t>(bytes_per_pixel(white)) * width, white};
+    return {pixels.data(), width, height, static_cast<std::ptrdiff_t>(bytes_per_pixel(max_value)) * width, max_value};
   }
   std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-  /// Stores a value, 0 to white.
+  /// Stores a value, 0 to max_value.
   void set(int x, int y, int value) {
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     const auto word = static_cast<std::uint16_t>(value);
-    if (white <= kWhite8) {
+    if (max_value <= kMaxValue8) {
       pixels[at] = static_cast<std::uint8_t>(value);
     } else {
       std::memcpy(pixels.data() + 2 * at, &word, sizeof word);

@@ -48,7 +48,7 @@ std::string files_of(nb::handle files) {
 }
 
 StereoRig rig_from_file(nb::handle files, double fov, nb::handle mask, const std::optional<std::pair<int, int>>& size,
-                        int white) {
+                        int max_value) {
   StereoCalibration calibration = read_calibration(files_of(files));
   for (PinholeCamera* camera : {&calibration.left.camera, &calibration.right.camera}) {
     if (!size || camera->width > 0) continue;
@@ -57,7 +57,7 @@ StereoRig rig_from_file(nb::handle files, double fov, nb::handle mask, const std
   }
   StereoRig rig = make_rig(calibration, fov);
   if (!mask.is_none()) mask_rig(rig, files_of(mask));
-  rig.white = white;
+  rig.max_value = max_value;
   return rig;
 }
 
@@ -68,36 +68,36 @@ void bind_rig(nb::module_& module) {
       .def(
           "__init__",
           [](StereoRig* self, const PinholeCamera& left, const PinholeCamera& right, const nb::object& right_from_left,
-             int white) {
+             int max_value) {
             StereoRig rig;
             rig.left = left;
             rig.right = right;
             rig.right_from_left = transform_from(right_from_left, "right_from_left");
-            rig.white = white;
+            rig.max_value = max_value;
             check_rig(rig, "stereo rig");
             new (self) StereoRig(std::move(rig));
           },
           nb::sig("def __init__(self, left: PinholeCamera, right: PinholeCamera, right_from_left: "
-                  "numpy.typing.ArrayLike, white: int = 255) -> None"),
-          "left"_a, "right"_a, "right_from_left"_a, "white"_a = kWhite8,
+                  "numpy.typing.ArrayLike, max_value: int = 255) -> None"),
+          "left"_a, "right"_a, "right_from_left"_a, "max_value"_a = kMaxValue8,
           "right_from_left: (4, 4), a point in the right camera's frame from one in the left camera's [m]; of a\n"
           "rectified rig the identity with -baseline in its first row.\n"
-          "white: value of a saturated pixel: 255, or 4095, 65535 ... for images of uint16.\n\n"
+          "max_value: value of a saturated pixel: 255, or 4095, 65535 ... for images of uint16.\n\n"
           "Raises DataError for a focal length, size or baseline that no camera has.")
       .def_static(
           "from_file", &rig_from_file, "files"_a, nb::kw_only(), "fov"_a = 0.0, "mask"_a = nb::none(),
-          "size"_a = nb::none(), "white"_a = kWhite8,
+          "size"_a = nb::none(), "max_value"_a = kMaxValue8,
           nb::sig(
               "def from_file(files: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike], *, fov: float = "
               "0, mask: str | os.PathLike | tuple[str | os.PathLike, str | os.PathLike] | None = None, size: "
-              "tuple[int, int] | None = None, white: int = 255) -> Rig"),
+              "tuple[int, int] | None = None, max_value: int = 255) -> Rig"),
           "Reads a calibration: Kalibr, OpenCV, ROS (camera_info), EuRoC or the native format, told by the content.\n\n"
           "files: one file, or a pair, left and right. fov: horizontal field of view of the pinhole images that "
           "distorted\n"
           "ones are turned into [degrees]; 0: the scale at the optical axis is kept. mask: image file as large as the\n"
           "recorded images, black where no edges are looked for, or a pair. size: (width, height) of the recorded "
           "images\n"
-          "where the file leaves it open. white: see above.\n\n"
+          "where the file leaves it open. max_value: see above.\n\n"
           "Raises DataError that names file, entry, what was found and what was expected.")
       .def_ro("left", &StereoRig::left)
       .def_ro("right", &StereoRig::right)
@@ -105,7 +105,7 @@ void bind_rig(nb::module_& module) {
           "right_from_left", [](const StereoRig& rig) { return view_of_matrix(rig.right_from_left.matrix()); }, kView,
           "(4, 4), a point in the right camera's frame from one in the left camera's [m].")
       .def_prop_ro("baseline", &StereoRig::baseline, "Distance of the cameras [m].")
-      .def_ro("white", &StereoRig::white, "Value of a saturated pixel.")
+      .def_ro("max_value", &StereoRig::max_value, "Value of a saturated pixel.")
       .def("__repr__", [](const StereoRig& rig) {
         return "<Rig " + std::to_string(rig.left.width) + "x" + std::to_string(rig.left.height) + ", baseline " +
                std::to_string(rig.baseline()) + " m>";

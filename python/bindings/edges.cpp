@@ -13,7 +13,7 @@
 namespace quadedge::python {
 namespace {
 
-constexpr int kWhite16 = 65535;
+constexpr int kMaxValue16 = 65535;
 
 void bind_edge_set(nb::module_& module) {
   nb::class_<EdgeSet>(module, "Edges", "Third-order edges of one image, row by row; all arrays are (N,) float32.")
@@ -78,8 +78,8 @@ void bind_quads(nb::module_& module) {
       .def("__repr__", [](const Quads& self) { return "<" + std::to_string(self.matches.size()) + " Quads>"; });
 }
 
-EdgeSet detect(nb::handle image, nb::handle device, const std::string& preset, nb::handle config, int white) {
-  const ImageArgument argument(image, "the image", white);
+EdgeSet detect(nb::handle image, nb::handle device, const std::string& preset, nb::handle config, int max_value) {
+  const ImageArgument argument(image, "the image", max_value);
   const Config constants = make_config(preset, config);
   return DeviceArgument(device).run([&](Device& chosen) { return detect_edges(argument.view(), chosen, constants); });
 }
@@ -89,8 +89,8 @@ StereoEdgesInSpace match(nb::handle left, nb::handle right, nb::handle source, n
   const Cameras cameras = cameras_of(source);
   Config constants = make_config(preset, config);
   complete(constants, cameras);
-  const int white = cameras.rig.white > kWhite8 ? cameras.rig.white : kWhite16;
-  const ImageArgument left_image(left, "the left image", white), right_image(right, "the right image", white);
+  const int max_value = cameras.rig.max_value > kMaxValue8 ? cameras.rig.max_value : kMaxValue16;
+  const ImageArgument left_image(left, "the left image", max_value), right_image(right, "the right image", max_value);
   return DeviceArgument(device).run([&](Device& chosen) {
     StereoOdometry odometry(cameras.rig, chosen, constants);
     odometry.track({0, left_image.view(), right_image.view()});
@@ -107,11 +107,11 @@ void bind_edges(nb::module_& module) {
   bind_stereo_edges(module);
   bind_quads(module);
   module.def("detect_edges", &detect, "image"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default",
-             "config"_a = nb::none(), "white"_a = kWhite16,
+             "config"_a = nb::none(), "max_value"_a = kMaxValue16,
              nb::sig("def detect_edges(image: numpy.typing.NDArray, device: str | Device = 'auto', preset: str = "
-                     "'default', config: dict | str | os.PathLike | None = None, white: int = 65535) -> Edges"),
+                     "'default', config: dict | str | os.PathLike | None = None, max_value: int = 65535) -> Edges"),
              "Third-order edges of one pinhole image, (height, width) of uint8 or uint16.\n\n"
-             "white: value of a saturated pixel of uint16. The other arguments: see Odometry.\n\n"
+             "max_value: value of a saturated pixel of uint16. The other arguments: see Odometry.\n\n"
              "Raises TypeError, DataError for what is no such image, DeviceError, UsageError for the configuration.");
   module.def("match", &match, "left"_a.none(), "right"_a.none(), "rig"_a.none(), nb::arg("device").none() = "auto",
              "preset"_a = "default", "config"_a = nb::none(),

@@ -26,7 +26,7 @@ std::string shape_of(const nb::ndarray<nb::ro, nb::device::cpu>& array) {
 
 }  // namespace
 
-ImageArgument::ImageArgument(nb::handle object, const std::string& name, int white) {
+ImageArgument::ImageArgument(nb::handle object, const std::string& name, int max_value) {
   if (!nb::ndarray_check(object)) refuse_type(name, type_of(object));
   const bool is_array = nb::try_cast(object, array_);
   const bool words = is_array && array_.dtype() == nb::dtype<std::uint16_t>();
@@ -56,12 +56,12 @@ ImageArgument::ImageArgument(nb::handle object, const std::string& name, int whi
     pixels = copy_.data();
     row = bytes * width;
   }
-  view_ = {pixels, width, height, row, words ? white : kWhite8};
+  view_ = {pixels, width, height, row, words ? max_value : kMaxValue8};
 }
 
 nb::object pixels_of(const Image& image, nb::handle owner) {
   const std::size_t shape[] = {static_cast<std::size_t>(image.height), static_cast<std::size_t>(image.width)};
-  if (image.white > kWhite8) {
+  if (image.max_value > kMaxValue8) {
     return nb::cast(nb::ndarray<nb::numpy, const std::uint16_t>(image.pixels.data(), 2, shape, owner));
   }
   return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(image.pixels.data(), 2, shape, owner));

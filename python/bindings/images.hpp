@@ -14,9 +14,9 @@ namespace quadedge::python {
 /// what else is strided is copied. Keeps the array alive, and must be destroyed with the GIL held.
 class ImageArgument {
  public:
-  /// `name`: "the left image". `white`: value of a saturated pixel of 16 bits. \throws TypeError for what is no array
-  /// or has other pixels, DataError for another shape and pixels that run backwards.
-  ImageArgument(nb::handle object, const std::string& name, int white);
+  /// `name`: "the left image". `max_value`: value of a saturated pixel of 16 bits. \throws TypeError for what is no
+  /// array or has other pixels, DataError for another shape and pixels that run backwards.
+  ImageArgument(nb::handle object, const std::string& name, int max_value);
   ImageArgument(const ImageArgument&) = delete;
   ImageArgument& operator=(const ImageArgument&) = delete;
   /// Its checks are left to the library: an empty image, a stride below a row's bytes.

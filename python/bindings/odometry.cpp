@@ -17,7 +17,7 @@
 namespace quadedge::python {
 namespace {
 
-constexpr int kWhite16 = 65535;
+constexpr int kMaxValue16 = 65535;
 
 /// What one frame was made of.
 struct Details {
@@ -33,7 +33,7 @@ class Odometry {
     complete(config_, cameras);
     running_ = std::make_unique<Running>(cameras.rig, device, config_);
     rig_ = running_->odometry.rig();
-    white_ = cameras.rig.white > kWhite8 ? cameras.rig.white : kWhite16;
+    max_value_ = cameras.rig.max_value > kMaxValue8 ? cameras.rig.max_value : kMaxValue16;
   }
 
   FrameResult track(const StereoFrame& frame) {
@@ -62,7 +62,7 @@ class Odometry {
 
   const StereoRig& rig() const { return rig_; }
   const Config& config() const { return config_; }
-  int white() const { return white_; }
+  int max_value() const { return max_value_; }
   DeviceInfo device() { return running().device.info(); }
   std::map<std::string, std::string> variants() { return running().odometry.variants(); }
 
@@ -84,7 +84,7 @@ class Odometry {
 
   Config config_;
   StereoRig rig_;
-  int white_ = kWhite16;
+  int max_value_ = kMaxValue16;
   double disparity_offset_ = 0;
   std::mutex in_use_;
   std::unique_ptr<Running> running_;
@@ -185,8 +185,8 @@ void bind_details(nb::module_& module) {
 }
 
 FrameResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::handle right) {
-  const ImageArgument left_image(left, "the left image", self.white());
-  const ImageArgument right_image(right, "the right image", self.white());
+  const ImageArgument left_image(left, "the left image", self.max_value());
+  const ImageArgument right_image(right, "the right image", self.max_value());
   const nb::gil_scoped_release released;
   return self.track({stamp_ns, left_image.view(), right_image.view()});
 }
@@ -225,7 +225,8 @@ void bind_odometry(nb::module_& module) {
           nb::sig("def track(self, stamp_ns: int, left: numpy.typing.NDArray, right: numpy.typing.NDArray) -> "
                   "FrameResult"),
           "Processes the next frame; the GIL is released meanwhile.\n\n"
-          "left, right: recorded images, (height, width) of uint8, or of uint16 where ``rig.white`` says so. Rows may\n"
+          "left, right: recorded images, (height, width) of uint8, or of uint16 where ``rig.max_value`` says so. Rows "
+          "may\n"
           "be any number of bytes apart, the arrays may be read-only; they are not kept.\n\n"
           "What can happen in any frame is a status. Raises TypeError for what is no image, DataError for images that\n"
           "do not fit the rig or a stamp that goes back (no trace is left), UsageError after close().")

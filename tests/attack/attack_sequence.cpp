@@ -52,7 +52,7 @@ double board_grey(double x, double y, bool fine) {
 }  // namespace
 
 Image warp(const Image& image, int width, int height, const std::function<Eigen::Vector2d(double, double)>& from) {
-  Image result(width, height, image.white);
+  Image result(width, height, image.max_value);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const Eigen::Vector2d place = from(x, y);

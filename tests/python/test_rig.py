@@ -17,7 +17,7 @@ def right_from_left(baseline: float) -> numpy.ndarray:
 def test_a_rig_by_numbers():
     camera = quadedge.PinholeCamera(**CAMERA)
     rig = quadedge.Rig(camera, camera, right_from_left(0.12))
-    assert rig.baseline == 0.12 and rig.white == 255 and rig.left.width == 320
+    assert rig.baseline == 0.12 and rig.max_value == 255 and rig.left.width == 320
     numpy.testing.assert_array_equal(rig.right_from_left, right_from_left(0.12))
     numpy.testing.assert_array_equal(rig.left.matrix, [[400, 0, 159.5], [0, 401, 99.5], [0, 0, 1]])
 

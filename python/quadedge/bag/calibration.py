@@ -31,7 +31,7 @@ def _as_file(message, rectified: bool) -> str:
     })  # fmt: skip
 
 
-def rig_of(left, right, rectified: bool, white: int) -> Rig:
+def rig_of(left, right, rectified: bool, max_value: int) -> Rig:
     """Of the CameraInfo of both cameras, read exactly as their files are.
 
     rectified: do the images show what the projection matrix says, instead of what the camera recorded?
@@ -40,4 +40,4 @@ def rig_of(left, right, rectified: bool, white: int) -> Rig:
         files = (Path(folder) / "left camera_info.yaml", Path(folder) / "right camera_info.yaml")
         for file, message in zip(files, (left, right)):
             file.write_text(_as_file(message, rectified))
-        return Rig.from_file(files, white=white)
+        return Rig.from_file(files, max_value=max_value)

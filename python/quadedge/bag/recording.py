@@ -101,16 +101,16 @@ class Recording:
     @cached_property
     def rig(self) -> Rig:
         """Of the calibration given to open_bag(), or of the camera_info messages. Raises DataError without either."""
-        white = 65535 if next(iter(self)).left.dtype == numpy.uint16 else 255
+        max_value = 65535 if next(iter(self)).left.dtype == numpy.uint16 else 255
         if self._calibration is not None:
-            return Rig.from_file(self._calibration, white=white)
+            return Rig.from_file(self._calibration, max_value=max_value)
         missing = [topic for topic, info in ((self.topics.left, self.topics.left_info),
                                              (self.topics.right, self.topics.right_info)) if info not in self._infos]
         if missing:
             raise DataError(f"{self.name}: found no camera_info of {' and '.join(missing)}, expected one beside the "
                             "images, or a calibration file")
         left, right = self._infos[self.topics.left_info], self._infos[self.topics.right_info]
-        return rig_of(left, right, self.topics.rectified, white)
+        return rig_of(left, right, self.topics.rectified, max_value)
 
     def __len__(self) -> int:
         return len(self.pairing.pairs)

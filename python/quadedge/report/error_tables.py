@@ -93,9 +93,9 @@ def _error_cell(row: ErrorRow, group: list[ErrorRow], alignment: str, key: str, 
         return value * unit.factor if exists(value) else None
 
     value = value_of(row.accuracy)
-    rivals = [value_of(other.accuracy) for other in group if other.ranked]
-    rivals = [rival for rival in rivals if exists(rival)]
-    shown = {significant(rival) for rival in rivals}
-    best = row.ranked and len(shown) > 1 and significant(value) == significant(min(rivals))
+    competitors = [value_of(other.accuracy) for other in group if other.ranked]
+    competitors = [competitor for competitor in competitors if exists(competitor)]
+    shown = {significant(competitor) for competitor in competitors}
+    best = row.ranked and len(shown) > 1 and significant(value) == significant(min(competitors))
     return Cell(significant(value), row.accuracy[alignment][key][statistic], bold=best,
                 beside=difference(value, value_of(row.baseline)))

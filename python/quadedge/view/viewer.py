@@ -114,7 +114,8 @@ class Viewer:
         for path, image, camera in ((_LEFT, left, rig.left), (_RIGHT, right, rig.right)):
             self.recording.log(path, rerun.Pinhole(image_from_camera=camera.matrix, width=camera.width,
                                                    height=camera.height, image_plane_distance=0.3))
-            shown = image if image.dtype == numpy.uint8 else (image // (max(rig.white, 256) // 256)).astype(numpy.uint8)
+            values_per_grey = max(rig.max_value, 256) // 256
+            shown = image if image.dtype == numpy.uint8 else (image // values_per_grey).astype(numpy.uint8)
             self.recording.log(f"{path}/image", rerun.Image(numpy.ascontiguousarray(shown)).compress(jpeg_quality=80))
         place = numpy.linalg.inv(rig.right_from_left)
         self.recording.log(_RIGHT, rerun.Transform3D(translation=place[:3, 3], mat3x3=place[:3, :3]))
