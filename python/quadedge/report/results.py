@@ -1,4 +1,4 @@
-"""What a run leaves behind, read back (doc/usage.md, "What a run leaves behind")."""
+"""What a run leaves behind, read back (doc/usage.md, "Output of a run")."""
 
 import csv
 import json
