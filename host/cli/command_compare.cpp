@@ -54,9 +54,7 @@ class CompareCommand : public Command {
   std::string about() const override {
     return "check and measure every kernel variant of every stage on the same input";
   }
-  std::string examples() const override {
-    return "  quadedge compare --stage edge_detection";
-  }
+  std::string examples() const override { return "  quadedge compare --stage edge_detection"; }
 
   void declare(Options& options) override {
     options.text("--stage", stage_, "only this stage (`quadedge variants`)", "STAGE");

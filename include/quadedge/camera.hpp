@@ -1,5 +1,5 @@
 #pragma once
-/// \file camera.hpp  Pinhole cameras, the stereo rig, and the table that undoes lens distortion.
+/// \file camera.hpp  Pinhole cameras, the stereo rig, and undistortion tables.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -8,7 +8,7 @@
 
 namespace quadedge {
 
-/// An ideal pinhole camera. Pixel centres at integers, x right, y down; all in pixels.
+/// An ideal pinhole camera. All values in pixels; pixel centres lie at integers, x to the right, y down.
 struct PinholeCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   int width = 0, height = 0;
@@ -19,18 +19,18 @@ struct PinholeCamera {
     k << fx, 0, cx, 0, fy, cy, 0, 0, 1;
     return k;
   }
-  /// Normalised ray gamma = K^-1 (x, y, 1) of a pixel.
+  /// Ray gamma = K^-1 (x, y, 1) of a pixel, with z = 1.
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const {
     return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1.0};
   }
-  /// Pixel of a point in the camera's frame; the caller makes sure that z > 0.
+  /// Pixel of a point in the camera frame. Requires z > 0.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const {
     return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
   }
 };
 
-/// For every pixel of the pinhole image, the place in the recorded image that shows it (pixels, sub-pixel).
-/// Points outside the recorded image are replicated from its border.
+/// For every pixel of the pinhole image, the position in the recorded image with the same viewing direction [px, with
+/// sub-pixel precision]. Positions outside the recorded image take the value of its border.
 struct UndistortionTable {
   int width = 0, height = 0;    ///< size of the pinhole image
   std::vector<float> source_x;  ///< height x width, row-major
@@ -38,29 +38,30 @@ struct UndistortionTable {
   bool empty() const { return source_x.empty(); }
 };
 
-/// Pixels of a pinhole image that show nothing of the world: what the recorded image does not reach, or what the user
-/// masks (a car's bonnet).
+/// Pixels of a pinhole image without usable content: those without a counterpart in the recorded image and those masked
+/// by the user (a car's bonnet).
 struct PixelMask {
   int width = 0, height = 0;         ///< size of the pinhole image
   std::vector<std::uint8_t> hidden;  ///< height x width, row-major, 1 where a pixel is masked
   bool empty() const { return hidden.empty(); }
 };
 
-/// Two cameras fixed to one another. Images of different sizes are allowed, nothing needs to be rectified.
+/// Two cameras in a fixed relative pose. Image sizes may differ, and the images need not be rectified.
 struct StereoRig {
   PinholeCamera left, right;
-  /// Gamma_right = right_from_left * Gamma_left, metres (paper Eq. 1). Rectified: identity and (-baseline, 0, 0).
+  /// Gamma_right = right_from_left * Gamma_left, metres (paper Eq. 1). For a rectified rig: identity and (-baseline, 0,
+  /// 0).
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
-  UndistortionTable left_undistortion, right_undistortion;  ///< empty where the recorded images are pinhole images
-  PixelMask left_mask, right_mask;                          ///< no edges within edges.margin of them; empty: none
+  UndistortionTable left_undistortion, right_undistortion;  ///< empty if the recorded images are pinhole images
+  PixelMask left_mask, right_mask;  ///< no edges within edges.margin of masked pixels; empty: none
 
-  int max_value = 255;  ///< largest value of the recorded images' pixels, see ImageView
+  int max_value = 255;  ///< largest pixel value of the recorded images, see ImageView
 
   double baseline() const { return right_from_left.translation().norm(); }
 };
 
-/// Checks that a rig can be used: finite and positive focal lengths, sizes, an orthonormal rotation and a baseline that
-/// is neither zero nor NaN. \throws DataError that names `source` (the calibration file) and the offending value.
+/// Checks that focal lengths, image sizes and the baseline are finite and positive and that the rotation is
+/// orthonormal. \throws DataError that names `source` (the calibration file) and the offending value.
 void check_rig(const StereoRig& rig, const char* source);
 
 }  // namespace quadedge

@@ -1,9 +1,10 @@
 #pragma once
-/// \file config.hpp  Every constant of the method as a field with its default. Angles are in degrees; NAME_rad() gives
-/// radians.
+/// \file config.hpp  Every constant of the method, as a field with its default. Angles are in degrees; NAME_rad()
+/// returns radians.
 ///
-/// constants.inc declares them. Options (`--stereo.ncc_min 0.5`) and keys of `--config FILE.toml` have the same names;
-/// doc/configuration.md lists all with unit, range and meaning. quadedge/config_file.hpp reads and writes files.
+/// constants.inc declares them. Command-line options (`--stereo.ncc_min 0.5`) and keys of `--config FILE.toml` have the
+/// same names; doc/configuration.md lists all constants with unit, range and meaning. quadedge/config_file.hpp reads
+/// and writes configuration files.
 
 #include <cstdint>
 #include <map>
@@ -15,7 +16,7 @@
 
 namespace quadedge {
 
-// EdgesConfig, PatchesConfig, SiftConfig, StereoConfig, TemporalConfig, PoseConfig and OdometryConfig:
+// Defines EdgesConfig, PatchesConfig, SiftConfig, StereoConfig, TemporalConfig, PoseConfig and OdometryConfig.
 #define QUADEDGE_SECTION(Type, section, title, page) struct Type {
 #define QUADEDGE_CONSTANT(type, name, value, low, high, unit, level, help, paper) type name = value;
 #define QUADEDGE_ANGLE(name, value, low, high, level, help, paper) \
@@ -33,31 +34,33 @@ struct Config {
 #define QUADEDGE_SECTION(Type, section, title, page) Type section;
 #define QUADEDGE_TOP_CONSTANT(type, name, value, low, high, unit, level, help, paper) type name = value;
 #include "quadedge/constants.inc"
-  std::map<std::string, std::string> variants;  ///< stage -> kernel variant; a missing stage takes the device's default
+  std::map<std::string, std::string>
+      variants;  ///< stage -> kernel variant; stages that are not listed use the default of the device
 };
 
 /// A pointer to one field of a Config.
 using ConfigField = std::variant<double*, int*, bool*, std::uint64_t*, std::string*>;
 
-/// What is known of one constant.
+/// Description of one constant.
 struct Constant {
   std::string section;               ///< "stereo"; empty for the seed
   std::string name;                  ///< "ncc_min"
-  double low, high;                  ///< allowed values of numbers; `high` may be infinite
-  std::vector<std::string> choices;  ///< allowed words of texts
+  double low, high;                  ///< allowed range of numbers; `high` may be infinite
+  std::vector<std::string> choices;  ///< allowed values of strings
   std::string unit;                  ///< "px"; empty for plain numbers
-  bool basic;                        ///< most users need no others
-  std::string help;                  ///< one line
-  std::string paper;                 ///< section of the paper, and its value if another one; may be empty
+  bool basic;                        ///< whether it is one of the few constants that most users need
+  std::string help;                  ///< one-line description
+  std::string paper;                 ///< section of the paper, and the paper's value if it differs; may be empty
   ConfigField (*field)(Config& config);
 
-  /// "stereo.ncc_min": the name of the option and of the key in config.toml.
+  /// "stereo.ncc_min": name of the option and key in config.toml.
   std::string key() const { return section.empty() ? name : section + "." + name; }
-  /// Value in `config` as a text: numbers as short as they read back the same.
+  /// Value in `config` as text: the shortest decimal number that reads back as the same value.
   std::string text(const Config& config) const;
-  /// What is allowed: "0.01 to 1", "at least 0", "subpixel, cell", "true, false".
+  /// Allowed values: "0.01 to 1", "at least 0", "subpixel, cell", "true, false".
   std::string allowed() const;
-  /// \throws UsageError that names the constant, its value in `config` and what is allowed, if it is something else.
+  /// \throws UsageError that names the constant, its value in `config` and the allowed values, if the value is not
+  /// allowed.
   void check(const Config& config) const;
 };
 
@@ -65,16 +68,16 @@ struct Constant {
 struct ConstantSection {
   std::string name;    ///< "stereo"
   std::string title;   ///< "Stereo cascade"
-  int method_section;  ///< of doc/method.md
+  int method_section;  ///< section of doc/method.md that describes the group
 };
 
-/// All constants in the order of constants.inc.
+/// All constants, in the order of constants.inc.
 const std::vector<Constant>& constants();
 
-/// All sections in that order.
+/// All sections, in the order of constants.inc.
 const std::vector<ConstantSection>& constant_sections();
 
-/// \throws UsageError that names the first constant out of its range, its value and the range.
+/// \throws UsageError that names the first constant that is out of range, its value and its range.
 void check_config(const Config& config);
 
 }  // namespace quadedge

@@ -1,5 +1,5 @@
 #pragma once
-/// \file dataset.hpp  Recorded sequences and pairs in the published layouts.
+/// \file dataset.hpp  Recorded sequences and image pairs in published layouts.
 
 #include <cstdint>
 #include <functional>
@@ -15,80 +15,83 @@
 
 namespace quadedge {
 
-/// Files of one stereo frame.
+/// Image files of one stereo frame.
 struct FrameFiles {
   std::int64_t stamp_ns = 0;
   std::string left, right;
 };
 
-/// A sequence or a pair: calibration, frame list, and how far disparities reach. Images are not loaded yet.
+/// A sequence or an image pair: calibration, list of frames, maximum disparity. Images are not loaded yet.
 struct Dataset {
   /// kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 | middlebury-2006 |
   /// middlebury-2014 | viso2-quad; or images | video | pipe, see open_stereo_source()
   std::string format;
-  std::string path;  ///< the sequence's own folder, or its first file
+  std::string path;  ///< folder of the sequence, or its first file
   std::string name;  ///< short name for tables
   StereoRig rig;
-  std::optional<StereoCalibration> calibration;  ///< what the rig was made of, where lenses are told of
-  std::vector<FrameFiles> frames;                ///< of a stream the files again and again; of a pipe none
-  std::shared_ptr<const PairStream> stream;  ///< where the pairs come from that are no files of their own; else null
-  /// Largest disparity that this kind of data holds [px], measured from a point at infinity: f x baseline / nearest
-  /// depth. Where the principal points differ (doffs of Middlebury) the plain difference of columns is smaller by that.
+  std::optional<StereoCalibration> calibration;  ///< calibration that the rig was made from, if it describes lenses
+  std::vector<FrameFiles> frames;                ///< for a video, its file names in every frame; empty for a pipe
+  std::shared_ptr<const PairStream>
+      stream;  ///< source of pairs that are not stored as separate image files; otherwise null
+  /// Maximum disparity expected for this kind of data [px], relative to a point at infinity: f x baseline / nearest
+  /// depth. Where the principal points differ (`doffs` of Middlebury), the plain difference of columns is smaller by
+  /// `doffs`.
   double max_disparity = 0;
-  /// Ground-truth poses of the LEFT CAMERA, empty when there are none. Only evaluation may look at it.
+  /// Ground-truth poses of the left camera; empty if there is no ground truth. Used for evaluation only.
   Trajectory truth;
-  std::string truth_file;       ///< where it came from
-  std::string disparity_truth;  ///< file with the left view's disparity, empty when there is none
+  std::string truth_file;       ///< file that the ground truth was read from
+  std::string disparity_truth;  ///< file with the disparities of the left view; empty if there is none
   double disparity_truth_scale =
-      1;  ///< px of this image per unit stored in `disparity_truth` (8-bit files: 0 is unknown)
-  std::vector<std::string> notes;  ///< what a user should know: nominal calibration, assumed times, skipped images
+      1;  ///< px of this image per unit stored in `disparity_truth` (in 8-bit files 0 means unknown)
+  std::vector<std::string> notes;  ///< remarks for the user: nominal calibration, assumed timestamps, skipped images
 };
 
-/// Choices of the user.
+/// Options of open_dataset().
 struct DatasetOptions {
-  std::string format = "auto";  ///< or one of dataset_formats()
-  std::string sequence;         ///< KITTI: the sequence's name when `path` holds several
-  int first_frame = 0;          ///< half-open range of frames
-  int last_frame = -1;          ///< -1: to the end
-  std::string calibration;      ///< files of read_calibration(); empty: what the layout says
-  double fov = 0;               ///< of make_rig(), for recordings with a calibration of lenses
+  std::string format = "auto";  ///< "auto" or one of dataset_formats()
+  std::string sequence;         ///< KITTI: name of the sequence if `path` contains several
+  int first_frame = 0;          ///< frames first_frame .. last_frame - 1
+  int last_frame = -1;          ///< -1: up to the last frame
+  std::string calibration;      ///< files of read_calibration(); empty: the calibration of the dataset
+  double fov = 0;               ///< see make_rig(); for recordings with a lens calibration
   std::string mask;             ///< files of mask_rig(); empty: none
 };
 
-/// The names that DatasetOptions::format takes besides "auto".
+/// Values of DatasetOptions::format other than "auto".
 std::vector<std::string> dataset_formats();
 
-/// Recognises the layout and reads calibration, frame list and ground truth; checks that every image file exists and
-/// that stamps increase. \throws DataError naming the file, what was found and what was expected.
+/// Recognises the layout and reads calibration, list of frames and ground truth. Checks that every image file exists
+/// and that timestamps increase. \throws DataError that names the file, what was found and what was expected.
 Dataset open_dataset(const std::string& path, const DatasetOptions& options = {});
 
-/// What `quadedge check` prints: everything wrong with the data, not only the first thing; also decodes every image.
+/// Result of `quadedge check`: all problems of a dataset, not only the first. Every image is decoded.
 struct DatasetCheck {
-  std::vector<std::string> facts;     ///< one line each: format, frames, sizes, rate, baseline, truth coverage
-  std::vector<std::string> warnings;  ///< gaps in the stamps, truth covering a part only
-  std::vector<std::string> errors;    ///< what would stop a run
+  std::vector<std::string> facts;     ///< one line each: format, number of frames, image sizes, frame rate, baseline,
+                                      ///< coverage of the ground truth
+  std::vector<std::string> warnings;  ///< gaps between timestamps, ground truth that covers only some frames
+  std::vector<std::string> errors;    ///< problems that would stop a run
 };
 DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options = {});
 
-/// Reads one grey image at its full depth. Colour becomes luminance.
+/// Reads a grey image at its full bit depth. Colour images are converted to luminance.
 /// \throws DataError for a missing, truncated or undecodable file.
 Image read_grey_image(const std::string& path);
 
-/// Reads frames ahead on another thread, in order; those of a stream that does not wait as PairStream says.
+/// Reads frames ahead on another thread, in order. Live streams drop pairs as PairStream::longest_queue() describes.
 class FramePrefetcher {
  public:
   /// Numbered as in Dataset::frames.
   struct Frame : StereoPair {
     StereoFrame view() const { return {stamp_ns, left.view(), right.view()}; }
   };
-  /// `ahead`: frames kept decoded in advance. `stop`: asked while a frame is waited for (a pipe may never give one);
-  /// where it says yes, the frames are over. \throws as PairStream::open().
+  /// `ahead`: number of frames decoded in advance. `stop`: called while waiting for a frame (a pipe may never deliver
+  /// one); if it returns true, the sequence ends. \throws as PairStream::open().
   explicit FramePrefetcher(const Dataset& dataset, int ahead = 2, std::function<bool()> stop = {});
   ~FramePrefetcher();
-  /// The next frame, or nothing at the end. \throws DataError of the frame that could not be read, also when its size
-  /// differs from the calibration's.
+  /// Returns the next frame, or nothing at the end. \throws DataError if the frame cannot be read or its size differs
+  /// from the calibration.
   std::optional<Frame> next();
-  /// Pairs left out so far since their stream did not wait.
+  /// Number of pairs of a live stream that were dropped so far.
   int dropped() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// \file decode_image.hpp  Images that do not come from a file of their own: compressed messages, for example.
+/// \file decode_image.hpp  Decodes images that are in memory, such as compressed messages.
 
 #include <string>
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace quadedge {
 
-/// Decodes a PNG, JPEG, PGM or PPM as read_grey_image() does, at its full depth; colour becomes luminance. `name`
-/// stands for it in complaints. \throws DataError for a truncated or undecodable image.
+/// Decodes a PNG, JPEG, PGM or PPM at its full bit depth, as read_grey_image() does; colour images are converted to
+/// luminance. `name` identifies the image in error messages. \throws DataError for a truncated or undecodable image.
 Image decode_grey_image(std::string_view bytes, const std::string& name);
 
 }  // namespace quadedge

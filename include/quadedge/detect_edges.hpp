@@ -9,8 +9,10 @@
 
 namespace quadedge {
 
-/// Third-order edges of one pinhole image on the chosen device; none within edges.margin of what `mask` hides.
-/// \throws DeviceError, UsageError for more edges than edges.max_edges, DataError for a stride below a row's bytes.
+/// Third-order edges of one pinhole image, computed on `device`; none within edges.margin of the pixels hidden by
+/// `mask`.
+/// \throws DeviceError; UsageError if there are more than edges.max_edges edges; DataError if the stride is smaller
+/// than a row.
 EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config, const PixelMask& mask = {});
 
 }  // namespace quadedge

@@ -1,5 +1,5 @@
 #pragma once
-/// \file device.hpp  OpenCL devices: listing and choosing.
+/// \file device.hpp  Lists and opens OpenCL devices.
 
 #include <cstddef>
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace quadedge {
 
-/// What a device says of itself.
+/// Properties that a device reports.
 struct DeviceInfo {
-  int index = 0;  ///< flat number over all platforms, as `quadedge devices` prints it
+  int index = 0;  ///< consecutive number over all platforms, as printed by `quadedge devices`
   std::string platform;
   std::string name;
   std::string driver;
@@ -21,23 +21,23 @@ struct DeviceInfo {
   unsigned long long memory_bytes = 0;
 };
 
-/// All OpenCL devices in a fixed order; empty when there is none. Never throws for a missing driver.
+/// All OpenCL devices in a fixed order; empty if there is none. Does not throw if no driver is installed.
 std::vector<DeviceInfo> list_devices();
 
-/// A smaller device than the one at hand, for trying how the program gets by with it. What has no value is the device's
-/// own.
+/// Restricts a device, to test the behaviour on smaller ones. Unset members keep the value of the device.
 struct DeviceLimits {
   std::optional<std::string> type;         ///< cpu | gpu | accelerator
-  std::optional<std::size_t> group_items;  ///< work-items of the largest group
-  std::optional<std::size_t> local_bytes;  ///< of a group; 0: its local memory lies in global memory
+  std::optional<std::size_t> group_items;  ///< maximum number of work-items of a work-group
+  std::optional<std::size_t>
+      local_bytes;  ///< local memory of a work-group; 0: local memory is emulated in global memory
   std::optional<std::size_t> memory_bytes;
   std::optional<bool> stores_bytes;  ///< cl_khr_byte_addressable_store
 };
 
-/// How a device is opened.
+/// Options for opening a device.
 struct DeviceOptions {
-  std::string kernel_folder;   ///< where kernels are read from instead of the embedded ones; empty: these
-  std::string program_folder;  ///< where built programs are kept between processes; empty: nowhere
+  std::string kernel_folder;   ///< folder that kernels are read from; empty: the embedded kernels
+  std::string program_folder;  ///< folder that caches built programs between processes; empty: no cache
   bool profiling = false;
   DeviceLimits limits;
 };
@@ -46,12 +46,12 @@ namespace opencl {
 class Context;
 }
 
-/// A chosen device: an OpenCL context with its queue and built kernels, or the plain C++ reference.
+/// An open device: an OpenCL context with its queue and built kernels, or the C++ reference implementation.
 class Device {
  public:
-  /// `choice`: auto (first GPU, else first CPU), cpu, gpu, reference, a number of list_devices(), or a text found in
-  /// the platform's or the device's name (case does not matter). \throws DeviceError with installation help and the
-  /// list of devices when nothing matches, and for a device that cannot store bytes.
+  /// `choice`: auto (first GPU, else first CPU), cpu, gpu, reference, an index of list_devices(), or a part of the
+  /// platform's or the device's name (case-insensitive). \throws DeviceError with installation instructions and the
+  /// list of devices if nothing matches, and for a device that cannot store single bytes.
   explicit Device(const std::string& choice = "auto", const DeviceOptions& options = {});
   ~Device();
   Device(Device&&) noexcept;
@@ -59,7 +59,7 @@ class Device {
 
   const DeviceInfo& info() const { return info_; }
   bool is_reference() const { return context_ == nullptr; }
-  /// The OpenCL context; null for the reference.
+  /// The OpenCL context; null for the reference device.
   opencl::Context* context() const { return context_.get(); }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// \file edge_map.hpp  The edges of a recording in space: a map that grows with every key stereo rig.
+/// \file edge_map.hpp  A map of the edges of a recording in space, extended with every key stereo rig.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -14,22 +14,23 @@
 
 namespace quadedge {
 
-/// A piece of an edge in space.
+/// A point on an edge in space.
 struct MapPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3f tangent = Eigen::Vector3f::UnitX();  ///< unit norm; its sign carries contrast as EdgeSet::direction
-  float grey = 0;                                      ///< grey level of the image at the edge, 0 to 255
-  /// Standard deviation of the position in the direction that is known least, mostly the depth, by the noise of the
-  /// edges alone: errors of the cameras' poses come on top [m].
+  Eigen::Vector3f tangent =
+      Eigen::Vector3f::UnitX();  ///< unit length; its sign encodes contrast as in EdgeSet::direction
+  float grey = 0;                ///< grey level of the image at the edge, 0 to 255
+  /// Standard deviation of the position in its least certain direction, usually the depth, due to edge noise alone;
+  /// errors of the camera poses add to it [m].
   float sigma = 0;
-  int views = 1;  ///< key stereo rigs that saw it
+  int views = 1;  ///< number of key stereo rigs that observed it
 };
 
-/// What a map keeps.
+/// Limits of a map.
 struct EdgeMapOptions {
-  int min_views = 3;                    ///< points seen by fewer key stereo rigs are not told
-  std::size_t most_points = 2'000'000;  ///< kept at once, 80 bytes each; 230 with tracks
-  bool tracks = false;                  ///< keep where each point was seen, for write_colmap()
+  int min_views = 3;                    ///< points() omits points observed by fewer key stereo rigs
+  std::size_t most_points = 2'000'000;  ///< maximum number in memory, at 80 bytes each; 230 bytes with tracks
+  bool tracks = false;                  ///< store the observations of each point, for write_colmap()
 };
 
 /// A key stereo rig of a map.
@@ -39,31 +40,31 @@ struct MapView {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
 };
 
-/// Where a point was seen: in the left image of a view, by its number. On the tangent of the edge that was seen, at the
-/// place nearest to the point, since along its curve an edge lies anywhere.
+/// An observation of a point in the left image of a view. It is the position on the tangent of the observed edge that
+/// is nearest to the projected point, because the position along an edge is arbitrary.
 struct MapSighting {
   std::int32_t view = 0;
   float x = 0, y = 0;  ///< [px]
 };
 
-/// Stereo edges of key stereo rigs, merged where a later one sees an earlier one's edge again: where the projected
-/// point comes to lie on an edge of the same direction and depth (doc/method.md section 9). Memory is bounded: points
-/// that few have seen give way first.
+/// Stereo edges of key stereo rigs. Edges of a later rig are merged with the existing point whose projection lies on an
+/// edge of the same direction and depth (doc/method.md section 9). Memory is bounded: points with few observations are
+/// discarded first.
 class EdgeMap {
  public:
   EdgeMap(const Config& config, const EdgeMapOptions& options);
   ~EdgeMap();
 
-  /// To be called for every frame, after it was tracked. Takes it in, with its result, if it has become the key stereo
-  /// rig and its motion is not doubtful. \returns whether it was taken in
+  /// To be called for every frame after it was tracked. Adds the frame's edges if the frame became the key stereo rig
+  /// and its motion is not ambiguous. \returns whether they were added
   bool add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry);
 
-  /// Points that enough key stereo rigs have seen, in the world (the first left camera's frame), oldest first.
+  /// Points observed by enough key stereo rigs, in the world frame (the first left camera), oldest first.
   std::vector<MapPoint> points() const;
-  /// Where these points were seen, one list per point, at most eight in each; empty without EdgeMapOptions::tracks.
+  /// Observations of these points, at most eight per point; empty without EdgeMapOptions::tracks.
   std::vector<std::vector<MapSighting>> sightings() const;
   const std::vector<MapView>& views() const;
-  /// Points that gave way since the memory was full, of those that enough key stereo rigs had seen.
+  /// Number of points with enough observations that were discarded because memory was full.
   std::size_t dropped() const;
 
  private:
@@ -71,14 +72,14 @@ class EdgeMap {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Writes points as a binary PLY file: x y z [m], tangent_x tangent_y tangent_z, grey, sigma [m], views, and red,
-/// green, blue, which are the grey value for viewers. Complete or not at all. \throws DataError when it cannot be
-/// written.
+/// Writes points as a binary PLY file with the properties x y z [m], tangent_x tangent_y tangent_z, grey, sigma [m],
+/// views, and red, green, blue, which repeat the grey value for viewers. The file is written completely or not at all.
+/// \throws DataError if it cannot be written.
 void write_ply(const std::string& file, const std::vector<MapPoint>& points);
 
-/// Writes cameras.txt, images.txt and points3D.txt as COLMAP reads them: camera 1 is the left pinhole camera, 2 the
-/// right one; every view has two images, left_FRAME.png and right_FRAME.png with six digits, and points in the left
-/// one. The folder is made. \throws DataError when something cannot be written.
+/// Writes cameras.txt, images.txt and points3D.txt in COLMAP's text format. Camera 1 is the left pinhole camera, camera
+/// 2 the right one. Every view has two images, left_FRAME.png and right_FRAME.png with six digits; points are observed
+/// in the left one. Creates the folder. \throws DataError if something cannot be written.
 void write_colmap(const std::string& folder, const StereoRig& rig, const EdgeMap& map);
 
 }  // namespace quadedge

@@ -9,16 +9,15 @@
 
 namespace quadedge {
 
-/// A column per stereo edge, in the frame of the left camera at their time. NaN for an edge without a depth: one along
-/// its epipolar line (stereo.min_epipolar_angle), or behind a camera.
+/// One column per stereo edge, in the left camera frame at the time of the edges. NaN for edges without depth: those
+/// parallel to their epipolar line (stereo.min_epipolar_angle) or behind a camera.
 struct EdgePoints {
   Eigen::Matrix3Xd position;  ///< metres
-  Eigen::Matrix3Xd tangent;   ///< unit norm; its projection has the left edge's direction, sign included
+  Eigen::Matrix3Xd tangent;   ///< unit length; its projection has the direction of the left edge, including the sign
 };
 
-/// Points of stereo edges (doc/method.md section 5). `rig`: the cameras that the edges were found with,
-/// StereoOdometry::rig(). `disparity_offset`: FrameResult::disparity_offset, what the odometry has learned of the rig's
-/// rectification [px].
+/// Triangulates stereo edges (doc/method.md section 5). `rig`: the cameras in which the edges were found,
+/// StereoOdometry::rig(). `disparity_offset`: estimated rectification error, FrameResult::disparity_offset [px].
 EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, const Config& config,
                        double disparity_offset = 0);
 

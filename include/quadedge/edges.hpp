@@ -1,5 +1,5 @@
 #pragma once
-/// \file edges.hpp  Third-order edges, stereo edges and quads as the host sees them (structures of arrays).
+/// \file edges.hpp  Host-side structures of arrays: third-order edges, stereo edges and quads.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace quadedge {
 
-/// Positions [px] and directions [rad] of edges in one image; NaN: nowhere. Of the same size.
+/// Positions [px] and directions [rad] of edges in one image, arrays of equal size; NaN: no position.
 struct EdgePositions {
   std::vector<float> x, y, direction;
 
   std::size_t size() const { return x.size(); }
 };
 
-/// The same where another object owns the values and outlives the view.
+/// A view of EdgePositions that another object owns and that must outlive the view.
 struct EdgePositionsView {
   const std::vector<float>& x;
   const std::vector<float>& y;
@@ -25,44 +25,44 @@ struct EdgePositionsView {
   EdgePositionsView(const std::vector<float>& of_x, const std::vector<float>& of_y,
                     const std::vector<float>& of_direction)
       : x(of_x), y(of_y), direction(of_direction) {}
-  EdgePositionsView(const EdgePositions& edges)  // NOLINT: implicit on purpose
+  EdgePositionsView(const EdgePositions& edges)  // NOLINT: deliberately implicit
       : EdgePositionsView(edges.x, edges.y, edges.direction) {}
 
   std::size_t size() const { return x.size(); }
 };
 
-/// How far an edge may lie from the grid row that holds it [px]: 0.354 by the parabola and the longest Newton step
-/// allowed.
+/// Largest vertical distance between an edge and the grid row that contains it [px]: 0.354 from the parabola plus the
+/// largest permitted Newton step.
 constexpr float kEdgeRowReach = 0.5F;
 
-/// Third-order edges of one image in scan order of the doubled grid (row by row, left to right). doc/method.md
-/// section 1.
+/// Third-order edges of one image in scan order of the doubled grid (row by row, left to right). doc/method.md section
+/// 1.
 struct EdgeSet {
-  std::vector<float> x, y;  ///< pixels, centre of the top-left pixel is (0, 0)
-  /// Tangent, radians in (-pi, pi]: the brightness gradient turned by -90 degrees on screen (vertical edge, bright on
-  /// the right: -90 degrees). The bright side lies at (-sin, cos), the dark side at (sin, -cos).
+  std::vector<float> x, y;  ///< [px], the centre of the top-left pixel is (0, 0)
+  /// Tangent [rad], in (-pi, pi]: the brightness gradient turned by -90 degrees on screen (vertical edge, bright on the
+  /// right: -90 degrees). The bright side lies at (-sin, cos), the dark side at (sin, -cos).
   std::vector<float> direction;
   std::vector<float> strength;  ///< peak gradient magnitude, grey levels per pixel
-  /// How far the edge moves towards its bright side per unit of log(edges.sigma), pixels. It moves as far when the
-  /// scene shrinks by as much; see doc/method.md section 6.
+  /// Displacement of the edge towards its bright side per unit of log(edges.sigma) [px]. A change of image scale by the
+  /// same factor displaces it equally; see doc/method.md section 6.
   std::vector<float> scale_drift;
-  /// Where each row of the doubled grid starts: row r holds edges row_first[r] .. row_first[r + 1]. Size 2 * height
-  /// + 1. The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
+  /// First edge of each row of the doubled grid: row r contains the edges row_first[r] .. row_first[r + 1] - 1. Size 2
+  /// * height + 1. The row is that of the cell that won the maximum test; y lies within kEdgeRowReach of r / 2.
   std::vector<std::int32_t> row_first;
 
   EdgePositionsView positions() const { return {x, y, direction}; }
   std::size_t size() const { return x.size(); }
 };
 
-/// Stereo edges in the scan order of their left edges, mutually best. doc/method.md section 3.
+/// Mutually best stereo edges, in the scan order of their left edges. doc/method.md section 3.
 struct StereoEdges {
-  std::vector<std::int32_t> left_index;  ///< the left edge
+  std::vector<std::int32_t> left_index;  ///< index of the left edge
   std::vector<std::int32_t>
-      right_index;  ///< the right edge that was refined; neighbours on one left curve may share it
-  std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge, pixels and radians
+      right_index;  ///< index of the right edge that was refined; neighbours on one left curve may share it
+  std::vector<float> left_x, left_y, left_direction;     ///< the detected left edge [px, rad]
   std::vector<float> right_x, right_y, right_direction;  ///< the refined right point on its epipolar line
-  std::vector<float> left_scale_drift;                   ///< of the left edge, see EdgeSet; empty: none is known
-  std::vector<float> ncc;  ///< similarity of the refined pair: mean NCC of the edges' own patches and the better side
+  std::vector<float> left_scale_drift;                   ///< of the left edge, see EdgeSet; empty: unknown
+  std::vector<float> ncc;  ///< NCC of the refined pair: the mean of the edges' own patches and the better side
 
   EdgePositionsView positions(Side side) const {
     if (side == Side::left) return {left_x, left_y, left_direction};
@@ -71,24 +71,25 @@ struct StereoEdges {
   std::size_t size() const { return left_index.size(); }
 };
 
-/// Matches in time between the stereo edges of two rigs: quads that close the circle. doc/method.md section 4.
+/// Temporal matches between the stereo edges of two rigs: quads that close the circle. doc/method.md section 4.
 struct TemporalMatches {
-  std::vector<std::int32_t> previous;            ///< index into the previous rig's stereo edges
-  std::vector<std::int32_t> current;             ///< index into the current rig's stereo edges
-  std::vector<float> left_x, left_y;             ///< detected position in the current left image, pixels
-  std::vector<float> right_x, right_y;           ///< its refined right point
-  std::vector<float> ncc;                        ///< mean of the left and the right similarity
-  std::vector<std::int32_t> competing_clusters;  ///< how many other clusters the previous edge has (0: unambiguous)
-  int search = -1;                               ///< number of the search in time that found them, see Tap; -1: none
+  std::vector<std::int32_t> previous;   ///< index into the previous rig's stereo edges
+  std::vector<std::int32_t> current;    ///< index into the current rig's stereo edges
+  std::vector<float> left_x, left_y;    ///< detected position in the current left image [px]
+  std::vector<float> right_x, right_y;  ///< refined position in the current right image [px]
+  std::vector<float> ncc;               ///< mean of the left and the right NCC
+  std::vector<std::int32_t>
+      competing_clusters;  ///< further clusters of the previous edge's candidates (0: unambiguous)
+  int search = -1;         ///< number of the temporal search that found them, see Tap; -1: none
 
   std::size_t size() const { return previous.size(); }
-  /// Keeps the memory.
+  /// Removes all matches and keeps the memory.
   void clear() {
     for (auto* values : {&previous, &current, &competing_clusters}) values->clear();
     for (auto* values : {&left_x, &left_y, &right_x, &right_y, &ncc}) values->clear();
     search = -1;
   }
-  /// Adds a match with stereo edge `current_edge` of `edges`, at its positions.
+  /// Adds a match with stereo edge `current_edge` of `edges`, at that edge's positions.
   void append(std::int32_t previous_edge, std::int32_t current_edge, const StereoEdges& edges, float similarity,
               std::int32_t competing) {
     const auto j = static_cast<std::size_t>(current_edge);

@@ -1,13 +1,13 @@
 #pragma once
-/// \file filters.hpp  The filters of both cascades in their order, as the tables print them.
+/// \file filters.hpp  The filters of both cascades in order, with the names used in tables.
 
 #include <cstdint>
 
 namespace quadedge {
 
-/// Stereo cascade; the value is the order of the paper's Table 1 (doc/method.md section 3).
+/// Stereo cascade; the value is the position in the paper's Table 1 (doc/method.md section 3).
 enum class StereoFilter : std::uint8_t {
-  baseline,  ///< every pair of edges
+  baseline,  ///< all pairs of edges
   epipolar_distance,
   disparity,
   orientation,
@@ -15,38 +15,38 @@ enum class StereoFilter : std::uint8_t {
   ncc,
   nearly_best_ncc,
   nearly_best_sift,
-  refinement,  ///< along the epipolar line, with clustering
-  similarity,  ///< of the clusters' representatives
-  relaxation,  ///< of an edge's candidates the one that its neighbours agree with
-  one_to_one,  ///< beside: what is left of these where no two left edges may share a right edge
-  best         ///< best and mutual: neighbours may share a right edge
+  refinement,  ///< refinement along the epipolar line, and clustering
+  similarity,  ///< NCC of the clusters' representatives
+  relaxation,  ///< of an edge's candidates, the one that agrees with its neighbours
+  one_to_one,  ///< for comparison only: what would remain if no two left edges could share a right edge
+  best         ///< best and mutual; neighbours may share a right edge
 };
 
-/// Temporal cascade; the value is the order of the paper's Table 2 (doc/method.md section 4). Each kind of search takes
-/// SIFT where its limit is set.
+/// Temporal cascade; the value is the position in the paper's Table 2 (doc/method.md section 4). A search uses the SIFT
+/// filters if their limits are set.
 enum class TemporalFilter : std::uint8_t {
-  baseline,  ///< every pair of stereo edges
+  baseline,  ///< all pairs of stereo edges
   displacement,
   orientation,
   ncc,
   sift,
   nearly_best_ncc,
   nearly_best_sift,
-  agreement,  ///< of the left and the right images
+  agreement,  ///< of the left and right images
   best
 };
 
-/// Place of a filter in its cascade: 0 is the baseline, the last one is `best`.
+/// Position of a filter in its cascade: 0 is the baseline, the last is `best`.
 constexpr int order_of(StereoFilter filter) { return static_cast<int>(filter); }
 constexpr int order_of(TemporalFilter filter) { return static_cast<int>(filter); }
 
-/// The filter that judges what this one leaves; `best` has none.
+/// The filter that follows; `best` has none.
 template <class Filter>
 constexpr Filter next(Filter filter) {
   return static_cast<Filter>(order_of(filter) + 1);
 }
 
-/// The name that tables print.
+/// Name in tables.
 constexpr const char* to_string(StereoFilter filter) {
   switch (filter) {
     case StereoFilter::baseline: return "baseline";

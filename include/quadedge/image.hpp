@@ -1,5 +1,5 @@
 #pragma once
-/// \file image.hpp  Grey images of 8 to 16 bits: an owner, a view, and the two views of a stereo frame.
+/// \file image.hpp  Grey images of 8 to 16 bits: an owning image, a view, and the two views of a stereo frame.
 
 #include <cmath>
 #include <cstddef>
@@ -9,34 +9,34 @@
 
 namespace quadedge {
 
-constexpr int kMaxValue8 = 255;  ///< largest value of a pixel of 8 bits
+constexpr int kMaxValue8 = 255;  ///< largest pixel value of an 8-bit image
 
-/// Bytes of a pixel whose largest value is `max_value`.
+/// Bytes per pixel of an image with largest value `max_value`.
 constexpr std::size_t bytes_per_pixel(int max_value) { return max_value > kMaxValue8 ? 2 : 1; }
 
-/// A view of a grey image that somebody else owns. height x width, row-major; the centre of the top-left pixel is (0,
-/// 0). Pixels are bytes, or 16-bit words in the machine's byte order where `max_value` is more than 255. Whatever their
-/// depth, 0 to max_value are 0 to 255 grey levels, so that every threshold keeps its meaning.
+/// A non-owning view of a grey image, height x width, row-major; the centre of the top-left pixel is (0, 0). Pixels are
+/// bytes, or 16-bit words in native byte order if `max_value` exceeds 255. At any bit depth, values 0 to max_value
+/// correspond to grey levels 0 to 255, so that thresholds do not depend on the depth.
 struct ImageView {
   const std::uint8_t* pixels = nullptr;
   int width = 0;
   int height = 0;
-  std::ptrdiff_t stride = 0;   ///< bytes from one row to the next, at least those of a row's pixels
-  int max_value = kMaxValue8;  ///< value of a saturated pixel: 255, 4095 of 12 bits, 65535 of 16 bits
+  std::ptrdiff_t stride = 0;   ///< bytes from one row to the next, at least the bytes of a row's pixels
+  int max_value = kMaxValue8;  ///< value of a saturated pixel: 255, 4095 for 12 bits, 65535 for 16 bits
 
-  /// A view of pixels of 16 bits. `stride` in pixels.
+  /// A view of 16-bit pixels. `stride` in pixels.
   static ImageView of_words(const std::uint16_t* words, int width, int height, std::ptrdiff_t stride, int max_value) {
     return {reinterpret_cast<const std::uint8_t*>(words), width, height, 2 * stride, max_value};
   }
 
-  /// The stored value of a pixel, 0 to max_value.
+  /// Stored value of a pixel, 0 to max_value.
   int value(int x, int y) const {
     if (max_value <= kMaxValue8) return pixels[y * stride + x];
     std::uint16_t word = 0;
     std::memcpy(&word, pixels + y * stride + 2 * x, sizeof word);
     return word;
   }
-  /// Grey level of a pixel, 0 to 255; of 8-bit images the value itself.
+  /// Grey level of a pixel, 0 to 255; for 8-bit images the stored value.
   float at(int x, int y) const {
     const int stored = value(x, y);
     return max_value == kMaxValue8 ? static_cast<float>(stored)
@@ -49,8 +49,8 @@ struct ImageView {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> pixels;  ///< height x width pixels as in ImageView, row-major
-  int max_value = kMaxValue8;        ///< as in ImageView
+  std::vector<std::uint8_t> pixels;  ///< height x width, row-major, encoded as in ImageView
+  int max_value = kMaxValue8;        ///< see ImageView
 
   Image() = default;
   Image(int width_, int height_, int max_value_ = kMaxValue8)
@@ -63,7 +63,7 @@ struct Image {
     return {pixels.data(), width, height, static_cast<std::ptrdiff_t>(bytes_per_pixel(max_value)) * width, max_value};
   }
   std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-  /// Stores a value, 0 to max_value.
+  /// Stores a value from 0 to max_value.
   void set(int x, int y, int value) {
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     const auto word = static_cast<std::uint16_t>(value);
@@ -75,7 +75,7 @@ struct Image {
   }
 };
 
-/// The image in 8 bits, for screens: its grey levels rounded.
+/// Converts an image to 8 bits for display; grey levels are rounded.
 inline Image to_8_bits(const ImageView& image) {
   Image result(image.width, image.height);
   for (int y = 0; y < image.height; ++y)
@@ -83,7 +83,7 @@ inline Image to_8_bits(const ImageView& image) {
   return result;
 }
 
-/// Two recorded grey images of one time. The views must stay valid during track().
+/// Two recorded grey images of the same time. The views must remain valid during track().
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
   ImageView left, right;

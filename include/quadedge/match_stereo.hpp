@@ -1,5 +1,5 @@
 #pragma once
-/// \file match_stereo.hpp  Stereo edges of a single pair.
+/// \file match_stereo.hpp  Stereo edges of a single image pair.
 
 #include <optional>
 #include <vector>
@@ -13,22 +13,21 @@
 
 namespace quadedge {
 
-/// What one pair shows.
+/// Result of match_stereo().
 struct StereoMatches {
-  EdgeSet left_edges;  ///< those that were searched for
+  EdgeSet left_edges;  ///< edges of the left image that were matched
   StereoEdges edges;
-  /// One per stereo edge, in the left camera's frame; nothing where its disparity is none of a point in front of both
-  /// cameras.
+  /// One per stereo edge, in the left camera frame; nothing if the disparity does not correspond to a point in front of
+  /// both cameras.
   std::vector<std::optional<MapPoint>> points;
-  StereoRig rig;  ///< in whose pixels edges are told; see StereoOdometry::rig()
+  StereoRig rig;  ///< the cameras that edge positions refer to; see StereoOdometry::rig()
 };
 
-/// Matches the edges of a pair on the chosen device. \throws DataError for an unusable rig and for images that do not
-/// fit it, UsageError for a bad configuration, DeviceError.
+/// Matches the edges of an image pair on `device`. \throws DataError for an unusable rig and for images that do not fit
+/// it; UsageError for an invalid configuration; DeviceError.
 StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config);
 
-/// A rig for images that are rectified already and whose cameras are unknown: rows belong together, and depths mean
-/// nothing. Sizes in pixels.
+/// A rig for rectified images of unknown cameras: rows correspond, and depths are meaningless. Sizes in pixels.
 StereoRig rectified_images(int width, int height, int right_width, int right_height);
 
 }  // namespace quadedge

@@ -1,5 +1,5 @@
 #pragma once
-/// \file odometry.hpp  Stereo images in, poses out.
+/// \file odometry.hpp  Stereo visual odometry: stereo images in, poses out.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -18,112 +18,115 @@
 
 namespace quadedge {
 
-/// What happened to a frame.
+/// Outcome of a frame.
 enum class FrameStatus {
   first,               ///< the origin of the trajectory
-  tracked,             ///< pose found against the key stereo rig or the frame before
-  lost_too_few_edges,  ///< not enough stereo edges in this frame
-  lost_too_few_quads,  ///< edges, but not enough quads with a frame before
-  lost_no_consensus,   ///< quads, but no motion that enough of them share
-  lost_rig_mismatch,   ///< the images do not belong to the calibration
+  tracked,             ///< pose found against the key stereo rig or an earlier frame
+  lost_too_few_edges,  ///< too few stereo edges in this frame
+  lost_too_few_quads,  ///< too few quads with an earlier frame
+  lost_no_consensus,   ///< no motion supported by enough quads
+  lost_rig_mismatch,   ///< the images do not match the calibration
 };
 const char* to_string(FrameStatus status);
 inline bool is_tracked(FrameStatus status) { return status == FrameStatus::first || status == FrameStatus::tracked; }
 
-/// Counts of one frame; doc/method.md sections 1 to 7.
+/// Counts of one frame; see doc/method.md sections 1 to 7.
 struct FrameCounts {
   int edges_left = 0, edges_right = 0;
   int stereo_edges = 0;
   int temporal_left = 0,
-      temporal_right = 0;  ///< previous stereo edges that keep a candidate in the left / right images
-  int quads = 0;           ///< with the key stereo rig, or with the frame before where that one is out of sight
+      temporal_right = 0;  ///< previous stereo edges with at least one candidate in the left / right image
+  int quads = 0;           ///< with the key stereo rig, or with the previous frame if the key stereo rig is out of view
   int inliers = 0;
 };
 
-/// Time of one stage of one frame.
+/// Duration of one stage in one frame.
 struct StageTime {
   std::string stage;
   double ms = 0;
 };
 
-/// The outcome of one frame.
+/// Result of one frame.
 struct FrameResult {
   std::int64_t stamp_ns = 0;
   FrameStatus status = FrameStatus::first;
-  /// Pose of the left camera in the frame of the first left camera. For a lost frame: the last motion repeated.
+  /// Pose of the left camera in the frame of the first left camera. For a lost frame, the last motion is repeated.
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-  /// Gamma_current = current_from_reference * Gamma_reference, reference = key stereo rig.
+  /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key stereo rig.
   Eigen::Isometry3d current_from_reference = Eigen::Isometry3d::Identity();
-  /// Covariance of current_from_reference: (rotation [rad^2], translation [m^2]) as a left perturbation in the current
-  /// left frame.
+  /// Covariance of current_from_reference (rotation [rad^2], translation [m^2]), as a left perturbation in the current
+  /// left camera frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /// Of the pose in the reference's left camera frame, the inverse of current_from_reference, with what the rig's
-  /// calibration may have wrong (`pose.rig_sigma_*`); nothing for a lost frame.
+  /// Covariance of the pose in the reference's left camera frame (the inverse of current_from_reference), including
+  /// calibration errors (`pose.rig_sigma_*`); nothing for a lost frame.
   std::optional<PoseCovariance> covariance_in_reference;
-  /// Of world_from_left, composed over the key stereo rigs: errors of the edges as independent from one to the next,
-  /// those of the rig as the same; nothing for a lost frame, and from where tracking went on from a predicted pose.
+  /// Covariance of world_from_left, composed over the key stereo rigs: edge errors are independent between rigs,
+  /// calibration errors are common to all. Nothing for a lost frame, and after tracking resumed from a predicted pose.
   std::optional<PoseCovariance> covariance_in_world;
-  /// How the pose in the reference's frame errs with the rig.
+  /// Sensitivity of the pose in the reference's frame to calibration errors.
   RigSensitivity rig_sensitivity = RigSensitivity::Zero();
-  double edge_threshold = 0;    ///< that the gradient of both images' edges exceeds [grey levels per px]
-  double disparity_offset = 0;  ///< found so far, added to every disparity [px]
-  int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first one
-  /// Number of the frame that the pose was measured against: the key stereo rig or, where that one is out of sight, the
-  /// last frame with a pose; -1 without a pose.
+  double edge_threshold = 0;    ///< gradient threshold of the edges in both images [grey levels per px]
+  double disparity_offset = 0;  ///< estimated so far, added to every disparity [px]
+  int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first
+  /// Number of the frame that the pose was measured against: the key stereo rig or, if that is out of view, the last
+  /// frame with a pose; -1 without a pose.
   int base_frame = -1;
-  int search = -1;           ///< number of the frame's search in time that its motion was taken from; -1: no motion
-  bool new_key_rig = false;  ///< this frame becomes the key stereo rig of the following ones
-  bool overflow = false;     ///< a capacity ran out (edges or candidates); the message says which
-  std::string message;       ///< empty, or one sentence for a person
-  /// Empty, or what is doubtful about the whole recording; each doubt is told once per run.
+  int search = -1;           ///< number of the frame's temporal search that gave its motion; -1: no motion
+  bool new_key_rig = false;  ///< whether this frame becomes the key stereo rig of the following frames
+  bool overflow = false;     ///< whether a capacity was exceeded (edges or candidates); see the message
+  std::string message;       ///< empty, or one sentence for the user
+  /// Empty, or a warning that concerns the whole recording; each warning is reported once per run.
   std::string warning;
   RigEvidence rig;
-  /// Another motion than the one taken explains nearly as much of the image; which is the world's cannot be told.
+  /// Another motion explains nearly as much of the image, so that the camera's motion is ambiguous.
   bool ambiguous_motion = false;
-  /// Edges in view in cells of the image that move otherwise than the camera says, of all edges in view.
+  /// Fraction of the edges in view that lie in image cells whose edges do not follow the camera's motion.
   double moving_ratio = 0;
   FrameCounts counts;
-  std::vector<StageTime> stages;  ///< host-side stages always; device stages when the device profiles
-  double latency_ms = 0;          ///< images in host memory to pose on the host, steady clock
+  std::vector<StageTime> stages;  ///< host stages always; device stages if the device profiles
+  double latency_ms = 0;          ///< from images in host memory to the pose on the host, steady clock
 };
 
-/// What one frame was made of; for drawing and for evaluation. Copied only on request.
+/// Edges and quads of one frame, for drawing and for evaluation. Copied only on request.
 struct FrameDetails {
   EdgeSet left_edges, right_edges;
-  StereoEdges previous_stereo, stereo;    ///< of the frame that this one was matched with, if any, and of this one
+  StereoEdges previous_stereo, stereo;    ///< of the frame that this one was matched with, if any, and of this frame
   TemporalMatches quads;                  ///< indices into previous_stereo and stereo
   std::vector<std::uint8_t> quad_inlier;  ///< one per quad
 };
 
 class Tap;
 
-/// The odometry. One object per sequence; deterministic: the same frames, device and configuration give the same bytes.
+/// Tracks the camera through one sequence. Deterministic: identical frames, device and configuration give identical
+/// bytes.
 class StereoOdometry {
  public:
-  /// \throws DataError for an unusable rig, UsageError for a bad configuration, DeviceError when kernels do not build.
+  /// \throws DataError for an unusable rig; UsageError for an invalid configuration; DeviceError if kernels do not
+  /// build.
   StereoOdometry(const StereoRig& rig, Device& device, const Config& config);
   ~StereoOdometry();
 
-  /// Processes the next frame. What can happen in any frame is a status; \throws DataError for images that do not fit
-  /// the rig, a stride below a row's bytes, a stamp before the last one's (no trace is left); DeviceError.
+  /// Processes the next frame. Tracking failures are reported as a status. \throws DataError for images that do not fit
+  /// the rig, a stride smaller than a row, or a timestamp earlier than the last one (the state does not change);
+  /// DeviceError.
   FrameResult track(const StereoFrame& frame);
 
-  /// Details of the frame tracked last (reads back from the device); empty before the first one.
+  /// Details of the frame tracked last, read back from the device; empty before the first frame.
   FrameDetails details() const;
 
-  /// Stereo edges of the frame tracked last, valid until the next one; none before the first frame.
+  /// Stereo edges of the frame tracked last, valid until the next frame; none before the first frame.
   const StereoEdges& stereo_edges() const;
 
-  /// The cameras whose pixels edges are given in: the rig of the constructor, or where one camera has at least one and
-  /// a half times the other's resolution, with that one reduced.
+  /// The cameras that edge positions refer to: the rig passed to the constructor. If the resolution of one camera is at
+  /// least one and a half times that of the other, that camera is reduced.
   const StereoRig& rig() const;
 
-  /// Observes all filters of the following frames; null stops. The tap cannot change anything.
+  /// Observes all filters in the following frames; null stops. A tap cannot change results.
   void set_tap(Tap* tap);
 
   /// Bytes allocated on the device.
   std::size_t device_bytes() const;
-  /// Chosen kernel variant of every stage.
+  /// Chosen kernel variant of each stage.
   std::map<std::string, std::string> variants() const;
   /// Time spent building kernels [ms].
   double kernel_build_ms() const;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file pair_stream.hpp  Stereo pairs that are no image files of their own: from videos, from a pipe.
+/// \file pair_stream.hpp  Stereo pairs that are not stored as image files: from videos and pipes.
 
 #include <cstdint>
 #include <memory>
@@ -9,33 +9,33 @@
 
 namespace quadedge {
 
-/// Two grey images of one time.
+/// Two grey images of the same time.
 struct StereoPair {
-  int number = 0;  ///< of the pair in its stream, from 0
+  int number = 0;  ///< number of the pair in its stream, from 0
   std::int64_t stamp_ns = 0;
   Image left, right;
 };
 
-/// Pairs in order, each once. Used by one thread, but for stop().
+/// Reads pairs in order, each once. To be used by one thread, except for stop().
 class PairReader {
  public:
   virtual ~PairReader() = default;
-  /// The next pair, or nothing at the end or after stop(); a pipe is waited for. \throws DataError that names the
-  /// stream and what is wrong with it.
+  /// Returns the next pair, or nothing at the end or after stop(). Blocks while a pipe has no data. \throws DataError
+  /// that names the stream and the problem.
   virtual std::optional<StereoPair> next() = 0;
-  /// Ends a next() that waits in another thread, within a tenth of a second.
+  /// Ends a next() that blocks in another thread, within 0.1 s.
   virtual void stop() {}
 };
 
-/// Where such pairs come from.
+/// A source of stereo pairs.
 class PairStream {
  public:
   virtual ~PairStream() = default;
-  /// A reader that begins with the first pair. \throws DataError for a stream that cannot be opened; UsageError for one
-  /// that can be read once only (a pipe) and was.
+  /// Returns a reader that starts at the first pair. \throws DataError if the stream cannot be opened; UsageError if it
+  /// can be read only once (a pipe) and has been read.
   virtual std::unique_ptr<PairReader> open() const = 0;
-  /// Whether pairs come when they come, like those of a camera: where so many wait already, a new pair takes the place
-  /// of the oldest. 0: the stream waits for its reader, and no pair is left out.
+  /// Length of the queue of a live stream: if this many pairs are waiting, a new pair replaces the oldest. 0: the
+  /// stream waits for its reader, and no pair is dropped.
   virtual int longest_queue() const { return 0; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file pi.hpp  The numbers that C++17 has no name for.
+/// \file pi.hpp  Mathematical constants that C++17 lacks.
 
 namespace quadedge {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file self_test.hpp  Whether a device computes what it should, asked before its first pose.
+/// \file self_test.hpp  Checks that a device computes correct results before it is used.
 
 #include <map>
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace quadedge {
 
-/// What became of the self-test.
+/// Result of the self-test.
 struct SelfTestResult {
-  std::string stage;       ///< the first stage whose results are wrong; empty: none is
-  std::string difference;  ///< one sentence: how many of its results agree, and the first one that does not
+  std::string stage;       ///< first stage with wrong results; empty: all stages are correct
+  std::string difference;  ///< one sentence: how many results agree, and the first that does not
   bool passed() const { return stage.empty(); }
 };
 
-/// Runs every stage on a small built-in pair of frames, with a search of each kind, and compares what each leaves with
-/// stored results of the plain C++ reference; before that a long loop (`long_loop`), which some drivers cut short.
-/// Takes tens of milliseconds once the kernels are built.
+/// Runs every stage on a small built-in pair of frames, with each kind of search, and compares the results with stored
+/// results of the C++ reference. A long loop (`long_loop`) is run first, because some drivers terminate long loops
+/// early. Takes tens of milliseconds once the kernels are built.
 /// \param variants  stage -> kernel variant, as in Config
-/// \throws DeviceError when a kernel does not build or run
+/// \throws DeviceError if a kernel does not build or run
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants = {});
 
 }  // namespace quadedge

@@ -15,18 +15,18 @@ struct StampedPose {
 };
 using Trajectory = std::vector<StampedPose>;
 
-/// TUM format: `timestamp tx ty tz qx qy qz qw`, seconds with 9 decimals, '#' starts a comment.
-/// \throws DataError naming file, line, what was found and what was expected.
+/// TUM format: `timestamp tx ty tz qx qy qz qw`, seconds with 9 decimals; '#' starts a comment.
+/// \throws DataError that names file and line, what was found and what was expected.
 Trajectory read_tum(const std::string& path);
-/// Written to a temporary name and renamed. \throws DataError when the file cannot be written (full disk included).
+/// Written to a temporary name and renamed. \throws DataError if the file cannot be written (including a full disk).
 void write_tum(const std::string& path, const Trajectory& trajectory);
 
-/// KITTI format: 12 numbers per line, row-major 3 x 4. Stamps are taken from `stamps_ns` (same length) or are the row
-/// numbers in ns.
+/// KITTI format: 12 numbers per line, row-major 3 x 4. Timestamps are `stamps_ns` (of the same length) or, if empty,
+/// the row numbers in ns.
 Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& stamps_ns = {});
 void write_kitti(const std::string& path, const Trajectory& trajectory);
 
-/// TUM or KITTI by the number of columns of the first data line (8 or 12).
+/// Reads TUM or KITTI format, according to the number of columns in the first data line (8 or 12).
 Trajectory read_trajectory(const std::string& path);
 
 }  // namespace quadedge
