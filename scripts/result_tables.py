@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the tables of doc/results/*.json wherever the documentation shows them, so that no figure is typed twice.
+"""Writes the tables of doc/results/*.json into the documentation, so that no figure is typed twice.
 
     scripts/result_tables.py            writes doc/results/PART.md and the marked blocks of README.md and doc/*.md
     scripts/result_tables.py --check    changes nothing; exit code 1 where one of them differs from the JSON
 
-A block stands between <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py makes the JSON;
-doc/results/peers.json alone is written by hand, and says where its figures are from.
+A block stands between <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py makes the JSON,
+except doc/results/peers.json, which is written by hand and states the origin of its figures.
 """
 
 import argparse
@@ -28,28 +28,28 @@ PART_OF = {
     "presets": "accuracy",
     "consistency": "accuracy",
 }
-# Part -> (title, what to know, tables)
+# Part -> (title, introduction, tables)
 PAGES = {
     "accuracy": (
         "Accuracy",
-        "Origin-aligned means: absolute (APE) and from frame to frame (RPE)."
-        " What they mean: [accuracy.md](../accuracy.md).",
+        "Errors are origin-aligned means: absolute (APE) and from frame to frame (RPE)."
+        " [accuracy.md](../accuracy.md) explains them.",
         ("systems", "steps", "paths"),
     ),
     "matching": (
         "Matching",
-        "After the last filter, of left edges whose counterpart exists (paired) and of all left edges (all);"
-        " what that means: [matching.md](../matching.md).",
+        "Recall and precision after the last filter, for left edges whose counterpart exists (paired) and for all left"
+        " edges (all). [matching.md](../matching.md) defines the terms.",
         ("matching", "quads"),
     ),
     "speed": (
         "Speed",
-        "From images in host memory to the pose on the host; S and N are OpenCV's yardsticks:"
-        " [performance.md](../performance.md).",
+        "Time from the images in host memory to the pose on the host. S and N are times of OpenCV functions in the same"
+        " run: [performance.md](../performance.md).",
         ("speed",),
     ),
 }
-# What makes a part that measure.py does not.
+# Parts that measure.py does not make, and the commands that make them.
 MADE_BY = {
     "drift": "scripts/drift.py",
     "truth": "scripts/truth_consistency.py",
@@ -58,7 +58,7 @@ NAMES = "DATA is the folder with the recorded sequences, OUT a folder for result
 
 
 def render(name, results):
-    """A table, or a word that it is missing."""
+    """A table, or a note that it was not measured."""
     part = PART_OF.get(name, name)
     if part in results:
         return TABLES[name](results)
@@ -80,7 +80,7 @@ def page(part, results):
 
 
 def wanted_texts(folder):
-    """Path -> what should stand there, of all that the JSON decides."""
+    """Path -> expected text, for all files with tables from the JSON."""
     results = {file.stem: json.loads(file.read_text(encoding="utf-8")) for file in sorted(folder.glob("*.json"))}
     texts = {folder / f"{part}.md": page(part, results) for part in PAGES if part in results or folder == RESULTS}
     if folder == RESULTS:
