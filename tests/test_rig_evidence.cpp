@@ -84,7 +84,7 @@ TEST_CASE("rig evidence: what does not fit is named with its likely cause", "[od
   const Image mirrored = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, y); });
   CHECK_THAT(mismatch(evidence_room().rig, left, mirrored), Contains("is the right image mirrored?"));
   const Image upside_down = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, last_row - y); });
-  CHECK_THAT(mismatch(evidence_room().rig, left, upside_down), Contains("is the right image turned by 180 degrees?"));
+  CHECK_THAT(mismatch(evidence_room().rig, left, upside_down), Contains("is the right image rotated by 180 degrees?"));
 }
 
 TEST_CASE("rig evidence: small errors are doubts, and do not stop anything", "[odometry][rig]") {
@@ -108,7 +108,7 @@ TEST_CASE("rig evidence: a camera that stands still while the other one does not
   CHECK(watch.judge({0, left.view(), right.view()}, {}, 0, evidence).mismatch.empty());
   CHECK(watch.judge({1, left.view(), right.view()}, {}, 0, evidence).mismatch.empty());  // the same frame again
   CHECK_THAT(watch.judge({2, next.view(), right.view()}, {}, 0, evidence).mismatch,
-             Contains("does the right camera stand still?"));
+             Contains("has the right camera frozen?"));
   CHECK(watch.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0, evidence).mismatch.empty());
 }
 

@@ -8,36 +8,38 @@
 namespace quadedge::odometry {
 namespace {
 
-/// A cell of the image shows something that moves otherwise where fewer of the edges that are found again are
-/// explained, and counts as found that ratio of the edges in view at least.
-constexpr double kHardlyExplained = 0.25, kFoundAtLeast = 0.1;
+/// In an image cell that shows another motion, less than this fraction of the edges found again is explained by the
+/// motion. A cell counts as having found at least kMinFoundRatio of its edges in view.
+constexpr double kMinExplainedRatio = 0.25, kMinFoundRatio = 0.1;
 
-/// Ratio of edges in such cells from which on another motion is looked for. Rendered scenes have up to 0.02,
-/// EuRoC 0.07, KITTI mostly 0.15 to 0.21; a motion that is not the world's leaves more of the image over than it
-/// explains.
-constexpr double kMuchLeftOver = 0.25;
+/// Fraction of the edges in view that lie in such cells, above which another motion is searched for. Rendered scenes
+/// reach 0.02, EuRoC 0.07, KITTI mostly 0.15 to 0.21; a motion that is not the camera's fails to explain more of the
+/// image than it explains.
+constexpr double kSecondaryMotionRatio = 0.25;
 
-/// Explained areas of two motions whose ratio is above this do not say which of them is the world's.
-constexpr double kNearlyAsMuch = 0.4;
+/// Two motions whose explained areas have a ratio above this are ambiguous.
+constexpr double kCompetingAreaRatio = 0.4;
 
-/// Where this ratio of the edges in view lies in cells that hardly follow it, a motion is a compromise or an accident.
-constexpr double kMostLeftOver = 0.5;
+/// A motion with more than this fraction of the edges in view in such cells is a compromise between motions or
+/// accidental.
+constexpr double kMinorityMotionRatio = 0.5;
 
-/// Ratio of the quads that stand still against the motion. Sound recordings and scenes have up to 0.036 in single
-/// frames, mostly below 0.001; a still camera whose motion is drawn from what moves before it 0.07 to 0.36.
-constexpr double kStillAnyhow = 0.05;
+/// Fraction of the quads that are static although the motion would have moved them. Valid motions reach 0.036 in single
+/// frames and are mostly below 0.001; a stationary camera whose motion was estimated from objects moving in front of it
+/// has 0.07 to 0.36.
+constexpr double kStaticQuadRatio = 0.05;
 
-/// Two motions that share more of the inliers are one.
-constexpr double kTheSameMotion = 0.7;
+/// Two motions that share more than this fraction of the inliers are the same motion.
+constexpr double kSharedInlierRatio = 0.7;
 
-/// Support that a wrong motion may find by chance, in fine texture.
+/// Support that a wrong motion may reach by chance in fine texture.
 constexpr double kChanceSupport = 0.2;
 
-/// Of the support that motions have had lately: a motion with as much of it is one of theirs.
-constexpr double kUsualSupport = 0.5;
+/// A motion is confident if it reaches this fraction of the support that recent motions had.
+constexpr double kRecentSupportRatio = 0.5;
 
-/// What is left per frame of the support that was reached.
-constexpr double kForgetting = 0.95;
+/// Decay of the recent support per frame.
+constexpr double kSupportDecay = 0.95;
 
 }  // namespace
 
@@ -74,7 +76,8 @@ void Acceptance::measure_area(const EdgePositions& predicted, MotionStep& step) 
     sum += cell.explained / cell.edges;
     held += 1;
     in_view += cell.edges;
-    if (cell.explained < kHardlyExplained * std::max(cell.found, kFoundAtLeast * cell.edges)) elsewhere += cell.edges;
+    if (cell.explained < kMinExplainedRatio * std::max(cell.found, kMinFoundRatio * cell.edges))
+      elsewhere += cell.edges;
   }
   step.explained_area = held > 0 ? sum / held : 0;
   step.moving_ratio = in_view > 0 ? elsewhere / in_view : 0;
@@ -89,15 +92,15 @@ bool Acceptance::contradicts_static_scene(const MotionStep& step) {
   pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn, is_still_);
   std::size_t still = 0;
   for (std::size_t q = 0; q < quads.size(); ++q) still += is_still_[q] != 0 && agrees_[q] == 0 ? 1 : 0;
-  return static_cast<double>(still) > kStillAnyhow * static_cast<double>(quads.size());
+  return static_cast<double>(still) > kStaticQuadRatio * static_cast<double>(quads.size());
 }
 
 double Acceptance::confident_support() const {
-  return std::min(config_.temporal.confident_support, std::max(kChanceSupport, kUsualSupport * reached_support_));
+  return std::min(config_.temporal.confident_support, std::max(kChanceSupport, kRecentSupportRatio * recent_support_));
 }
 
 void Acceptance::remember(const MotionStep& found) {
-  reached_support_ = found.ok() ? std::max(found.support, kForgetting * reached_support_) : kUnknownSupport;
+  recent_support_ = found.ok() ? std::max(found.support, kSupportDecay * recent_support_) : kUnknownSupport;
 }
 
 bool Acceptance::is_confident(const MotionStep& step) const {
@@ -105,13 +108,13 @@ bool Acceptance::is_confident(const MotionStep& step) const {
   return step.ok() && (!can_ask_further || step.support >= confident_support());
 }
 
-bool Acceptance::has_secondary_motion(const MotionStep& step) { return step.moving_ratio > kMuchLeftOver; }
+bool Acceptance::has_secondary_motion(const MotionStep& step) { return step.moving_ratio > kSecondaryMotionRatio; }
 
-bool Acceptance::is_minority_motion(const MotionStep& step) { return step.moving_ratio > kMostLeftOver; }
+bool Acceptance::is_minority_motion(const MotionStep& step) { return step.moving_ratio > kMinorityMotionRatio; }
 
 bool Acceptance::are_competing(const MotionStep& found, const MotionStep& other,
                                const Eigen::Isometry3d& base_from_other) {
-  if (!found.ok() || !other.ok() || other.explained_area < kNearlyAsMuch * found.explained_area) return false;
+  if (!found.ok() || !other.ok() || other.explained_area < kCompetingAreaRatio * found.explained_area) return false;
   return !are_same_motion(found, other, base_from_other);
 }
 
@@ -126,7 +129,7 @@ bool Acceptance::are_same_motion(const MotionStep& found, const MotionStep& othe
     ++inliers;
     shared += agrees_[q];
   }
-  return shared >= kTheSameMotion * inliers;
+  return shared >= kSharedInlierRatio * inliers;
 }
 
 bool Acceptance::agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query,

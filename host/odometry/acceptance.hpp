@@ -1,5 +1,5 @@
 #pragma once
-/// \file acceptance.hpp  What to believe of a motion: every test that a hypothesis has to pass.
+/// \file acceptance.hpp  Acceptance tests that every motion hypothesis has to pass.
 
 #include <cstdint>
 #include <vector>
@@ -11,52 +11,53 @@
 
 namespace quadedge::odometry {
 
-/// A motion has to be supported by the edges that it brings into view. One that little more supports has to agree with
-/// edges found anywhere too. Of several, the one that explains the larger area of the image wins.
+/// A motion has to be supported by the edges that it brings into view. If its support is low, it also has to agree with
+/// global matches. Of several motions, the one that explains the largest image area is chosen.
 class Acceptance {
  public:
-  /// Refers to the offset, which must outlive it.
+  /// Refers to `offset`, which must outlive the object.
   Acceptance(const Config& config, const DisparityOffset& offset) : config_(config), offset_(offset) {}
 
-  /// Sets the step's support. Where it lies under temporal.min_support the step has no consensus: within the few pixels
-  /// of a search a wrong motion finds some support too, a true one has to find more.
-  /// \param predicted where the search expected the base's edges in the left image
+  /// Sets the support of `step`. Below temporal.min_support its status becomes no_consensus: within the search radius a
+  /// few pixels wide, a wrong motion also finds some support, but less than the true motion.
+  /// \param predicted positions at which the base's edges were searched for in the left image
   void test_support(const EdgePositions& predicted, MotionStep& step) const;
 
-  /// Sets the step's explained area: the mean, over the image's cells, of the ratio of predicted edges whose quads
-  /// agree closely with the motion, and its moving ratio. A thing counts by the area that it covers, not by the edges
-  /// that it is covered with.
+  /// Sets the explained area, which is the mean over the image cells of the fraction of predicted edges whose quads
+  /// closely agree with the motion, and the moving ratio. Objects are weighted by the area that they cover, not by
+  /// their number of edges.
   void measure_area(const EdgePositions& predicted, MotionStep& step);
 
-  /// Whether a part of the image stands still that the motion would have moved. Nothing stands still by chance, and
-  /// what is far away moves with the motion found as well: either the camera did not move, or something moves with it.
+  /// Whether a part of the image is static that the motion would have moved. Edges are not static by chance, and
+  /// distant edges agree with the motion as well. Hence, either the camera did not move, or something moves along with
+  /// it.
   bool contradicts_static_scene(const MotionStep& step);
 
-  /// Whether a motion near the prediction is believed without asking further.
+  /// Whether a motion near the prediction is accepted without further tests.
   bool is_confident(const MotionStep& step) const;
 
-  /// Takes note of the support of the motion that was found in the end; after a failure nothing is known.
+  /// Records the support of the motion that was chosen; resets the record after a failure.
   void remember(const MotionStep& found);
 
-  /// Whether so much of the image moves otherwise that it may hold the world's motion: another one has to be looked
-  /// for.
+  /// Whether so much of the image moves differently that it may show the camera's motion, so that another motion has to
+  /// be searched for.
   static bool has_secondary_motion(const MotionStep& step);
-  /// Whether most of the image moves otherwise.
+  /// Whether most of the image moves differently.
   static bool is_minority_motion(const MotionStep& step);
 
-  /// Whether another motion explains nearly as large an area as the one found, and is none that a fit would have led
-  /// to as well. \param base_from_other between the rigs that both are measured against
+  /// Whether another motion explains nearly as large an area as `found` and is not the same motion.
+  /// \param base_from_other between the rigs that the two motions are measured against
   bool are_competing(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
-  /// Whether most inliers of the motion found agree with another one as well.
+  /// Whether most inliers of `found` also agree with `other`.
   bool are_same_motion(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
 
-  /// Whether edges found anywhere agree with a motion: in as many cells of the image as an estimate needs inliers. A
-  /// found edge could lie anywhere, so a wrong motion meets next to none of them; neighbours, which may err together,
-  /// count once.
+  /// Whether global matches agree with a motion in at least as many image cells as an estimate needs inliers. A global
+  /// match can lie anywhere in the image, so that a wrong motion agrees with hardly any of them. Matches in the same
+  /// cell count once, because the errors of neighbours are correlated.
   bool agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query, const MotionStep& step);
 
  private:
-  /// temporal.confident_support, or less where the scene's edges do not let any motion reach as much.
+  /// temporal.confident_support, or less if recent motions had low support.
   double confident_support() const;
 
   struct Cell {
@@ -66,8 +67,8 @@ class Acceptance {
   Config config_;
   const DisparityOffset& offset_;
   static constexpr double kUnknownSupport = 1;
-  double reached_support_ = kUnknownSupport;     ///< lately
-  std::vector<Cell> cells_;                      ///< kept for their memory, as are these
+  double recent_support_ = kUnknownSupport;      ///< of recent motions
+  std::vector<Cell> cells_;                      ///< kept between calls, as are the following buffers
   std::vector<std::uint8_t> agrees_, is_still_;  ///< one per quad
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file bilinear.hpp  Values between the places of a grid.
+/// \file bilinear.hpp  Bilinear interpolation.
 
 #include <algorithm>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace quadedge::odometry {
 
-/// Bilinear interpolation of value(column, row) at a position that has a place of the grid on each of its four sides.
+/// Bilinear interpolation of value(column, row) at a position with grid points on all four sides.
 template <class Value>
 float bilinear_inside(double x, double y, const Value& value) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
@@ -18,7 +18,7 @@ float bilinear_inside(double x, double y, const Value& value) {
   return (1 - fy) * above + fy * below;
 }
 
-/// The same over a grid of width x height; beyond it the border is replicated.
+/// The same over a grid of width x height, whose border is replicated.
 template <class Value>
 float bilinear(int width, int height, double x, double y, const Value& value) {
   x = std::clamp(x, 0.0, width - 1.0);
@@ -32,7 +32,7 @@ float bilinear(int width, int height, double x, double y, const Value& value) {
   return (1 - fy) * above + fy * below;
 }
 
-/// Of one of the table's two lists, at a pixel of its pinhole camera.
+/// Value of source_x or source_y of a table at a pixel of the pinhole camera.
 inline float bilinear(const UndistortionTable& table, const std::vector<float>& values, double x, double y) {
   return bilinear(table.width, table.height, x, y, [&](int column, int row) {
     return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(table.width) +

@@ -1,17 +1,17 @@
 #pragma once
-/// \file coarse_search.hpp  Hypothesis: a part of the edges lies within a circle around where they are predicted.
+/// \file coarse_search.hpp  Hypothesis: a subset of the edges lies within a radius of the predicted positions.
 
 #include "odometry/motion_hypothesis.hpp"
 #include "odometry/step_builder.hpp"
 
 namespace quadedge::odometry {
 
-/// Matches every so many edges with temporal.coarse_*'s strict limits.
+/// Matches every n-th edge with the strict limits of temporal.coarse_*.
 class CoarseSearch : public MotionHypothesis {
  public:
-  /// Near the prediction of constant velocity, where there is one.
+  /// Around the constant-velocity prediction, if there is one.
   static CoarseSearch near_prediction(frontend::Frontend& frontend, StepBuilder& steps, const Config& config);
-  /// In wide circles, around where the edges were where there is no prediction.
+  /// With a large radius, around the previous positions if there is no prediction.
   static CoarseSearch wide(frontend::Frontend& frontend, StepBuilder& steps, const Config& config, int image_width);
 
   StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
@@ -24,10 +24,10 @@ class CoarseSearch : public MotionHypothesis {
   frontend::Frontend& frontend_;
   StepBuilder& steps_;
   PoseConfig limits_;
-  int edges_;      ///< looked for at least
+  int edges_;      ///< minimum number of edges to match, if there are as many
   double radius_;  ///< px
   bool trusts_prediction_;
-  TemporalSearch search_;  ///< kept for its memory
+  TemporalSearch search_;  ///< kept between calls
 };
 
 }  // namespace quadedge::odometry

@@ -7,14 +7,14 @@
 namespace quadedge::odometry {
 namespace {
 
-constexpr double kSettled = 0.3;  ///< mean distance of predicted positions that calls for no further search [px]
-constexpr int kSettledStep = 16;  ///< every so many edges tell it
+constexpr double kSettled = 0.3;  ///< mean change of the predicted positions below which the search ends [px]
+constexpr int kSettledStep = 16;  ///< the mean is computed over every 16th edge
 
 }  // namespace
 
 StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely) {
   PoseConfig limits = config_.pose;
-  limits.min_hypotheses = 0;  // the proposal has drawn them: as many more as its inliers leave in doubt
+  limits.min_hypotheses = 0;  // the proposal has drawn them; more are drawn only as its inlier ratio requires
   if (closely) limits.inlier_distance *= kCloseAgreement;
   if (query.key) {
     StepHandle step = match(query, query.key, limits, current_from_base * query.base_from_key);
@@ -24,8 +24,8 @@ StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry
   return match(query, query.base, limits, current_from_base);
 }
 
-/// Of a key rig that comes out of sight few edges are found; where the base's, which is nearer, follow the same motion,
-/// they speak for it.
+/// Few edges match a key rig that is moving out of view. If the edges of the base, which is closer in time, follow the
+/// same motion, their support is used.
 void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
   const Eigen::Isometry3d key_from_base = query.base_from_key.inverse();
   const StepHandle by_base = match(query, query.base, limits, by_key.motion.current_from_previous * key_from_base);

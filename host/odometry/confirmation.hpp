@@ -1,5 +1,5 @@
 #pragma once
-/// \file confirmation.hpp  What the matching of all edges says of a proposed motion.
+/// \file confirmation.hpp  Confirms a proposed motion with all edges.
 
 #include <Eigen/Geometry>
 
@@ -10,17 +10,17 @@
 
 namespace quadedge::odometry {
 
-/// Matches all edges of a rig within a few pixels of where a motion predicts them, again around what that finds until
-/// the predicted positions stay.
+/// Matches all edges of a rig within a few pixels of the positions that a motion predicts, and repeats this with the
+/// motion found until the predicted positions no longer change.
 class Confirmation {
  public:
-  /// Refers to all but the configuration, which must outlive it.
+  /// Refers to all arguments except the configuration; they must outlive the object.
   Confirmation(const Config& config, frontend::Frontend& frontend, StepBuilder& steps, Acceptance& acceptance)
       : config_(config), frontend_(frontend), steps_(steps), acceptance_(acceptance) {}
 
-  /// The motion since the key rig or, where that one is out of sight, since the base. Little support by the key
-  /// rig is made up for by the base's. \param current_from_base proposed
-  /// \param closely inliers lie within a third of the usual distance
+  /// Returns the motion since the key rig or, if that is out of view, since the base. If the support by the key rig is
+  /// low, the support by the base may replace it. \param current_from_base the proposed motion
+  /// \param closely whether inliers have to lie within a third of the usual distance
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely = false);
 
  private:
@@ -33,7 +33,7 @@ class Confirmation {
   frontend::Frontend& frontend_;
   StepBuilder& steps_;
   Acceptance& acceptance_;
-  TemporalSearch search_, next_search_;  ///< kept for their memory
+  TemporalSearch search_, next_search_;  ///< kept between calls
 };
 
 }  // namespace quadedge::odometry

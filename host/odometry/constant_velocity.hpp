@@ -1,20 +1,20 @@
 #pragma once
-/// \file constant_velocity.hpp  The motion expected of the next frames: that of the last ones.
+/// \file constant_velocity.hpp  Prediction by constant velocity.
 
 #include <Eigen/Geometry>
 #include <optional>
 
 namespace quadedge::odometry {
 
-/// The motion of one frame interval. It predicts and estimates nothing.
+/// The motion per frame interval.
 class ConstantVelocity {
  public:
-  /// Takes in a motion over `intervals` equal frame intervals, its translation spread evenly.
+  /// Sets the velocity from a motion over `intervals` equal frame intervals; its translation is divided evenly.
   void observe(const Eigen::Isometry3d& current_from_earlier, int intervals);
-  /// No velocity is known from now on.
+  /// Resets the velocity to unknown.
   void forget() { one_interval_ = std::nullopt; }
 
-  /// current_from_earlier over `intervals` frame intervals; nothing where no velocity is known.
+  /// Returns current_from_earlier over `intervals` frame intervals, or nothing if no velocity is known.
   std::optional<Eigen::Isometry3d> predict(int intervals) const;
 
  private:

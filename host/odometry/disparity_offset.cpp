@@ -4,9 +4,9 @@ namespace quadedge::odometry {
 
 namespace {
 
-/// Unit vector along which a point in the middle of the right image moves when its depth shrinks.
+/// Unit vector along which a point in the middle of the right image moves when its depth decreases.
 Eigen::Vector2d direction_of_nearer(const StereoRig& rig) {
-  // At the image's middle, from a hundred base lines to fifty.
+  // For the middle of the image, between depths of 100 and 50 baselines.
   const Eigen::Vector3d ray = rig.left.ray({0.5 * (rig.left.width - 1), 0.5 * (rig.left.height - 1)});
   const Eigen::Vector2d far = rig.right.project(rig.right_from_left * Eigen::Vector3d(100 * rig.baseline() * ray));
   return (rig.right.project(rig.right_from_left * Eigen::Vector3d(50 * rig.baseline() * ray)) - far).normalized();

@@ -1,33 +1,35 @@
 #pragma once
-/// \file disparity_offset.hpp  The offset of all disparities that a rectification leaves, learned along the way.
+/// \file disparity_offset.hpp  Online estimate of the common offset of all disparities.
 
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::odometry {
 
-/// The rig with its right principal point moved, so that all disparities grow by `offset` px. Without tables and masks.
+/// Moves the right principal point so that all disparities increase by `offset` px. The result has no undistortion
+/// tables and no masks.
 StereoRig with_disparity_offset(const StereoRig& rig, double offset);
 
-/// A rig's disparities may all be wrong by the same part of a pixel (KITTI: 0.2 px and more), which shows in the quads
-/// of a moving camera (pose::fit_offset()). This is the scalar Kalman filter over what one frame of each key stereo rig
-/// says of it.
+/// A scalar Kalman filter for the common offset of a rig's disparities, a rectification error of a fraction of a pixel
+/// (KITTI: 0.2 px and more). The offset is observable in the quads of a moving camera (pose::fit_offset()); one frame
+/// per key stereo rig contributes a measurement.
 class DisparityOffset {
  public:
   DisparityOffset(const StereoRig& rig, const PoseConfig& config);
 
-  /// Takes in what one frame found beyond the offset known before, and its variance with the prior [px, px^2]; `frames`
-  /// have passed since the last time.
+  /// Adds a measurement: the correction to the current offset and its variance, which includes the prior [px, px^2];
+  /// `frames` have passed since the last measurement.
   void update(double correction, double variance, int frames);
 
-  /// The rig with its right principal point moved by the offset, so that right points mean what they should. Without
-  /// undistortion tables.
+  /// The rig with its right principal point corrected by the offset, without undistortion tables.
   const StereoRig& rig() const { return rig_; }
-  double value() const { return value_; }        ///< px, added to a disparity
-  double variance() const { return variance_; }  ///< px^2, of the next frame; 0: disparities are taken as exact
+  double value() const { return value_; }  ///< added to disparities [px]
+  double variance() const {
+    return variance_;
+  }  ///< predicted for the next frame [px^2]; 0: disparities are assumed exact
 
  private:
-  StereoRig calibration_;  ///< without tables
+  StereoRig calibration_;  ///< without undistortion tables
   StereoRig rig_;
   double drift_;
   double value_ = 0, variance_;

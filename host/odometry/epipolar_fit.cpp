@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMinSpots = 12;
 constexpr int kRounds = 8;
-constexpr double kLeastScale = 0.02;  // px
+constexpr double kMinScale = 0.02;  // px
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -37,7 +37,7 @@ EpipolarFit fit_across(const std::vector<CornerMatch>& spots, int width, int hei
     for (const auto& spot : spots) distances.push_back(std::abs(spot.across - row(spot).dot(terms)));
     fit.scatter = median(distances);
     if (round == kRounds) break;
-    const double scale = std::max(2 * fit.scatter, kLeastScale);
+    const double scale = std::max(2 * fit.scatter, kMinScale);
     Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
     for (const auto& spot : spots) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file epipolar_fit.hpp  How the distances from the epipolar lines change over the image.
+/// \file epipolar_fit.hpp  Linear model of the distances from the epipolar lines over the image.
 
 #include <vector>
 
@@ -7,16 +7,16 @@
 
 namespace quadedge::odometry {
 
-/// across = offset + slope_x u + slope_y v, where u and v run from -1/2 to 1/2 over the left image.
+/// across = offset + slope_x u + slope_y v, where u and v range from -1/2 to 1/2 over the left image.
 struct EpipolarFit {
   double offset = 0, slope_x = 0, slope_y = 0;  ///< [px]
-  double residual = 0;                          ///< median distance from the lines, nothing taken off [px]
+  double residual = 0;                          ///< median distance from the lines, before the fit [px]
   double scatter = 0;                           ///< median distance from the fit [px]
   int samples = 0;
-  bool is_coarse = false;  ///< of spots that were found among coarse pixels alone
+  bool is_coarse = false;  ///< whether the corners were found at the coarse resolution only
 };
 
-/// Robust fit (iterated least squares with Cauchy weights); all zero for fewer than 12 spots.
+/// Robust fit (iteratively reweighted least squares with Cauchy weights); all zero for fewer than 12 corners.
 EpipolarFit fit_across(const std::vector<CornerMatch>& spots, int width, int height);
 
 }  // namespace quadedge::odometry

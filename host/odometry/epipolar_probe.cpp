@@ -15,15 +15,16 @@ constexpr int kProbeHalf = 5, kProbeSide = 2 * kProbeHalf + 1,
               kWithBorder = kProbeSide + 2;  // patches of 11 x 11 samples
 constexpr int kSteps = 10;
 constexpr double kSettledShift = 0.01;  // px
-constexpr double kLongestWay = 4;       // px from where a refinement starts
+constexpr double kMaxShift = 4;         // from the start of a refinement [px]
 constexpr double kMinProbeCorrelation = 0.8;
-constexpr double kMinRoundness = 0.03;  // determinant over squared trace of the structure tensor; 0.25 is a blob
-constexpr double kMaxSigma = 0.1;       // px; what says nothing across the line is left out
-constexpr double kAlong = 0.25, kAcross = 0.1;  // reach of the search, ratios of the left image's width and height
-constexpr double kCoarseWidth = 320;            // px
+constexpr double kMinRoundness =
+    0.03;  // determinant over squared trace of the structure tensor; 0.25 for an isotropic corner
+constexpr double kMaxSigma = 0.1;  // px; matches that do not constrain the distance from the line are dropped
+constexpr double kAlong = 0.25,
+                 kAcross = 0.1;       // extent of the search, as fractions of the left image's width and height
+constexpr double kCoarseWidth = 320;  // px
 
-/// Samples of a patch, from -kProbeHalf - 1 to kProbeHalf + 1 in both directions; columns of the image stand in
-/// columns.
+/// Samples of a patch, from -kProbeHalf - 1 to kProbeHalf + 1 in both directions; array columns are image columns.
 using Samples = Eigen::Array<float, kWithBorder, kWithBorder, Eigen::RowMajor>;
 
 Samples cut(const PinholeView& view, const Eigen::Vector2d& centre, const Eigen::Matrix2d& steps) {
@@ -32,12 +33,12 @@ Samples cut(const PinholeView& view, const Eigen::Vector2d& centre, const Eigen:
   return samples;
 }
 
-/// The samples but for the border, moved by so many columns and rows.
+/// The samples without the border, shifted by `column` and `row`.
 auto inner(const Samples& samples, int column = 0, int row = 0) {
   return samples.block<kProbeSide, kProbeSide>(1 + row, 1 + column);
 }
 
-/// Mean of the inner samples, and the norm of what differs from it.
+/// Mean of the inner samples, and norm of their deviations from it.
 struct Level {
   float mean = 0, norm = 0;
 };
@@ -47,11 +48,11 @@ Level level_of(const Samples& samples) {
   return {mean, (inner(samples) - mean).matrix().norm()};
 }
 
-/// Normal equations of the move that makes one patch of another, both at equal contrast.
+/// Normal equations of the shift that aligns one patch with another at equal contrast.
 struct Alignment {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right_side = Eigen::Vector2d::Zero();
-  double cost = 0;  ///< squared difference of both at norm 1: 2 (1 - correlation)
+  double cost = 0;  ///< squared difference of the patches normalised to norm 1: 2 (1 - correlation)
 };
 
 Alignment compare(const Samples& wanted, const Level& wanted_level, const Samples& found, const Level& found_level) {
@@ -70,13 +71,13 @@ Alignment compare(const Samples& wanted, const Level& wanted_level, const Sample
   return sums;
 }
 
-/// What became of a corner that was sought.
+/// Result of searching for one corner.
 struct Sought {
   bool has_line = false, is_negative = false;
   std::optional<CornerMatch> found;
 };
 
-/// The pixel that a given right image has where the calibration means `at`.
+/// Pixel of the actual right image that corresponds to pixel `at` of the calibrated one.
 Eigen::Vector2d turned(const Eigen::Vector2d& at, ImageTurn turn, const PinholeCamera& camera) {
   const Eigen::Vector2d middle(0.5 * (camera.width - 1), 0.5 * (camera.height - 1)), from = at - middle;
   switch (turn) {
@@ -118,7 +119,7 @@ std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const 
   const auto here = at_infinity(spot), beside = at_infinity(spot + Eigen::Vector2d::UnitX()),
              below = at_infinity(spot + Eigen::Vector2d::UnitY());
   if (!its_line || !here || !beside || !below || !left.holds(spot, kProbeHalf + 1)) return std::nullopt;
-  Eigen::Matrix2d steps;  // how a patch that is a square in the left image lies in the right one
+  Eigen::Matrix2d steps;  // axes of the left patch in the right image
   steps << *beside - *here, *below - *here;
   const Samples wanted = cut(left, spot, Eigen::Matrix2d::Identity());
   const Level wanted_level = level_of(wanted);
@@ -126,13 +127,13 @@ std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const 
   const Eigen::Vector2d start = place;
   Alignment sums;
   for (int step = 0; step < kSteps; ++step) {
-    if (!right.holds(place, reach) || (place - start).norm() > kLongestWay) return std::nullopt;
+    if (!right.holds(place, reach) || (place - start).norm() > kMaxShift) return std::nullopt;
     const Samples found = cut(right, place, steps);
     const Level found_level = level_of(found);
     if (!(wanted_level.norm > 0 && found_level.norm > 0)) return std::nullopt;
     sums = compare(wanted, wanted_level, found, found_level);
     const double determinant = sums.normal.determinant(), trace = sums.normal.trace();
-    if (!(determinant > kMinRoundness * trace * trace)) return std::nullopt;  // an edge alone
+    if (!(determinant > kMinRoundness * trace * trace)) return std::nullopt;  // an edge, not a corner
     const Eigen::Vector2d move = steps * sums.normal.inverse() * sums.right_side;
     place += move;
     if (move.norm() < kSettledShift) break;
@@ -162,12 +163,12 @@ void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, st
               spots.end());
 }
 
-/// Both images, small, as the left camera would see what lies at infinity, so that a disparity is all that is left.
+/// Reduced images as the left camera would see a scene at infinity, so that only disparity remains.
 struct EpipolarProbe::CoarseViews {
-  double scale;  ///< left pixels per coarse one
+  double scale;  ///< left pixels per coarse pixel
   GreyPlane left, right;
 
-  /// A place of a coarse image in the left one [px].
+  /// Position in the left image [px] of a position in a coarse image.
   static Eigen::Vector2d in_left(double x, double y, double scale) {
     return {(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5};
   }
@@ -206,7 +207,7 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
     const Eigen::Vector2d spot = views.in_left(corner.cast<double>());
     const auto its_line = line(spot);
     if (!its_line) return sought;
-    // The line's direction among coarse pixels.
+    // Direction of the line in the coarse images.
     const Eigen::Vector3d ahead = h_.inverse() * (its_line->infinity + its_line->direction).homogeneous();
     const Eigen::Vector2d direction = (ahead.hnormalized() - spot).normalized();
     const SearchBox box{static_cast<int>((std::abs(direction.x()) * along + std::abs(direction.y()) * across) / scale),

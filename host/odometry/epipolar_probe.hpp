@@ -1,7 +1,7 @@
 #pragma once
-/// \file epipolar_probe.hpp  Where spots of the left image lie in the right one, sought in both directions of the image
-/// and not along the epipolar lines alone: the cascade of doc/method.md section 3 only ever sees what lies within half
-/// a pixel of its line, and cannot say how far the rest is off.
+/// \file epipolar_probe.hpp  Searches for corners of the left image in the right one, along and across the epipolar
+/// lines. The cascade of doc/method.md section 3 only considers positions within half a pixel of the line and therefore
+/// cannot measure larger deviations.
 
 #include <Eigen/Core>
 #include <optional>
@@ -14,41 +14,41 @@
 
 namespace quadedge::odometry {
 
-/// A spot of the left image, found in the right one.
+/// A corner of the left image, found in the right one.
 struct CornerMatch {
   Eigen::Vector2d left = Eigen::Vector2d::Zero();  ///< [px]
-  double along = 0;        ///< position along the epipolar line from the point at infinity on [px]: the disparity
-  double across = 0;       ///< distance from the line [px]
-  double sigma = 0;        ///< standard deviation of `across` by the contrast of the patch [px]
-  bool is_aligned = true;  ///< to a part of a pixel; else it was found among coarse pixels alone
-  Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the line, in the direction of a growing `across`
-  int edge = -1;                                      ///< the stereo edge, where it is one
+  double along = 0;   ///< position along the epipolar line, measured from the point at infinity [px]: the disparity
+  double across = 0;  ///< distance from the line [px]
+  double sigma = 0;   ///< standard deviation of `across`, from the contrast of the patch [px]
+  bool is_aligned = true;  ///< whether it was aligned with sub-pixel accuracy, not only found at the coarse resolution
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the line, in the direction of increasing `across`
+  int edge = -1;                                      ///< index of the stereo edge, if it is one
 };
 
-/// Ways in which a right image may differ from what the calibration says, for the search.
+/// Transformations of the right image relative to the calibration that a search can assume.
 enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
 
-/// What a search found.
+/// Result of a search.
 struct ProbeSearch {
-  int sought = 0;                  ///< spots
-  std::vector<CornerMatch> found;  ///< in the right image and, from there, in the left one again
-  int negative = 0;                ///< of the found ones, those whose right patch is a negative of the left one
-  double max_disparity = 0;        ///< largest allowed disparity in the middle of the image [px]
+  int sought = 0;                  ///< corners searched for
+  std::vector<CornerMatch> found;  ///< found in the right image and, from there, again in the left one
+  int negative = 0;                ///< matches whose right patch is the negative of the left one
+  double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
 };
 
-/// Any rig; recorded images, distorted or not. Works on the host, on few spots.
+/// For any rig and for recorded images with or without distortion. Runs on the host, on a small number of corners.
 class EpipolarProbe {
  public:
-  /// \param max_disparity the largest that the cascade looks for [px], in the middle of the left image
+  /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
   EpipolarProbe(const StereoRig& rig, double max_disparity);
 
-  /// Aligns patches of about 240 of the stereo edges in both directions, starting where the cascade found
-  /// them. A few pixels off are seen. Steady frames allocate nothing.
+  /// Aligns patches of about 240 stereo edges in both image directions, starting from the cascade's match. Detects
+  /// deviations of a few pixels. Allocates nothing in steady state.
   void align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& spots) const;
 
-  /// Seeks corners of the left image in the right one by normalised correlation: over a quarter of the image's width to
-  /// both sides along the line, and a tenth of it across. Done on images of about 320 px width, which takes some ten
-  /// milliseconds.
+  /// Searches for corners of the left image in the right one by normalised correlation, over a quarter of the image
+  /// width to both sides along the line and a tenth of the image height across it. Uses images reduced to a width of
+  /// about 320 px and takes some ten milliseconds.
   ProbeSearch search(const StereoFrame& frame, ImageTurn turn = ImageTurn::none) const;
 
  private:
@@ -65,7 +65,7 @@ class EpipolarProbe {
 
   StereoRig rig_;
   double max_disparity_;
-  Eigen::Matrix3d h_;  ///< K_R R0 K_L^-1: the right pixel of what lies at infinity
+  Eigen::Matrix3d h_;  ///< K_R R0 K_L^-1: maps left pixels to the right pixels of points at infinity
   Eigen::Vector3d t_;  ///< K_R T0
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMuchFiner = 1.5;
 
-/// Every `factor` x `factor` pixels become one, which is hidden where one of them is.
+/// Reduces a mask by `factor`; a pixel is hidden if any of its source pixels is.
 void shrink(int factor, const PinholeCamera& camera, PixelMask& mask) {
   if (mask.empty()) return;
   PixelMask smaller{camera.width / factor, camera.height / factor, {}};
@@ -23,7 +23,7 @@ void shrink(int factor, const PinholeCamera& camera, PixelMask& mask) {
   mask = std::move(smaller);
 }
 
-/// Every `factor` x `factor` pixels become one.
+/// Reduces a camera and its table by `factor`.
 void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
   UndistortionTable smaller;
   smaller.width = camera.width / factor;

@@ -1,14 +1,14 @@
 #pragma once
-/// \file equal_scale.hpp  Cameras of different resolution.
+/// \file equal_scale.hpp  Equalises cameras of different resolution.
 
 #include "quadedge/camera.hpp"
 
 namespace quadedge::odometry {
 
-/// Edges are found, and patches cut, at one scale in pixels: where one camera has at least one and a half times the
-/// other's focal length in pixels, their patches show different things. Such a camera is replaced by one of a half, a
-/// third ... of its resolution, whose undistortion table samples the recorded image at the middle of its pixels: for a
-/// half that is the mean of four. Other rigs come back as they are.
+/// Edges and patches have a fixed scale in pixels. If the focal length in pixels of one camera is at least one and a
+/// half times that of the other, their patches cover different parts of the scene. Such a camera is reduced to a half,
+/// a third ... of its resolution; its undistortion table samples the recorded image at the pixel centres, which for a
+/// half is the mean of four pixels. Other rigs are returned unchanged.
 StereoRig with_equal_scales(StereoRig rig);
 
 }  // namespace quadedge::odometry

@@ -1,33 +1,32 @@
 #pragma once
-/// \file motion_hypothesis.hpp  A way to come to a motion that is worth confirming. The list stands in
-/// motion_search.cpp.
+/// \file motion_hypothesis.hpp  Interface of the sources of motion hypotheses. motion_search.cpp lists them.
 
 #include "odometry/motion_step.hpp"
 
 namespace quadedge::odometry {
 
-/// What the hypotheses before this one have found of the same frame.
+/// Results of the preceding hypotheses for the same frame.
 struct Evidence {
-  const MotionStep* global_matches = nullptr;  ///< edges found anywhere in the image; null unless looked for
-  const MotionStep* confirmed = nullptr;       ///< the first motion that all edges confirm; null unless there is one
+  const MotionStep* global_matches = nullptr;  ///< step with global matches; null if none were computed
+  const MotionStep* confirmed = nullptr;       ///< first motion confirmed with all edges; null if there is none
 };
 
-/// Looks for a motion since the query's base with a part of the edges.
+/// Proposes a motion since the query's base from a subset of the edges.
 class MotionHypothesis {
  public:
   virtual ~MotionHypothesis() = default;
 
-  /// A step whose motion is worth confirming where its status is ok; null where there is nothing to try.
+  /// Returns a step whose motion has to be confirmed if its status is ok, or null if there is nothing to try.
   virtual StepHandle propose(const MotionQuery& query, Evidence& evidence) = 0;
 
-  /// Whether it only looks near the prediction: what it finds may end the search, and else gives way to an equal motion
-  /// that was found without it.
+  /// Whether it searches near the prediction only. Its motion may end the search; otherwise, an equal motion found
+  /// without the prediction takes precedence.
   virtual bool trusts_prediction() const { return false; }
 
-  /// Whether it competes with a motion a pixel or two apart: then a fit with the usual inlier distance would take in
-  /// the edges of both, and end between them.
+  /// Whether it competes with a motion that differs by a pixel or two. With the usual inlier distance, a fit would
+  /// include the edges of both motions and end between them.
   virtual bool asks_for_close_agreement() const { return false; }
-  /// Takes as long as all the rest of a frame: asked only where cheaper ones leave a doubt.
+  /// Whether it takes as long as the rest of a frame. Such hypotheses are tried only if the others leave doubt.
   virtual bool is_costly() const { return false; }
 };
 

@@ -55,8 +55,8 @@ StepHandle MotionSearch::search(const MotionQuery& query) {
     return Acceptance::has_secondary_motion(step) || acceptance_.contradicts_static_scene(step);
   };
   for (const auto& hypothesis : hypotheses_) {
-    // Where a part of the image moves otherwise than predicted, what costs little is tried beside the prediction; where
-    // most of it does, all.
+    // If a part of the image moves differently than predicted, the inexpensive hypotheses are tried as well; if most of
+    // it does, all of them.
     if (hypothesis->is_costly() && !trials.empty() && prediction_holds(trials.front())) continue;
     try_hypothesis(*hypothesis);
     if (trials.size() == 1 && !in_doubt_ && is_expected(trials.front()) && !leaves_doubt(*trials.front().outcome()))
@@ -96,8 +96,8 @@ Eigen::Isometry3d MotionSearch::base_from_base(const MotionStep& found, const Mo
   return from_key(found) * from_key(other).inverse();
 }
 
-/// A motion that was confirmed by its closest quads alone is measured by fewer of them than it has. Where another trial
-/// came to the same motion with all of them, that one.
+/// A motion that was confirmed with close agreement uses fewer quads than are available. If another trial found the
+/// same motion with all its inliers, that trial is returned.
 MotionSearch::Trial& MotionSearch::with_all_inliers(Trial& chosen, std::vector<Trial>& trials,
                                                     const MotionQuery& query) {
   const MotionStep& found = *chosen.outcome();
@@ -120,8 +120,8 @@ bool MotionSearch::has_competing_motion(Trial& chosen, std::vector<Trial>& trial
   return false;
 }
 
-/// The trial whose motion explains most of the image. Between equals, two failures for instance, one that was made
-/// without trust in the prediction wins, else the first.
+/// The trial whose motion explains the largest image area. Between equal trials, such as two failures, one that does
+/// not rely on the prediction takes precedence, then the first.
 MotionSearch::Trial& MotionSearch::best(std::vector<Trial>& trials) {
   const auto beats = [](Trial& one, Trial& other) {
     const MotionStep &its = *one.outcome(), &others = *other.outcome();

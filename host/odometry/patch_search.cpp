@@ -10,12 +10,13 @@ namespace {
 
 constexpr int kPatchHalf = 4, kPatchSide = 2 * kPatchHalf + 1;  // patches of 9 x 9 px
 constexpr double kMinCorrelation = 0.8;
-constexpr double kFlat = 1.5;     // standard deviation of a patch without contrast [grey levels]
-constexpr int kCell = 20;         // px; every cell gives one corner
-constexpr double kMinCorner = 4;  // smaller eigenvalue of the structure tensor, per pixel [(grey levels per px)^2]
-constexpr int kCornerHalf = 3;    // half the window of that tensor [px]
+constexpr double kFlat = 1.5;  // patches with a lower standard deviation count as flat [grey levels]
+constexpr int kCell = 20;      // size of the cells that yield one corner each [px]
+constexpr double kMinCorner =
+    4;  // minimum of the smaller eigenvalue of the structure tensor, per pixel [(grey levels per px)^2]
+constexpr int kCornerHalf = 3;  // half the window size of the structure tensor [px]
 
-/// Sums over squares of half side `half` around every pixel; 0 where the square leaves the image.
+/// Sums over squares of half side `half` around every pixel; 0 if the square leaves the image.
 std::vector<double> box_sums(const std::vector<double>& values, int width, int height, int half) {
   const auto at = [&](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width + 1) + static_cast<std::size_t>(x);
@@ -39,8 +40,8 @@ std::vector<double> box_sums(const std::vector<double>& values, int width, int h
   return sums;
 }
 
-/// Adds the products of a patch around `corner` with those whose middles are `columns` places from column `x` of row
-/// `y` on.
+/// Adds the products of the patch around `corner` with the patches centred at `columns` consecutive pixels of row `y`,
+/// starting at column `x`.
 QUADEDGE_VECTOR_CLONES
 void add_products(const GreyPlane& from, const Eigen::Vector2i& corner, const GreyPlane& to, int x, int y, int columns,
                   float* products) {
@@ -54,7 +55,7 @@ void add_products(const GreyPlane& from, const Eigen::Vector2i& corner, const Gr
   }
 }
 
-/// The top of the parabola through three values, as a move from the middle one.
+/// Position of the vertex of the parabola through three values, relative to the middle one.
 double peak(double before, double middle, double after) {
   const double bend = before - 2 * middle + after;
   return bend < 0 ? std::clamp((before - after) / (2 * bend), -0.5, 0.5) : 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// \file patch_search.hpp  Corners of a small image, and where in another one a patch around them lies. The core
-/// library does without OpenCV, which has both.
+/// \file patch_search.hpp  Corner detection and patch search in small images. OpenCV has both, but the core library
+/// does not link OpenCV.
 
 #include <Eigen/Core>
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace quadedge::odometry {
 
-/// A small grey image of floats, with what normalised correlation needs of every patch.
+/// A small grey image of floats with the patch statistics that normalised correlation needs.
 struct GreyPlane {
   int width = 0, height = 0;
   std::vector<float> grey;  ///< height x width, row-major
   std::vector<float> mean;  ///< of the patch around every pixel
-  std::vector<float> norm;  ///< of its differences from the mean; 0 where the patch is flat or leaves the image
+  std::vector<float> norm;  ///< of its deviations from the mean; 0 if the patch is flat or leaves the image
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
 };
 
-/// Fills mean and norm of an image whose grey values are set.
+/// Computes `mean` and `norm` from `grey`.
 void measure_patches(GreyPlane& plane);
 
-/// An image whose pixels are the mean of value(x, y) at four places a half pixel apart.
+/// Creates an image whose pixels are the mean of value(x, y) at four positions half a pixel apart.
 template <class Value>
 GreyPlane sample_plane(int width, int height, const Value& value) {
   GreyPlane plane{width, height, {}, {}, {}};
@@ -39,22 +39,22 @@ GreyPlane sample_plane(int width, int height, const Value& value) {
   return plane;
 }
 
-/// The strongest corner (Shi and Tomasi, Good features to track, 1994) of every cell of the image that has one.
+/// The strongest corner of every image cell that has one (Shi and Tomasi, Good features to track, 1994).
 std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane);
 
-/// How far from where it lies a patch is sought, to both sides [px].
+/// Extent of the search to both sides [px].
 struct SearchBox {
   int half_width = 0, half_height = 0;
 };
 
-/// Where a patch was found.
+/// Position at which a patch was found.
 struct PatchMatch {
-  Eigen::Vector2d at;      ///< [px], with a part of a pixel
-  double correlation = 0;  ///< normalised; below zero where a negative was found
+  Eigen::Vector2d at;      ///< [px], with sub-pixel accuracy
+  double correlation = 0;  ///< normalised; negative for an inverted patch
 };
 
-/// The place in `to`, in a box around `corner`, whose patch correlates most, in either sign, with that of `from` at
-/// `corner`; nothing where none does well.
+/// The position in `to`, within a box around `corner`, whose patch has the largest absolute correlation with the patch
+/// of `from` at `corner`; nothing if the correlation is too low.
 std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to, const Eigen::Vector2i& corner,
                                      const SearchBox& box);
 

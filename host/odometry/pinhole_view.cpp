@@ -25,7 +25,7 @@ float PinholeView::at(double x, double y) const {
 
 PinholeView::Patch PinholeView::patch(const Eigen::Vector2d& position, const Eigen::Matrix2d& steps) const {
   if (table_.empty()) return {recorded_, position, steps};
-  constexpr double kStep = 4;  // px; the lens's slope around the position
+  constexpr double kStep = 4;  // step for the derivative of the lens mapping [px]
   Eigen::Matrix2d slope;
   for (int axis = 0; axis < 2; ++axis) {
     const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(axis);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file pinhole_view.hpp  A recorded image as its pinhole camera would have seen it, one sample at a time.
+/// \file pinhole_view.hpp  Samples a recorded image as seen by its pinhole camera.
 
 #include <Eigen/Core>
 
@@ -8,23 +8,24 @@
 
 namespace quadedge::odometry {
 
-/// Looks into a recorded image through its undistortion table, for the few places that are wanted on the host.
+/// Samples a recorded image through its undistortion table at individual positions, on the host.
 class PinholeView {
  public:
-  /// Refers to the image and the table, which must outlive it. `table` may be empty.
+  /// Refers to the image and the table, which must outlive the object. `table` may be empty.
   PinholeView(const ImageView& recorded, const UndistortionTable& table, const PinholeCamera& camera)
       : recorded_(recorded), table_(table), width_(camera.width), height_(camera.height) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Is a square of half the side `reach` around a position within the image?
+  /// Whether the square of half side `reach` around a position lies within the image.
   bool holds(const Eigen::Vector2d& at, double reach) const {
     return at.x() >= reach && at.y() >= reach && at.x() <= width_ - 1 - reach && at.y() <= height_ - 1 - reach;
   }
-  /// Grey level at a position, bilinear; what lies outside is replicated from the border. [px]
+  /// Grey level at a position [px], bilinear; the border is replicated.
   float at(double x, double y) const;
-  /// What is seen around a position: grey levels at `position + steps * (column, row)`. Over a patch the lens is taken
-  /// as affine; a sample 6 px from the middle of EuRoC's moves by 0.03 px at most for that, in both cameras alike.
+  /// Grey levels around a position, at `position + steps * (column, row)`. The lens mapping is approximated as affine
+  /// within a patch; for EuRoC, this displaces a sample 6 px from the centre by at most 0.03 px, equally in both
+  /// cameras.
   class Patch;
   Patch patch(const Eigen::Vector2d& position, const Eigen::Matrix2d& steps) const;
 
@@ -38,7 +39,7 @@ class PinholeView {
 
 class PinholeView::Patch {
  public:
-  /// The samples of columns and rows -half to half, row-major.
+  /// Samples columns and rows -half to half, row-major.
   void sample(int half, float* values) const;
 
  private:

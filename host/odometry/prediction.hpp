@@ -1,5 +1,5 @@
 #pragma once
-/// \file prediction.hpp  Where the previous stereo edges are expected in the current images.
+/// \file prediction.hpp  Predicts the positions of earlier stereo edges in the current images.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -11,18 +11,18 @@
 
 namespace quadedge::odometry {
 
-/// Moves every stereo edge's oriented point by the predicted motion and projects it into both images; without a
-/// prediction the positions and directions stay. Edges without depth, or that leave the field of view, get NaN where a
-/// motion is predicted. \param current_from_previous left cameras, metres \param measured the previous edges, see
-/// pose::measure_edges() \param radius px; \param step every step-th edge is looked for \param search what is replaced
+/// Transforms every stereo edge's oriented point by the predicted motion and projects it into both images; without a
+/// prediction, positions and directions are unchanged. With a prediction, edges without depth and edges outside the
+/// field of view become NaN. \param current_from_previous left cameras, metres \param measured the previous edges, see
+/// pose::measure_edges() \param radius [px] \param step every step-th edge is predicted \param search is replaced
 void predict_positions(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
                        const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
                        TemporalSearch& search);
 
-/// Edges inside a camera's image.
+/// Number of edges within a camera's image.
 int count_in_view(const PinholeCamera& camera, const EdgePositions& edges);
 
-/// Mean distance of every step-th position that both hold [px]; 0 where there is none.
+/// Mean distance between corresponding finite positions, over every step-th edge [px]; 0 if there are none.
 double mean_distance(const EdgePositions& a, const EdgePositions& b, int step);
 
 }  // namespace quadedge::odometry

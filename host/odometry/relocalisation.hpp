@@ -1,12 +1,12 @@
 #pragma once
-/// \file relocalisation.hpp  Hypothesis: the camera moved anyhow, and edges are found anywhere in the image.
+/// \file relocalisation.hpp  Hypothesis: the camera may have moved arbitrarily; edges are matched globally.
 
 #include "odometry/motion_hypothesis.hpp"
 #include "odometry/step_builder.hpp"
 
 namespace quadedge::odometry {
 
-/// Matches a part of the edges by what surrounds them, wherever they lie in the left image.
+/// Matches a subset of the edges over the whole left image by wide descriptors.
 class Relocalisation : public MotionHypothesis {
  public:
   Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config);
@@ -19,7 +19,8 @@ class Relocalisation : public MotionHypothesis {
   PoseConfig limits_;
 };
 
-/// Limits for the motion of edges found anywhere: a found edge may be a neighbour of the right one.
+/// Limits for the motion of global matches, whose inlier distance is larger because a match may be a neighbour of the
+/// correct edge.
 PoseConfig limits_of_global_matches(const Config& config);
 
 }  // namespace quadedge::odometry

@@ -1,14 +1,15 @@
 #pragma once
-/// \file remaining_motion.hpp  Hypothesis: the motion found is that of a thing, and the scene moves a few pixels
-/// otherwise.
+/// \file remaining_motion.hpp  Hypothesis: the motion found is that of an object, and the scene moves differently by a
+/// few pixels.
 
 #include "odometry/motion_hypothesis.hpp"
 #include "odometry/step_builder.hpp"
 
 namespace quadedge::odometry {
 
-/// Looks among the quads of a confirmed motion for those that do not agree with it closely. Two motions a pixel or two
-/// apart both lie within the inlier distance of a compromise between them; what neither explains exactly tells.
+/// Searches among the quads of a confirmed motion for another motion of those that do not agree with it closely. Two
+/// motions that differ by a pixel or two both lie within the inlier distance of a compromise between them; the quads
+/// without close agreement separate them.
 class RemainingMotion : public MotionHypothesis {
  public:
   RemainingMotion(StepBuilder& steps, const Config& config);
@@ -18,8 +19,8 @@ class RemainingMotion : public MotionHypothesis {
  private:
   StepBuilder& steps_;
   PoseConfig limits_;
-  double orientation_;                ///< rad
-  std::vector<std::uint8_t> agrees_;  ///< kept for its memory
+  double orientation_;                ///< [rad]
+  std::vector<std::uint8_t> agrees_;  ///< kept between calls
 };
 
 }  // namespace quadedge::odometry

@@ -14,9 +14,9 @@ namespace quadedge::odometry {
 namespace {
 
 constexpr int kSearchPeriod = 50;      // frames
-constexpr double kFewerMatched = 0.7;  // of the matched ratio at the last search
-constexpr double kMoreResidual = 0.2;  // px more than at the last search
-constexpr double kTurnedFound = 0.4;   // of the spots, in a right image that is turned back
+constexpr double kFewerMatched = 0.7;  // of the ratio of matched edges at the last search
+constexpr double kMoreResidual = 0.2;  // px above the residual at the last search
+constexpr double kTurnedFound = 0.4;   // fraction of the corners found in a transformed right image
 
 double largest_disparity(const StereoRig& rig, const Config& config) {
   const EpipolarLine line = epipolar_line(make_epipolar_geometry(rig, config.stereo), static_cast<float>(rig.left.cx),
@@ -24,7 +24,7 @@ double largest_disparity(const StereoRig& rig, const Config& config) {
   return static_cast<double>(line.s_max);
 }
 
-/// A number that two different images hardly share.
+/// A hash that practically identifies an image.
 std::uint64_t fingerprint(const ImageView& image) {
   std::uint64_t hash = 1469598103934665603U;
   const std::size_t bytes = bytes_per_pixel(image.max_value) * static_cast<std::size_t>(image.width);
@@ -40,12 +40,12 @@ std::uint64_t fingerprint(const ImageView& image) {
   return hash;
 }
 
-/// How the right image is turned where a search in a turned one finds most spots; empty where none does.
+/// Describes the transformation of the right image with which a search finds most corners; empty if there is none.
 std::string find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
   const std::pair<ImageTurn, const char*> turns[] = {{ImageTurn::mirrored, "mirrored"},
-                                                     {ImageTurn::half, "turned by 180 degrees"},
-                                                     {ImageTurn::quarter, "turned by 90 degrees"},
-                                                     {ImageTurn::three_quarters, "turned by -90 degrees"}};
+                                                     {ImageTurn::half, "rotated by 180 degrees"},
+                                                     {ImageTurn::quarter, "rotated by 90 degrees"},
+                                                     {ImageTurn::three_quarters, "rotated by -90 degrees"}};
   for (const auto& [turn, name] : turns) {
     const ProbeSearch search = probe.search(frame, turn);
     if (static_cast<double>(search.found.size()) > kTurnedFound * search.sought) return name;
@@ -56,7 +56,7 @@ std::string find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
 RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const StereoFrame& frame,
                              RigEvidence& evidence) {
   const ProbeSearch search = probe.search(frame);
-  // Along a thin curve a coarse place says little of the distance from the line.
+  // On thin curves, coarse positions do not determine the distance from the line.
   std::vector<CornerMatch> aligned;
   std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
                [](const CornerMatch& spot) { return spot.is_aligned; });
@@ -80,9 +80,9 @@ std::string RigWatch::find_frozen(const StereoFrame& frame) {
   last_left_ = left;
   last_right_ = right;
   if (same_left == same_right) return {};
-  return std::string("the ") + (same_left ? "left" : "right") + " image is the same as in the frame before, the " +
-         (same_left ? "right" : "left") + " one is not: does the " + (same_left ? "left" : "right") +
-         " camera stand still?";
+  return std::string("the ") + (same_left ? "left" : "right") +
+         " image is identical to that of the previous frame, the " + (same_left ? "right" : "left") +
+         " one is not: has the " + (same_left ? "left" : "right") + " camera frozen?";
 }
 
 bool RigWatch::has_reason_to_search(const RigEvidence& evidence) const {
@@ -145,11 +145,10 @@ std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, co
   const double late = synchronisation_.time_offset_frames();
   if (late == 0) return {};
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "distances from the epipolar lines follow the motion of the image: do the cameras record at different times, "
-      "some %.1f frames apart?",
-      std::abs(late));
+  std::snprintf(text, sizeof text,
+                "distances from the epipolar lines are proportional to the image motion: are the cameras out of sync, "
+                "by about %.1f frames?",
+                std::abs(late));
   return text;
 }
 

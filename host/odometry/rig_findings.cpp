@@ -8,17 +8,19 @@ namespace quadedge::odometry {
 namespace {
 
 constexpr int kMinSought = 20, kMinFound = 12;
-constexpr double kNothingFound = 0.2;   // of the sought spots; sound recordings have 0.7 to 0.95, in heavy noise 0.25
-constexpr double kHardlyMatched = 0.1;  // of the left edges; sound recordings have more than 0.4, in heavy noise 0.13
+constexpr double kNothingFound =
+    0.2;  // fraction of the corners; valid recordings have 0.7 to 0.95, with strong noise 0.25
+constexpr double kHardlyMatched =
+    0.1;  // fraction of the left edges; valid recordings have more than 0.4, with strong noise 0.13
 constexpr double kMost = 0.5;
-constexpr double kSome = 0.1;  // sound recordings have up to 0.03 beyond either end
-/// Beyond this distance from its line an edge no longer lies on the patches that the cascade compares, whose half side
-/// is 3.5 px. [px]
+constexpr double kSome = 0.1;  // valid recordings have up to 0.03 beyond either end
+/// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
+/// [px]
 constexpr double kLostResidual = 3;
-/// The cascade looks this far from the line; sound recordings have up to 0.4. [px]
+/// Distance from the line that the cascade searches; valid recordings have up to 0.4. [px]
 constexpr double kDoubtfulResidual = 0.5;
-/// Where more of the edges find a partner on their epipolar lines, spots beside theirs lie on thin things before
-/// others. Doubtful rigs let up to 0.51 find one, sound ones 0.72 and more.
+/// If more of the edges than this have a match on their epipolar lines, corners off their lines are mostly on thin
+/// structures. Doubtful rigs reach 0.51, valid ones 0.72 and more.
 constexpr double kWellMatched = 0.65;
 
 std::string number(double value, int decimals) {
@@ -31,25 +33,25 @@ std::string percent(double ratio) { return number(100 * ratio, 0) + " %"; }
 
 std::string matched(const RigEvidence& evidence) {
   if (!(evidence.matched_ratio >= 0)) return {};
-  return percent(evidence.matched_ratio) + " of the left edges find a partner, ";
+  return percent(evidence.matched_ratio) + " of the left edges have a match, ";
 }
 
 std::string seen_across(const EpipolarFit& fit) {
-  return "spots lie " + number(fit.residual, 1) + " px beside their epipolar lines (" + number(fit.offset, 1) +
+  return "corners are found " + number(fit.residual, 1) + " px off their epipolar lines (" + number(fit.offset, 1) +
          " px in the middle of the image, changing by " + number(fit.slope_x, 1) + " px over its width and " +
          number(fit.slope_y, 1) + " px over its height)";
 }
 
-/// The likely cause of distances from the lines.
+/// Likely cause of the distances from the lines.
 std::string cause_across(const EpipolarFit& fit) {
   const double x = std::abs(fit.slope_x) / 2, y = std::abs(fit.slope_y) / 2, middle = std::abs(fit.offset);
   if (fit.scatter > kMost * fit.residual) {
-    return "is the direction between the cameras or the right camera's yaw wrong, or are the images distorted while "
-           "the calibration takes them for pinhole images?";
+    return "is the direction of the baseline or the right camera's yaw wrong, or are distorted images used with a "
+           "pinhole calibration?";
   }
-  if (y >= x && y >= middle) return "do the focal lengths of the cameras differ from what the calibration says?";
-  if (x >= middle) return "is one camera rolled against what the calibration says?";
-  return "is one camera pitched against what the calibration says, is its principal point wrong, or are left and right "
+  if (y >= x && y >= middle) return "is a focal length in the calibration wrong?";
+  if (x >= middle) return "is one camera rolled relative to the calibration?";
+  return "is one camera pitched relative to the calibration, is its principal point wrong, or are left and right "
          "exchanged?";
 }
 
@@ -58,16 +60,16 @@ std::string cause_across(const EpipolarFit& fit) {
 std::vector<std::string> implausible_numbers(const StereoRig& rig) {
   std::vector<std::string> found;
   const double baseline = rig.baseline();
-  if (baseline > 5) found.push_back("the baseline is " + number(baseline, 3) + " m: are these millimetres?");
-  if (baseline < 0.005) found.push_back("the baseline is " + number(baseline, 6) + " m: is it in metres?");
+  if (baseline > 5) found.push_back("the baseline is " + number(baseline, 3) + " m: is it given in millimetres?");
+  if (baseline < 0.005) found.push_back("the baseline is " + number(baseline, 6) + " m: is it given in metres?");
   for (const bool is_left : {true, false}) {
     const PinholeCamera& camera = is_left ? rig.left : rig.right;
     const std::string name = is_left ? "the left camera's " : "the right camera's ";
     const double widths = camera.fx / camera.width, shape = camera.fx / camera.fy;
     if (widths < 0.2 || widths > 20)
-      found.push_back(name + "focal length is " + number(widths, 2) + " image widths: is it in pixels?");
+      found.push_back(name + "focal length is " + number(widths, 2) + " image widths: is it given in pixels?");
     if (shape < 1 / 1.5 || shape > 1.5)
-      found.push_back(name + "fx is " + number(shape, 2) + " times its fy: are its pixels that far from squares?");
+      found.push_back(name + "fx is " + number(shape, 2) + " times its fy: are the pixels really not square?");
     if (!(camera.cx >= 0 && camera.cx < camera.width && camera.cy >= 0 && camera.cy < camera.height))
       found.push_back(name + "principal point (" + number(camera.cx, 1) + ", " + number(camera.cy, 1) +
                       ") lies outside its image");
@@ -106,15 +108,15 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
   };
   if (finds_little(search, evidence)) {
     const std::string seen = percent(evidence.found_ratio) + " of " + std::to_string(search.sought) +
-                             " spots of the left image are found in the right one";
+                             " corners of the left image are found in the right one";
     if (search.negative > kMost * search.sought) {
-      does_not_fit(seen + " as they are and " + percent(static_cast<double>(search.negative) / search.sought) +
-                       " as their negative",
-                   "is one image a negative?");
+      does_not_fit(
+          seen + ", and " + percent(static_cast<double>(search.negative) / search.sought) + " as their negative",
+          "is one image a negative?");
     } else if (!turned.empty()) {
-      does_not_fit(seen + ", and most where it is " + turned, "is the right image " + turned + "?");
+      does_not_fit(seen + ", but most are found if it is " + turned, "is the right image " + turned + "?");
     } else {
-      does_not_fit(seen, "do both cameras show the same scene at the same time, is one image mirrored or turned?");
+      does_not_fit(seen, "do both cameras see the same scene at the same time? is one image mirrored or rotated?");
     }
     return findings;
   }
@@ -132,7 +134,7 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
   }
   if (!findings.mismatch.empty()) return findings;
   if (evidence.beyond_ratio > kSome) {
-    findings.doubts.push_back(percent(evidence.beyond_ratio) + " of the spots have more than the largest disparity, " +
+    findings.doubts.push_back(percent(evidence.beyond_ratio) + " of the corners exceed the maximum disparity, " +
                               number(search.max_disparity, 1) +
                               " px: is stereo.max_disparity too small, or stereo.min_depth too large?");
   }

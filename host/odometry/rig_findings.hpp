@@ -1,5 +1,5 @@
 #pragma once
-/// \file rig_findings.hpp  What is said about a calibration, in words: what is seen, and what the cause may be.
+/// \file rig_findings.hpp  Messages about a calibration: what was measured, and the likely cause.
 
 #include <string>
 #include <vector>
@@ -11,25 +11,25 @@
 
 namespace quadedge::odometry {
 
-/// Sentences for a person.
+/// Messages for the user.
 struct RigFindings {
-  std::string mismatch;             ///< why the frame cannot be used; empty where it can
-  std::vector<std::string> doubts;  ///< what is doubtful although it can
+  std::string mismatch;             ///< why the frame cannot be used; empty if it can
+  std::vector<std::string> doubts;  ///< warnings about a frame that can be used
 };
 
-/// Numbers of a calibration that hardly any rig has: a baseline beyond 5 mm to 5 m, a focal length beyond 0.2 to 20
-/// image widths, a principal point outside the image, pixels that are half as wide as high.
+/// Reports implausible values of a calibration: a baseline outside 5 mm to 5 m, a focal length outside 0.2 to 20 image
+/// widths, a ratio of fx to fy outside 1 / 1.5 to 1.5, a principal point outside the image.
 std::vector<std::string> implausible_numbers(const StereoRig& rig);
 
-/// Puts the outcome of a search into the evidence.
+/// Adds the results of a search to the evidence.
 void take_search(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence& evidence);
 
-/// What a search says about the rig.
-/// \param turned of a search with the right image turned otherwise that finds most spots: how it is turned; else empty
+/// Judges the rig by the results of a search.
+/// \param turned description of the transformation of the right image with which a search finds most corners; or empty
 RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, const RigEvidence& evidence,
                          const std::string& turned);
 
-/// Does the search find so little that turned images should be tried?
+/// Whether so few corners are found that transformed images should be tried.
 bool finds_little(const ProbeSearch& search, const RigEvidence& evidence);
 
 }  // namespace quadedge::odometry

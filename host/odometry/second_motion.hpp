@@ -1,5 +1,5 @@
 #pragma once
-/// \file second_motion.hpp  Hypothesis: what was found anywhere first is the motion of a thing, and the scene has
+/// \file second_motion.hpp  Hypothesis: the first motion of the global matches is that of an object, and the scene has
 /// another one.
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace quadedge::odometry {
 
-/// Looks among the edges found anywhere that the motion of Relocalisation does not explain.
+/// Searches among the global matches that the motion of Relocalisation does not explain.
 class SecondMotion : public MotionHypothesis {
  public:
   SecondMotion(StepBuilder& steps, const Config& config);
@@ -20,7 +20,7 @@ class SecondMotion : public MotionHypothesis {
  private:
   StepBuilder& steps_;
   PoseConfig limits_;
-  std::vector<std::uint8_t> explained_;  ///< kept for its memory
+  std::vector<std::uint8_t> explained_;  ///< kept between calls
 };
 
 }  // namespace quadedge::odometry

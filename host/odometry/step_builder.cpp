@@ -7,7 +7,7 @@
 namespace quadedge::odometry {
 namespace {
 
-/// Smallest inlier ratio of a motion that a part of the edges suggests; the search that follows has to convince.
+/// Minimum inlier ratio of a proposed motion; low, because the confirmation follows.
 constexpr double kCoarseMinInlierRatio = 0.03;
 
 }  // namespace

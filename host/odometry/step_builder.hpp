@@ -1,5 +1,5 @@
 #pragma once
-/// \file step_builder.hpp  Steps and their motion, for the hypotheses and for the confirmation.
+/// \file step_builder.hpp  Creates motion steps, for the hypotheses and for the confirmation.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -14,31 +14,31 @@
 
 namespace quadedge::odometry {
 
-/// Takes steps from a pool and finds the motion that their matches agree on. It must outlive the steps.
+/// Takes steps from a pool and estimates the motion that their matches support. It must outlive the steps.
 class StepBuilder {
  public:
-  /// Refers to the offset, which must outlive it.
+  /// Refers to the offset, which must outlive the object.
   StepBuilder(const Config& config, const DisparityOffset& offset) : config_(config), offset_(offset) {}
 
-  /// A step from `base` without matches.
+  /// Returns a step from `base` without matches.
   StepHandle take(const frontend::RigHandle& base);
 
-  /// The motion that the step's matches agree on. \param initial a hypothesis beside the samples, current_from_base
+  /// Estimates the motion of the step's matches. \param initial a hypothesis besides the samples, current_from_base
   void estimate(const MotionQuery& query, const PoseConfig& limits, const std::optional<Eigen::Isometry3d>& initial,
                 MotionStep& step) {
     find_motion(query, limits, initial, pose::RefinementGoal::pose_and_covariance, step);
   }
-  /// The same without what only a motion that was confirmed needs: covariance and offset.
+  /// The same without covariance and offset, which only a confirmed motion needs.
   void propose(const MotionQuery& query, const PoseConfig& limits, const std::optional<Eigen::Isometry3d>& initial,
                MotionStep& step) {
     find_motion(query, limits, initial, pose::RefinementGoal::pose, step);
   }
-  /// Time that both took since the last call [ms].
+  /// Time spent in both since the last call [ms].
   double take_pose_ms() { return std::exchange(pose_ms_, 0); }
 
-  /// The rig's edges, measured with the calibration as far as it is known.
+  /// The rig's edges, measured with calibration().
   const pose::MeasuredEdges& measured(const frontend::Rig& rig) const;
-  /// The calibration as far as it is known.
+  /// The calibration, corrected by the disparity offset estimated so far.
   const StereoRig& calibration() const { return offset_.rig(); }
 
  private:
@@ -53,7 +53,7 @@ class StepBuilder {
   double pose_ms_ = 0;
 };
 
-/// Limits for the motion of a few edges that an exact search is to confirm: it need not convince by itself.
+/// Relaxed limits for the motion of a subset of the edges, to be confirmed by a guided search.
 PoseConfig limits_of_proposals(const Config& config);
 
 }  // namespace quadedge::odometry

@@ -1,4 +1,4 @@
-/// \file stereo_odometry.cpp  The way of a frame (doc/design.md section 1), from two images to a pose.
+/// \file stereo_odometry.cpp  The processing of a frame (doc/design.md section 1), from two images to a pose.
 #include <chrono>
 #include <set>
 #include <utility>
@@ -23,7 +23,7 @@
 namespace quadedge {
 namespace {
 
-/// Milliseconds since the last lap, steady clock.
+/// Milliseconds since the previous lap, steady clock.
 class StageClock {
  public:
   double lap() {
@@ -92,7 +92,7 @@ class StereoOdometry::Implementation {
   void warn(const std::string& doubt, FrameResult& result);
 
   RecordedImages recorded_;
-  StereoRig rig_;  ///< what edges are found in
+  StereoRig rig_;  ///< the cameras in which edges are detected
   Device& device_;
   Config config_;
   std::unique_ptr<frontend::Frontend> frontend_;
@@ -102,18 +102,18 @@ class StereoOdometry::Implementation {
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
-  frontend::RigHandle current_;  ///< of the frame tracked last; null before the first one
-  odometry::StepHandle step_;    ///< its motion; null where none was looked for
+  frontend::RigHandle current_;  ///< of the last frame tracked; null before the first frame
+  odometry::StepHandle step_;    ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
   std::vector<double> distances_;   ///< buffer of median_parallax()
-  std::set<std::string> reported_;  ///< kinds of doubts: their words before the first number
+  std::set<std::string> reported_;  ///< kinds of warnings: their text up to the first number
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   recorded_.check(frame.left, frame.right);
   if (last_stamp_ns_ && frame.stamp_ns < *last_stamp_ns_) {
-    throw DataError("the stamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
-                    std::to_string(*last_stamp_ns_) + " ns, that of the frame before");
+    throw DataError("timestamp " + std::to_string(frame.stamp_ns) + " ns goes back, expected at least " +
+                    std::to_string(*last_stamp_ns_) + " ns, the timestamp of the previous frame");
   }
   last_stamp_ns_ = frame.stamp_ns;
   StageClock latency, clock;
@@ -150,7 +150,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   return result;
 }
 
-/// The images become the current rig. That of the frame before serves again unless the state holds it.
+/// Turns the images into the current rig. The previous rig is recycled unless the state holds it.
 void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResult& result) {
   step_ = nullptr;
   current_ = nullptr;
@@ -166,7 +166,7 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   result.message = std::to_string(counts.dropped_edges) + " edges beyond edges.max_edges were dropped";
 }
 
-/// The first frame with edges is where the trajectory begins.
+/// Starts the trajectory at the first frame with edges.
 void StereoOdometry::Implementation::start(FrameResult& result) {
   result.status = FrameStatus::first;
   result.world_from_left = state_.world_from_last;
@@ -177,7 +177,8 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   state_.set_key(current_, {result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
-/// The motion since the base; after a loss, else the one since the lost frame, which becomes the key rig.
+/// Finds the motion since the base. After a loss, also tries the motion since the lost frame, which becomes the key
+/// rig.
 odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result) {
   odometry::MotionQuery query;
   query.current = current_;
@@ -197,9 +198,8 @@ odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result)
       step = std::move(relocalised);
       state_.set_key(state_.lost->rig, {state_.lost->world_from_left, std::nullopt, RigSensitivity::Zero()},
                      odometry::PoseOrigin::predicted);
-      add_message(
-          "relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose is a prediction",
-          result);
+      add_message("relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose was predicted",
+                  result);
     }
   }
   result.counts.temporal_left = frontend_->counts().temporal_left;
@@ -208,8 +208,8 @@ odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result)
   return step;
 }
 
-/// Pose against the key rig, or against the base where the key rig is out of sight: then this frame is the next key
-/// rig.
+/// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
+/// becomes the key rig.
 void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == state_.key.rig();
   pose::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
@@ -231,8 +231,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.disparity_offset = offset_.value() + step.motion.offset;
   result.ambiguous_motion = step.ambiguous;
   result.moving_ratio = step.moving_ratio;
-  if (step.ambiguous)
-    add_message("the motion may not be the world's: another one, or none, explains much of the image", result);
+  if (step.ambiguous) add_message("ambiguous motion: another motion, or none, explains much of the image", result);
   result.base_frame = step.base->frame;
   result.search = step.matches.search;
   result.reference_frame = state_.key.frame();
@@ -249,8 +248,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
 
   state_.lost = std::nullopt;
   if (result.new_key_rig) {
-    // All frames of a key rig are measured against its disparities: together they tell no more than the last one, the
-    // farthest away.
+    // All frames located against one key rig share its disparities, so that together they carry no more information
+    // than the last, most distant one.
     offset_.update(step.motion.offset, step.motion.offset_variance, fitness.frames);
     state_.set_key(current_, world_from_current);
   } else {
@@ -258,8 +257,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   }
 }
 
-/// Repeats the last motion. A lost frame that has edges is kept beside the base, which becomes the key rig: the next
-/// frame may be found against either.
+/// Repeats the last motion. A lost frame that has edges is kept in addition to the base, which becomes the key rig; the
+/// next frame may be located against either.
 void StereoOdometry::Implementation::lose(FrameStatus status, const std::string& message, FrameResult& result) {
   result.status = status;
   add_message(message, result);
@@ -272,7 +271,7 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   state_.lost = odometry::LostRig{current_, result.world_from_left};
 }
 
-/// Every kind of doubt is told once.
+/// Reports each kind of warning once.
 void StereoOdometry::Implementation::warn(const std::string& doubt, FrameResult& result) {
   if (doubt.empty() || !reported_.insert(doubt.substr(doubt.find_first_of("abcdefghijklmnopqrstuvwxyz"), 25)).second)
     return;

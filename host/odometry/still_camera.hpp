@@ -1,12 +1,12 @@
 #pragma once
-/// \file still_camera.hpp  Hypothesis: nothing moved but things before the camera.
+/// \file still_camera.hpp  Hypothesis: the camera is stationary, and only objects in front of it move.
 
 #include "odometry/motion_hypothesis.hpp"
 #include "odometry/step_builder.hpp"
 
 namespace quadedge::odometry {
 
-/// Proposes that the camera is where it was at the base.
+/// Proposes that the camera has not moved since the base.
 class StillCamera : public MotionHypothesis {
  public:
   explicit StillCamera(StepBuilder& steps) : steps_(steps) {}

@@ -7,8 +7,8 @@ namespace quadedge::odometry {
 namespace {
 
 constexpr int kMinSamples = 200;
-constexpr double kSigmas = 10;          // neighbours err together
-constexpr double kMinTimeOffset = 0.3;  // frame intervals; hardware triggers stay below a hundredth
+constexpr double kSigmas = 10;          // the errors of neighbours are correlated
+constexpr double kMinTimeOffset = 0.3;  // frame intervals; hardware triggers stay below 0.01
 
 }  // namespace
 

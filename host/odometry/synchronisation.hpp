@@ -1,21 +1,21 @@
 #pragma once
-/// \file synchronisation.hpp  Whether both cameras see the same moment.
+/// \file synchronisation.hpp  Estimates the time offset between the two cameras.
 
 #include <Eigen/Core>
 
 namespace quadedge::odometry {
 
-/// A right camera that is t frames late shows every spot where it was t frames ago: its distance from the epipolar line
-/// follows the image's motion across that line. A wrong calibration causes distances too, the same in every frame:
-/// linear least squares over all frames so far,
-///   across = (a polynomial of the second degree in u and v) - t motion.
+/// If the right camera lags by t frame intervals, it shows points where they were t intervals ago, so that their
+/// distance from the epipolar line is proportional to the image motion across that line. Calibration errors also cause
+/// distances, but the same in every frame. Linear least squares over all frames so far:
+///   across = (a quadratic polynomial in u and v) - t motion.
 class Synchronisation {
  public:
   /// \param u, v position in the left image, -1/2 to 1/2 \param across distance from the epipolar line [px]
-  /// \param motion of the spot across the line over the last frame interval [px]
+  /// \param motion displacement across the line over the last frame interval [px]
   void add(double u, double v, double across, double motion);
 
-  /// Frame intervals that the right camera is late, below zero for the left one; 0 where it is not significant.
+  /// Lag of the right camera in frame intervals, negative if the left one lags; 0 if not significant.
   double time_offset_frames() const;
 
  private:

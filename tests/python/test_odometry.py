@@ -184,7 +184,7 @@ def test_what_is_no_image_is_refused(untouched, left, error, words):
 def test_the_same_words_as_the_commands(command, room_folder, room, tmp_path):
     with quadedge.Odometry(room) as odometry:
         odometry.track(5, LEFT, RIGHT)
-        with pytest.raises(quadedge.DataError, match="the stamp 4 ns goes back, expected at least 5 ns"):
+        with pytest.raises(quadedge.DataError, match="timestamp 4 ns goes back, expected at least 5 ns"):
             odometry.track(4, LEFT, RIGHT)
     cases = [({"config": {"stereo.ncc_min": 3}}, ("--stereo.ncc_min", "3"), "0.01 to 1"),
              ({"device": "toaster"}, ("--device", "toaster"), "no OpenCL device matches 'toaster'")]  # fmt: skip
