@@ -10,10 +10,10 @@ namespace quadedge::pose {
 
 namespace {
 
-/// Cells whose errors may be correlated: from one of config.inflation_cell, doubled so often. From `kLeftOut` on, what
-/// the fit has taken from a cell counts.
+/// Cell sizes within which errors may be correlated: config.inflation_cell and its doublings. From index kLeftOut on,
+/// the cells are used for the jackknife.
 constexpr int kCellSizes = 5, kLeftOut = 2;
-/// A cell that holds more than this ratio of the information cannot be left out.
+/// A cell with more than this fraction of the information cannot be left out.
 constexpr double kLargestRatio = 0.5;
 
 /// Square cells of an image.
@@ -23,7 +23,7 @@ struct CellGrid {
 
   int cells(double length) const { return static_cast<int>(std::ceil(length / side)) + 1; }
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines); }
-  /// Of a position in the image [px]; positions outside belong to the nearest cell.
+  /// Index of the cell that contains a position in the image [px]; positions outside belong to the nearest cell.
   std::size_t at(float x, float y) const {
     const auto clamped = [&](float position, int count) {
       return std::clamp(static_cast<int>(static_cast<double>(position) / side), 0, count - 1);
@@ -31,19 +31,19 @@ struct CellGrid {
     return static_cast<std::size_t>(clamped(y, lines) * columns + clamped(x, columns));
   }
 
-  double side;  ///< px
+  double side;  ///< [px]
   int columns, lines;
 };
 
-/// Sum over the cells of the squares of gradient contributions, over what the normal equations expect of it.
+/// Sum of squared gradient contributions over the cells, relative to the value that the normal equations predict.
 double squares_factor(const std::vector<Vector6d>& cells, const Matrix6d& inverse) {
   double sum = 0;
   for (const Vector6d& cell : cells) sum += cell.dot(inverse * cell);
   return sum / 6.0;
 }
 
-/// The same for cells large enough to draw the fit to themselves: by how much the pose changes when each cell in turn
-/// is left out (jackknife). Zero where a cell holds too much of the information to be left out.
+/// The same for cells large enough to pull the fit: squared change of the pose when each cell in turn is left out
+/// (jackknife). Zero if a cell holds too much of the information to be left out.
 double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vector<Matrix6d>& normals,
                         const Matrix6d& normal, const Matrix6d& inverse) {
   double sum = 0;
@@ -56,7 +56,7 @@ double jackknife_factor(const std::vector<Vector6d>& gradients, const std::vecto
   return sum / 6.0;
 }
 
-/// Adds up cells into cells of twice the side, which replace them.
+/// Merges cells into cells of twice the side, which replace them.
 template <typename Sum>
 void merge(const CellGrid& from, const CellGrid& to, std::vector<Sum>& cells, std::vector<Sum>& larger) {
   larger.assign(to.size(), Sum::Zero());
@@ -71,12 +71,13 @@ struct Factors {
   double smallest_cells, largest;
 };
 
-/// Factor with the smallest cells, or with none where that is larger; and the largest one of all sizes, at which the
-/// errors' correlation has been seen whole.
+/// The factor of the smallest cells, or that without cells if larger; and the largest factor over all sizes, which
+/// covers the full extent of the correlation.
 Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservations& quads, const PinholeCamera& camera,
                      double cell_side, const CovarianceSums& sums, const Matrix6d& inverse,
                      CovarianceWorkspace& workspace) {
-  const double freedom = sums.used / std::max(sums.used - 2.0, 1.0);  // six parameters take the residuals of two quads
+  const double freedom =
+      sums.used / std::max(sums.used - 2.0, 1.0);  // six parameters absorb the residuals of two quads
   CellGrid grid(camera, cell_side);
   auto& cells = workspace.cells;
   auto& normals = workspace.normals;
@@ -103,7 +104,7 @@ Factors cell_factors(const std::vector<std::int32_t>& rows, const QuadObservatio
   return result;
 }
 
-/// Sums over all quads; their gradients are left in the workspace.
+/// Sums over all quads; their gradients are stored in the workspace.
 void add_up(const ReprojectionTerms& terms, const std::vector<std::int32_t>& rows, const ScoringArrays& quads,
             const CellGrid& left_out, const Evaluation& at, CovarianceWorkspace& workspace) {
   workspace.zero.cell_normal.assign(left_out.size(), Matrix6d::Zero());
@@ -142,8 +143,8 @@ MeasuredCovariance measure_covariance(const ReprojectionTerms& terms, const std:
   add_up(terms, rows, quads.scoring, left_out, Evaluation(current_from_previous, offset, weights), workspace);
   const CovarianceSums& sums = workspace.total;
 
-  // The normal equations hold the weights w; the curvature of the Student-t cost is smaller by the mean of d(w e)/de
-  // over w.
+  // The normal equations use the weights w; the curvature of the Student-t cost is smaller, by the ratio of the mean of
+  // d(w e)/de to that of w.
   const Matrix6d inverse = sums.normal.ldlt().solve(Matrix6d::Identity());
   const double flattening = std::max(sums.curvature / sums.weights, 1.0 / kReprojectionSize);
   const Factors factors = cell_factors(rows, quads, rig.left, config.inflation_cell, sums, inverse, workspace);

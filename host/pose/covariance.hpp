@@ -1,6 +1,6 @@
 #pragma once
-/// \file covariance.hpp  The covariance of a pose that least squares has found, inflated by what the errors of quads
-/// have in common (doc/method.md section 6).
+/// \file covariance.hpp  Covariance of a pose found by least squares, inflated for correlated errors of quads
+/// (doc/method.md section 6).
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -11,12 +11,12 @@
 
 namespace quadedge::pose {
 
-/// What the covariance is made of, in sums over quads.
+/// Sums over quads from which the covariance is computed.
 struct CovarianceSums {
   Matrix6d normal = Matrix6d::Zero();            ///< matrix of the normal equations
   Matrix6d gradient_squares = Matrix6d::Zero();  ///< outer products of the quads' gradients
   double weights = 0, curvature = 0, used = 0;
-  std::vector<Matrix6d> cell_normal;  ///< the part of `normal` from each of the smallest cells that are left out
+  std::vector<Matrix6d> cell_normal;  ///< contributions to `normal` of each of the smallest cells that are left out
 
   CovarianceSums& operator+=(const CovarianceSums& other) {
     normal += other.normal;
@@ -33,35 +33,34 @@ struct CovarianceSums {
 struct CovarianceWorkspace {
   std::vector<Vector6d> gradients;                ///< one per quad
   std::vector<Vector6d> cells, larger_cells;      ///< sums of gradients
-  std::vector<Matrix6d> normals, larger_normals;  ///< what the cells add to the normal equations
+  std::vector<Matrix6d> normals, larger_normals;  ///< contributions of the cells to the normal equations
   CovarianceSums zero, total;
   std::vector<CovarianceSums> blocks;
 };
 
-/// A pose's covariance as if all quads erred independently and as much as assumed, and by how much they err more.
+/// Covariance of a pose under the assumption of independent errors of the assumed size, and the measured inflation.
 struct MeasuredCovariance {
   Matrix6d uninflated = Matrix6d::Zero();  ///< inverse of the normal equations
-  double inflation = 1;                    ///< factor for errors alike at any size of cells
-  double small_cell_inflation = 1;         ///< the same for errors alike within the smallest cells only
+  double inflation = 1;                    ///< factor for errors that are correlated within cells of any size
+  double small_cell_inflation = 1;         ///< the same for errors that are correlated within the smallest cells only
 
-  /// (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame.
+  /// Covariance (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame.
   Matrix6d inflated() const { return 0.5 * inflation * (uninflated + uninflated.transpose()); }
 };
 
 /// Covariance of a pose that refine() or fit_offset() has found with the same terms.
 ///
-/// Covariance inflation is the factor by which the gradient's contributions scatter more than the normal equations
-/// expect; it is measured. Dense edges come in rows of about two per pixel whose errors are alike, and some errors are
-/// alike along a whole cable or over a surface. So contributions of quads within one square cell are added up before
-/// they are squared: errors that agree within a cell then count once, however many edges tell of them, and independent
-/// errors count fully. Cells have sides of config.inflation_cell px and two, four, eight and sixteen times that; the
-/// largest factor is taken, the one without cells included. The three larger sizes take part as a jackknife, the
-/// squared changes of the pose when each cell in turn is left out: plain sums over few cells come out too small, since
-/// the fit has adapted to each of them. A size with a cell that holds half of all information tells nothing and is
-/// skipped. What is alike over the whole image shows at no size.
-/// \param rows the quads of `terms`, their current left positions tell the cells
-/// \param offset of all disparities that was found with the pose [px]
-/// \param reprojection_scale variance of the reprojection residuals over the assumed one
+/// The inflation is the measured ratio between the scatter of the gradient contributions and the scatter that the
+/// normal equations predict. Dense edges come in rows of about two per pixel with similar errors, and some errors are
+/// common to a whole cable or surface. Contributions of quads within one square cell are therefore summed before they
+/// are squared: errors that agree within a cell count once, independent errors count in full. Cells have sides of
+/// config.inflation_cell px and two, four, eight and sixteen times that; the largest factor is used, including that
+/// without cells. The three larger sizes use a jackknife, the squared changes of the pose when each cell in turn is
+/// left out, because sums over few cells underestimate the scatter: the fit has adapted to each of them. A size is
+/// skipped if one cell holds half of all information. Errors common to the whole image are not visible at any size.
+/// \param rows the quads of `terms`; their current left positions define the cells
+/// \param offset disparity offset found together with the pose [px]
+/// \param reprojection_scale ratio of measured to assumed variance of the reprojection residuals
 MeasuredCovariance measure_covariance(const ReprojectionTerms& terms, const std::vector<std::int32_t>& rows,
                                       const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config,
                                       const Eigen::Isometry3d& current_from_previous, double offset,

@@ -7,7 +7,7 @@ namespace quadedge::pose {
 
 DirectionTerm make_direction_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise) {
   const StereoMeasurement &previous = quads.previous[quad], &current = quads.current[quad];
-  const double plane_weight = 1.0 / (std::sqrt(2.0) * noise.direction);  // directions of both times are noisy
+  const double plane_weight = 1.0 / (std::sqrt(2.0) * noise.direction);  // the directions at both times are noisy
   DirectionTerm term;
   term.ray = previous.ray;
   term.tangent = previous.direction + previous.slope * previous.ray;

@@ -9,24 +9,23 @@
 
 namespace quadedge::pose {
 
-/// What a quad says about the motion by its directions: the previous tangent, turned, lies in the viewing planes of
-/// both current edges.
+/// Directions of a quad: the rotated previous tangent has to lie in the viewing planes of both current edges.
 struct DirectionTerm {
   Eigen::Vector3d ray;      ///< of the previous left pixel, previous left frame
-  Eigen::Vector3d tangent;  ///< previous, direction + slope * ray, not of unit norm
-  double slope_sigma = 0;   ///< standard deviation of `slope` in it
-  /// Unit normals of the current viewing planes of the tangent over the direction's sigma, current left frame.
+  Eigen::Vector3d tangent;  ///< previous tangent, direction + slope * ray, not of unit length
+  double slope_sigma = 0;   ///< standard deviation of `slope`
+  /// Unit normals of the tangent's current viewing planes, divided by the sigma of the direction; current left frame.
   Eigen::Vector3d left_normal, right_normal;
 };
 
 /// \param quad its row in `quads`
 DirectionTerm make_direction_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise);
 
-/// Tangent out of the left and the right viewing plane, in standard deviations.
+/// Deviation of the tangent from the left and the right viewing plane, in standard deviations.
 struct DirectionResidual {
   Eigen::Vector2d value;
-  Eigen::Matrix<double, 2, 3> by_rotation;  ///< of a LEFT perturbation of current_from_previous [1/rad]
-  Eigen::Vector2d by_slope;                 ///< by the slope unknown, in its standard deviations
+  Eigen::Matrix<double, 2, 3> by_rotation;  ///< with respect to a LEFT perturbation of current_from_previous [1/rad]
+  Eigen::Vector2d by_slope;                 ///< with respect to the slope, in its standard deviations
 };
 
 /// \param rotation R of current_from_previous

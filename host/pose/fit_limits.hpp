@@ -1,14 +1,13 @@
 #pragma once
-/// \file fit_limits.hpp  When a Gauss-Newton fit of a pose ends (doc/method.md section 6). Not part of the
-/// configuration: a fit that needs more steps starts from a wrong motion, and a smaller step is far below what the
-/// noise moves.
+/// \file fit_limits.hpp  Termination of Gauss-Newton fits of a pose (doc/method.md section 6). Not configurable: a fit
+/// that needs more steps started from a wrong motion, and smaller steps are far below the effect of noise.
 
 namespace quadedge::pose {
 
-/// Most Gauss-Newton steps of one fit.
+/// Maximum number of Gauss-Newton steps of a fit.
 constexpr int kFitSteps = 5;
 
-/// A step shorter than this ends a fit [standard deviations of the pose].
+/// Step length below which a fit ends [standard deviations of the pose].
 constexpr double kFitTolerance = 0.01;
 
 }  // namespace quadedge::pose

@@ -8,7 +8,7 @@ Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   if (angle > 0) turn = Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle));
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  // Through a unit quaternion, so that many steps cannot wear the rotation's orthonormality away.
+  // Renormalised as a unit quaternion, so that the rotation stays orthonormal after many steps.
   result.linear() = (turn * Eigen::Quaterniond(current_from_previous.linear())).normalized().toRotationMatrix();
   result.translation() = turn * current_from_previous.translation() + step.tail<3>();
   return result;

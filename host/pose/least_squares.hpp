@@ -1,6 +1,5 @@
 #pragma once
-/// \file least_squares.hpp  What robust least squares on SE(3) share: a step, its application, Student-t weights and
-/// their scale.
+/// \file least_squares.hpp  Common parts of robust least squares on SE(3): steps, Student-t weights and their scale.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -17,22 +16,22 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 constexpr double kReprojectionSize = 3, kDirectionSize = 2;  ///< residuals per block
 /// Medians of the chi-squared distribution with 3 and 2 degrees of freedom.
 constexpr double kReprojectionMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
-/// Variances are not believed to be smaller than this ratio to the assumed ones (noise-free data).
+/// Lower limit of the ratio of measured to assumed variances, for noise-free data.
 constexpr double kSmallestScale = 1e-6;
-/// A scale is the median of about so many errors.
+/// Approximate number of errors over which a scale is computed as the median.
 constexpr std::size_t kScaleErrors = 4000;
-/// Smallest ratio of the normal equations' pivots, after scaling their diagonal to one, that counts as solvable.
+/// Minimum ratio of the pivots of the normal equations, after scaling the diagonal to one.
 constexpr double kSmallestPivot = 1e-12;
 
-/// exp(rotation) and translation applied from the left.
+/// Applies exp(rotation) and the translation from the left.
 Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous);
 
-/// Weight of the Student-t distribution for a block of `size` residuals with squared error `error` at variance `scale`.
+/// Student-t weight of a block of `size` residuals with squared error `error` and variance `scale`.
 [[gnu::always_inline]] inline double student_weight(double error, double scale, double size, double dof) {
   return (dof + size) / (dof + error / scale);
 }
 
-/// Variance of blocks of residuals over the assumed one, from the median of the first `count` squared errors.
+/// Ratio of measured to assumed variance of blocks of residuals, from the median of the first `count` squared errors.
 /// \param sorted a buffer that is kept between calls
 inline double measured_scale(const std::vector<double>& errors, std::size_t count, double median_of_one,
                              std::vector<double>& sorted) {
@@ -44,14 +43,14 @@ inline double measured_scale(const std::vector<double>& errors, std::size_t coun
   return std::max(*middle / median_of_one, kSmallestScale);
 }
 
-/// Gauss-Newton's normal equations.
+/// Normal equations of Gauss-Newton.
 template <int Size>
 struct Normal {
   Eigen::Matrix<double, Size, Size> matrix = Eigen::Matrix<double, Size, Size>::Zero();
   Eigen::Matrix<double, Size, 1> gradient = Eigen::Matrix<double, Size, 1>::Zero();
 };
 
-/// Solves A x = -g; false where A is singular.
+/// Solves A x = -g; returns false if A is singular.
 template <int Size>
 bool solve(const Normal<Size>& normal, Eigen::Matrix<double, Size, 1>& step) {
   const Eigen::Matrix<double, Size, 1> diagonal = normal.matrix.diagonal();

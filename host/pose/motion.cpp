@@ -8,7 +8,7 @@ namespace quadedge::pose {
 
 namespace {
 
-/// Standard deviation of the inliers' current left positions, over both axes together, over the image diagonal.
+/// Standard deviation of the inliers' current left positions over both axes, divided by the image diagonal.
 double spread(const QuadObservations& quads, const std::vector<std::uint8_t>& inlier, const PinholeCamera& camera) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double squares = 0, count = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file motion.hpp  The motion between two rigs from their quads (doc/method.md section 6): the front door of
+/// \file motion.hpp  The motion between two rigs from their quads (doc/method.md section 6): the entry point of
 /// host/pose.
 
 #include <Eigen/Geometry>
@@ -15,36 +15,35 @@
 
 namespace quadedge::pose {
 
-/// Why there is a pose or not.
+/// Outcome of a motion estimate.
 enum class MotionStatus {
   ok,
   too_few_quads,  ///< fewer quads than config.min_inliers
-  no_consensus,   ///< no motion that config.min_inliers and config.min_inlier_ratio of the quads agree with
-  badly_spread,   ///< the inliers cover too small a part of the image to say more than where that part went
+  no_consensus,   ///< no motion reaches config.min_inliers and config.min_inlier_ratio
+  badly_spread,   ///< the inliers cover too small a part of the image to determine the motion
 };
 const char* to_string(MotionStatus status);
 
-/// What two rigs' quads say about the motion between them.
+/// Motion between two rigs, estimated from their quads.
 struct MotionEstimate {
   MotionStatus status = MotionStatus::too_few_quads;
   /// Gamma_current = current_from_previous * Gamma_previous, left cameras, metres. Identity unless status is ok.
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
-  /// (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame; zero unless status is ok
-  /// and config.refine is on.
+  /// Covariance (rotation [rad^2], translation [m^2]) of a left perturbation in the current left frame; zero unless
+  /// status is ok and config.refine is on.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  std::vector<std::uint8_t> inlier;  ///< one byte per quad, at the pose found (whatever the status)
+  std::vector<std::uint8_t> inlier;  ///< one byte per quad, at the estimated pose (for any status)
   int inliers = 0;
   double inlier_ratio = 0;                 ///< inliers / quads
-  double offset = 0, offset_variance = 0;  ///< what the disparities lack, see fit_offset() [px, px^2]
-  int hypotheses = 0, draws = 0;           ///< of the search (see Consensus)
+  double offset = 0, offset_variance = 0;  ///< correction of all disparities, see fit_offset() [px, px^2]
+  int hypotheses = 0, draws = 0;           ///< numbers of the consensus search, see Consensus
 };
 
-/// Finds the motion: consensus of two-quad samples, then least squares over all its inliers.
-/// With config.refine off the pose is the best of the paper's two-quad samples and their local optimisations over at
-/// most kPreviewQuads, whichever costs less over all quads; there is no fit over all inliers and no covariance.
-/// \param offset_variance of the disparities' offset [px^2], 0: taken as exact
-/// \param initial another hypothesis beside the samples, current_from_previous: a predicted pose or one from frame to
-/// frame.
+/// Estimates the motion: consensus of two-quad samples, followed by least squares over all inliers.
+/// With config.refine off, the pose is the best of the paper's two-quad samples and their local optimisations over at
+/// most kPreviewQuads, compared by their cost over all quads; there is no fit over all inliers and no covariance.
+/// \param offset_variance variance of the disparity offset [px^2]; 0: disparities are assumed exact
+/// \param initial a hypothesis besides the samples, current_from_previous: a predicted or frame-to-frame pose
 MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
                                std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial = std::nullopt,
                                double offset_variance = 0);

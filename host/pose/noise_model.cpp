@@ -5,8 +5,8 @@
 namespace quadedge::pose {
 namespace {
 
-/// Standard deviation of an edge's place on the piece of curve that it stands for, in half lengths: that of a uniform
-/// distribution.
+/// Standard deviation of an edge's position along the segment of curve that it represents, in half lengths: that of a
+/// uniform distribution.
 constexpr double kSliding = 0.57735027;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// \file noise_model.hpp  How exactly edges are measured.
+/// \file noise_model.hpp  Noise of edge measurements.
 
 #include "quadedge/config.hpp"
 
@@ -9,11 +9,12 @@ namespace quadedge::pose {
 struct NoiseModel {
   explicit NoiseModel(const PoseConfig& config);
   double across, along;  ///< of an edge's position across and along itself [px]
-  /// Of a position along an edge that stands for `half_length` px of its curve to both sides, against the same place at
-  /// another time. \param scale by which the other standard deviations turn out to be wrong; this one is known [1]
+  /// Standard deviation along an edge that represents `half_length` px of its curve to both sides, relative to the same
+  /// point at another time. \param scale factor by which the other standard deviations are wrong; this one is exact [1]
   double along_in_time(double half_length, double scale) const;
   double direction;  ///< of an edge's direction [rad]
-  /// Of a position on the epipolar line, for an edge that crosses the line under an angle of sine `epipolar_sine` [px].
+  /// Standard deviation along the epipolar line, for an edge that crosses the line at an angle of sine `epipolar_sine`
+  /// [px].
   double on_epipolar_line(double epipolar_sine) const;
 };
 

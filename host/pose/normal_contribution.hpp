@@ -1,5 +1,6 @@
 #pragma once
-/// \file normal_contribution.hpp  What one quad's reprojection residuals add to the normal equations, without its
+/// \file normal_contribution.hpp  Contribution of one quad's reprojection residuals to the normal equations, with its
+/// depth eliminated.
 /// depth.
 
 #include <Eigen/Geometry>
@@ -10,13 +11,13 @@
 
 namespace quadedge::pose {
 
-/// How errors are weighed.
+/// Weighting of errors.
 struct StudentWeights {
-  double scale = 1;  ///< variance over the assumed one
+  double scale = 1;  ///< ratio of measured to assumed variance
   double dof = 5;
 };
 
-/// The pose, and how it is judged, at which all quads are evaluated.
+/// The pose and the weights at which all quads are evaluated.
 struct Evaluation {
   /// \param current_from_previous R, T [m] \param offset added to all disparities [px]
   Evaluation(const Eigen::Isometry3d& current_from_previous, double offset, const StudentWeights& weights);
@@ -27,17 +28,17 @@ struct Evaluation {
   StudentWeights weights;
 };
 
-/// By the pose: upper triangle of the matrix row by row, then the gradient. With the offset six more of the matrix with
-/// the pose, its square and its gradient.
+/// With respect to the pose: upper triangle of the matrix row by row, then the gradient. With the offset, in addition:
+/// its six mixed terms with the pose, its square and its gradient.
 constexpr std::size_t kMatrixValues = 21, kPoseValues = kMatrixValues + 6, kOffsetValues = kPoseValues + 8;
 
-/// What each of `Width` quads alone contributes to normal equations by the pose, a left perturbation of
-/// current_from_previous by (rotation [rad], translation [m]), or by the pose and the offset [px].
+/// Contributions of each of `Width` quads to the normal equations with respect to the pose, a left perturbation of
+/// current_from_previous by (rotation [rad], translation [m]), or with respect to the pose and the offset [px].
 /// \tparam Values kPoseValues or kOffsetValues
 template <std::size_t Values, std::size_t Width>
 struct Contributions {
   double values[Values][Width];
-  double depth[Width];  ///< the quads' own unknowns, renewed
+  double depth[Width];  ///< updated depth unknowns of the quads
   double error[Width];  ///< squared Mahalanobis errors; -1 for a quad behind the camera, which contributes nothing
 
   Matrix6d matrix(std::size_t lane) const;
@@ -49,8 +50,8 @@ struct Contributions {
   }
 };
 
-/// The residuals of a quad after its depth has been eliminated. With the derivatives G of the residuals by the
-/// homogeneous point and h by the depth unknown, whose prior is a standard normal one, they are weighed by the matrix
+/// Residuals of a quad after elimination of its depth. With the derivatives G of the residuals with respect to the
+/// homogeneous point and h with respect to the depth unknown, which has a standard normal prior, they are weighted by
 ///   P = I - h h^T / (1 + h^T h).
 struct Eliminated {
   const ReprojectionResidual& at;
@@ -72,7 +73,7 @@ struct Eliminated {
             g0.x * g0.z + g1.x * g1.z - shrink * q.x * q.z, g0.y * g0.y + g1.y * g1.y - shrink * q.y * q.y,
             g0.y * g0.z + g1.y * g1.z - shrink * q.y * q.z, g0.z * g0.z + g1.z * g1.z + gz * gz - shrink * q.z * q.z};
   }
-  /// G^T P r of residuals r with `taken` = shrink h^T r
+  /// G^T P r for residuals r with `taken` = shrink h^T r
   [[gnu::always_inline]] Vector3 project(const Residuals& r, double taken) const {
     const Vector3 &g0 = at.across_by_point, &g1 = at.along_by_point, &q = depth_by_point;
     return {g0.x * r.across + g1.x * r.along - taken * q.x, g0.y * r.across + g1.y * r.along - taken * q.y,
@@ -80,10 +81,10 @@ struct Eliminated {
   }
 };
 
-/// One quad's contribution to the normal equations. With M = w G^T P G and b = w G^T P e, its weight w and its
-/// residuals e, a perturbation (w, v) of the pose, which moves the homogeneous point y by w x y + rho v, gives
+/// Contribution of one quad to the normal equations. With M = w G^T P G and b = w G^T P e, where w is its weight and e
+/// its residuals, a perturbation (w, v) of the pose, which moves the homogeneous point y by w x y + rho v, gives
 ///   matrix: [y] M [y]^T, rho [y] M, rho^2 M;   gradient: y x b, rho b.
-/// \param term per unit of a ray, see per_ray_unit() \param depth the quad's own unknown \param lane of `result`
+/// \param term per unit of a ray, see per_ray_unit() \param depth the depth unknown of the quad \param lane of `result`
 template <std::size_t Values, std::size_t Width>
 [[gnu::always_inline]] inline void contribute(const ReprojectionTerm& term, double depth, const Evaluation& at,
                                               std::size_t lane, Contributions<Values, Width>& result) {
@@ -126,7 +127,7 @@ template <std::size_t Values, std::size_t Width>
   }
 }
 
-/// Takes the upper triangle of a pose's matrix from `values`, `stride` apart, row by row.
+/// Reads the upper triangle of a pose's matrix from `values`, at intervals of `stride`, row by row.
 template <int Size>
 void unpack_pose(const double* values, std::size_t stride, Eigen::Matrix<double, Size, Size>& matrix) {
   for (int r = 0; r < 6; ++r) {

@@ -6,12 +6,12 @@ namespace quadedge::pose {
 
 namespace {
 
-/// K^-1 (v, 0): how a step in the image moves the ray.
+/// K^-1 (v, 0): change of the ray for a step in the image.
 Eigen::Vector3d image_step(const PinholeCamera& camera, const Eigen::Vector2d& step) {
   return {step.x() / camera.fx, step.y() / camera.fy, 0.0};
 }
 
-/// Image movement of a point of homogeneous coordinates `y` (camera frame) that moves by `dy`, pixels.
+/// Image motion [px] of a point with homogeneous coordinates `y` (camera frame) that moves by `dy`.
 Eigen::Vector2d image_motion(const PinholeCamera& camera, const Eigen::Vector3d& y, const Eigen::Vector3d& dy) {
   const double inverse = 1.0 / (y.z() * y.z());
   return {camera.fx * (dy.x() * y.z() - y.x() * dy.z()) * inverse,
@@ -31,7 +31,7 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   StereoMeasurement result;
   result.ray = rig.left.ray(observation.left);
 
-  // The right homogeneous point is at_infinity + rho * translation; its image runs along a fixed line with rho.
+  // The right homogeneous point is at_infinity + rho * translation; as rho varies, its image moves along a fixed line.
   const Eigen::Vector3d at_infinity = rotation * result.ray;
   const PinholeCamera& right = rig.right;
   Eigen::Vector2d line(right.fx * (translation.x() * at_infinity.z() - at_infinity.x() * translation.z()),
@@ -48,7 +48,7 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   result.inverse_depth_per_pixel = 1.0 / image_motion(right, in_right, translation).norm();
   if (!std::isfinite(result.inverse_depth_per_pixel)) return std::nullopt;
 
-  // Both edges must cross their epipolar lines.
+  // Both edges have to cross their epipolar lines.
   const Eigen::Vector2d left_edge(std::cos(observation.left_direction), std::sin(observation.left_direction));
   const Eigen::Vector2d right_edge(std::cos(observation.right_direction), std::sin(observation.right_direction));
   const Eigen::Vector3d baseline = rotation.transpose() * translation;
@@ -71,7 +71,7 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   const Eigen::Vector3d normal_turn = rotation.transpose() * right_turn.cross(right_ray);
   result.right_normal = normal.normalized();
 
-  // normal . (direction + slope * ray) = 0, and its derivatives by the two directions.
+  // Solves normal . (direction + slope * ray) = 0, and its derivatives with respect to the two directions.
   const double along_ray = normal.dot(result.ray);
   result.slope = -normal.dot(result.direction) / along_ray;
   const double by_right = normal_turn.dot(result.direction + result.slope * result.ray) / along_ray;

@@ -1,6 +1,6 @@
 #pragma once
-/// \file plain_vector.hpp  Three numbers without packets of their own: a loop over quads that computes with them is
-/// vectorised over the quads, which Eigen's fixed-size vectors prevent. All sums run from the first to the last term.
+/// \file plain_vector.hpp  Scalar 3-vectors. Loops over quads that use them are vectorised across quads, which Eigen's
+/// fixed-size vectors prevent. All sums are evaluated from the first to the last term.
 
 namespace quadedge::pose {
 
@@ -20,7 +20,7 @@ struct Vector3 {
   return {factor * a.x, factor * a.y, factor * a.z};
 }
 
-/// A symmetric 3 x 3 matrix by its upper triangle.
+/// A symmetric 3 x 3 matrix, stored as its upper triangle.
 struct Symmetric3 {
   double xx, xy, xz, yy, yz, zz;
   [[gnu::always_inline]] Vector3 column_x() const { return {xx, xy, xz}; }

@@ -14,7 +14,8 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 UncertainPose pose_in_earlier(const RelativePose& current_from_earlier) {
   const Eigen::Isometry3d pose = current_from_earlier.transform.inverse();
-  // With current_from_earlier perturbed by (w, v) the position errs by -R v and the rotation by -R w, R that of `pose`.
+  // If current_from_earlier is perturbed by (w, v), the error of the position is -R v and that of the rotation -R w,
+  // with R of `pose`.
   PoseCovariance turned = PoseCovariance::Zero();  // from (rotation, translation) to (translation, rotation)
   turned.topRightCorner<3, 3>() = pose.linear();
   turned.bottomLeftCorner<3, 3>() = pose.linear();
@@ -23,7 +24,7 @@ UncertainPose pose_in_earlier(const RelativePose& current_from_earlier) {
 
 UncertainPose operator*(const UncertainPose& world_from_key, const UncertainPose& key_from_current) {
   UncertainPose result{world_from_key.fixed_from_camera * key_from_current.fixed_from_camera, std::nullopt};
-  // The key's rotation errs about its own place, and carries the way from there to the current camera along.
+  // A rotation error of the key rig also displaces the current camera, by its distance from the key rig.
   const Eigen::Matrix3d turn = world_from_key.fixed_from_camera.linear();
   const Eigen::Vector3d way = turn * key_from_current.fixed_from_camera.translation();
   PoseCovariance carried = PoseCovariance::Identity(), turned = PoseCovariance::Zero();

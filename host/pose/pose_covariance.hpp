@@ -1,5 +1,5 @@
 #pragma once
-/// \file pose_covariance.hpp  From the covariances of motions to those of poses (doc/method.md section 7).
+/// \file pose_covariance.hpp  Covariances of poses from covariances of motions (doc/method.md section 7).
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -9,23 +9,23 @@
 
 namespace quadedge::pose {
 
-/// A camera's pose in a fixed frame [m].
+/// Pose of a camera in a fixed frame [m].
 struct UncertainPose {
   Eigen::Isometry3d fixed_from_camera = Eigen::Isometry3d::Identity();
-  /// By the errors of the edges. Nothing where no measurement connects the camera with the fixed frame, and the pose is
-  /// a prediction.
+  /// Covariance due to edge errors; nothing if no measurement connects the camera with the fixed frame, so that the
+  /// pose is a prediction.
   std::optional<PoseCovariance> covariance = PoseCovariance::Zero();
   RigSensitivity by_rig = RigSensitivity::Zero();
 };
 
-/// The current camera's pose in the frame of an earlier one, of the motion current_from_earlier.
+/// Pose of the current camera in the frame of an earlier one, from the motion current_from_earlier.
 UncertainPose pose_in_earlier(const RelativePose& current_from_earlier);
 
-/// world_from_current of world_from_key and key_from_current: the edges' errors are taken as independent, those of the
-/// rig are the same.
+/// world_from_current from world_from_key and key_from_current. Edge errors of the two are independent, calibration
+/// errors are the same.
 UncertainPose operator*(const UncertainPose& world_from_key, const UncertainPose& key_from_current);
 
-/// camera_from_fixed.
+/// Returns camera_from_fixed.
 UncertainPose inverse(const UncertainPose& fixed_from_camera);
 
 }  // namespace quadedge::pose

@@ -8,7 +8,7 @@ namespace quadedge::pose {
 
 namespace {
 
-/// All columns of the arrays, in one order.
+/// All columns of the arrays, in a fixed order.
 constexpr std::vector<float> ScoringArrays::*kColumns[] = {
     &ScoringArrays::ray_x,     &ScoringArrays::ray_y,     &ScoringArrays::inverse_depth, &ScoringArrays::tangent_x,
     &ScoringArrays::tangent_y, &ScoringArrays::tangent_z, &ScoringArrays::left_x,        &ScoringArrays::left_y,
@@ -135,7 +135,7 @@ void QuadBuilder::build(const MeasuredEdges& previous, const StereoEdges& curren
 
 float QuadBuilder::half_length(double spacing) {
   constexpr double kFarthest =
-      1.41421356;  // of two edges of a curve in spacings: kernels/edge_selection.cl, density_of()
+      1.41421356;  // spacing of two neighbouring edges of a curve: kernels/edge_selection.cl, density_of()
   return static_cast<float>(0.5 * kFarthest * spacing);
 }
 

@@ -23,7 +23,7 @@ void mask_to_rows(const std::vector<std::uint8_t>& mask, std::vector<std::int32_
     if (mask[i]) rows.push_back(static_cast<std::int32_t>(i));
 }
 
-/// The course of find_consensus().
+/// State of one run of find_consensus().
 class Search {
  public:
   Search(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, std::uint64_t seed,
@@ -60,8 +60,7 @@ class Search {
  private:
   void sample() {
     SamplingOrder order(quads_, work_.order);
-    // The pool grows linearly from the smallest subset worth sampling to all quads over the first max_hypotheses
-    // draws.
+    // The pool grows linearly over the first max_hypotheses draws, from the smallest useful subset to all quads.
     const double first_pool = std::min<double>(static_cast<double>(order.size()), config_.min_inliers);
     const double growth = (static_cast<double>(order.size()) - first_pool) / config_.max_hypotheses;
     while (best_.draws < config_.max_draws && best_.hypotheses < std::min(needed_, config_.max_hypotheses)) {
@@ -107,7 +106,7 @@ class Search {
     if (const auto better = optimise(motion)) accept(*better);
   }
 
-  /// Fits over the preview's inliers, the distance narrowing geometrically to the inlier distance.
+  /// Fits over the inliers of the preview, with a distance that decreases geometrically to the inlier distance.
   std::optional<Eigen::Isometry3d> optimise(Eigen::Isometry3d motion) {
     const int rounds = config_.local_optimisation_rounds;
     for (int round = 0; round < rounds; ++round) {

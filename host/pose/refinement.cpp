@@ -11,12 +11,12 @@ namespace quadedge::pose {
 
 namespace {
 
-/// About so many quads settle which ones are inliers.
+/// Approximate number of quads that determine the inlier selection.
 constexpr std::size_t kSelectionQuads = 4000;
-/// A selection that differs from the last one in less than one row of so many calls for no further fit.
+/// If the selection changes in fewer than one row out of this many, no further fit is made.
 constexpr std::size_t kSameSelection = 500;
 
-/// How many rows only one of two ascending lists has.
+/// Number of rows that are in only one of two ascending lists.
 std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
   std::size_t changed = 0;
   auto p = a.begin(), q = b.begin();
@@ -40,9 +40,9 @@ void measure_scale(RefinementWorkspace& workspace) {
       measured_scale(workspace.terms.error, workspace.terms.size(), kReprojectionMedian, workspace.sorted);
 }
 
-/// Gauss-Newton from `current_from_previous`, which it replaces. \returns false when the normal equations have no
-/// solution. \param knows_scale reprojection_scale comes from a fit over a part of the same quads and need not be
-/// measured before the first step
+/// Gauss-Newton from `current_from_previous`, which is replaced. \returns false if the normal equations have no
+/// solution. \param knows_scale whether reprojection_scale comes from a fit over a subset of the same quads, so that it
+/// need not be measured before the first step
 bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& workspace,
               Eigen::Isometry3d& current_from_previous) {
   ReprojectionTerms& terms = workspace.terms;
@@ -63,7 +63,7 @@ bool fit_pose(const PoseConfig& config, bool knows_scale, RefinementWorkspace& w
   return true;
 }
 
-/// The course of refine().
+/// State of one run of refine().
 class Refinement {
  public:
   Refinement(const QuadObservations& quads, const StereoRig& rig, const PoseConfig& config, RefinementWorkspace& work,
@@ -71,7 +71,7 @@ class Refinement {
       : quads_(quads), rig_(rig), config_(config), noise_(config), work_(work), inlier_(inlier), result_(result) {}
 
   void run(double offset_variance, RefinementGoal goal) {
-    // Every n-th quad finds the pose, all of them make it exact.
+    // Every n-th quad is used to find the pose, all quads to refine it.
     const std::size_t every = std::max<std::size_t>(1, quads_.size() / kSelectionQuads);
     alternate(every);
     if (goal == RefinementGoal::pose) {
@@ -81,7 +81,7 @@ class Refinement {
     if (result_.solved && every > 1) {
       select(1);
       take_selected();
-      if (!(offset_variance > 0)) fit(true);  // with the offset the last fit comes at once
+      if (!(offset_variance > 0)) fit(true);  // with the offset, the final fit follows
     }
     if (result_.solved && !(offset_variance > 0 && find_offset(offset_variance))) {
       if (offset_variance > 0 && every > 1) fit(true);
@@ -91,7 +91,7 @@ class Refinement {
   }
 
  private:
-  /// Selections from every `every`-th quad and fits in turn.
+  /// Alternates between selection from every `every`-th quad and fits.
   void alternate(std::size_t every) {
     for (int round = 0; round < config_.refine_rounds; ++round) {
       select(every);
@@ -126,15 +126,15 @@ class Refinement {
     return result_.solved;
   }
 
-  /// \returns false where the fit with the offset has no solution, with the pose as it was.
+  /// Returns false, with the pose unchanged, if the fit with the offset has no solution.
   bool find_offset(double variance) {
     OffsetFit both;
     both.current_from_previous = result_.current_from_previous;
     const auto fit_both = [&](const MeasuredCovariance& covariance) {
       return fit_offset(config_, covariance, variance, work_.reprojection_scale, work_.terms, both);
     };
-    // An offset that is not yet in the disparities would pass for correlated errors: it is found first, weighed
-    // afterwards.
+    // An offset that is not yet included in the disparities would look like correlated errors. It is therefore
+    // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
     result_.current_from_previous = both.current_from_previous;
     fit_both(covariance_at(both.offset));

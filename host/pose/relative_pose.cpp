@@ -3,7 +3,7 @@
 namespace quadedge::pose {
 namespace {
 
-/// How a left perturbation before `transform` shows after it.
+/// Maps a left perturbation before `transform` to the perturbation after it.
 Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform) {
   Eigen::Matrix3d cross;
   const Eigen::Vector3d t = transform.translation();

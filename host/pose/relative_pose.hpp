@@ -1,18 +1,18 @@
 #pragma once
-/// \file relative_pose.hpp  A rigid motion with its covariance.
+/// \file relative_pose.hpp  A rigid motion with covariance.
 
 #include <Eigen/Geometry>
 
 namespace quadedge::pose {
 
-/// `transform` is b_from_a [m]; its covariance is that of a left perturbation in b's frame: (rotation [rad^2],
-/// translation [m^2]). The default is a frame seen from itself, which is exact.
+/// `transform` is b_from_a [m]; `covariance` refers to a left perturbation in frame b: (rotation [rad^2], translation
+/// [m^2]). The default is the exact identity.
 struct RelativePose {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/// c_from_a from c_from_b and b_from_a, whose errors are taken as independent.
+/// c_from_a from c_from_b and b_from_a, with independent errors.
 RelativePose operator*(const RelativePose& c_from_b, const RelativePose& b_from_a);
 
 }  // namespace quadedge::pose

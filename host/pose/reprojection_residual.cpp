@@ -15,7 +15,7 @@ ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size
   term.current_inverse_depth_per_pixel = current.inverse_depth_per_pixel;
   term.current_x = current.ray.x();
   term.current_y = current.ray.y();
-  // Each of the two is taken at the scale half-way to the other's.
+  // Each edge is moved to the scale half-way between the two.
   term.scale_drift_x = 0.5 * (previous.scale_drift.x() + current.scale_drift.x());
   term.scale_drift_y = 0.5 * (previous.scale_drift.y() + current.scale_drift.y());
   term.across_x = -sine / noise.across;

@@ -12,38 +12,38 @@
 
 namespace quadedge::pose {
 
-/// What a quad says about the motion by its positions.
+/// Positions of a quad.
 ///
-/// The previous rig says which point is meant (its left pixel) and how far away it is (inverse depth, noisy); the
-/// current rig measures the left pixel, well across the edge and badly along it, and again an inverse depth from its
-/// right image. The right image's own information is its position along the epipolar line and nothing else, therefore
-/// it enters as inverse depth: using both of its coordinates would count the left image's noise twice. The true inverse
-/// depth of the point is an unknown of its own, so both rigs' depths have the same standing and forward and backward
-/// errors are weighed alike; see refinement.hpp for what that buys.
+/// The previous rig defines the point (its left pixel) and measures its depth (inverse depth, noisy). The current rig
+/// measures the left pixel, accurately across the edge and poorly along it, and a second inverse depth from its right
+/// image. The right image adds information only along the epipolar line and is therefore used as inverse depth; using
+/// both of its coordinates would count the noise of the left image twice. The true inverse depth of the point is an
+/// unknown, so that the depths of both rigs are treated alike and forward and backward errors have equal weights;
+/// refinement.hpp gives the benefit.
 ///
-/// Plain numbers in this order are also the columns of ReprojectionTerms.
+/// The members, in this order, are also the columns of ReprojectionTerms.
 struct ReprojectionTerm {
   double ray_x, ray_y;                     ///< previous left pixel as a ray (x, y, 1), previous left frame
   double inverse_depth;                    ///< previous, as measured [1/m]
   double inverse_depth_sigma;              ///< its standard deviation [1/m]
   double inverse_depth_per_pixel;          ///< its change along the right epipolar line [1/(m px)]
-  double current_inverse_depth_per_pixel;  ///< the same of the current one
+  double current_inverse_depth_per_pixel;  ///< the same for the current edge
   double current_x, current_y;             ///< current left pixel as a ray (x, y, 1)
   double scale_drift_x, scale_drift_y;     ///< step of that ray per unit of log(scale), mean of both left edges
-  double across_x, across_y;               ///< unit normal of the edge in the current left image over its sigma [1/px]
-  double along_x, along_y;                 ///< unit tangent over its sigma [1/px]
-  double current_inverse_depth;            ///< as measured [1/m]
-  double current_inverse_depth_weight;     ///< 1 / its standard deviation [m]
+  double across_x, across_y;     ///< unit normal of the edge in the current left image, divided by its sigma [1/px]
+  double along_x, along_y;       ///< unit tangent, divided by its sigma [1/px]
+  double current_inverse_depth;  ///< as measured [1/m]
+  double current_inverse_depth_weight;  ///< 1 / its standard deviation [m]
 };
 
 /// \param quad its row in `quads` \param scale see NoiseModel::along_in_time()
 ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
                                         double scale = 1.0);
 
-/// The same term with the axes of the image multiplied by the focal lengths, per unit of a ray instead of per pixel.
+/// The same term with image axes multiplied by the focal lengths, so that it applies to rays instead of pixels.
 ReprojectionTerm per_ray_unit(const ReprojectionTerm& term, const PinholeCamera& left);
 
-/// The three residuals of a quad, or their derivatives by one unknown; in standard deviations.
+/// The three residuals of a quad, or their derivatives with respect to one unknown, in standard deviations.
 struct Residuals {
   double across, along;  ///< of the edge in the current left image
   double inverse_depth;  ///< in the current left frame
@@ -53,16 +53,16 @@ struct Residuals {
   return a.across * b.across + a.along * b.along + a.inverse_depth * b.inverse_depth;
 }
 
-/// Residuals with their derivatives. A LEFT perturbation of current_from_previous by a rotation w [rad] and a
-/// translation v [m], exp(w) R and exp(w) T + v, moves the homogeneous point y by w x y + rho v to first order: a
-/// residual whose derivative by y is g has the derivatives y x g by w and rho g by v.
+/// Residuals with derivatives. A LEFT perturbation of current_from_previous by a rotation w [rad] and a translation v
+/// [m], exp(w) R and exp(w) T + v, moves the homogeneous point y by w x y + rho v to first order. A residual with
+/// derivative g with respect to y has the derivatives y x g with respect to w and rho g with respect to v.
 struct ReprojectionResidual {
-  bool in_front;  ///< of the current left camera; all else means nothing where it is not
+  bool in_front;  ///< whether the point is in front of the current left camera; if not, the other members are undefined
   Residuals value;
-  Vector3 across_by_point, along_by_point;  ///< by the homogeneous point
-  double inverse_depth_by_z;                ///< by its third coordinate, the only one that this residual depends on
-  Residuals by_depth;                       ///< by the depth unknown, in standard deviations of the previous depth
-  Residuals by_offset;                      ///< by an offset of all right points along their epipolar lines [1/px]
+  Vector3 across_by_point, along_by_point;  ///< with respect to the homogeneous point
+  double inverse_depth_by_z;  ///< with respect to the third coordinate, the only one on which this residual depends
+  Residuals by_depth;         ///< with respect to the depth unknown, in standard deviations of the previous depth
+  Residuals by_offset;        ///< with respect to an offset of all right points along their epipolar lines [1/px]
 };
 
 /// With r the ray of the previous left pixel and rho its true inverse depth, the scene point times rho in the current
@@ -71,11 +71,11 @@ struct ReprojectionResidual {
 ///   across:         a . F (pi(y) - current ray - drift log(1 / y_z))      a: unit normal over its sigma
 ///   along:          b . F (pi(y) - current ray - drift log(1 / y_z))      b: unit tangent over its sigma
 ///   inverse depth:  (rho / y_z - current) / sigma.
-/// 1 / y_z is how much larger the scene has become in the image, while the scale at which edges are found has not.
-/// log(1 / z) is taken as 2 (1 - z) / (1 + z), which is right to 1e-4 for a change by a tenth.
-/// Every operation is written so that a loop over quads is vectorised, with the same bits at every width.
+/// 1 / y_z is the magnification of the scene in the image, whereas the scale of edge detection is fixed.
+/// log(1 / z) is approximated by 2 (1 - z) / (1 + z), which is accurate to 1e-4 for a change of a tenth.
+/// All operations are written such that loops over quads vectorise, with identical bits at every vector width.
 /// \param point y, current left frame \param inverse_depth rho = measured + depth unknown * sigma; the unknown has a
-/// standard normal prior [1/m] \param translation T [m] \param focal_x, focal_y F [px]; 1 with a term per_ray_unit()
+/// standard normal prior [1/m] \param translation T [m] \param focal_x, focal_y F [px]; 1 for a term per_ray_unit()
 [[gnu::always_inline]] inline ReprojectionResidual reprojection_residual(const ReprojectionTerm& term,
                                                                          const Vector3& point, double inverse_depth,
                                                                          const Vector3& translation, double focal_x,
@@ -92,8 +92,8 @@ struct ReprojectionResidual {
   result.value = {term.across_x * error_x + term.across_y * error_y, term.along_x * error_x + term.along_y * error_y,
                   (inverse_depth * inverse_z - term.current_inverse_depth) * weight};
 
-  // Derivative of an axis of the image by the point: (a_x f_x, a_y f_y, -(a_x f_x u + a_y f_y v)) / y_z, and what the
-  // growth changes with y_z.
+  // Derivative of an image axis with respect to the point: (a_x f_x, a_y f_y, -(a_x f_x u + a_y f_y v)) / y_z, plus the
+  // change of the magnification with y_z.
   const auto by_point = [&](double axis_x, double axis_y) -> Vector3 {
     const double by_x = axis_x * focal_x * inverse_z, by_y = axis_y * focal_y * inverse_z;
     const double by_growth = axis_x * focal_x * term.scale_drift_x + axis_y * focal_y * term.scale_drift_y;
@@ -103,28 +103,28 @@ struct ReprojectionResidual {
   result.along_by_point = by_point(term.along_x, term.along_y);
   result.inverse_depth_by_z = -inverse_depth * inverse_z * inverse_z * weight;
 
-  // The previous inverse depth moves the point along T, and stands in the third residual itself.
+  // The previous inverse depth moves the point along T and also appears in the third residual.
   const Residuals by_inverse_depth = {dot(result.across_by_point, translation), dot(result.along_by_point, translation),
                                       result.inverse_depth_by_z * translation.z + inverse_z * weight};
   const auto times = [&](double factor) -> Residuals {
     return {by_inverse_depth.across * factor, by_inverse_depth.along * factor, by_inverse_depth.inverse_depth * factor};
   };
   result.by_depth = times(term.inverse_depth_sigma);
-  // An offset changes the inverse depths of both times.
+  // An offset changes the inverse depths at both times.
   result.by_offset = times(term.inverse_depth_per_pixel);
   result.by_offset.inverse_depth -= weight * term.current_inverse_depth_per_pixel;
   return result;
 }
 
-/// The residuals of a quad at a pose with their Jacobian written out.
+/// Residuals of a quad at a pose, with the full Jacobian.
 struct ReprojectionJacobian {
   Eigen::Vector3d value;                ///< across, along, inverse depth; in standard deviations
-  Eigen::Matrix<double, 3, 6> by_pose;  ///< by (rotation [rad], translation [m]) of a left perturbation
+  Eigen::Matrix<double, 3, 6> by_pose;  ///< with respect to (rotation [rad], translation [m]) of a left perturbation
   Eigen::Vector3d by_depth, by_offset;  ///< see ReprojectionResidual
 };
 
-/// \param term per pixel \param current_from_previous left cameras, metres \param depth the quad's own unknown, in
-/// standard deviations of the previous inverse depth
+/// \param term per pixel \param current_from_previous left cameras, metres \param depth the depth unknown of the quad,
+/// in standard deviations of the previous inverse depth
 /// \returns false for a point that is not in front of the current left camera
 bool reprojection_jacobian(const ReprojectionTerm& term, const PinholeCamera& left,
                            const Eigen::Isometry3d& current_from_previous, double depth, ReprojectionJacobian& result);

@@ -24,7 +24,7 @@ template <std::size_t... Column>
   return {columns.values[Column][row]...};
 }
 
-/// kLanes quads from row `first` on; the compiler makes vectors of the loop.
+/// Processes kLanes quads from row `first` on; the compiler vectorises the loop.
 template <std::size_t Values>
 [[gnu::always_inline]] inline void evaluate_lanes(const Columns& columns, const double* depth, std::size_t first,
                                                   const Evaluation& at, Contributions<Values, kLanes>& lanes) {
@@ -38,7 +38,7 @@ template <std::size_t Values>
                                             std::size_t end, const Evaluation& at, double* sums) {
   double total[Values][kLanes] = {};
   for (std::size_t i = begin; i < end; i += kLanes) {
-    Contributions<Values, kLanes> lanes;  // on the stack, so that nothing it is computed from can be meant
+    Contributions<Values, kLanes> lanes;  // on the stack, so that it cannot alias its inputs
     evaluate_lanes(columns, depth + i, i, at, lanes);
     for (std::size_t k = 0; k < kLanes; ++k) {
       depth[i + k] = lanes.depth[k];

@@ -9,7 +9,7 @@ RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, doubl
   RigSensitivity result = RigSensitivity::Zero();
   result.col(0).head<3>() = way;
   for (int axis = 0; axis < 3; ++axis) {
-    // The motion seen in a frame that is turned by w: exp(w) T exp(-w).
+    // The motion in a frame that is rotated by w: exp(w) T exp(-w).
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
     result.col(1 + axis).head<3>() = unit.cross(way);
     result.col(1 + axis).tail<3>() = unit - turn * unit;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file rig_uncertainty.hpp  What a wrong calibration does to poses (doc/method.md section 7).
+/// \file rig_uncertainty.hpp  Effect of calibration errors on poses (doc/method.md section 7).
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace quadedge::pose {
 
-/// How a pose found by edges at `inverse_depth` [1/m] errs with the rig: a longer baseline lengthens the way, a turned
-/// optical frame turns the motion, a longer focal length shortens the angles, and what is left of the distortion turns
-/// the camera as it comes nearer to what it sees.
-/// \param fixed_from_camera a motion found in one piece, between two frames or since a key rig
+/// Sensitivity of a pose, found from edges at `inverse_depth` [1/m], to calibration errors: a longer baseline lengthens
+/// the translation, a rotated optical frame rotates the motion, a longer focal length reduces the angles, and residual
+/// distortion rotates the camera in proportion to its approach to the scene.
+/// \param fixed_from_camera a single motion, between two frames or since a key rig
 RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, double inverse_depth);
 
-/// Covariance by the rig's errors alone, independent of each other, of the sizes `pose.rig_sigma_*`.
+/// Covariance due to calibration errors, which are independent of each other and have the sizes `pose.rig_sigma_*`.
 PoseCovariance rig_covariance(const RigSensitivity& by_rig, const PoseConfig& config);
 
-/// Covariance by edges and rig together; nothing for a pose that was only predicted.
+/// Covariance due to edge and calibration errors; nothing for a predicted pose.
 std::optional<PoseCovariance> whole_covariance(const UncertainPose& pose, const PoseConfig& config);
 
 }  // namespace quadedge::pose

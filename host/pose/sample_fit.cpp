@@ -8,17 +8,17 @@ namespace quadedge::pose {
 
 namespace {
 
-/// A block of residuals whose own unknown, with a standard normal prior, has been eliminated: error^T error is the
-/// block's cost.
+/// A block of residuals from which its unknown, with a standard normal prior, has been eliminated: error^T error is the
+/// cost of the block.
 template <int Rows, int Columns>
 struct WithoutUnknown {
   Eigen::Matrix<double, Rows, 1> error;
   Eigen::Matrix<double, Rows, Columns> by_pose;
-  double unknown = 0;  ///< its best value
+  double unknown = 0;  ///< optimal value of the unknown
 };
 
-/// Minimises |r + h (z - at)|^2 + z^2 over z. With S = I + h h^T the cost is e^T S^-1 e, e = r - h at; multiplying by
-/// S^-1/2 leaves a plain sum of squares.
+/// Minimises |r + h (z - at)|^2 + z^2 over z. With S = I + h h^T, the cost is e^T S^-1 e, where e = r - h at;
+/// multiplication by S^-1/2 turns it into a plain sum of squares.
 template <int Rows, int Columns>
 void eliminate(const Eigen::Matrix<double, Rows, 1>& residual, const Eigen::Matrix<double, Rows, Columns>& by_pose,
                const Eigen::Matrix<double, Rows, 1>& by_unknown, double at, WithoutUnknown<Rows, Columns>& result) {
@@ -38,22 +38,22 @@ struct EliminatedQuad {
   WithoutUnknown<2, 3> direction;
 };
 
-/// \param depth the quad's own unknown \returns false for a point that is not in front of the current left camera.
+/// \param depth depth unknown of the quad \returns false for a point that is not in front of the current left camera
 bool evaluate(const SampleTerm& term, const PinholeCamera& left, const Eigen::Isometry3d& pose, double depth,
               EliminatedQuad& result) {
   ReprojectionJacobian position;
   if (!reprojection_jacobian(term.reprojection, left, pose, depth, position)) return false;
   DirectionResidual direction;
   direction_residual(term.direction, pose.linear(), direction);
-  // Not earlier: the processor waits when it reads as vectors what has just been written number by number, 15 % of the
-  // whole search.
+  // Placed here on purpose: reading values as vectors right after they were written as scalars stalls the processor,
+  // which costs 15 % of the whole search.
   eliminate<3, 6>(position.value, position.by_pose, position.by_depth, depth, result.reprojection);
   eliminate<2, 3>(direction.value, direction.by_rotation, direction.by_slope, 0.0, result.direction);
   return true;
 }
 
-/// Adds weight * J^T J and weight * J^T e of `Rows` residuals that depend on the first `Columns` unknowns. Plain loops:
-/// as Eigen products this function takes minutes to compile.
+/// Adds weight * J^T J and weight * J^T e for `Rows` residuals that depend on the first `Columns` unknowns. Written as
+/// loops, because the compilation of the equivalent Eigen products takes minutes.
 template <int Rows, int Columns>
 void add_rows(const WithoutUnknown<Rows, Columns>& block, double weight, Normal<6>& normal) {
   const double *by_unknowns = block.by_pose.data(), *errors = block.error.data();

@@ -1,5 +1,5 @@
 #pragma once
-/// \file sample_fit.hpp  Least squares over the few quads of a sample, by their positions and directions.
+/// \file sample_fit.hpp  Least squares over the few quads of a sample, using positions and directions.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace quadedge::pose {
 
-/// All that a quad says about the motion.
+/// Positions and directions of a quad.
 struct SampleTerm {
   ReprojectionTerm reprojection;
   DirectionTerm direction;
@@ -20,20 +20,21 @@ struct SampleTerm {
 /// \param quad its row in `quads`
 SampleTerm make_sample_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise);
 
-/// Buffers of the fit, kept between calls so that no step allocates.
+/// Buffers of the fit, kept between calls so that steps allocate nothing.
 struct SampleWorkspace {
-  std::vector<double> depth;                                ///< each quad's own unknown (see reprojection_residual())
+  std::vector<double> depth;                                ///< depth unknown of each quad, see reprojection_residual()
   std::vector<double> reprojection_error, direction_error;  ///< squared Mahalanobis errors
   std::vector<double> sorted;
 };
 
-/// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which it replaces; ends
-/// after kFitSteps or with a step below kFitTolerance standard deviations of the pose. The two blocks of
-/// residuals (reprojection; direction) have their variances measured anew in each step, by the median. Each quad's true
-/// depth and slope are eliminated in closed form, which is the Schur complement of a bundle adjustment of the two rigs.
-/// Directions fix the motion of very few quads, whose positions alone hardly do; refine() goes without them.
-/// \returns false when the normal equations have no solution (no quads, or all on one spot); the pose is then left at
-/// the last good step.
+/// Gauss-Newton with Student-t weights over the quads `rows`, from `current_from_previous`, which is replaced; ends
+/// after kFitSteps steps or with a step below kFitTolerance standard deviations of the pose. The variances of the two
+/// blocks of residuals (reprojection; direction) are measured in each step, by the median. The true depth and slope of
+/// each quad are eliminated in closed form, which is the Schur complement of a bundle adjustment of the two rigs.
+/// Directions determine the motion if there are very few quads, whose positions alone hardly do; refine() does not use
+/// them.
+/// \returns false if the normal equations have no solution (no quads, or all at the same point); the pose is then that
+/// of the last valid step
 bool fit_sample(const std::vector<SampleTerm>& terms, const std::vector<std::int32_t>& rows, const StereoRig& rig,
                 const PoseConfig& config, Eigen::Isometry3d& current_from_previous, SampleWorkspace& workspace);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file sampling_order.hpp  The order in which quads enter the samples of a consensus search (PROSAC).
+/// \file sampling_order.hpp  Order in which quads enter the samples of a consensus search (PROSAC).
 
 #include <algorithm>
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 namespace quadedge::pose {
 
-/// A number's bits as an integer that compares like the number.
+/// Bits of a number as an unsigned integer with the same order.
 inline std::uint32_t ordered_bits(float value) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
 }
 
-/// Quads by their matching quality: fewest competing clusters, then highest NCC, then lowest index. Sorted as far as
-/// asked for.
+/// Quads by matching quality: fewest competing clusters, then highest NCC, then lowest index. Only as many as requested
+/// are sorted.
 class SamplingOrder {
  public:
-  /// A quad and how far behind others it stands.
+  /// A quad and its sort key, smallest first.
   struct Entry {
     std::uint64_t key;
     std::int32_t row;
@@ -37,7 +37,7 @@ class SamplingOrder {
     }
   }
 
-  /// Sorts the first `count`.
+  /// Sorts the first `count` quads.
   void sort_first(std::size_t count) {
     if (count <= sorted_) return;
     const auto before = [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; };
@@ -51,7 +51,8 @@ class SamplingOrder {
   std::size_t operator[](std::size_t rank) const { return static_cast<std::size_t>(order_[rank].row); }
 
  private:
-  static constexpr std::size_t kGrowth = 4;  ///< every time that more is asked for, all that is left is gone through
+  static constexpr std::size_t kGrowth =
+      4;  ///< factor by which the sorted part grows, because each extension passes over all remaining quads
 
   std::vector<Entry>& order_;
   std::size_t sorted_ = 0;

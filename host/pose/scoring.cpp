@@ -12,8 +12,8 @@ namespace quadedge::pose {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;  ///< rows whose costs are computed before they are added up; a multiple of kSums
-constexpr std::size_t kSums = 8;    ///< independent sums, so that a vector unit may add without reordering anything
+constexpr std::size_t kBlock = 64;  ///< rows whose costs are computed before they are summed; a multiple of kSums
+constexpr std::size_t kSums = 8;    ///< independent sums, which vector units can compute without reordering
 
 void write_projection(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_previous, float* rows) {
   Eigen::Matrix<double, 3, 4> matrix;
@@ -23,40 +23,41 @@ void write_projection(const PinholeCamera& camera, const Eigen::Isometry3d& came
     for (int c = 0; c < 4; ++c) rows[4 * r + c] = static_cast<float>(matrix(r, c));
 }
 
-/// A homogeneous pixel; times the inverse depth where it is a point's.
+/// A homogeneous pixel; for a point, multiplied by the inverse depth.
 struct Projected {
   float x, y, z;
 };
 
-/// Into the camera with the projection matrix `p` from the previous left frame: the point on the ray (x, y, 1).
+/// Projects the point on the ray (x, y, 1) with the projection matrix `p` of a camera relative to the previous left
+/// frame.
 [[gnu::always_inline]] inline Projected project_point(const float* p, float x, float y, float inverse_depth) {
   return {p[0] * x + p[1] * y + p[2] + p[3] * inverse_depth, p[4] * x + p[5] * y + p[6] + p[7] * inverse_depth,
           p[8] * x + p[9] * y + p[10] + p[11] * inverse_depth};
 }
 
-/// The same of a direction, a point at infinity.
+/// The same for a direction, which is a point at infinity.
 [[gnu::always_inline]] inline Projected project_direction(const float* p, float x, float y, float z) {
   return {p[0] * x + p[1] * y + p[2] * z, p[4] * x + p[5] * y + p[6] * z, p[8] * x + p[9] * y + p[10] * z};
 }
 
 [[gnu::always_inline]] inline float squared_norm(float x, float y) { return x * x + y * y; }
 
-/// Squared distance from the piece of curve that an edge stands for: (x, y) is the way from the edge, (cosine, sine)
-/// its direction.
+/// Squared distance from the segment of curve that an edge represents: (x, y) is the offset from the edge, (cosine,
+/// sine) its direction.
 [[gnu::always_inline]] inline float squared_distance(float x, float y, float cosine, float sine, float half_length) {
   const float along = std::abs(x * cosine + y * sine);
   const float beyond = along > half_length ? along - half_length : 0.0f;
   return squared_norm(x, y) - (along * along - beyond * beyond);
 }
 
-/// Does a tangent projected to `tangent` at `point` run along (cosine, sine) in the image?
+/// Whether a tangent projected to `tangent` at `point` is parallel to (cosine, sine) in the image.
 [[gnu::always_inline]] inline bool same_direction(const Projected& point, const Projected& tangent, float cosine,
                                                   float sine, float min_cosine) {
   const float dx = tangent.x * point.z - point.x * tangent.z, dy = tangent.y * point.z - point.y * tangent.z;
   return std::abs(dx * cosine + dy * sine) >= min_cosine * std::sqrt(squared_norm(dx, dy));
 }
 
-/// Sum of the rows' truncated squared distances [px^2].
+/// Sum of the truncated squared distances of the rows [px^2].
 QUADEDGE_VECTOR_CLONES
 double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, float limit, std::size_t first,
                     std::size_t last) {
@@ -95,7 +96,8 @@ double cost_of_rows(const ScoringArrays& quads, const LaterCameras& cameras, flo
   return sum;
 }
 
-/// Which rows are inliers, one byte each, and how many; all tests of a row are made, so that vector units can.
+/// Marks the inliers, one byte per row, and counts them. All tests are computed for every row, so that the loop
+/// vectorises.
 /// \param limit squared distance [px^2] \param min_cosine between projected and measured direction
 QUADEDGE_VECTOR_CLONES
 int mark_inliers(const ScoringArrays& quads, const LaterCameras& cameras, float limit, float min_cosine,

@@ -11,8 +11,8 @@ namespace quadedge::pose {
 
 namespace {
 
-/// Sorts the quads by the square cell of the current left image that they lie in: cells line by line, those without
-/// quads left out, quads of a cell in their order.
+/// Sorts the quads by their square cell in the current left image: cells in row-major order without empty ones, quads
+/// within a cell in their original order.
 void sort_into_cells(const ScoringArrays& quads, double side, SubsetWorkspace& workspace) {
   const auto number = [&](float position) {
     return static_cast<std::int32_t>(std::floor(static_cast<double>(position) / side));

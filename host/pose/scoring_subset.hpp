@@ -1,5 +1,5 @@
 #pragma once
-/// \file scoring_subset.hpp  The quads on which hypotheses are scored.
+/// \file scoring_subset.hpp  Selects the quads on which hypotheses are scored.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,13 +20,13 @@ struct SubsetWorkspace {
   std::vector<std::size_t> cell_sizes;
 };
 
-/// `size` different rows of 0 .. count - 1 in random order.
+/// `size` distinct rows of 0 .. count - 1, in random order.
 void random_subset(std::mt19937_64& random, std::size_t count, std::size_t size, std::vector<std::int32_t>& rows);
 
-/// At most `size` different rows, the same number from each square cell of the current left image: as many as the
-/// median cell has, or all that a cell has. So a thing counts by the area that it covers, not by the edges it is
-/// covered with. Cells and rows come in random order.
-/// \param side of a cell [px] \param rows replaced
+/// At most `size` distinct rows, evenly from the square cells of the current left image: from each cell as many as the
+/// median cell contains, or all if it has fewer. Objects are thus weighted by area, not by their number of edges. Cells
+/// and rows are in random order.
+/// \param side side of a cell [px] \param rows replaced
 void balanced_subset(std::mt19937_64& random, const ScoringArrays& quads, double side, std::size_t size,
                      SubsetWorkspace& workspace, std::vector<std::int32_t>& rows);
 

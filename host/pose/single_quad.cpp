@@ -6,8 +6,8 @@ Eigen::Matrix3d align(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d v = from.cross(to);
   const double cosine = from.dot(to);
   if (cosine < 0) {
-    // 1 / (1 + c) loses digits towards the half turn. A half turn about the same axis first leaves less than a right
-    // angle.
+    // 1 / (1 + c) loses precision near a half turn. Prepending a half turn about the same axis leaves an angle below 90
+    // degrees.
     const Eigen::Vector3d axis = v - v.dot(from) * from;
     const Eigen::Vector3d u =
         axis.norm() > 0 ? Eigen::Vector3d(axis.normalized()) : Eigen::Vector3d(from.unitOrthogonal());

@@ -1,5 +1,5 @@
 #pragma once
-/// \file single_quad.hpp  Proposition 1: what one quad says about the motion (paper section 4, Equations 4 to 7).
+/// \file single_quad.hpp  Proposition 1: the motions compatible with one quad (paper section 4, Equations 4 to 7).
 
 #include <Eigen/Geometry>
 
@@ -7,15 +7,15 @@
 
 namespace quadedge::pose {
 
-/// The shortest rotation that takes unit vector `from` to unit vector `to` (Equation 6), accurate up to and including
-/// to = -from, where it is a half turn about some axis orthogonal to `from`.
+/// The shortest rotation from unit vector `from` to unit vector `to` (Equation 6), accurate up to and including to =
+/// -from, for which it is a half turn about some axis orthogonal to `from`.
 Eigen::Matrix3d align(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// One member of the family of motions that take `previous` to `current`, points (metres) and unit tangents both:
-///   R(theta) = Rot(current.tangent, theta) * align(previous.tangent, current.tangent),  T(theta) = Gamma_bar -
-///   R(theta) Gamma.
-/// The translation uses the POINTS; the tangents that the paper prints in Equation 7 cannot give one.
-/// \param theta radians. \returns current_from_previous, left cameras.
+/// One member of the family of motions that map `previous` to `current`, both points (metres) and unit tangents:
+///   R(theta) = Rot(current.tangent, theta) * align(previous.tangent, current.tangent),
+///   T(theta) = Gamma_bar - R(theta) Gamma.
+/// The translation uses the POINTS; the tangents printed in the paper's Equation 7 cannot determine one.
+/// \param theta [rad] \returns current_from_previous, left cameras
 Eigen::Isometry3d family(const OrientedPoint& previous, const OrientedPoint& current, double theta);
 
 }  // namespace quadedge::pose

@@ -6,7 +6,7 @@ namespace quadedge::pose {
 
 namespace {
 
-/// The orthonormal frame [e1 e2 e3] of a pair; false where it is not defined.
+/// Computes the orthonormal frame [e1 e2 e3] of a pair; returns false if it is undefined.
 bool build_frame(const OrientedPair& pair, double max_cosine, Eigen::Matrix3d& frame) {
   const Eigen::Vector3d d = pair.second.point - pair.first.point;
   const double length = d.norm();
