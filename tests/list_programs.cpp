@@ -1,6 +1,6 @@
 /// \file list_programs.cpp  Prints every program that the stages build, for lint_kernels.sh: options and kernel files,
-/// one program per line. The stages are asked themselves, with every variant, so nothing can be forgotten.
-///   list_programs KERNEL_FOLDER [gpu]    with gpu only those that GPUs run by default, without the taps'
+/// one program per line. The list comes from the stages themselves, with every variant, so it is complete.
+///   list_programs KERNEL_FOLDER [gpu]    gpu: only those that GPUs run by default, without the taps
 
 #include <cstdio>
 #include <map>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace quadedge;
 
-/// A configuration that leaves no kernel out.
+/// A configuration that uses every kernel.
 Config every_stage() {
   Config config;
   config.stereo.max_disparity = 64;
@@ -27,7 +27,7 @@ Config every_stage() {
   return config;
 }
 
-/// The same with variant number `wanted` of every stage that has so many.
+/// The same with variant number `wanted` of every stage that has that many.
 Config config_with(std::size_t wanted) {
   Config config = every_stage();
   std::map<std::string, std::size_t> seen;
@@ -50,11 +50,11 @@ int main(int count, char** arguments) {
   const bool of_gpus = count > 2 && std::string(arguments[2]) == "gpu";
   StereoRig rig = SyntheticSequence(SyntheticOptions()).rig();
   const auto pixels = static_cast<std::size_t>(rig.left.width) * static_cast<std::size_t>(rig.left.height);
-  // Kernels that undo distortion are only built for cameras that have some.
+  // Undistortion kernels are built only for cameras with lens distortion.
   rig.left_undistortion = {rig.left.width, rig.left.height, std::vector<float>(pixels), std::vector<float>(pixels)};
   rig.right_undistortion = rig.left_undistortion;
   rig.left_mask = {rig.left.width, rig.left.height,
-                   std::vector<std::uint8_t>(pixels)};  // and masks where there are some
+                   std::vector<std::uint8_t>(pixels)};  // and mask kernels only with a mask
 
   std::set<std::string> programs;
   for (std::size_t number = 0; number < (of_gpus ? 1 : most_variants()); ++number) {
@@ -64,7 +64,7 @@ int main(int count, char** arguments) {
     if (of_gpus) options.limits.type = "gpu";
     Device device("auto", options);
     const auto frontend = frontend::make_frontend(rig, device, of_gpus ? every_stage() : config_with(number));
-    Tap tap;  // whose form of a kernel is a program of its own
+    Tap tap;  // a kernel's tap form is a separate program
     if (!of_gpus) frontend->set_tap(&tap);
     if (!of_gpus) {
       bench::measure_ceilings(*device.context(), 1, 0);

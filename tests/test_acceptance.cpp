@@ -11,7 +11,7 @@ using odometry::MotionStep;
 
 namespace {
 
-/// A step whose quads were made by two motions; its base's edges are predicted where the quads ended.
+/// A step whose quads come from two motions; the base's edges are predicted at the quads' current positions.
 struct TwoMotions {
   MotionStep step;
   EdgePositions predicted;
@@ -49,7 +49,7 @@ frontend::RigHandle rig_of_frame(int frame) {
 
 }  // namespace
 
-TEST_CASE("acceptance: a thing counts by the area that it covers, not by its edges", "[odometry]") {
+TEST_CASE("acceptance: an object counts by its area in the image, not by its number of edges", "[odometry]") {
   generated::Problem thing, scene;
   thing.quads = 600;
   thing.width_ratio = 0.1;
@@ -66,7 +66,7 @@ TEST_CASE("acceptance: a thing counts by the area that it covers, not by its edg
   CHECK(seen.area_of(shift(3, 3)) < 0.05);
 }
 
-TEST_CASE("acceptance: what moves otherwise is a ratio of the image, and two motions are not one", "[odometry]") {
+TEST_CASE("acceptance: secondary motion is a fraction of the image, and different motions compete", "[odometry]") {
   generated::Problem thing, scene;
   thing.quads = 600;
   thing.width_ratio = 0.1;
@@ -75,7 +75,7 @@ TEST_CASE("acceptance: what moves otherwise is a ratio of the image, and two mot
   scene.quads = 300;
   scene.motion = shift(0, -1);
   TwoMotions seen(thing, scene);
-  // The thing holds two thirds of the edges: that many lie where few move as the scene does, the rest the other way.
+  // Two thirds of the edges belong to the object, where few edges move with the scene; one third belongs to the scene.
   seen.area_of(scene.motion);
   CHECK(seen.step.moving_ratio > 0.5);
   CHECK(Acceptance::is_minority_motion(seen.step));
@@ -102,11 +102,11 @@ TEST_CASE("acceptance: what moves otherwise is a ratio of the image, and two mot
   CHECK_FALSE(acceptance.are_competing(alike.step, near, same_base));
   CHECK_FALSE(acceptance.are_same_motion(alike.step, other, same_base));
   CHECK(acceptance.are_competing(alike.step, other, same_base));
-  other.explained_area = 0.1 * alike.step.explained_area;  // a small thing does not compete
+  other.explained_area = 0.1 * alike.step.explained_area;  // a small object does not compete
   CHECK_FALSE(acceptance.are_competing(alike.step, other, same_base));
 }
 
-TEST_CASE("acceptance: what stands still against the motion says that the camera may stand still", "[odometry]") {
+TEST_CASE("acceptance: points at rest contradict a motion: the camera may be at rest", "[odometry]") {
   generated::Problem thing, scene;
   thing.quads = 400;
   thing.motion = shift(0.3, 0);
@@ -123,7 +123,7 @@ TEST_CASE("acceptance: what stands still against the motion says that the camera
   CHECK(acceptance.contradicts_static_scene(seen.step));
   seen.area_of(scene.motion);
   CHECK_FALSE(acceptance.contradicts_static_scene(seen.step));
-  // What is so far away that it hardly moves agrees with the motion as well.
+  // Points too far away to show the motion agree with it as well.
   scene.motion = thing.motion;
   scene.near = scene.far = 2000;
   TwoMotions far(thing, scene);
@@ -131,7 +131,7 @@ TEST_CASE("acceptance: what stands still against the motion says that the camera
   CHECK_FALSE(acceptance.contradicts_static_scene(far.step));
 }
 
-TEST_CASE("acceptance: what support is enough follows from what motions have reached lately", "[odometry]") {
+TEST_CASE("acceptance: the support required follows the support of recent motions", "[odometry]") {
   const Config config;
   const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
   Acceptance acceptance(config, offset);
@@ -142,14 +142,14 @@ TEST_CASE("acceptance: what support is enough follows from what motions have rea
     return step;
   };
   CHECK(acceptance.is_confident(with(0.36)));
-  CHECK_FALSE(acceptance.is_confident(with(0.34)));  // temporal.confident_support, as long as nothing is known
+  CHECK_FALSE(acceptance.is_confident(with(0.34)));  // temporal.confident_support, before the first motion
   for (int frame = 0; frame < 100; ++frame) acceptance.remember(with(0.5));
   CHECK(acceptance.is_confident(with(0.26)));
   CHECK_FALSE(acceptance.is_confident(with(0.24)));
-  acceptance.remember(with(0.9));  // more is never asked for
+  acceptance.remember(with(0.9));  // never requires more
   CHECK(acceptance.is_confident(with(0.36)));
   for (int frame = 0; frame < 100; ++frame) acceptance.remember(with(0.1));
-  CHECK(acceptance.is_confident(with(0.21)));  // nor less than what chance may find
+  CHECK(acceptance.is_confident(with(0.21)));  // nor less than chance may reach
   CHECK_FALSE(acceptance.is_confident(with(0.19)));
   acceptance.remember(MotionStep());  // lost
   CHECK_FALSE(acceptance.is_confident(with(0.34)));
@@ -173,12 +173,12 @@ TEST_CASE("acceptance: without enough support among the edges in view there is n
   step.motion.inliers = 5;
   acceptance.test_support(predicted, step);
   CHECK(step.motion.status == pose::MotionStatus::no_consensus);
-  step.motion.status = pose::MotionStatus::too_few_quads;  // stays the reason
+  step.motion.status = pose::MotionStatus::too_few_quads;  // keeps this reason
   acceptance.test_support(predicted, step);
   CHECK(step.motion.status == pose::MotionStatus::too_few_quads);
 }
 
-TEST_CASE("acceptance: near the prediction support decides whether edges are looked for anywhere", "[odometry]") {
+TEST_CASE("acceptance: support near the prediction decides whether the global search runs", "[odometry]") {
   Config config;
   config.temporal.confident_support = 0.35;
   const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
@@ -188,13 +188,13 @@ TEST_CASE("acceptance: near the prediction support decides whether edges are loo
   CHECK(Acceptance(config, offset).is_confident(step));
   step.support = 0.34;
   CHECK_FALSE(Acceptance(config, offset).is_confident(step));
-  config.temporal.wide_edges = 0;  // nothing further to ask
+  config.temporal.wide_edges = 0;  // no global search to run
   CHECK(Acceptance(config, offset).is_confident(step));
   step.motion.status = pose::MotionStatus::no_consensus;
   CHECK_FALSE(Acceptance(config, offset).is_confident(step));
 }
 
-TEST_CASE("acceptance: edges found anywhere bear out the motion that brought them there", "[odometry]") {
+TEST_CASE("acceptance: global matches confirm the motion that they follow", "[odometry]") {
   const Config config;
   const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
   Acceptance acceptance(config, offset);

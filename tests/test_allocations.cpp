@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Arrays that grow with the image or its edges are larger; what a frame leaves in its result is smaller.
+/// Arrays that grow with the image or its edges are larger; those of a frame's result are smaller.
 constexpr std::size_t kLarge = 4096;
 std::atomic<bool> counting{false};
 std::atomic<int> allocations{0};
@@ -28,7 +28,7 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-TEST_CASE("odometry: once every buffer has had its largest content, tracking allocates no more arrays",
+TEST_CASE("odometry: tracking allocates no more arrays once every buffer has reached its final size",
           "[odometry][device]") {
   const matching::RenderedScene scene("room", 240, 150, 8);
   for (const auto& name : all_devices()) {
@@ -40,7 +40,7 @@ TEST_CASE("odometry: once every buffer has had its largest content, tracking all
       frame.stamp_ns = ++stamp;
       return odometry.track(frame).status == quadedge::FrameStatus::tracked ? 1 : 0;
     };
-    // To and fro, so that the same motions come again with other key rigs.
+    // Back and forth, so that the same motions recur with other key rigs.
     const auto there_and_back = [&] {
       int tracked = 0;
       for (std::size_t i = 0; i + 1 < 8; ++i) tracked += is_tracked(i);
@@ -57,7 +57,7 @@ TEST_CASE("odometry: once every buffer has had its largest content, tracking all
   }
 }
 
-TEST_CASE("odometry: the allocations of the first frames are seen", "[odometry][device]") {
+TEST_CASE("odometry: the allocations of the first frames are counted", "[odometry][device]") {
   const matching::RenderedScene scene("room", 240, 150, 2);
   quadedge::Device device(all_devices().front(), kept_programs());
   quadedge::StereoOdometry odometry(scene.rig, device, scene.config);

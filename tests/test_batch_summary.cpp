@@ -18,7 +18,7 @@ using dataset_files::write_text;
 
 namespace {
 
-/// Mean and standard deviation over N, straight from their definitions.
+/// Mean and standard deviation over N, by definition.
 void check_statistics(const ErrorStatistics& found, const std::vector<double>& values) {
   const double count = static_cast<double>(values.size());
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
@@ -39,7 +39,7 @@ std::vector<std::string> lines(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("batch summary: pooled figures are those of all poses of all sequences together", "[report]") {
+TEST_CASE("batch summary: pooled figures are computed over all poses of all sequences", "[report]") {
   const TemporaryFolder folder;
   const auto first = made_up_run(5, 0.01), second = made_up_run(9, 0.003);
   write_member(folder.path(), "one", first);
@@ -66,14 +66,14 @@ TEST_CASE("batch summary: pooled figures are those of all poses of all sequences
   check_statistics(summary.pooled->origin_aligned.rpe_translation_m, rpe_translation);
   CHECK(summary.latency.median == Approx(report::median(latencies)));
   CHECK(summary.latency.first == Approx(10));
-  // The average gives both sequences the same weight, though one has nine poses and the other five.
+  // The average weights both sequences equally, though one has nine poses and the other five.
   CHECK(summary.average->se3_aligned.ape_translation_m.mean ==
         Approx(
             (first.accuracy->se3_aligned.ape_translation_m.mean + second.accuracy->se3_aligned.ape_translation_m.mean) /
             2));
 }
 
-TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, also for failed and missing sequences",
+TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, including failed and missing sequences",
           "[report]") {
   const TemporaryFolder folder;
   const auto run = made_up_run(6, 0.02);
@@ -86,7 +86,7 @@ TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, also for fai
   CHECK(summary.rows[2].status == report::MemberStatus::missing);
 
   const auto rows = lines(report::summary_csv(summary));
-  REQUIRE(rows.size() == 6);  // heading, three sequences, pooled, average
+  REQUIRE(rows.size() == 6);  // header, three sequences, pooled, average
   const auto names = report::csv_fields(rows[0]);
   std::map<std::string, std::string> good, bad;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -118,7 +118,7 @@ TEST_CASE("batch summary: CSV and JSON hold every figure unrounded, also for fai
                            Catch::Matchers::Contains("SE(3)-aligned") && Catch::Matchers::Contains("APE_R (deg)"));
 }
 
-TEST_CASE("batch summary: too few tracked frames are worse than none lost and better than bad data", "[report]") {
+TEST_CASE("batch summary: the exit code for too few tracked frames ranks between success and bad data", "[report]") {
   const TemporaryFolder folder;
   auto run = made_up_run(10, 0.01);
   for (std::size_t i = 4; i < 10; ++i) run.frames[i].result.status = FrameStatus::lost_no_consensus;
@@ -131,7 +131,7 @@ TEST_CASE("batch summary: too few tracked frames are worse than none lost and be
   CHECK(report::worse_exit_code(1, 4) == 1);
 }
 
-TEST_CASE("frames table: reads back what a run writes, messages with commas and quotes too", "[report]") {
+TEST_CASE("frames table: reads back what a run writes, including messages with commas and quotes", "[report]") {
   const TemporaryFolder folder;
   auto run = made_up_run(3, 0.01);
   run.frames[1].result.message = "a \"quoted\", cut message";

@@ -31,7 +31,7 @@ std::size_t hidden_pixels(const PixelMask& mask) {
 
 }  // namespace
 
-TEST_CASE("calibrated rig: the table is that of OpenCV, of both models that it has", "[lens]") {
+TEST_CASE("calibrated rig: the table equals OpenCV's for both models that OpenCV has", "[lens]") {
   const cv::Matx33d k(100, 0, 79.5, 0, 101, 60.25, 0, 0, 1);
   const auto compare = [](const UndistortionTable& table, const cv::Mat& x, const cv::Mat& y) {
     REQUIRE(table.source_x.size() == 160u * 120u);
@@ -52,7 +52,7 @@ TEST_CASE("calibrated rig: the table is that of OpenCV, of both models that it h
   compare(make_rig(calibration_of(LensModel::equidistant, fisheye)).right_undistortion, x, y);
 }
 
-TEST_CASE("calibrated rig: images of pinhole cameras are left as they are", "[lens]") {
+TEST_CASE("calibrated rig: images of pinhole cameras stay unchanged", "[lens]") {
   const StereoRig rig = make_rig(calibration_of(LensModel::radial_tangential, {0, 0, 0, 0}));
   CHECK(rig.left_undistortion.empty());
   CHECK(rig.left_mask.empty());
@@ -60,7 +60,7 @@ TEST_CASE("calibrated rig: images of pinhole cameras are left as they are", "[le
   CHECK(usual_max_disparity(rig) == Approx(100 * 0.1 / 0.5));
 }
 
-TEST_CASE("calibrated rig: the view keeps the lens's scale up to 120 degrees, or has the field that is asked for",
+TEST_CASE("calibrated rig: the view keeps the lens's scale up to 120 degrees, or has the requested field of view",
           "[lens]") {
   CHECK(make_rig(calibration_of(LensModel::double_sphere, {-0.2, 0.5})).left.fx == Approx(125));
   // 160 px at 30 px per radian would be 139 degrees.
@@ -81,8 +81,8 @@ TEST_CASE("calibrated rig: the view keeps the lens's scale up to 120 degrees, or
   CHECK_THROWS_WITH(make_rig(wide), Contains("rig.yaml") && Contains("size"));
 }
 
-TEST_CASE("calibrated rig: the mask hides exactly what the recorded image does not show", "[lens]") {
-  // Pincushion: the pinhole view asks for what lies beyond the recorded border.
+TEST_CASE("calibrated rig: the mask hides exactly the area outside the recorded image", "[lens]") {
+  // Pincushion: the pinhole view extends beyond the recorded image.
   for (const auto& calibration : {calibration_of(LensModel::radial_tangential, {0.3, 0, 0, 0}),
                                   calibration_of(LensModel::radial_tangential, {-0.6, 0, 0, 0})}) {
     const StereoRig rig = make_rig(calibration);
@@ -104,10 +104,10 @@ TEST_CASE("calibrated rig: the mask hides exactly what the recorded image does n
   }
 }
 
-TEST_CASE("calibrated rig: a user's mask is carried over to the pinhole image", "[lens]") {
+TEST_CASE("calibrated rig: a user's mask is mapped to the pinhole image", "[lens]") {
   const TemporaryFolder folder;
   cv::Mat drawn(120, 160, CV_8UC1, cv::Scalar(255));
-  drawn(cv::Rect(0, 100, 160, 20)) = 0;  // a bonnet
+  drawn(cv::Rect(0, 100, 160, 20)) = 0;  // a car's bonnet
   REQUIRE(cv::imwrite(folder / "bonnet.png", drawn));
   StereoRig plain = make_rig(calibration_of(LensModel::radial_tangential, {}));
   mask_rig(plain, folder / "bonnet.png");
@@ -119,7 +119,7 @@ TEST_CASE("calibrated rig: a user's mask is carried over to the pinhole image", 
   mask_rig(bent, folder / "bonnet.png");
   for (std::size_t i = 0; i < bent.left_mask.hidden.size(); ++i)
     REQUIRE(bent.left_mask.hidden[i] == (bent.left_undistortion.source_y[i] > 99 ? 1 : 0));
-  // One for each camera.
+  // One mask per camera.
   REQUIRE(cv::imwrite(folder / "all.png", cv::Mat(120, 160, CV_8UC1, cv::Scalar(1))));
   StereoRig half = make_rig(calibration_of(LensModel::radial_tangential, {}));
   mask_rig(half, (folder / "all.png") + "," + (folder / "bonnet.png"));

@@ -17,7 +17,7 @@ using dataset_files::real_data;
 
 namespace {
 
-/// The rig in all formats below a folder: what to give to --calibration.
+/// The rig in all formats below a folder: values for --calibration.
 std::map<std::string, std::string> write_all(const TemporaryFolder& folder) {
   const Rig rig;
   write_text(folder / "cam0.yaml", euroc_sensor(rig, false));
@@ -52,7 +52,7 @@ void check_same(const Lens& one, const Lens& other) {
   CHECK(one.parameters == other.parameters);
 }
 
-/// Writes a file with a part replaced and expects a complaint that names it.
+/// Writes a file with a part replaced and expects an error that names it.
 struct Damage {
   std::string file, calibration;
   std::string good = read_text(file);
@@ -85,12 +85,12 @@ TEST_CASE("calibration: every format gives the same rig, to the last bit", "[cal
     INFO(name);
     StereoCalibration read = read_calibration(list);
     CHECK(name.rfind(read.format, 0) == 0);
-    CHECK((read.left.camera.width == 0) == (read.format == "opencv"));  // OpenCV's do not say
+    CHECK((read.left.camera.width == 0) == (read.format == "opencv"));  // OpenCV's files hold no image size
     data::set_image_sizes(read, {752, 480}, {752, 480}, "the images");
     check_same(read.left, expected.left);
     check_same(read.right, expected.right);
     CHECK(read.right_from_left.matrix() == expected.right_from_left.matrix());
-    // Written and read again it is the same.
+    // The native file gives the same rig.
     write_calibration(folder / "again.yaml", read);
     CHECK(read_calibration(folder / "again.yaml").right_from_left.matrix() == expected.right_from_left.matrix());
     CHECK(read_text(folder / "again.yaml") == read_text(files.at("native")));
@@ -102,7 +102,7 @@ TEST_CASE("calibration: every format gives the same rig, to the last bit", "[cal
                     Contains("a.png") && Contains("640 x 480") && Contains("left.yaml"));
 }
 
-TEST_CASE("calibration: every lens model of Kalibr, and the native file of each", "[calibration]") {
+TEST_CASE("calibration: every lens model of Kalibr is read, and written to the native format", "[calibration]") {
   const TemporaryFolder folder;
   const std::string file = folder / "chain.yaml", good = kalibr_chain(Rig(), "T_cn_cnm1");
   const auto with = [&](const std::string& camera_model, const std::string& intrinsics, const std::string& distortion,
@@ -140,7 +140,7 @@ TEST_CASE("calibration: every lens model of Kalibr, and the native file of each"
   CHECK(omni.parameters == std::vector<double>{1.7, -0.1, 0.2, 0.001, 0.002});
 }
 
-TEST_CASE("calibration: faults of a Kalibr chain name the file and the entry", "[calibration]") {
+TEST_CASE("calibration: errors in a Kalibr chain name the file and the entry", "[calibration]") {
   const TemporaryFolder folder;
   const std::string file = folder / "chain.yaml";
   write_text(file, kalibr_chain(Rig(), "both"));
@@ -154,9 +154,9 @@ TEST_CASE("calibration: faults of a Kalibr chain name the file and the entry", "
   damage("458.654", "-458.654", "a focal length of -458.654");
   damage("[752, 480]", "[752.5, 480]", "cam0.resolution of 752.5 x 480");
   damage("0, 0, 0, 1]", "0, 0, 0, 2]", "a last row other than 0 0 0 1 for cam0.T_cam_imu");
-  damage("T_cn_cnm1:\n  - [", "T_cn_cnm1:\n  - [57.", "cam1.T_cn_cnm1");  // degrees where a rotation should be
+  damage("T_cn_cnm1:\n  - [", "T_cn_cnm1:\n  - [57.", "cam1.T_cn_cnm1");  // degrees instead of a rotation
   damage("  resolution", "  intrinsics: [1, 2, 3, 4]\n  resolution", "a second entry intrinsics");
-  // The inverse transform: it disagrees with the one over the IMU.
+  // The inverse transform: it contradicts the one via the IMU.
   const Rig rig;
   damage(kalibr_matrix("T_cn_cnm1", rig.right_from_left()), kalibr_matrix("T_cn_cnm1", rig.right_from_left().inverse()),
          "differs from the one over the IMU");
@@ -175,7 +175,7 @@ TEST_CASE("calibration: faults of a Kalibr chain name the file and the entry", "
   CHECK_THROWS_WITH(read_calibration(file), Contains(file) && Contains("a baseline above zero"));
 }
 
-TEST_CASE("calibration: faults of OpenCV's stereo files name the file and the matrix", "[calibration]") {
+TEST_CASE("calibration: errors in OpenCV's stereo files name the file and the matrix", "[calibration]") {
   const TemporaryFolder folder;
   const std::string inside = folder / "intrinsics.yml", outside = folder / "extrinsics.yml",
                     both = inside + "," + outside;
@@ -205,7 +205,7 @@ TEST_CASE("calibration: faults of OpenCV's stereo files name the file and the ma
         Approx(Eigen::Vector3d(0.01, -0.02, 0.003).norm()));
   with_vector({1, -5, 0.3});
   CHECK_THROWS_WITH(read_calibration(both), Contains(outside + " (R)") && Contains("degrees"));
-  // Fisheye where it is said to be.
+  // Fisheye where the file says so.
   write_opencv(Rig(), folder / "fisheye.yml");
   write_text(folder / "fisheye.yml",
              read_text(folder / "fisheye.yml") + "distortion_model: fisheye\nimage_width: 752\nimage_height: 480\n");
@@ -214,7 +214,7 @@ TEST_CASE("calibration: faults of OpenCV's stereo files name the file and the ma
   CHECK(fisheye.right.camera.width == 752);
 }
 
-TEST_CASE("calibration: faults of ROS, EuRoC and native files name the file and the entry", "[calibration]") {
+TEST_CASE("calibration: errors in ROS, EuRoC and native files name the file and the entry", "[calibration]") {
   const TemporaryFolder folder;
   const auto files = write_all(folder);
   const Damage ros{folder / "right.yaml", files.at("ros")}, ros_left{folder / "left.yaml", files.at("ros")};
@@ -250,10 +250,10 @@ TEST_CASE("calibration: faults of ROS, EuRoC and native files name the file and 
   CHECK_THROWS_WITH(read_calibration(folder / "native.yaml"), Contains("(rotation)") && Contains("degrees"));
 }
 
-TEST_CASE("calibration: real files of Kalibr", "[calibration][data]") {
+TEST_CASE("calibration: real Kalibr files are read", "[calibration][data]") {
   const std::string folder = real_data("calibrations"), flight = real_data("euroc_mh_01_easy");
   if (folder.empty() || flight.empty()) return;
-  // OpenVINS wrote EuRoC's numbers into a chain.
+  // EuRoC's calibration, written as a chain by OpenVINS.
   const StereoCalibration chain = read_calibration(folder + "/kalibr_euroc_mav.yaml"),
                           sensors =
                               read_calibration(flight + "/mav0/cam0/sensor.yaml," + flight + "/mav0/cam1/sensor.yaml");
@@ -262,8 +262,8 @@ TEST_CASE("calibration: real files of Kalibr", "[calibration][data]") {
   CHECK(chain.right_from_left.matrix() == sensors.right_from_left.matrix());
   struct Published {
     const char* file;
-    double baseline;  // m, of the cameras' data sheets or the files' comments
-    double widest;    // degrees, horizontally in the pinhole view
+    double baseline;  // m, from the cameras' data sheets or the files' comments
+    double widest;    // degrees, horizontal, of the pinhole view
   };
   for (const auto& [file, baseline, widest] :
        {Published{"/kalibr_tum_vi.yaml", 0.101, 107}, Published{"/kalibr_rs_t265.yaml", 0.064, 113},
@@ -278,7 +278,7 @@ TEST_CASE("calibration: real files of Kalibr", "[calibration][data]") {
   }
 }
 
-TEST_CASE("calibration: OpenCV's chessboard pairs lie on their epipolar lines once undistorted",
+TEST_CASE("calibration: corners of OpenCV's chessboard pairs lie on their epipolar lines after undistortion",
           "[calibration][data]") {
   const std::string folder = real_data("calibrations");
   if (folder.empty()) return;

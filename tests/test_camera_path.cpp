@@ -1,4 +1,4 @@
-// The paths of the synthetic camera: smooth, within their scenes, as fast as they say, and what they blur.
+// The paths of the synthetic camera: smooth, inside their scenes, at the documented speeds, with motion blur.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,13 +21,13 @@ using synthetic::CameraPath;
 namespace {
 
 constexpr int kFrames = 200;
-const PinholeCamera kCamera{541.764, 541.764, 480.9, 237.6, 942, 489};  // the default one
+const PinholeCamera kCamera{541.764, 541.764, 480.9, 237.6, 942, 489};  // the default camera
 
 double angle(const Isometry3d& from, const Isometry3d& to) {
   return Eigen::AngleAxisd(from.linear().transpose() * to.linear()).angle();
 }
 
-/// Way of the image's middle at 2.5 m between two phases [px].
+/// Displacement of the image centre at a depth of 2.5 m between two phases [px].
 double middle_motion(const CameraPath& path, double from, double to) {
   const Vector3d ray = kCamera.ray(Vector2d(0.5 * (kCamera.width - 1), 0.5 * (kCamera.height - 1)));
   const Vector3d point = path.scene_from_left(0.5 * (from + to)) * Vector3d(2.5 * ray);
@@ -36,13 +36,13 @@ double middle_motion(const CameraPath& path, double from, double to) {
       .norm();
 }
 
-/// Distance to the nearest surface over rays in all directions, and whether each of them hits one [m].
+/// Distance [m] to the nearest surface over rays in all directions, and whether every ray hits one.
 struct Surroundings {
   double nearest = 1e9;
   bool closed = true;
 };
 Surroundings look_around(const synthetic::Scene& scene, const Isometry3d& scene_from_camera) {
-  constexpr int kRays = 6;  // per side of a cube's face
+  constexpr int kRays = 6;  // along each side of a cube face
   Surroundings result;
   for (const auto& [yaw, pitch] : {std::pair(0.0, 0.0), std::pair(0.5, 0.0), std::pair(1.0, 0.0), std::pair(1.5, 0.0),
                                    std::pair(0.0, 0.5), std::pair(0.0, -0.5)}) {
@@ -69,7 +69,7 @@ Surroundings look_around(const synthetic::Scene& scene, const Isometry3d& scene_
 
 }  // namespace
 
-TEST_CASE("camera paths are smooth, start at the identity and are the same again", "[synthetic]") {
+TEST_CASE("camera paths are smooth, start at the identity and are reproducible", "[synthetic]") {
   for (const std::string& name : synthetic_paths()) {
     for (const std::uint64_t seed : {7, 8}) {
       const synthetic::Lane lane{Isometry3d::Identity(), 60.0, 0.25};
@@ -80,7 +80,7 @@ TEST_CASE("camera paths are smooth, start at the identity and are the same again
         const Isometry3d before = path.world_from_left(phase - 0.5), now = path.world_from_left(phase),
                          after = path.world_from_left(phase + 0.5);
         REQUIRE((now.linear().transpose() * now.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
-        // Halves of a frame period differ by the acceleration alone.
+        // The two halves of a frame period differ only by the acceleration.
         const Vector3d first = now.translation() - before.translation(),
                        second = after.translation() - now.translation();
         REQUIRE((second - first).norm() < 0.005);
@@ -93,7 +93,7 @@ TEST_CASE("camera paths are smooth, start at the identity and are the same again
   }
 }
 
-TEST_CASE("the hand turns the camera by up to 5 degrees and the image by up to 20 px per frame", "[synthetic]") {
+TEST_CASE("the handheld path turns by up to 5 degrees and moves the image by up to 20 px per frame", "[synthetic]") {
   for (const std::uint64_t seed : {7, 8, 9, 10, 11, 12}) {
     const CameraPath path("handheld", seed, kFrames, {});
     double fastest = 0.0, turned = 0.0, way = 0.0;
@@ -115,7 +115,7 @@ TEST_CASE("the hand turns the camera by up to 5 degrees and the image by up to 2
   }
 }
 
-TEST_CASE("the car drives forward along its track, turning and nodding slowly", "[synthetic]") {
+TEST_CASE("the drive path moves forward along its lane, turning and pitching slowly", "[synthetic]") {
   for (const std::string& name : synthetic_scenes()) {
     const synthetic::Lane lane = synthetic::make_scene(name, 7, 100.0).lane;
     const CameraPath path("drive", 7, kFrames, lane);
@@ -142,7 +142,7 @@ TEST_CASE("the car drives forward along its track, turning and nodding slowly", 
   }
 }
 
-TEST_CASE("the loop is back at its first pose exactly with the last frame, not before", "[synthetic]") {
+TEST_CASE("the loop returns to its first pose exactly at the last frame, not before", "[synthetic]") {
   for (const int frames : {2, 12, 60, 300}) {
     SyntheticOptions options;
     options.path = "loop";
@@ -178,12 +178,12 @@ TEST_CASE("no path leaves its scene or comes near a surface", "[long][synthetic]
       for (const std::string& way : synthetic_paths()) {
         const CameraPath path(way, seed, kFrames, scene.lane);
         const double last = way == "drive" ? path.longest() - 1 : way == "loop" ? kFrames : 400;
-        double nearest = 1e9, gap = 0.0;  // [m], between the places that are looked at
+        double nearest = 1e9, gap = 0.0;  // [m], between the sampled positions
         Vector3d before = path.scene_from_left(0.0).translation();
         const int places = way == "drive" ? 90 : 30;
         for (int place = 0; place <= places; ++place) {
           Isometry3d camera = path.scene_from_left(last * place / places);
-          if (place % 2 == 1) camera = camera * Eigen::Translation3d(0.0598913, 0.0, 0.0);  // the right one
+          if (place % 2 == 1) camera = camera * Eigen::Translation3d(0.0598913, 0.0, 0.0);  // the right camera
           const Surroundings around = look_around(scene, camera);
           CAPTURE(name, seed, way, place, around.nearest);
           REQUIRE(around.closed);
@@ -193,13 +193,13 @@ TEST_CASE("no path leaves its scene or comes near a surface", "[long][synthetic]
         }
         CAPTURE(name, seed, way, nearest, gap);
         CHECK(nearest > 0.35);
-        if (way == "drive" || way == "loop") CHECK(gap < nearest);  // nothing lies between two places
+        if (way == "drive" || way == "loop") CHECK(gap < nearest);  // no surface lies between two positions
       }
     }
   }
 }
 
-TEST_CASE("nothing in view is nearer than the largest disparity says, on every path", "[synthetic]") {
+TEST_CASE("no visible surface exceeds the largest disparity, on any path", "[synthetic]") {
   for (const std::string& scene : synthetic_scenes()) {
     for (const std::string& path : synthetic_paths()) {
       SyntheticOptions options;
@@ -222,13 +222,13 @@ TEST_CASE("nothing in view is nearer than the largest disparity says, on every p
   }
 }
 
-TEST_CASE("motion blur is the mean over the time that the shutter needs for it", "[synthetic]") {
+TEST_CASE("motion blur is the mean over the exposure time", "[synthetic]") {
   StereoRig rig;
   rig.left = rig.right = {60.0, 60.0, 51.3, 30.7, 100, 64};
   rig.right_from_left.translation().x() = -0.06;
   const synthetic::Scene scene = synthetic::make_scene("room", 7, 60.0);
   const CameraPath path("handheld", 7, 10, scene.lane);
-  // Of the default camera's motion, 8 px per frame, so much is asked: a third of a frame period.
+  // The default camera's image moves by 8 px per frame; the exposure is a third of a frame period.
   const double mean = path.mean_image_motion(kCamera);
   double sum = 0.0;
   for (int frame = 0; frame < 600; ++frame) sum += middle_motion(path, frame - 0.5, frame + 0.5);
@@ -255,7 +255,7 @@ TEST_CASE("motion blur is the mean over the time that the shutter needs for it",
   }
 }
 
-TEST_CASE("a blur beyond what the path moves in a frame is refused and the largest one named", "[synthetic]") {
+TEST_CASE("a blur longer than the path's motion in a frame is refused, naming the largest one", "[synthetic]") {
   for (const std::string& path : synthetic_paths()) {
     SyntheticOptions options;
     options.path = path;

@@ -10,11 +10,11 @@ using namespace matching;
 
 namespace {
 
-constexpr int kNcc = 5, kSift = 4;  // orders as in the stereo cascade; nearly best follow at 6 and 7
+constexpr int kNcc = 5, kSift = 4;  // orders as in the stereo cascade; the nearly-best filters follow at 6 and 7
 
-/// Descriptions made to measure. Edges of the first set have the unit vector e0 as dark patch and no bright one (flat),
-/// SIFT all zero on both sides; an edge of the second set with NCC c and SIFT distance d has c e0 + sqrt((1 - c^2) / 3)
-/// (e1 + e2 + e3), which 8 bits hold to 0.004 and c = 0.5 exactly, and one byte d.
+/// Descriptions with known scores. Edges of the first set have the unit vector e0 as dark patch, a flat bright patch,
+/// and SIFT all zero on both sides. An edge of the second set with NCC c and SIFT distance d has the patch
+/// c e0 + sqrt((1 - c^2) / 3) (e1 + e2 + e3), which 8 bits hold to 0.004 (c = 0.5 exactly), and a single SIFT byte d.
 struct Verdicts {
   reference::EdgeDescriptions a, b;
   explicit Verdicts(int first_edges) {
@@ -24,7 +24,7 @@ struct Verdicts {
       a.sift.resize(a.sift.size() + 256, 0);
     }
   }
-  /// `bright`: the similar side is the second set's bright one.
+  /// `bright`: the second set's bright side is the similar one.
   int add(double ncc, int distance, bool bright = false) {
     const std::size_t sift = b.sift.size();
     b.patches.resize(b.patches.size() + kEdgePatchBytes, 0);
@@ -43,7 +43,7 @@ FilterLimits limits_of(float ncc_min, float sift_max, float ncc_share, float sif
   return {ncc_min, sift_max, ncc_share, sift_share, ncc, sift};
 }
 
-/// What every variant on every device finds.
+/// Runs every variant on every device.
 void on_devices(const reference::Candidates& lists, const reference::EdgeDescriptions& a,
                 const reference::EdgeDescriptions& b, const FilterLimits& limits, int row_step, bool all_scores,
                 const std::function<void(const reference::CandidateScores&, const std::vector<cl_int>& alive)>& check) {
@@ -61,7 +61,7 @@ void on_devices(const reference::Candidates& lists, const reference::EdgeDescrip
         std::vector<cl_int> numbers(a.sift.size() / kEdgeSiftBytes);
         std::iota(numbers.begin(), numbers.end(), 0);
         itself.write(context, numbers);
-        // The second set's patches stand in the opposite order.
+        // The second set's patches are stored in reverse order.
         std::vector<std::int8_t> patches_turned;
         std::vector<cl_int> from_the_end;
         for (auto k = static_cast<cl_int>(b.sift.size() / kEdgeSiftBytes) - 1; k >= 0; --k) {
@@ -91,7 +91,7 @@ void check_states(const reference::Candidates& lists, const Verdicts& edges, con
     CHECK(scores.state == expected);
     CHECK(alive == living);
   });
-  // Without all scores only the order of the first failed filter may differ, never who survives.
+  // Without all scores only the order of the first failed filter may differ, never the survivors.
   on_devices(lists, edges.a, edges.b, limits, row_step, false, [&](const auto& scores, const auto& alive) {
     for (std::size_t c = 0; c < expected.size(); ++c) CHECK((scores.state[c] == kCandidateAlive) == (expected[c] == 0));
     CHECK(alive == living);
@@ -100,21 +100,21 @@ void check_states(const reference::Candidates& lists, const Verdicts& edges, con
 
 }  // namespace
 
-TEST_CASE("candidate filters: thresholds and nearly best reject what they should on paper",
+TEST_CASE("candidate filters: thresholds and nearly-best filters reject what a hand calculation rejects",
           "[filters][matching][device][oclgrind]") {
   Verdicts edges(1);
   reference::Candidates lists;
   lists.target = {edges.add(0.96875, 100), edges.add(0.90625, 60), edges.add(0.59375, 50), edges.add(0.75, 201),
                   edges.add(0.59375, 201), edges.add(0.84375, 20), edges.add(0.9375, 160)};
   lists.first = {0, 7};
-  // NCC at least 0.6, SIFT at most 200; nearly best NCC 0.9 x 0.96875 = 0.872, which takes the one of SIFT 20 out
-  // before it can set the mark; best SIFT of the rest is 60, so distances over 60 / 0.5 = 120 go.
+  // NCC at least 0.6, SIFT at most 200. Nearly-best NCC is 0.9 x 0.96875 = 0.872, which rejects the candidate with SIFT
+  // 20 before it can be the best; the best SIFT of the rest is 60, so distances over 60 / 0.5 = 120 are rejected.
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f), {0, 0, kNcc, kSift, kSift, 6, 7});
-  // The other order of the first two filters: who fails both is named after the earlier one.
+  // The first two filters swapped: a candidate that fails both is assigned to the earlier one.
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.5f, 3, 4), {0, 0, 3, 4, 3, 5, 6});
 }
 
-TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][matching][device][oclgrind]") {
+TEST_CASE("candidate filters: values on a threshold and ties pass", "[filters][matching][device][oclgrind]") {
   Verdicts edges(1);
   reference::Candidates lists;
   lists.target = {edges.add(0.5, 200), edges.add(0.5, 200), edges.add(1, 100), edges.add(1, 100, true)};
@@ -125,10 +125,11 @@ TEST_CASE("candidate filters: values on a threshold and ties stay", "[filters][m
   CHECK(scores.sift == std::vector<float>{200, 200, 100, 100});
 }
 
-TEST_CASE("candidate filters: rows are judged alone, also empty ones and every second edge",
+TEST_CASE("candidate filters: rows are independent, including empty rows and every second edge",
           "[filters][matching][device][oclgrind]") {
   Verdicts edges(5);
-  // Edge 2 is the opposite of the others: what is like them is unlike it. Rows 0, 1, 2 belong to edges 0, 2, 4.
+  // Edge 2 has the negated patch of the others, so what resembles them does not resemble it. Rows 0, 1, 2 belong to
+  // edges 0, 2, 4.
   reference::store_side({-1}, 0, edges.a.patches.data() + 2 * kEdgePatchBytes);
   const int good = edges.add(0.96875, 40), bad = edges.add(-0.9375, 40);
   reference::Candidates lists;
@@ -142,8 +143,7 @@ TEST_CASE("candidate filters: rows are judged alone, also empty ones and every s
   check_states(lists, edges, limits_of(0.6f, 200, 0.9f, 0.4f), {});
 }
 
-TEST_CASE("candidate filters: devices decide like the reference on random descriptions",
-          "[filters][matching][device]") {
+TEST_CASE("candidate filters: devices agree with the reference on random descriptions", "[filters][matching][device]") {
   Random random(5);
   const auto describe = [&](int count) {
     reference::EdgeDescriptions set;
@@ -173,7 +173,7 @@ TEST_CASE("candidate filters: devices decide like the reference on random descri
     INFO(state);
     CHECK(seen[state] > 10);
   }
-  // Exact integers, multiplied in the same order and precision: the same bits, so no band is needed.
+  // Exact integers, multiplied in the same order and precision, give the same bits; no tolerance is needed.
   on_devices(lists, a, b, limits, 1, true, [&](const auto& scores, const auto&) {
     CHECK(scores.ncc == truth.ncc);
     CHECK(scores.state == truth.state);

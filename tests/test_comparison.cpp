@@ -29,13 +29,13 @@ Json compare(const std::string& output, const std::string& baseline, const std::
 
 }  // namespace
 
-TEST_CASE("comparison: a baseline and a peer are evaluated against the truth of the batch", "[report]") {
+TEST_CASE("comparison: a baseline and a peer are evaluated against the batch's ground truth", "[report]") {
   const TemporaryFolder folder;
   const std::string today = folder / "today";
   const auto yesterday = made_up_run(12, 0.02);
   write_batch(today, {{"street", made_up_run(12, 0.01)}, {"hall", made_up_run(8, 0.02)}});
   write_batch(folder / "yesterday", {{"street", yesterday}});
-  // The peer is the truth itself, in another world: no error at all once it is aligned.
+  // The peer is the ground truth in another world frame: its error is zero once aligned.
   Trajectory peer = read_tum(report::member_folder(today, "street") + "/groundtruth.txt");
   for (auto& pose : peer) pose.world_from_left = Eigen::Translation3d(5, 6, 7) * pose.world_from_left;
   std::filesystem::create_directories(folder / "peers");
@@ -56,7 +56,7 @@ TEST_CASE("comparison: a baseline and a peer are evaluated against the truth of 
   CHECK(street["systems"][1]["per_pose"]["rpe_translation_m"][0].is_null());
   CHECK_FALSE(hall.contains("baseline"));
   CHECK_THAT(hall["notes"][0].get<std::string>(), Contains("no hall.txt in"));
-  // The baseline lacks a sequence, so its figure over all would compare other data.
+  // The baseline lacks a sequence, so its overall figure would compare different data.
   REQUIRE(json["all"].size() == 1);
   CHECK(json["all"][0]["name"] == "Other & Co");
   CHECK(json["all"][0]["sequences"] == 1);
@@ -65,7 +65,7 @@ TEST_CASE("comparison: a baseline and a peer are evaluated against the truth of 
   CHECK_THROWS_WITH(compare(today, folder / "peers", {}), Contains("peers"));
 }
 
-TEST_CASE("comparison: what cannot be read is said, and the other sequences are compared", "[report]") {
+TEST_CASE("comparison: unreadable files are reported, and the other sequences are compared", "[report]") {
   const TemporaryFolder folder;
   const std::string today = folder / "today";
   write_batch(today,

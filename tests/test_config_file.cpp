@@ -1,4 +1,4 @@
-/// \file test_config_file.cpp  quadedge/config_file.hpp: what is read, what is written, what is refused.
+/// \file test_config_file.cpp  quadedge/config_file.hpp: reading, writing, errors.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -13,7 +13,7 @@ namespace {
 
 void write_config(const std::string& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
-/// What reading the text complains about, with the file's name as FILE.
+/// The error message of reading the text, with FILE for the file's name.
 std::string refusal(const std::string& text) {
   const TemporaryFolder folder;
   const std::string file = folder / "config.toml";
@@ -28,7 +28,7 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-/// "[a.a.a...]", a table in a table in a table.
+/// "[a.a.a...]": nested tables.
 std::string nested_tables(int depth) {
   std::string text = "[a";
   for (int i = 1; i < depth; ++i) text += ".a";
@@ -37,9 +37,9 @@ std::string nested_tables(int depth) {
 
 }  // namespace
 
-TEST_CASE("config file: every constant that is written is read again as it was", "[config]") {
+TEST_CASE("config file: every constant survives writing and reading", "[config]") {
   Config config;
-  // Every constant gets a value other than its default: the low end of its range, or the high one.
+  // Every constant gets a value other than its default: the low or the high end of its range.
   for (const auto& constant : constants()) {
     const ConfigField field = constant.field(config);
     if (auto* const* real = std::get_if<double*>(&field)) **real = **real == constant.low ? 0.1 : constant.low;
@@ -61,7 +61,7 @@ TEST_CASE("config file: every constant that is written is read again as it was",
   CHECK(read.variants == config.variants);
 }
 
-TEST_CASE("config file: numbers survive to the last bit", "[config]") {
+TEST_CASE("config file: numbers round-trip bit by bit", "[config]") {
   Config config;
   config.stereo.ncc_min = 0.1 + 0.2;  // 0.30000000000000004
   config.pose.sigma_across = 1e-6;
@@ -72,7 +72,7 @@ TEST_CASE("config file: numbers survive to the last bit", "[config]") {
   CHECK(read.pose.sigma_across == config.pose.sigma_across);
 }
 
-TEST_CASE("config file: what it does not say stays at its default", "[config]") {
+TEST_CASE("config file: missing keys keep their defaults", "[config]") {
   const TemporaryFolder folder;
   write_config(folder / "config.toml", "device = \"gpu\"\n[stereo]\nncc_min = 1  # a whole number is a number\n");
   const Config config = read_config(folder / "config.toml");
@@ -81,7 +81,7 @@ TEST_CASE("config file: what it does not say stays at its default", "[config]") 
   CHECK(config.seed == 42);
 }
 
-TEST_CASE("config file: an error names file, line, key, what was expected and what was found", "[config]") {
+TEST_CASE("config file: an error names the file, the line, the key, the expected and the actual value", "[config]") {
   CHECK(refusal("\n\nseed = -1\n") == "FILE:3: seed: expected a whole number of 0 to 9223372036854775807, found -1");
   CHECK(refusal("[pose]\nrefine = 7\n") == "FILE:2: pose.refine: expected true or false, found 7");
   CHECK(refusal("[edges]\nsigma = true\n") == "FILE:2: edges.sigma: expected a number, found true");
@@ -97,7 +97,7 @@ TEST_CASE("config file: an error names file, line, key, what was expected and wh
         "FILE:2: unknown key \"stereo.ncc_mni\"; did you mean 'stereo.ncc_min'?");
   CHECK_THAT(refusal("\nvariant = [\"scan\"]\n"), Contains("FILE:2: variant: expected texts of the form STAGE=NAME"));
   CHECK(refusal("\"edges.sigma\" = 2\n[edges]\nsigma = 3\n") == "FILE:3: 'edges.sigma' is given twice");
-  // What TOML itself forbids.
+  // Invalid TOML.
   CHECK_THAT(refusal("seed = 1\nseed = 2\n"), Contains("FILE:2: ") && Contains("'seed'"));
   CHECK_THAT(refusal("[edges]\nsigma = 2\n[stereo]\n[edges]\nsigma = 3\n"),
              Contains("FILE:4: ") && Contains("'edges'"));
@@ -108,7 +108,7 @@ TEST_CASE("config file: an error names file, line, key, what was expected and wh
   CHECK_THAT(refusal(std::string("seed = 1\0\n", 10)), Contains("FILE:1: no TOML"));
 }
 
-TEST_CASE("config file: what is too long or too deep ends with a message, and soon", "[config]") {
+TEST_CASE("config file: overlong and deeply nested files end quickly with a message", "[config]") {
   CHECK_THAT(refusal(std::string(1'000'001, '\n')), Contains("longer than 1 MB"));
   CHECK(refusal(std::string(1'000'000, '\n')) == "");
   CHECK_THAT(refusal("seed = " + std::string(2000, '[')), Contains("FILE:1: no TOML") && Contains("depth"));
@@ -122,7 +122,7 @@ TEST_CASE("config file: what is too long or too deep ends with a message, and so
   CHECK_THROWS_AS(read_config("/no/such/file.toml"), UsageError);
 }
 
-TEST_CASE("config file: nothing that cannot be read again is written", "[config]") {
+TEST_CASE("config file: values that could not be read back are not written", "[config]") {
   const TemporaryFolder folder;
   Config config;
   config.stereo.ncc_min = 7;

@@ -12,7 +12,7 @@ namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Frames along a curve whose errors relative to the first one have the covariance `real`, and who claim `claimed`.
+/// Frames along a curve whose errors relative to the first one have the covariance `real` and that report `claimed`.
 struct MadeUpRun {
   std::vector<FrameResult> results;
   Trajectory truth;
@@ -51,7 +51,7 @@ Matrix6d covariance() {
 
 }  // namespace
 
-TEST_CASE("consistency: consistent covariances give 1, those of half the size 4", "[evaluation]") {
+TEST_CASE("consistency: consistent covariances give 1, half the standard deviations give 4", "[evaluation]") {
   const MadeUpRun consistent(2000, covariance(), covariance());
   const auto one = evaluation::judge_covariances(consistent.results, consistent.truth);
   CHECK(one.poses == 1999);
@@ -62,7 +62,7 @@ TEST_CASE("consistency: consistent covariances give 1, those of half the size 4"
   CHECK(evaluation::judge_covariances(boasting.results, boasting.truth).pose == Approx(4).epsilon(0.05));
 }
 
-TEST_CASE("consistency: an error in the rotation alone is told apart", "[evaluation]") {
+TEST_CASE("consistency: an error in rotation alone shows in the rotation alone", "[evaluation]") {
   Matrix6d larger = covariance();
   larger.topLeftCorner<3, 3>() *= 9;
   larger.topRightCorner<3, 3>().setZero();
@@ -73,7 +73,7 @@ TEST_CASE("consistency: an error in the rotation alone is told apart", "[evaluat
   CHECK(result.translation == Approx(1).epsilon(0.08));
 }
 
-TEST_CASE("consistency: lost frames, frames without covariance and those without truth are left out", "[evaluation]") {
+TEST_CASE("consistency: lost frames and frames without covariance or ground truth are left out", "[evaluation]") {
   MadeUpRun run(10, covariance(), covariance());
   run.results[3].status = FrameStatus::lost_no_consensus;
   run.results[4].covariance.setZero();
@@ -82,9 +82,9 @@ TEST_CASE("consistency: lost frames, frames without covariance and those without
   CHECK(evaluation::judge_covariances(run.results, {}).poses == 0);
 }
 
-TEST_CASE("consistency: over longer motions a wrong baseline shows, and the rig's uncertainty covers it",
+TEST_CASE("consistency: a wrong baseline shows over longer motions, and the rig's uncertainty covers it",
           "[evaluation]") {
-  // Every frame is a key rig; 0.1 m each, and a baseline that is longer by its standard deviation.
+  // Every frame is a key rig, 0.1 m per frame; the baseline is too long by its standard deviation.
   const PoseConfig config;
   std::vector<FrameResult> results;
   Trajectory truth;
@@ -109,17 +109,17 @@ TEST_CASE("consistency: over longer motions a wrong baseline shows, and the rig'
     results.push_back(result);
   }
   const auto steps = evaluation::judge_steps(results, truth, config);
-  REQUIRE(steps.size() == 7);  // 1, 2, 5, 10, 20, 50 frames; one second is 20, two are 40, five have no motions enough
+  REQUIRE(steps.size() == 7);  // 1, 2, 5, 10, 20, 50 frames; 1 s is 20, 2 s are 40; 5 s have too few motions
   CHECK(steps[5].frames == 40);
   for (const auto& step : steps) {
     const double length = 0.1 * step.frames;
     CHECK(step.error_m == Approx(config.rig_sigma_length * length).epsilon(0.2));
     CHECK(step.with_rig.translation < 1.5);
-    CHECK(step.with_rig.translation > 0.2);  // one of three directions errs, by its standard deviation
+    CHECK(step.with_rig.translation > 0.2);  // one direction of three is off by its standard deviation
     if (step.frames >= 10) CHECK(step.edges.translation > 50);
   }
   CHECK(evaluation::judge_steps(results, {}, config).empty());
-  results[50].covariance_in_reference = std::nullopt;  // lost: nothing connects what comes before and after
+  results[50].covariance_in_reference = std::nullopt;  // lost: nothing connects the frames before and after
   results[50].status = FrameStatus::lost_no_consensus;
   const auto broken = evaluation::judge_steps(results, truth, config);
   CHECK(broken[0].edges.poses == 98);

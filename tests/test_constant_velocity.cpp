@@ -4,7 +4,7 @@
 
 using quadedge::odometry::ConstantVelocity;
 
-TEST_CASE("constant velocity: a motion over several intervals is spread evenly and repeated", "[odometry]") {
+TEST_CASE("constant velocity: a motion over several intervals is divided evenly and repeated", "[odometry]") {
   ConstantVelocity velocity;
   CHECK_FALSE(velocity.predict(1));
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
@@ -24,7 +24,7 @@ TEST_CASE("constant velocity: a motion over several intervals is spread evenly a
   CHECK_FALSE(velocity.predict(1));
 }
 
-TEST_CASE("constant velocity: one interval later a turning camera goes on along its curve", "[odometry]") {
+TEST_CASE("constant velocity: a turning camera continues along its curve", "[odometry]") {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()).toRotationMatrix();
   motion.translation() = Eigen::Vector3d(0.1, 0, 0.7);

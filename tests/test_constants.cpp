@@ -1,4 +1,4 @@
-/// \file test_constants.cpp  The declarations of quadedge/constants.inc and what is made from them.
+/// \file test_constants.cpp  The declarations of quadedge/constants.inc and what is generated from them.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -20,7 +20,7 @@ const Constant& constant_named(const std::string& key) {
 
 }  // namespace
 
-TEST_CASE("constants: each is a field of its own, allowed by default, in a known section", "[config]") {
+TEST_CASE("constants: each has a separate field, a valid default and a known section", "[config]") {
   Config config;
   CHECK_NOTHROW(check_config(config));
   std::set<std::string> keys, sections;
@@ -37,7 +37,7 @@ TEST_CASE("constants: each is a field of its own, allowed by default, in a known
   CHECK(constant_named("seed").field(config) == ConfigField(&config.seed));
 }
 
-TEST_CASE("constants: a value beyond either end of its range is refused, the ends are not", "[config]") {
+TEST_CASE("constants: values outside the range are refused, its ends are accepted", "[config]") {
   Config config;
   const auto fails = [&] {
     try {
@@ -68,14 +68,14 @@ TEST_CASE("constants: a value beyond either end of its range is refused, the end
   CHECK_THAT(fails(), Contains("seed is 9007199254740993; allowed: 0 to 9007199254740992"));
 }
 
-TEST_CASE("constants: angles are degrees, and radians where they are asked for", "[config]") {
+TEST_CASE("constants: angles are given in degrees and returned in radians", "[config]") {
   Config config;
   config.temporal.orientation = 180;
   CHECK(config.temporal.orientation_rad() == Approx(std::acos(-1.0)));
   CHECK(constant_named("temporal.orientation").unit == "deg");
 }
 
-TEST_CASE("constants: basic ones are in the short help, all are in the full one, under their section", "[cli]") {
+TEST_CASE("constants: the short help lists the basic ones, the full help all of them, by section", "[cli]") {
   const std::string brief = run_program({"run", "--help"}).out, full = run_program({"run", "--help-all"}).out;
   for (const auto& constant : constants()) {
     INFO(constant.key());
@@ -89,7 +89,7 @@ TEST_CASE("constants: basic ones are in the short help, all are in the full one,
   CHECK(full.find("--stereo.cluster_gap") < full.find("\nTemporal cascade"));
 }
 
-TEST_CASE("constants: doc/configuration.md is what the program prints", "[cli]") {
+TEST_CASE("constants: doc/configuration.md equals the program's output", "[cli]") {
   const auto printed = run_program({"generate", "configuration"});
   CHECK(printed.code == 0);
   CHECK_THAT(printed.out, Contains("| `stereo.epipolar_distance` | 0.5 | px | 0 to 20 |"));

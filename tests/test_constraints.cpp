@@ -34,7 +34,7 @@ TEST_CASE("A rigidly moved pair passes all six constraints", "[pose][constraints
   CHECK(check_constraints(example(), moved(example(), random.motion(3.0, 5.0)), kLimits).all());
 }
 
-TEST_CASE("Each constraint fails alone, on its own side of its threshold", "[pose][constraints]") {
+TEST_CASE("Each constraint fails alone, just beyond its threshold", "[pose][constraints]") {
   const OrientedPair before = example();
   const auto only_fails = [&](const OrientedPair& after, std::size_t number) {
     const ConstraintCheck check = check_constraints(before, after, kLimits);
@@ -46,7 +46,7 @@ TEST_CASE("Each constraint fails alone, on its own side of its threshold", "[pos
   after.second.point.x() = 2 * 1.14;
   only_fails(after, 0);
 
-  // T1 turned about z: its cosine with D changes, T1 . T2 hardly.
+  // T1 turned about z: its cosine with D changes, T1 . T2 hardly does.
   after = before;
   const double cosine = before.first.tangent.x() - 0.125;
   after.first.tangent = Eigen::Vector3d(cosine, std::sqrt(1 - cosine * cosine), 0);
@@ -68,7 +68,7 @@ TEST_CASE("Each constraint fails alone, on its own side of its threshold", "[pos
   only_fails(after, 3);
 }
 
-TEST_CASE("A mirrored pair fails the determinant's sign alone", "[pose][constraints]") {
+TEST_CASE("A mirrored pair fails only the determinant's sign", "[pose][constraints]") {
   OrientedPair after = example();
   for (OrientedPoint* p : {&after.first, &after.second}) {
     p->point.z() = -p->point.z();
@@ -78,7 +78,7 @@ TEST_CASE("A mirrored pair fails the determinant's sign alone", "[pose][constrai
   CHECK_FALSE(check.passed[5]);
   for (std::size_t i = 0; i < 5; ++i) CHECK(check.passed[i]);
 
-  // Coplanar tangents: the determinant says nothing, whatever its sign.
+  // Coplanar tangents: the determinant's sign is meaningless.
   OrientedPair flat = example();
   flat.second.tangent = unit(0.2, 1, 0.05);
   OrientedPair mirrored = flat;
@@ -95,7 +95,7 @@ TEST_CASE("A flipped tangent fails the signed constraints", "[pose][constraints]
   CHECK_FALSE(check.passed[3]);
 }
 
-TEST_CASE("The quads swap roles where D runs along the first tangent, and fail where it runs along both",
+TEST_CASE("The quads swap roles where D is parallel to the first tangent, and fail where it is parallel to both",
           "[pose][constraints]") {
   OrientedPair pair = example();
   CHECK_FALSE(check_constraints(pair, pair, kLimits).swapped);
@@ -109,7 +109,7 @@ TEST_CASE("The quads swap roles where D runs along the first tangent, and fail w
   CHECK_FALSE(check_constraints(pair, pair, kLimits).passed[4]);
 }
 
-TEST_CASE("Two points on one spot fail", "[pose][constraints]") {
+TEST_CASE("Two coincident points fail", "[pose][constraints]") {
   OrientedPair pair = example();
   pair.second.point = pair.first.point;
   CHECK_FALSE(check_constraints(pair, example(), kLimits).all());

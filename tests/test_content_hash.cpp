@@ -17,7 +17,7 @@ std::string hash_of(const std::string& folder) { return data::dataset_hash(open_
 
 }  // namespace
 
-TEST_CASE("content hash: the parts of a row of values stay apart", "[data]") {
+TEST_CASE("content hash: the boundaries between values count", "[data]") {
   data::ContentHash one, two, three;
   one.add("ab"), one.add("c");
   two.add("a"), two.add("bc");
@@ -27,7 +27,7 @@ TEST_CASE("content hash: the parts of a row of values stay apart", "[data]") {
   CHECK(one.hex().size() == 32);
 }
 
-TEST_CASE("content hash: place and time of a recording do not count", "[data]") {
+TEST_CASE("content hash: a recording's path and modification time do not count", "[data]") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "one/room");
   const std::string before = hash_of(folder / "one/room");
@@ -73,7 +73,7 @@ TEST_CASE("content hash: every part of a recording that a run reads counts", "[d
   }
 }
 
-TEST_CASE("content hash: a vanished image is an error that names it", "[data]") {
+TEST_CASE("content hash: a missing image is an error that names it", "[data]") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "room");
   const Dataset dataset = open_dataset(folder / "room");

@@ -4,7 +4,7 @@
 
 using namespace quadedge::pose;
 
-TEST_CASE("The covariance stays consistent with few quads and with rows of edges that share their errors",
+TEST_CASE("The covariance stays consistent with few quads and with groups of edges that share errors",
           "[long][pose][covariance]") {
   generated::Problem problem = generated::drive();
   problem.quads = 60;
@@ -20,8 +20,7 @@ TEST_CASE("The covariance stays consistent with few quads and with rows of edges
 
 namespace {
 
-/// Moves the later edges of each square region of the image by an error of the region's own, `sigma` px in both
-/// directions.
+/// Moves the later edges of each square region of the image by one error per region, `sigma` px in both directions.
 QuadObservations with_region_errors(const generated::Problem& problem, double side, double sigma, std::uint64_t seed) {
   generated::Random random(seed);
   std::vector<Eigen::Vector2d> errors(400);
@@ -45,7 +44,7 @@ QuadObservations with_region_errors(const generated::Problem& problem, double si
 
 }  // namespace
 
-TEST_CASE("The covariance grows with errors that are alike over large regions, and only with them",
+TEST_CASE("The covariance grows with errors that are correlated over large regions, and only with these",
           "[long][pose][covariance]") {
   generated::Problem problem = generated::drive();
   problem.quads = 3000;

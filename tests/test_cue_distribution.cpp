@@ -35,7 +35,7 @@ pose::StereoMeasurement measured_as(const pose::OrientedPoint& point) {
 
 }  // namespace
 
-TEST_CASE("A histogram counts every value once, also those outside", "[matching]") {
+TEST_CASE("A histogram counts every value once, including those out of range", "[matching]") {
   Histogram histogram(0, 1, 4);
   for (const double value : {0.0, 0.1, 0.3, 0.99, 1.0, -0.5, 7.0, std::nan("")}) histogram.add(value);
   CHECK(histogram.bins == std::vector<std::int64_t>{2, 1, 0, 2});
@@ -50,7 +50,7 @@ TEST_CASE("A histogram counts every value once, also those outside", "[matching]
   CHECK_THROWS_AS(histogram.add(Histogram(0, 2, 4)), UsageError);
 }
 
-TEST_CASE("Pooled cues add up and remember all thresholds", "[matching]") {
+TEST_CASE("Pooled cues add up and keep all thresholds", "[matching]") {
   Config narrow, wide;
   narrow.stereo.max_disparity = 20;
   wide.stereo.max_disparity = 60;
@@ -65,7 +65,7 @@ TEST_CASE("Pooled cues add up and remember all thresholds", "[matching]") {
   CHECK(none.size() == other.size());
 }
 
-TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
+TEST_CASE("Cues of a hand-made scene are sorted by the ground truth", "[matching]") {
   EdgeSet left, right;
   add_edge(left, 30, 10);                          // true position (20, 10)
   add_edge(left, 70, 40);                          // unpaired: nothing near (60, 40)
@@ -92,7 +92,7 @@ TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   const auto& line = *find_cue(measured.cues, CueTable::stereo, 1);
   CHECK(line.veridical.total() == 1);
   CHECK(in_bin(line.veridical, 0.22) == 1);
-  // The drawn pairs of edge 0: right edge 1 lies on the line, right edge 2 four pixels off; the veridical one is not
+  // The pairs drawn for edge 0: right edge 1 lies on the line, right edge 2 four pixels off; the veridical edge is not
   // among them.
   CHECK(line.other.total() > kDrawnOthers / 3);
   CHECK(line.other.total() < kDrawnOthers);
@@ -115,7 +115,7 @@ TEST_CASE("Cues of a scene on paper are sorted by the truth", "[matching]") {
   CHECK(in_bin(nearly_best.other, 0.5) == 1);
 }
 
-TEST_CASE("Ratios to the best SIFT distance are turned over: the best has 1", "[matching]") {
+TEST_CASE("Ratios to the best SIFT distance are inverted: the best has 1", "[matching]") {
   CandidateLists lists;
   lists.first = {0, 2};
   lists.target = {0, 1};
@@ -131,7 +131,7 @@ TEST_CASE("Ratios to the best SIFT distance are turned over: the best has 1", "[
   CHECK(in_bin(cue.other, 0.25) == 1);
 }
 
-TEST_CASE("The measured values of the constraints decide as the constraints do", "[matching]") {
+TEST_CASE("The measured values of the constraints lead to the constraints' decisions", "[matching]") {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.25);
   const pose::ConstraintLimits limits{PoseConfig{}};
@@ -140,7 +140,7 @@ TEST_CASE("The measured values of the constraints decide as the constraints do",
   std::array<int, 5> passed{};
   for (int n = 0; n < 2000; ++n) {
     pose::OrientedPair previous{random_point(random), random_point(random)};
-    if (n % 2 == 0) {  // one curve, nearly straight: the tangents lie along D
+    if (n % 2 == 0) {  // one nearly straight curve: the tangents are parallel to D
       previous.first.tangent = previous.second.tangent = (previous.second.point - previous.first.point).normalized();
     }
     pose::OrientedPair current = previous;
@@ -154,14 +154,13 @@ TEST_CASE("The measured values of the constraints decide as the constraints do",
     CHECK(check.passed[4] == (values[4] > min_angle));
     for (std::size_t k = 0; k < 5; ++k) passed[k] += check.passed[k] ? 1 : 0;
   }
-  for (const int count : passed) {  // each is fulfilled by some and not by others
+  for (const int count : passed) {  // some pairs fulfil each, others do not
     CHECK(count > 20);
     CHECK(count < 1980);
   }
 }
 
-TEST_CASE("Pairs of true quads give the true motion, and wrong ones lower the precision and the accuracy",
-          "[matching]") {
+TEST_CASE("Pairs of true quads give the true motion, and wrong quads lower precision and accuracy", "[matching]") {
   std::mt19937 random(3);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = Eigen::AngleAxisd(0.05, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
@@ -188,7 +187,7 @@ TEST_CASE("Pairs of true quads give the true motion, and wrong ones lower the pr
   };
   CHECK(precision(0) == Approx(0.75 * 0.75).margin(0.01));
   CHECK(precision(6) > 0.95);
-  for (std::size_t order = 1; order < 5; ++order) {  // a true pair fulfils 1 to 4; 5 is a matter of its own directions
+  for (std::size_t order = 1; order < 5; ++order) {  // a true pair fulfils 1 to 4; 5 depends on its directions
     CHECK(measured.table[order].veridical == measured.table[0].veridical);
     CHECK(measured.table[order].pairs < measured.table[order - 1].pairs);
   }
@@ -198,14 +197,14 @@ TEST_CASE("Pairs of true quads give the true motion, and wrong ones lower the pr
   CHECK(in_bin(length.veridical, 0.001) == measured.table[0].veridical);
   CHECK(length.other.total() == measured.table[0].pairs - measured.table[0].veridical);
 
-  // Were all of them wrong, no motion would be near.
+  // If all were wrong, no motion would be near.
   for (auto& after : quads.current) after = measured_as(random_point(random));
   const auto wrong = measure_pairs(quads, usable, std::vector<std::uint8_t>(400, 0), config.pose, 1, motion, cues);
   CHECK(wrong.table[6].veridical == 0);
   CHECK(wrong.accuracy[0].rotation_deg > 20);
 }
 
-TEST_CASE("The error of a motion is its angle and its length", "[matching]") {
+TEST_CASE("The error of a motion consists of an angle and a length", "[matching]") {
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity(), estimate;
   truth.translation() = Eigen::Vector3d(1, 2, 3);
   estimate = truth * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY());

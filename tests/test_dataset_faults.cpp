@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Opening and checking must both complain about `file`, and both say what was expected.
+/// Opening and checking must both report `file` and what was expected.
 void check_fault(const std::string& folder, const std::string& file, const std::string& found) {
   CHECK_THROWS_AS(open_dataset(folder), DataError);
   CHECK_THROWS_WITH(open_dataset(folder), Contains(file) && Contains(found) && Contains("expected"));
@@ -25,7 +25,7 @@ void check_fault(const std::string& folder, const std::string& file, const std::
 
 }  // namespace
 
-TEST_CASE("dataset: an empty or missing folder is named, with the layouts that would do", "[dataset]") {
+TEST_CASE("dataset: an error about an empty or missing folder names it and the known layouts", "[dataset]") {
   const TemporaryFolder folder;
   check_fault(folder.path(), folder.path(), "an empty folder");
   check_fault(folder / "absent", "absent", "no such folder");
@@ -52,7 +52,7 @@ TEST_CASE("dataset: a missing right image is named", "[dataset]") {
   check_fault(folder / "q", "I2p.png", "no such file");
 }
 
-TEST_CASE("dataset: different counts left and right are an error", "[dataset]") {
+TEST_CASE("dataset: different numbers of left and right images are an error", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k");
   write_image(kitti + "/image_1/000009.png");
@@ -65,7 +65,7 @@ TEST_CASE("dataset: different counts left and right are an error", "[dataset]") 
   check_fault(euroc, "cam1/data.csv", "1 stamps");
 }
 
-TEST_CASE("dataset: unreadable calibrations name file and value", "[dataset]") {
+TEST_CASE("dataset: errors about unreadable calibrations name the file and the value", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k"), calib = kitti + "/calib.txt", good = read_text(calib);
   write_text(calib, "P0: 100 0 15 0 0 100 11 0 0 0 1\n");
@@ -145,7 +145,7 @@ TEST_CASE("dataset: a baseline that is zero or NaN is an error", "[dataset]") {
   CHECK_THROWS_WITH(check_rig(rig, "some.txt"), Contains("right-handed"));
 }
 
-TEST_CASE("dataset: extrinsics that are no rotation are an error", "[dataset]") {
+TEST_CASE("dataset: extrinsics without a valid rotation are an error", "[dataset]") {
   const TemporaryFolder folder;
   const std::string eth3d = write_eth3d_slam(folder / "s");
   write_text(eth3d + "/extrinsics_1_2.txt", "1 0.1 0 -0.09\n0 1 0 0\n0 0 1 0\n");
@@ -158,7 +158,7 @@ TEST_CASE("dataset: extrinsics that are no rotation are an error", "[dataset]") 
   check_fault(euroc, "cam0/sensor.yaml:6 (T_BS.data)", "orthonormal");
 }
 
-TEST_CASE("dataset: time stamps out of order are an error", "[dataset]") {
+TEST_CASE("dataset: timestamps out of order are an error", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k");
   write_text(kitti + "/times.txt", "0\n0.2\n0.1\n0.3\n");
@@ -172,7 +172,7 @@ TEST_CASE("dataset: time stamps out of order are an error", "[dataset]") {
   check_fault(eth3d, "groundtruth.txt:2", "1.000000000 after 2.000000000");
 }
 
-TEST_CASE("dataset: garbage rows are named with their line", "[dataset]") {
+TEST_CASE("dataset: errors about malformed rows name the line", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k");
   write_text(kitti + "/times.txt", "0\n0.1\n\n0.2 s\n0.3\n");
@@ -190,7 +190,7 @@ TEST_CASE("dataset: garbage rows are named with their line", "[dataset]") {
   check_fault(eth3d, "rgb.txt:1", "extra");
 }
 
-TEST_CASE("dataset: what stands twice, or leads elsewhere, is refused with its line", "[dataset]") {
+TEST_CASE("dataset: duplicate entries and paths outside the folder are refused with their line", "[dataset]") {
   const std::string stamp = "1403715273312143104";
   struct Fault {
     std::string file;  ///< below the folder of the recording
@@ -224,7 +224,7 @@ TEST_CASE("dataset: what stands twice, or leads elsewhere, is refused with its l
   for (const auto& recording : {kitti, euroc, pair}) CHECK_NOTHROW(open_dataset(recording));
 }
 
-TEST_CASE("dataset: a resolution that is no image's is refused before tables of that size are made", "[dataset]") {
+TEST_CASE("dataset: an impossible resolution is refused before tables of that size are allocated", "[dataset]") {
   const TemporaryFolder folder;
   const std::string euroc = write_euroc(folder.path()), yaml = euroc + "/mav0/cam0/sensor.yaml", good = read_text(yaml);
   for (const auto& [resolution, found] :
@@ -241,8 +241,7 @@ TEST_CASE("dataset: a resolution that is no image's is refused before tables of 
   }
 }
 
-TEST_CASE("dataset: calibrations far from any camera are refused by their file, whatever the search would take",
-          "[dataset]") {
+TEST_CASE("dataset: implausible calibrations are refused by file name, whatever the search range", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k");
   for (const auto& [f, tx] : {std::pair<std::string, std::string>{"1e300", "-1e300"},
@@ -277,7 +276,7 @@ TEST_CASE("dataset: a byte order mark in front of a text file is skipped", "[dat
   CHECK(open_dataset(euroc).rig.left.width == 32);
 }
 
-TEST_CASE("dataset: a pipe or a device in the place of a file is refused and not waited for", "[dataset]") {
+TEST_CASE("dataset: a pipe or a device instead of a file is refused without waiting", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder / "k"), euroc = write_euroc(folder / "e"),
                     eth3d = write_eth3d_slam(folder / "s");
@@ -301,7 +300,7 @@ TEST_CASE("dataset: a pipe or a device in the place of a file is refused and not
   }
 }
 
-TEST_CASE("dataset: a check lists everything that is wrong, not only the first thing", "[dataset]") {
+TEST_CASE("dataset: a check lists all errors, not only the first", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder.path());
   std::filesystem::remove(kitti + "/image_1/000001.png");
@@ -318,7 +317,7 @@ TEST_CASE("dataset: a check lists everything that is wrong, not only the first t
   }
 }
 
-TEST_CASE("dataset: truth for half of the frames and gaps are warnings", "[dataset]") {
+TEST_CASE("dataset: ground truth for half of the frames and gaps are warnings", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder.path(), 6);
   write_text(kitti + "/times.txt", "0\n0.1\n0.2\n0.3\n0.7\n0.8\n");

@@ -10,7 +10,7 @@ using namespace quadedge;
 using namespace dataset_files;
 using Catch::Matchers::Contains;
 
-TEST_CASE("images: grey pixels come through unchanged in every lossless format", "[dataset]") {
+TEST_CASE("images: grey pixels are unchanged in every lossless format", "[dataset]") {
   const TemporaryFolder folder;
   for (const char* name : {"a.png", "a.pgm"}) {
     write_image(folder / name, 33, 21);
@@ -22,7 +22,7 @@ TEST_CASE("images: grey pixels come through unchanged in every lossless format",
   }
 }
 
-TEST_CASE("images: colour becomes luminance, 16 bits keep their depth", "[dataset]") {
+TEST_CASE("images: colour becomes luminance, 16-bit images keep their depth", "[dataset]") {
   const TemporaryFolder folder;
   cv::Mat colours(1, 3, CV_8UC3);
   colours.at<cv::Vec3b>(0) = {0, 0, 255};  // red, green, blue as BGR
@@ -45,7 +45,7 @@ TEST_CASE("images: colour becomes luminance, 16 bits keep their depth", "[datase
   }
 }
 
-TEST_CASE("images: the header of a PGM gives its largest value", "[dataset]") {
+TEST_CASE("images: a PGM's header gives the maximum value", "[dataset]") {
   const TemporaryFolder folder;
   write_text(folder / "dim.pgm", "P5 3 1 100\n" + std::string({'\0', '\x32', '\x64'}));
   const Image dim = read_grey_image(folder / "dim.pgm");
@@ -63,7 +63,7 @@ TEST_CASE("images: the header of a PGM gives its largest value", "[dataset]") {
   CHECK_THROWS_WITH(read_grey_image(folder / "none.pgm"), Contains("none.pgm"));
 }
 
-TEST_CASE("images: truncated, empty, damaged and foreign files are refused by name", "[dataset]") {
+TEST_CASE("images: truncated, empty, damaged and unrelated files are refused by name", "[dataset]") {
   const TemporaryFolder folder;
   for (const char* name : {"cut.png", "cut.jpg", "cut.pgm"}) {
     for (const double part : {0.99, 0.6, 0.2, 0.0}) {
@@ -86,7 +86,7 @@ TEST_CASE("images: truncated, empty, damaged and foreign files are refused by na
   CHECK_THROWS_AS(read_grey_image(folder / "bent.png"), DataError);
 }
 
-TEST_CASE("images: a JPEG with bytes that libjpeg warns of is refused, an intact one is not", "[dataset]") {
+TEST_CASE("images: a JPEG that libjpeg warns about is refused, an intact one is not", "[dataset]") {
   const TemporaryFolder folder;
   const std::string file = folder / "a.jpg";
   cv::Mat picture = pattern(160, 120);
@@ -95,7 +95,7 @@ TEST_CASE("images: a JPEG with bytes that libjpeg warns of is refused, an intact
     REQUIRE(cv::imwrite(file, picture, {cv::IMWRITE_JPEG_PROGRESSIVE, progressive ? 1 : 0}));
     REQUIRE(read_grey_image(file).width == 160);
     const std::string good = read_text(file);
-    // A damage that leaves the container whole: within the entropy-coded data of the first scan.
+    // Damage that leaves the container intact: inside the entropy-coded data of the first scan.
     const std::size_t begin = good.find("\xFF\xDA") + 14;
     for (const std::size_t length : {1, 16, 200}) {
       INFO((progressive ? "progressive, " : "baseline, ") << length << " bytes lost");
@@ -108,7 +108,7 @@ TEST_CASE("images: a JPEG with bytes that libjpeg warns of is refused, an intact
   }
 }
 
-TEST_CASE("prefetcher: frames come in order, whole, however far it reads ahead", "[dataset]") {
+TEST_CASE("prefetcher: frames arrive complete and in order, however far it reads ahead", "[dataset]") {
   const TemporaryFolder folder;
   const Dataset set = open_dataset(write_kitti(folder.path(), 9));
   for (const int ahead : {0, 1, 3, 50}) {
@@ -126,7 +126,7 @@ TEST_CASE("prefetcher: frames come in order, whole, however far it reads ahead",
   }
 }
 
-TEST_CASE("prefetcher: a bad frame is reported in its place and ends the sequence", "[dataset]") {
+TEST_CASE("prefetcher: a bad frame is reported at its position and ends the sequence", "[dataset]") {
   const TemporaryFolder folder;
   const std::string kitti = write_kitti(folder.path());
   const Dataset set = open_dataset(kitti);
@@ -138,7 +138,7 @@ TEST_CASE("prefetcher: a bad frame is reported in its place and ends the sequenc
     CHECK_THROWS_WITH(prefetcher.next(), Contains("image_1/000002.png") && Contains("IEND"));
     CHECK_FALSE(prefetcher.next());
   }
-  SECTION("of another size than its neighbours") {
+  SECTION("differs in size from its neighbours") {
     write_image(kitti + "/image_0/000001.png", 31, 24);
     FramePrefetcher prefetcher(set);
     CHECK(prefetcher.next()->number == 0);
@@ -146,7 +146,7 @@ TEST_CASE("prefetcher: a bad frame is reported in its place and ends the sequenc
   }
 }
 
-TEST_CASE("prefetcher: it can be left at any moment", "[dataset]") {
+TEST_CASE("prefetcher: it can be destroyed at any time", "[dataset]") {
   const TemporaryFolder folder;
   const Dataset set = open_dataset(write_kitti(folder.path(), 9));
   for (int taken = 0; taken <= 9; ++taken) {

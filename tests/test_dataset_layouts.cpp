@@ -36,7 +36,7 @@ TEST_CASE("dataset: a KITTI sequence is read from its folder and from the root",
   CHECK_THROWS_AS(open_dataset(folder.path(), options), UsageError);
 }
 
-TEST_CASE("dataset: several KITTI sequences ask for a name", "[dataset]") {
+TEST_CASE("dataset: several KITTI sequences require a name", "[dataset]") {
   const TemporaryFolder folder;
   write_kitti(folder.path());
   write_image(folder / "sequences/08/image_0/000000.png");
@@ -48,17 +48,17 @@ TEST_CASE("dataset: several KITTI sequences ask for a name", "[dataset]") {
   CHECK(open_dataset(folder.path(), options).name == "kitti_07");
 }
 
-TEST_CASE("dataset: KITTI colour cameras get their own calibration, and their truth moves along", "[dataset]") {
+TEST_CASE("dataset: KITTI colour cameras have their own calibration and transformed ground truth", "[dataset]") {
   const TemporaryFolder folder;
   const Dataset set = open_dataset(write_kitti(folder.path(), 3, "image_2", "image_3"));
   // P2 = K [I | t2], t2 = K^-1 (6, -1, 0.01): x = (6 - 15 * 0.01) / 100, y = (-1 - 11 * 0.01) / 100.
   const Eigen::Vector3d t2(0.0585, -0.0111, 0.01), t3((-44 - 0.15) / 100, (2 - 0.11) / 100, 0.01);
   CHECK(set.rig.right_from_left.translation().isApprox(t3 - t2, 1e-12));
-  // A point at the left camera's centre lies at -t2 in camera 0, whose pose the file holds.
+  // The left camera's centre lies at -t2 in camera 0, whose pose the file holds.
   CHECK(set.truth[2].world_from_left.translation().isApprox(Eigen::Vector3d(0, 0, 2) - t2, 1e-12));
 }
 
-TEST_CASE("dataset: KITTI images keep their numbers when a sequence was cut out", "[dataset]") {
+TEST_CASE("dataset: KITTI images keep their numbers in an excerpt", "[dataset]") {
   const TemporaryFolder folder;
   const std::string sequence = write_kitti(folder.path());
   for (const char* side : {"/image_0", "/image_1"}) std::filesystem::remove(sequence + side + "/000000.png");
@@ -68,7 +68,7 @@ TEST_CASE("dataset: KITTI images keep their numbers when a sequence was cut out"
   CHECK(set.truth[0].world_from_left.translation().z() == 1);
 }
 
-TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camera's truth", "[dataset]") {
+TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camera's ground truth", "[dataset]") {
   const TemporaryFolder folder;
   const Dataset set = open_dataset(write_euroc(folder.path()));
   CHECK(set.format == "euroc");
@@ -76,7 +76,7 @@ TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camer
   CHECK(set.frames[1].stamp_ns == 1403715273362143104);
   CHECK(set.rig.left.fy == 31);
   CHECK(set.rig.left.height == 24);
-  // Both x axes are the body's y axis; the right camera is 0.11 m further along it.
+  // Both x axes are the body's y axis; the right camera is 0.11 m farther along it.
   CHECK(set.rig.right_from_left.translation().isApprox(Eigen::Vector3d(-0.11, 0, 0), 1e-9));
   REQUIRE(set.truth.size() == 4);
   CHECK(set.truth[2].world_from_left.translation().isApprox(Eigen::Vector3d(2, 2.25, 3), 1e-9));
@@ -91,7 +91,7 @@ TEST_CASE("dataset: EuRoC gives pinhole cameras, undistortion and the left camer
   CHECK(open_dataset(folder / "mav0").frames.size() == 4);
 }
 
-TEST_CASE("dataset: a sensor.yaml may carry OpenCV's first line, tags and lists of dashes", "[dataset]") {
+TEST_CASE("dataset: a sensor.yaml may have OpenCV's first line, tags and dash lists", "[dataset]") {
   const TemporaryFolder folder;
   const std::string root = write_euroc(folder.path()), yaml = root + "/mav0/cam0/sensor.yaml";
   const Dataset plain = open_dataset(root);
@@ -105,7 +105,7 @@ TEST_CASE("dataset: a sensor.yaml may carry OpenCV's first line, tags and lists 
   CHECK(set.rig.right_from_left.matrix() == plain.rig.right_from_left.matrix());
 }
 
-TEST_CASE("dataset: EuRoC images are paired by stamp and dropped ones are reported", "[dataset]") {
+TEST_CASE("dataset: EuRoC images are paired by timestamp, and unpaired ones are reported", "[dataset]") {
   const TemporaryFolder folder;
   write_euroc(folder.path());
   const std::string list = folder / "mav0/cam1/data.csv";
@@ -120,7 +120,7 @@ TEST_CASE("dataset: EuRoC images are paired by stamp and dropped ones are report
   CHECK_THAT(set.notes[0], Contains("1 left and 0 right"));
 }
 
-TEST_CASE("dataset: in ETH3D SLAM the camera that stands on the left becomes the left one", "[dataset]") {
+TEST_CASE("dataset: in ETH3D SLAM the camera on the left becomes the left one", "[dataset]") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder.path());
   write_text(folder / "depth/ignored.pfm", "");
@@ -133,7 +133,7 @@ TEST_CASE("dataset: in ETH3D SLAM the camera that stands on the left becomes the
   CHECK(published.rig.left.height == 26);
   CHECK(published.rig.right.width == 32);
   CHECK(published.rig.right_from_left.translation().isApprox(Eigen::Vector3d(-0.09, 0, 0.001)));
-  // The truth is of camera 1 with identity rotation; the left camera is 0.09 m to its left: x smaller by 0.09.
+  // The ground truth is camera 1's, with identity rotation; the left camera is 0.09 m to its left: x smaller by 0.09.
   CHECK(published.truth[2].world_from_left.translation().isApprox(Eigen::Vector3d(2 - 0.09, 0, 0.001), 1e-12));
 
   write_text(folder / "extrinsics_1_2.txt", "1 0 0 0.09\n0 1 0 0\n0 0 1 0\n");
@@ -141,7 +141,7 @@ TEST_CASE("dataset: in ETH3D SLAM the camera that stands on the left becomes the
   CHECK_THAT(mirrored.frames[0].left, Contains("rgb/"));
   CHECK(mirrored.rig.left.fx == 40);
   CHECK(mirrored.truth[2].world_from_left.translation().isApprox(Eigen::Vector3d(2, 0, 0), 1e-12));
-  // Both ways a point before the rig must be seen further left by the right camera.
+  // In either case the right camera must see a point in front of the rig farther left.
   for (const auto& set : {published, mirrored}) {
     const Eigen::Vector3d point(0.1, 0.05, 2), in_right = set.rig.right_from_left * point;
     CHECK((point / point.z()).x() > (in_right / in_right.z()).x());
@@ -150,7 +150,7 @@ TEST_CASE("dataset: in ETH3D SLAM the camera that stands on the left becomes the
   CHECK(open_dataset(folder.path()).frames[1].stamp_ns == 12'125'000'001);
 }
 
-TEST_CASE("dataset: still pairs and the quad are recognised by their file names", "[dataset]") {
+TEST_CASE("dataset: still pairs and the quad are recognised by file names", "[dataset]") {
   const TemporaryFolder folder;
   write_image(folder / "a/two_view_training/s/im0.png", 710, 40, CV_8UC3);
   write_image(folder / "a/two_view_training/s/im1.png", 710, 40, CV_8UC3);

@@ -26,14 +26,13 @@ cv::Mat grey(const std::string& file, const UndistortionTable& table) {
   return pixels;
 }
 
-/// Corners searched in a band of rows of the right image by plain correlation, then triangulated with the rig: the
-/// ratio of the found ones that lie before both cameras and within 1.5 px of where the rig projects them, and how
-/// many there are.
+/// Corners found in a band of rows of the right image by plain correlation, then triangulated with the rig: how many
+/// were found, and the fraction of these that lie in front of both cameras and within 1.5 px of their reprojection.
 struct RigTest {
   double ratio = 0;
   int tracked = 0;
 };
-/// Repeated texture misleads the plain search now and then; a rig with a wrong direction leaves next to nothing.
+/// Repeated texture occasionally misleads the plain search; a rig with a wrong direction leaves almost nothing.
 constexpr double kInlierRatio = 0.7;
 RigTest test_rig(const Dataset& set, std::size_t frame) {
   const cv::Mat left = grey(set.frames[frame].left, set.rig.left_undistortion);
@@ -74,7 +73,7 @@ RigTest test_rig(const Dataset& set, std::size_t frame) {
 
 }  // namespace
 
-TEST_CASE("real data: KITTI has the published frames, rig and step lengths", "[dataset][real]") {
+TEST_CASE("real data: KITTI has the published number of frames, rig and step lengths", "[dataset][real]") {
   const std::string root = real_data("kitti_odometry");
   if (root.empty()) return;
   DatasetOptions options;
@@ -98,7 +97,7 @@ TEST_CASE("real data: KITTI has the published frames, rig and step lengths", "[d
   CHECK(rig.ratio > kInlierRatio);
 }
 
-TEST_CASE("real data: EuRoC stands still and its undistorted images fit the rig", "[dataset][real]") {
+TEST_CASE("real data: EuRoC at rest does not move, and its undistorted images fit the rig", "[dataset][real]") {
   for (const auto& [name, frames] :
        {std::pair<const char*, std::size_t>{"euroc_v1_01_easy_at_rest", 40}, {"euroc_v1_01_easy_keyframes", 86}}) {
     const std::string root = real_data(name);
@@ -125,7 +124,7 @@ TEST_CASE("real data: EuRoC stands still and its undistorted images fit the rig"
   }
 }
 
-TEST_CASE("real data: every still pair opens, and its rig puts matches before the cameras", "[dataset][real]") {
+TEST_CASE("real data: every still pair opens, and its rig puts matches in front of the cameras", "[dataset][real]") {
   const std::pair<const char*, const char*> pairs[] = {
       {"eth3d_two_view/two_view_training/terrace_2s", "eth3d-two-view"},
       {"eth3d_two_view/two_view_training/delivery_area_1l", "eth3d-two-view"},
@@ -149,7 +148,7 @@ TEST_CASE("real data: every still pair opens, and its rig puts matches before th
   }
 }
 
-TEST_CASE("real data: disparity truth is positive and within the reader's range", "[dataset][real]") {
+TEST_CASE("real data: ground-truth disparities are positive and within the reader's range", "[dataset][real]") {
   for (const char* folder :
        {"eth3d_two_view/two_view_training/terrace_2s", "middlebury_2014/Motorcycle-perfect-quarter",
         "middlebury_2005/Art", "middlebury_2005/Reindeer", "middlebury_2003/teddy", "middlebury_2006/Aloe"}) {
@@ -175,6 +174,6 @@ TEST_CASE("real data: disparity truth is positive and within the reader's range"
                                  << offset);
     CHECK(*smallest + offset > 0);
     CHECK(*largest + offset <= set.max_disparity);
-    CHECK(*largest + offset > 0.2 * set.max_disparity);  // the range is not absurdly wide either
+    CHECK(*largest + offset > 0.2 * set.max_disparity);  // nor is the range far too wide
   }
 }

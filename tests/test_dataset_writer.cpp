@@ -10,7 +10,7 @@
 using namespace quadedge;
 using Catch::Matchers::Contains;
 
-TEST_CASE("dataset: a rendered sequence comes back from disk as it was written", "[dataset]") {
+TEST_CASE("dataset: a rendered sequence is read back as it was written", "[dataset]") {
   const TemporaryFolder folder;
   SyntheticOptions options;
   options.frames = 3;
@@ -53,7 +53,7 @@ TEST_CASE("dataset: a rendered sequence comes back from disk as it was written",
   CHECK_THROWS_AS(write_eth3d_slam(folder / "file/s", sequence), DataError);
 }
 
-TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, with its values as they stand", "[dataset]") {
+TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, with unscaled values", "[dataset]") {
   const TemporaryFolder folder;
   const std::string file = folder / "m.pfm";
   using namespace std::string_literals;
@@ -67,7 +67,7 @@ TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, with it
   CHECK(data::read_float_map(file).values[0] == 3);
 }
 
-TEST_CASE("dataset: a PFM that is short, of three channels or none at all is refused by name", "[dataset]") {
+TEST_CASE("dataset: a truncated PFM, a colour PFM and a file that is no PFM are refused by name", "[dataset]") {
   const TemporaryFolder folder;
   const std::string file = folder / "m.pfm";
   using namespace std::string_literals;

@@ -16,7 +16,7 @@ DirectionResidual residual_at(const DirectionTerm& term, const Eigen::Isometry3d
 
 }  // namespace
 
-TEST_CASE("The analytic Jacobian of the direction residual is its derivative", "[pose][direction_residual]") {
+TEST_CASE("The direction residual's analytic Jacobian is its derivative", "[pose][direction_residual]") {
   const NoiseModel noise{quadedge::PoseConfig{}};
   generated::for_quads_off_motion([&](const QuadObservations& quads, std::size_t i, const quadedge::StereoRig& /*rig*/,
                                       const Eigen::Isometry3d& pose) {

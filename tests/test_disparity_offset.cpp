@@ -7,7 +7,7 @@
 using namespace quadedge;
 using odometry::DisparityOffset;
 
-TEST_CASE("disparity offset: the corrected rig sees points nearer by the offset", "[odometry]") {
+TEST_CASE("disparity offset: the corrected rig reconstructs points nearer by the offset", "[odometry]") {
   PoseConfig config;
   config.disparity_offset_sigma = 0.3;
   config.disparity_offset_drift = 0.01;
@@ -18,7 +18,7 @@ TEST_CASE("disparity offset: the corrected rig sees points nearer by the offset"
     offset.update(-0.05, 0.0003, 5);
     CHECK(offset.value() == Approx(0.2));
     CHECK(offset.variance() == Approx(0.0003 + 5 * 0.0001));
-    // The same pixels, measured with both rigs: the inverse depth grows by 0.2 px worth of it.
+    // The same pixels, triangulated with both rigs: the inverse depth grows by the equivalent of 0.2 px.
     const pose::OrientedPoint point{{0.1, -0.05, 6}, Eigen::Vector3d(0.5, 0.8, 0.2).normalized()};
     const auto seen = generated::observe(rig, point);
     const auto before = pose::measure(rig, seen, 0.05), after = pose::measure(offset.rig(), seen, 0.05);
@@ -27,7 +27,7 @@ TEST_CASE("disparity offset: the corrected rig sees points nearer by the offset"
   }
 }
 
-TEST_CASE("disparity offset: switched off, nothing moves", "[odometry]") {
+TEST_CASE("disparity offset: switched off, it changes nothing", "[odometry]") {
   PoseConfig config;
   config.disparity_offset_sigma = 0;
   DisparityOffset offset(generated::car_rig(), config);

@@ -1,5 +1,5 @@
-/// \file test_disturbances.cpp  Rendered sequences with light changes, blur, noise and a moving board, and what the
-/// odometry makes of them.
+/// \file test_disturbances.cpp  Rendered sequences with light changes, blur, noise and a moving board, and odometry on
+/// them.
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -29,7 +29,7 @@ double mean(const Image& image) {
   return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) / static_cast<double>(image.pixels.size());
 }
 
-/// Mean square difference of neighbours in a row.
+/// Mean squared difference of neighbours in a row.
 double sharpness(const Image& image) {
   double sum = 0;
   for (std::size_t i = 1; i < image.pixels.size(); ++i) {
@@ -39,7 +39,7 @@ double sharpness(const Image& image) {
   return sum / static_cast<double>(image.pixels.size());
 }
 
-/// Fraction of the view nearer than anything in the scene but the board.
+/// Fraction of the view that is nearer than everything in the scene except the board.
 double near_fraction(const RenderedView& view) {
   double near = 0;
   for (const float depth : view.depth) near += depth > 0 && depth < 1.25F ? 1 : 0;
@@ -51,7 +51,8 @@ struct DisturbedRun {
   int lost = 0;
 };
 
-/// Tracks with the defaults. Steps of 2 to 3 cm and half a degree are wrong beyond 5 mm + 10 % and 0.25 degrees.
+/// Tracks with the defaults. Steps are 2 to 3 cm and half a degree; errors beyond 5 mm + 10 % or 0.25 degrees are
+/// wrong.
 DisturbedRun track_disturbed(const SyntheticOptions& options, Device& device) {
   const SyntheticSequence sequence(options);
   Config config;
@@ -76,7 +77,7 @@ DisturbedRun track_disturbed(const SyntheticOptions& options, Device& device) {
 
 }  // namespace
 
-TEST_CASE("disturbances: light and exposure scale the images they should", "[synthetic]") {
+TEST_CASE("disturbances: light and exposure scale the right images", "[synthetic]") {
   SyntheticOptions options = disturbed_scene("cables");
   options.noise = 0;
   const SyntheticSequence still(options);
@@ -92,9 +93,9 @@ TEST_CASE("disturbances: light and exposure scale the images they should", "[syn
         Approx(0.8 * mean(still.render(2, Side::right).image)).epsilon(0.01));
 }
 
-TEST_CASE("disturbances: blur smooths along the motion and moves nothing", "[synthetic]") {
+TEST_CASE("disturbances: blur smooths along the motion and displaces nothing", "[synthetic]") {
   SyntheticOptions options = disturbed_scene("room");
-  options.path = "handheld";  // the ellipse moves too little for so much blur
+  options.path = "handheld";  // the ellipse moves too little for this much blur
   options.noise = 0;
   const RenderedView sharp = SyntheticSequence(options).render(2, Side::left);
   double last = sharpness(sharp.image);
@@ -105,7 +106,7 @@ TEST_CASE("disturbances: blur smooths along the motion and moves nothing", "[syn
     CHECK(sharpness(blurred.image) < last);
     CHECK(mean(blurred.image) == Approx(mean(sharp.image)).epsilon(0.01));
     last = sharpness(blurred.image);
-    // The image moved by a pixel to either side fits worse than the one in place.
+    // The image shifted by a pixel to either side fits worse than the unshifted one.
     double misfit[3] = {0, 0, 0};
     for (int y = 0; y < options.height; ++y) {
       for (int x = 1; x + 1 < options.width; ++x) {
@@ -139,7 +140,7 @@ TEST_CASE("disturbances: a board covers its fraction of the view and moves again
   }
 }
 
-TEST_CASE("disturbances: impossible ones are refused", "[synthetic]") {
+TEST_CASE("disturbances: impossible values are refused", "[synthetic]") {
   const auto refused = [](const std::function<void(SyntheticOptions&)>& change) {
     SyntheticOptions options = disturbed_scene("room");
     change(options);

@@ -61,9 +61,9 @@ TEST_CASE("A correct match has the colour of its disparity in both views", "[rep
   CHECK(difference(second, at(picture, 80.5, 40, Side::right)) < 10);
   CHECK(difference(first, second) < 40);  // 10 and 9.5 px
   DrawnFrame far = small_frame();
-  far.matches[1].right_x = 88;  // 2 px beside 10 px
+  far.matches[1].right_x = 88;  // 2 px instead of 10 px
   CHECK(difference(first, at(draw_match_class(far, MatchClass::correct, "paper", 1, 10), 90, 40, Side::left)) > 60);
-  // Other classes are not in this picture.
+  // Other classes are not drawn.
   CHECK(colourfulness(at(picture, 120, 60, Side::left)) == 0);
   CHECK(colourfulness(at(picture, 100, 30, Side::right)) == 0);
 }
@@ -73,12 +73,12 @@ TEST_CASE("Inaccurate and wrong matches are linked to their true position in the
   const auto match = at(picture, 150, 30, Side::left);
   CHECK(colourfulness(match) > 100);
   CHECK(difference(match, at(picture, 100, 30, Side::right)) < 10);
-  CHECK(colourfulness(at(picture, 120, 30, Side::right)) > 50);  // on the way from 100 to 140
+  CHECK(colourfulness(at(picture, 120, 30, Side::right)) > 50);  // on the line from 100 to 140
   CHECK(colourfulness(at(picture, 120, 30, Side::left)) == 0);
   CHECK(colourfulness(at(picture, 60, 20, Side::left)) == 0);
 }
 
-TEST_CASE("Coloured by class, every class has the same colour in both views and differs from the others", "[report]") {
+TEST_CASE("Drawn by class, every class has one colour in both views, unlike the others", "[report]") {
   const cv::Mat picture = draw_all_matches(small_frame(), "paper", 1, 10);
   const auto correct = at(picture, 60, 20, Side::left), inaccurate = at(picture, 120, 60, Side::left),
              wrong = at(picture, 150, 30, Side::left);
@@ -88,11 +88,11 @@ TEST_CASE("Coloured by class, every class has the same colour in both views and 
   CHECK(difference(correct, inaccurate) > 60);
   CHECK(difference(inaccurate, wrong) > 60);
   CHECK(difference(correct, wrong) > 60);
-  // Shapes, too: the crossing strokes of a wrong match lie off the edge's direction.
+  // Shapes differ too: the cross of a wrong match leaves the edge's direction.
   CHECK(difference(wrong, picture.at<cv::Vec3b>(kTop + 30 * kScale + 2 + 3, 150 * kScale + 2 + 3)) < 60);
 }
 
-TEST_CASE("Details below the images enlarge where the matches are", "[report]") {
+TEST_CASE("Details below the images enlarge the neighbourhood of matches", "[report]") {
   const cv::Mat with = draw_match_class(small_frame(), MatchClass::correct, "paper", 1, 10);
   DrawnFrame tiny = small_frame();
   tiny.left = tiny.right = Image(40, 30);  // smaller than a detail
@@ -100,7 +100,7 @@ TEST_CASE("Details below the images enlarge where the matches are", "[report]") 
   const cv::Mat without = draw_match_class(tiny, MatchClass::correct, "paper", 1, 10);
   CHECK(with.rows > kTop + kViewHeight * kScale + 100);
   CHECK(without.rows == kTop + 30 * (1900 / 80));
-  // Somewhere below the images a colour is seen.
+  // Some pixel below the images is coloured.
   const cv::Mat below = with.rowRange(kTop + kViewHeight * kScale + 8, with.rows);
   int colourful = 0;
   for (int y = 0; y < below.rows; ++y) {
@@ -109,7 +109,7 @@ TEST_CASE("Details below the images enlarge where the matches are", "[report]") 
   CHECK(colourful > 20);
 }
 
-TEST_CASE("Drawings become files, one per class that occurs, and names that repeat are told apart", "[report]") {
+TEST_CASE("Drawings are written one file per class present, and repeated names are made unique", "[report]") {
   const TemporaryFolder folder;
   MatchingResult result;
   result.name = "a/b c";
