@@ -1,5 +1,5 @@
 #pragma once
-/// \file edge_structure.hpp  What holds of every set of edges that the reference detects, shared by tests.
+/// \file edge_structure.hpp  Properties of every set of edges that the reference detects, shared by tests.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "quadedge/pi.hpp"
 #include "reference/edge_detection.hpp"
 
-/// The threshold of tests that look at edges alone: a fixed one, or the one of images of normal contrast.
+/// The threshold of tests without a threshold stage: the fixed one, or the one for images of normal contrast.
 inline double threshold_of(const quadedge::EdgesConfig& config) {
   return config.threshold > 0 ? config.threshold : config.threshold_max;
 }

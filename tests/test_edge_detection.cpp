@@ -64,8 +64,7 @@ EdgesConfig small_capacity(int margin = 10) {
   return config;
 }
 
-/// Whether one of the decisions about a cell hangs on the last digits: the threshold or either side of the maximum
-/// test.
+/// Whether rounding may change a decision about a cell: the threshold or either side of the maximum test.
 bool undecided(const reference::GradientField& field, int cell_x, int cell_y, const EdgesConfig& config) {
   const double m = field.magnitude(cell_x, cell_y), rounding = 2e-5 * m + 1e-5;
   if (m < threshold_of(config) - rounding) return false;
@@ -74,8 +73,7 @@ bool undecided(const reference::GradientField& field, int cell_x, int cell_y, co
          std::abs(m - probe.behind) < rounding;
 }
 
-/// doc/method.md section 1: 99.9 % within 0.01 px and 0.1 degrees; nothing missing or extra that rounding does not
-/// explain.
+/// doc/method.md section 1: 99.9 % within 0.01 px and 0.1 degrees; edges are missing or extra only through rounding.
 void compare(const EdgeSet& found, const Image& image, const EdgesConfig& config) {
   const reference::ReferenceEdges truth = ::detect_edges(image.view(), config);
   const reference::GradientField field = reference::gradient_field(image.view(), config);
@@ -135,8 +133,7 @@ TEST_CASE("edge detection: every device and variant agrees with the reference at
   });
 }
 
-TEST_CASE("edge detection: every device and variant agrees with the reference and gives the same bytes twice",
-          "[edges][device]") {
+TEST_CASE("edge detection: every device and variant agrees with the reference and is reproducible", "[edges][device]") {
   for (const auto& [width, height] : {std::pair{64, 48}, {321, 243}, {640, 480}}) {
     const Image image = textured_image(width, height);
     EdgeSet first;
@@ -154,7 +151,7 @@ TEST_CASE("edge detection: every device and variant agrees with the reference an
   }
 }
 
-TEST_CASE("edge detection: directions at the cell, another scale and no Newton step follow the reference too",
+TEST_CASE("edge detection: agrees with the reference for cell directions, other scales and no Newton step",
           "[edges][device]") {
   const Image image = textured_image(160, 120);
   for_each_variant([&](Device& device, const std::string& variant) {
@@ -175,7 +172,7 @@ TEST_CASE("edge detection: directions at the cell, another scale and no Newton s
   });
 }
 
-TEST_CASE("edge detection: a full edge list is cut in scan order and says how many were cut",
+TEST_CASE("edge detection: a full edge list is truncated in scan order, and the dropped edges are counted",
           "[edges][device][oclgrind]") {
   const Image image = textured_image(30, 26);
   for_each_variant([&](Device& device, const std::string& variant) {
@@ -198,7 +195,7 @@ TEST_CASE("edge detection: a full edge list is cut in scan order and says how ma
   });
 }
 
-TEST_CASE("edge detection: one detector serves one image after the other", "[edges][device]") {
+TEST_CASE("edge detection: a detector can be reused for several images", "[edges][device]") {
   for_each_variant([](Device& device, const std::string& variant) {
     INFO(variant);
     const Image first = textured_image(96, 80, 1), second = textured_image(96, 80, 2);

@@ -15,15 +15,14 @@ using reference::ReferenceEdges;
 
 namespace {
 
-/// Blur of the rendered edges as the detector sees it: its Gaussian and the box of the pixel's area.
+/// Blur of the rendered edges in the detector: its Gaussian and the box of the pixel's area.
 double effective_sigma(const EdgesConfig& config) { return std::sqrt(config.sigma * config.sigma + 1.0 / 12.0); }
 
 double angle_error(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * kPi)); }
 
 }  // namespace
 
-TEST_CASE("edges: a straight edge of any direction lies at its true position to 0.004 px and 0.08 degrees (rms)",
-          "[edges]") {
+TEST_CASE("edges: a straight edge of any direction is located to 0.004 px and 0.08 degrees (rms)", "[edges]") {
   const EdgesConfig config;
   const double truth_strength = 120.0 / (std::sqrt(2.0 * kPi) * effective_sigma(config));
   double squares = 0, square_distances = 0;
@@ -42,11 +41,11 @@ TEST_CASE("edges: a straight edge of any direction lies at its true position to 
       REQUIRE(std::abs(distance) < 0.02);
       square_distances += distance * distance;
       // The tangent is the brightness gradient turned by -90 degrees.
-      // Rounding to 8 bits costs most where the edge is nearly upright and whole columns are rounded alike.
+      // Rounding to 8 bits costs most where the edge is nearly upright and whole columns are rounded the same.
       const double error = angle_error(edges.direction[i], angle - 0.5 * kPi);
       REQUIRE(error < 0.4 * kDegree);
       squares += error * error;
-      // The parabola over the interpolated ring may miss the peak by a percent or so.
+      // The parabola over the interpolated ring may miss the peak by about one percent.
       REQUIRE(edges.strength[i] == Approx(truth_strength).epsilon(0.015));
     }
   }
@@ -74,7 +73,7 @@ TEST_CASE("edges: pixel centres are integers, so a step between columns 31 and 3
   for (const double y : ::detect_edges(lying.view(), {}).y) REQUIRE(std::abs(y - 20.5) < 1e-5);
 }
 
-TEST_CASE("edges: a circle is found inward by the known sigma^2 / 2r and its tangents turn with it", "[edges]") {
+TEST_CASE("edges: a circle is found sigma^2 / 2r inside its true position, with tangents along it", "[edges]") {
   for (const double radius : {20.0, 30.0, 50.0}) {
     for (const bool bright_inside : {true, false}) {
       const double cx = 64.27, cy = 63.81;
@@ -100,7 +99,8 @@ TEST_CASE("edges: a circle is found inward by the known sigma^2 / 2r and its tan
   }
 }
 
-TEST_CASE("edges: the scale drift tells where a larger scale finds the edge, of a disc and of thin bars", "[edges]") {
+TEST_CASE("edges: the scale drift predicts where a larger scale finds the edges of a disc and of thin bars",
+          "[edges]") {
   const double cx = 64.27, cy = 63.81;
   const auto disc = [=](double x, double y) { return std::hypot(x - cx, y - cy) < 20.0; };
   const auto bar = [=](double x, double y) { return std::abs(0.8 * (x - cx) + 0.6 * (y - cy)) < 1.5; };
@@ -143,7 +143,7 @@ TEST_CASE("edges: the scale drift tells where a larger scale finds the edge, of 
   }
 }
 
-TEST_CASE("edges: the Newton step onto F = 0 brings straight edges nearer to their position", "[edges]") {
+TEST_CASE("edges: the Newton step onto F = 0 improves the position of straight edges", "[edges]") {
   EdgesConfig with, without;
   without.newton_max = 0;
   double squares_with = 0, squares_without = 0;
@@ -164,7 +164,7 @@ TEST_CASE("edges: the Newton step onto F = 0 brings straight edges nearer to the
   CHECK(squares_with < 0.25 * squares_without);
 }
 
-TEST_CASE("edges: the threshold 2 lets a contrast of 11 grey levels through and not one of 9", "[edges]") {
+TEST_CASE("edges: a threshold of 2 accepts a contrast of 11 grey levels and rejects one of 9", "[edges]") {
   // Peak gradient of a step of height D: D / (sqrt(2 pi) sigma) = 0.2 D within a percent.
   const auto count = [](double contrast) {
     return ::detect_edges(render_half_plane(64, 64, 31.5, 31.5, 0.0, 100, 100 + contrast).view(), {}).size();
@@ -173,7 +173,7 @@ TEST_CASE("edges: the threshold 2 lets a contrast of 11 grey levels through and 
   CHECK(count(11) > 50);
 }
 
-TEST_CASE("edges: a flat image has none, at any level", "[edges]") {
+TEST_CASE("edges: a flat image has none, at any grey level", "[edges]") {
   for (const int level : {0, 128, 255}) {
     Image image(40, 40);
     std::fill(image.pixels.begin(), image.pixels.end(), static_cast<std::uint8_t>(level));
@@ -184,7 +184,7 @@ TEST_CASE("edges: a flat image has none, at any level", "[edges]") {
   }
 }
 
-TEST_CASE("edges: small and odd sizes keep the structure, with and without a margin", "[edges]") {
+TEST_CASE("edges: small and odd image sizes give valid edge sets, with and without a margin", "[edges]") {
   for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {17, 31}, {64, 48}}) {
     const Image image = textured_image(width, height);
     for (const int margin : {0, 3, 10}) {
@@ -201,7 +201,7 @@ TEST_CASE("edges: small and odd sizes keep the structure, with and without a mar
   CHECK_THROWS_AS(::detect_edges(ImageView{}, {}), UsageError);
 }
 
-TEST_CASE("edges: rows of a padded image are read with their stride", "[edges]") {
+TEST_CASE("edges: rows of a padded image are read with the stride", "[edges]") {
   const Image image = textured_image(50, 40);
   std::vector<std::uint8_t> padded(64 * 40, 7);
   for (int y = 0; y < 40; ++y) std::copy_n(image.pixels.begin() + y * 50, 50, padded.begin() + y * 64);
@@ -212,7 +212,7 @@ TEST_CASE("edges: rows of a padded image are read with their stride", "[edges]")
   CHECK(packed.direction == strided.direction);
 }
 
-TEST_CASE("edges: another scale detects the same straight edge with its own strength", "[edges]") {
+TEST_CASE("edges: other scales detect the same straight edge with the expected strength", "[edges]") {
   for (const double sigma : {1.0, 1.5, 3.0}) {
     EdgesConfig config;
     config.sigma = sigma;
@@ -229,8 +229,7 @@ TEST_CASE("edges: another scale detects the same straight edge with its own stre
   }
 }
 
-TEST_CASE("edges: directions at the winning cell agree with those at the sub-pixel point on straight edges",
-          "[edges]") {
+TEST_CASE("edges: on straight edges, directions at the cell agree with those at the sub-pixel point", "[edges]") {
   const Image image = render_half_plane(64, 64, 31.4, 32.2, 37.0 * kDegree);
   EdgesConfig cell;
   cell.direction_at = "cell";
@@ -238,7 +237,7 @@ TEST_CASE("edges: directions at the winning cell agree with those at the sub-pix
   REQUIRE(edges.size() > 40);
   for (const double direction : edges.direction)
     REQUIRE(angle_error(direction, (37.0 - 90.0) * kDegree) < 0.2 * kDegree);
-  // Published edge maps have the peak of the parabola: no Newton step.
+  // Published edge maps use the peak of the parabola, without the Newton step.
   EdgesConfig parabola;
   parabola.newton_max = 0;
   CHECK(edges.x == ::detect_edges(image.view(), parabola).x);

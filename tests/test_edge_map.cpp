@@ -57,14 +57,14 @@ EdgeMapOptions seen_by(int views, std::size_t most = 2'000'000, bool tracks = fa
   return options;
 }
 
-/// Depths of points in the first view over the rendered ones at the same pixel, less one; sorted magnitudes.
+/// Relative depth errors of points in the first view against the rendered depth, as sorted magnitudes.
 std::vector<double> depth_errors(const std::vector<MapPoint>& points) {
   const auto depth = tracked_room().sequence.render(0, Side::left).depth;
   const PinholeCamera& camera = tracked_room().sequence.rig().left;
   std::vector<double> errors;
   for (const auto& point : points) {
     const Eigen::Vector2d pixel = camera.project(point.position);
-    double nearest = 1e9;  // an occluding edge belongs to the nearer surface, a pixel or so away
+    double nearest = 1e9;  // an occluding edge belongs to the nearer surface, about a pixel away
     for (int dy = -2; dy <= 2; ++dy) {
       for (int dx = -2; dx <= 2; ++dx) {
         const auto x = std::lround(pixel.x()) + dx, y = std::lround(pixel.y()) + dy;
@@ -81,7 +81,7 @@ std::vector<double> depth_errors(const std::vector<MapPoint>& points) {
 
 }  // namespace
 
-TEST_CASE("edge map: points lie on the rendered surfaces, and better the more rigs have seen them", "[map][device]") {
+TEST_CASE("edge map: points lie on the rendered surfaces, the closer the more rigs have seen them", "[map][device]") {
   EdgeMap once(tracked_room().config, seen_by(1)), twice(tracked_room().config, seen_by(2)),
       often(tracked_room().config, seen_by(5, 2'000'000, true));
   tracked_room().track_into({&once, &twice, &often});
@@ -91,7 +91,7 @@ TEST_CASE("edge map: points lie on the rendered surfaces, and better the more ri
   INFO(a.size() << " " << b.size() << " " << c.size());
   REQUIRE(c.size() > 500);
   CHECK((a.size() > b.size() && b.size() > c.size()));
-  int sightings_of_all = 0;  // a map of six rigs is no list of all their edges
+  int sightings_of_all = 0;  // points seen by several rigs are merged
   for (const auto& point : a) sightings_of_all += point.views;
   CHECK(2 * a.size() < static_cast<std::size_t>(sightings_of_all));
   for (const auto& point : c) {
@@ -140,7 +140,7 @@ TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded"
   CHECK(small.points().size() > 100);
 }
 
-TEST_CASE("edge map: files say what they hold, and are complete or not there", "[map]") {
+TEST_CASE("edge map: files describe their content and are either complete or absent", "[map]") {
   const TemporaryFolder folder;
   MapPoint point;
   point.position = {1.25, -2.5, 3};

@@ -26,7 +26,7 @@ PixelMask odd_mask(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("edge mask: the border is as wide as asked for, along rows, columns and both", "[edges]") {
+TEST_CASE("edge mask: the border has the requested width along rows, columns and diagonals", "[edges]") {
   const PixelMask mask = odd_mask(61, 47);
   for (const int margin : {0, 1, 4, 70}) {
     const PixelMask wide = with_border(mask, margin);
@@ -42,7 +42,7 @@ TEST_CASE("edge mask: the border is as wide as asked for, along rows, columns an
   }
 }
 
-TEST_CASE("edge mask: every device and way of detecting keeps what the reference keeps", "[edges][device][oclgrind]") {
+TEST_CASE("edge mask: every device and variant keeps the same edges as the reference", "[edges][device][oclgrind]") {
   const int width = 61, height = 47;
   Config config;
   config.edges.margin = 3;
@@ -54,7 +54,7 @@ TEST_CASE("edge mask: every device and way of detecting keeps what the reference
   const EdgeSet expected = detect_edges(image.view(), reference, config, mask);
   REQUIRE(expected.size() > all.size() / 2);
   REQUIRE(expected.size() + 10 < all.size());
-  // Edges lie within half a pixel of their cell, and Newton's step moves them by less than another one.
+  // Edges lie within half a pixel of their cell, and the Newton step moves them by less than another half.
   for (std::size_t i = 0; i < expected.size(); ++i) {
     bool clear = false;
     for (int y = static_cast<int>(expected.y[i]) - 1; y <= static_cast<int>(expected.y[i]) + 2; ++y)

@@ -26,7 +26,7 @@ StereoRig rectified_rig(int width, int height) {
   return rig;
 }
 
-/// Converging, rolled, of other focal length.
+/// Converging, rolled, with different focal lengths.
 StereoRig general_rig(int width, int height) {
   StereoRig rig = rectified_rig(width, height);
   rig.right.fx = rig.right.fy = 0.8 * width;
@@ -106,8 +106,7 @@ reference::GradientMaxima straight_curve(double angle, double x, double y, doubl
 
 }  // namespace
 
-TEST_CASE("edge selection: devices keep exactly the maxima that the reference rule keeps",
-          "[edges][device][oclgrind]") {
+TEST_CASE("edge selection: devices keep exactly the same maxima as the reference", "[edges][device][oclgrind]") {
   const int width = 61, height = 47;
   EdgesConfig config;
   config.margin = 2;
@@ -146,7 +145,7 @@ TEST_CASE("edge selection: devices keep exactly the maxima that the reference ru
         CHECK(read(in_left.maxima(), width, height).rows == kept_rows(all[0], kept_left));
         CHECK(read(in_right.maxima(), width, height).rows == kept_rows(all[1], kept_right));
         CHECK(selection.host_spacing() == static_cast<double>(spacing));
-        // Every frame is weighed anew.
+        // The next frame is selected independently.
         find(in_left, 1);
         find(in_right, 2);
         selection.run(in_left.maxima(), in_right.maxima());
@@ -170,13 +169,13 @@ TEST_CASE("edge selection: a straight curve keeps one maximum per line, evenly s
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (kept[i] != 0) at.push_back(std::hypot(curve.x[i] - curve.x[0], curve.y[i] - curve.y[0]));
     REQUIRE(at.size() > 2);
-    // Between 0.7 and 1.4 spacings apart, to the grid's half pixel on either side.
+    // Between 0.7 and 1.4 spacings apart, up to the grid's half pixel on either side.
     for (std::size_t k = 1; k < at.size(); ++k) {
       CHECK(at[k] - at[k - 1] > 0.7 * 3 - 0.75);
       CHECK(at[k] - at[k - 1] < 1.42 * 3 + 0.75);
     }
   }
-  // Along the epipolar lines nothing can be matched, so nothing is kept.
+  // Edges along the epipolar lines cannot be matched, so none are kept.
   CHECK(count_kept(reference::kept_by_selection(arguments, straight_curve(2 * kDegree, 30, 200, 240), spacing)) == 0);
 }
 
@@ -185,7 +184,7 @@ TEST_CASE("edge selection: the counterpart of a kept edge is kept too", "[edges]
   const SelectionArguments left = selection_arguments(rig, Side::left, {}),
                            right = selection_arguments(rig, Side::right, {});
   int chosen = 0, with_counterpart = 0;
-  // Curves on slanted planes, so that their direction differs between the images.
+  // Curves on slanted planes, so that directions differ between the images.
   for (double degrees = 20; degrees < 160; degrees += 7) {
     const auto project = [&](double s, bool in_right) -> Eigen::Vector2d {
       const Eigen::Vector3d point(-0.6 + s * std::cos(degrees * kDegree), -0.5 + s * std::sin(degrees * kDegree),
@@ -229,7 +228,7 @@ TEST_CASE("edge selection: the counterpart of a kept edge is kept too", "[edges]
   CHECK(with_counterpart > 0.97 * chosen);
 }
 
-TEST_CASE("edge selection: the epipolar planes of a rig have the same numbers in both images", "[edges]") {
+TEST_CASE("edge selection: epipolar planes have the same numbers in both images", "[edges]") {
   const StereoRig rig = general_rig(640, 480);
   const EpipolarRows left = epipolar_rows(rig, Side::left), right = epipolar_rows(rig, Side::right);
   const auto number = [](const EpipolarRows& rows, const Eigen::Vector2d& pixel) {

@@ -17,7 +17,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Normal noise around `level`, rounded and clipped as a camera does it.
+/// Normal noise around `level`, rounded and clipped as by a camera.
 Image noisy_image(int width, int height, double level, double sigma, int max_value = kMaxValue8, unsigned seed = 1) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(level, sigma);
@@ -31,7 +31,7 @@ Image noisy_image(int width, int height, double level, double sigma, int max_val
   return image;
 }
 
-/// The picture with its differences from `middle` scaled, in another depth.
+/// The image with its differences from `middle` scaled, at another bit depth.
 Image flattened(const Image& image, double contrast, int max_value, double middle = 128) {
   Image result(image.width, image.height, max_value);
   for (int y = 0; y < image.height; ++y) {
@@ -47,7 +47,7 @@ struct ThresholdAndNoise {
   float threshold = 0, noise = 0;
 };
 
-/// The thresholds of frames that one stage is given in turn; a frame is one image or two.
+/// The thresholds of consecutive frames in one stage; a frame is one image or two.
 std::vector<ThresholdAndNoise> measure(Device& device, const std::string& variant,
                                        const std::vector<std::vector<Image>>& frames, const EdgesConfig& config) {
   opencl::Context& context = *device.context();
@@ -92,7 +92,7 @@ ThresholdAndNoise reference_of(const std::vector<Image>& images, const EdgesConf
 
 }  // namespace
 
-TEST_CASE("edge threshold: noise is measured to 5 %, at any size, depth and level", "[edges]") {
+TEST_CASE("edge threshold: noise is measured to 5 %, at any image size, bit depth and grey level", "[edges]") {
   for (const auto& [width, height] : {std::pair{127, 93}, {640, 481}}) {
     const double tolerance = width > 200 ? 0.05 : 0.12;
     for (const double sigma : {1.0, 1.5, 3.0, 8.0}) {
@@ -110,15 +110,14 @@ TEST_CASE("edge threshold: noise is measured to 5 %, at any size, depth and leve
   }
 }
 
-TEST_CASE("edge threshold: saturated pixels say nothing of the noise", "[edges]") {
+TEST_CASE("edge threshold: saturated pixels are left out of the noise estimate", "[edges]") {
   Image image = noisy_image(320, 241, 128, 2);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < 240; ++x) image.set(x, y, x < 120 ? 0 : 255);
   CHECK(static_cast<double>(reference_of({image}).noise) == Approx(2.02).epsilon(0.08));
 }
 
-TEST_CASE("edge threshold: every device and variant measures what the reference measures",
-          "[edges][device][oclgrind]") {
+TEST_CASE("edge threshold: every device and variant agrees with the reference", "[edges][device][oclgrind]") {
   std::vector<std::vector<Image>> cases;
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 9}, {17, 31}, {75, 66}}) {
     const Image image = textured_image(width, height), other = textured_image(width + 5, height + 3, 2);
@@ -136,7 +135,7 @@ TEST_CASE("edge threshold: every device and variant measures what the reference 
         INFO(device.info().name << " " << variant << " sigma " << sigma << " case " << i);
         const ThresholdAndNoise found = measure(device, variant, {cases[i]}, config).front();
         const ThresholdAndNoise expected = reference_of(cases[i], config);
-        // A gradient on the border of two bins may fall on either side: one of few points at the smallest sizes.
+        // A gradient on the border of two bins may fall on either side; the smallest sizes have few points.
         CHECK(found.threshold == Approx(expected.threshold).epsilon(cases[i][0].width < 70 ? 0.05 : 0.01));
         CHECK(found.noise == Approx(expected.noise).epsilon(1e-4));
       }
@@ -144,7 +143,7 @@ TEST_CASE("edge threshold: every device and variant measures what the reference 
   });
 }
 
-TEST_CASE("edge threshold: variants give the same bytes, twice", "[edges][device]") {
+TEST_CASE("edge threshold: all variants give the same bytes, reproducibly", "[edges][device]") {
   const std::vector<std::vector<Image>> frames = {
       {flattened(textured_image(321, 243), 0.1, 255), flattened(textured_image(321, 243, 2), 0.1, 255)}};
   for (const auto& index : all_devices()) {
@@ -162,7 +161,7 @@ TEST_CASE("edge threshold: variants give the same bytes, twice", "[edges][device
   }
 }
 
-TEST_CASE("edge threshold: normal contrast has the largest, a flat picture the lowest, nothing but white the largest",
+TEST_CASE("edge threshold: normal contrast gives the largest, a flat image the lowest, a saturated image the largest",
           "[edges]") {
   const EdgesConfig config;
   const double one_step = 1.0 / (std::sqrt(2.0 * 3.14159265358979323846) * config.sigma);
@@ -171,14 +170,14 @@ TEST_CASE("edge threshold: normal contrast has the largest, a flat picture the l
   CHECK(reference_of({noisy_image(320, 240, 100, 0, 65535)}).threshold == Approx(2 * one_step / 257));
   CHECK(reference_of({noisy_image(320, 240, 0, 0)}).threshold == 2.0F);
   CHECK(reference_of({noisy_image(320, 240, 255, 0)}).threshold == 2.0F);
-  // Noise alone: five standard deviations of its gradient, never above the largest.
+  // Noise alone: five standard deviations of its gradient, never above the largest threshold.
   const double per_noise = 5.0 / (std::sqrt(8.0 * 3.14159265358979323846) * 4.0);
   CHECK(static_cast<double>(reference_of({noisy_image(640, 480, 128, 3)}).threshold) ==
         Approx(3 * per_noise).epsilon(0.05));
   CHECK(reference_of({noisy_image(640, 480, 128, 30)}).threshold == 2.0F);
 }
 
-TEST_CASE("edge threshold: follows the contrast, and the edges stay", "[edges][device]") {
+TEST_CASE("edge threshold: follows the contrast, and the number of edges stays similar", "[edges][device]") {
   const Image bright = textured_image(320, 243);
   for (const auto& index : all_devices()) {
     Device device(index, kept_programs());
@@ -196,7 +195,7 @@ TEST_CASE("edge threshold: follows the contrast, and the edges stay", "[edges][d
   }
 }
 
-TEST_CASE("edge threshold: is held while the contrast stays about the same and follows a change at once",
+TEST_CASE("edge threshold: stays constant under small changes of contrast and follows large ones at once",
           "[edges][device]") {
   const Image bright = textured_image(320, 243);
   std::vector<std::vector<Image>> frames;
@@ -216,7 +215,7 @@ TEST_CASE("edge threshold: is held while the contrast stays about the same and f
   });
 }
 
-TEST_CASE("edge threshold: a fixed one is taken as it is", "[edges][device]") {
+TEST_CASE("edge threshold: a fixed one is used unchanged", "[edges][device]") {
   EdgesConfig config;
   config.threshold = 0.75;
   const Image flat = noisy_image(64, 48, 100, 0);

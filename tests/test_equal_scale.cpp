@@ -16,7 +16,7 @@ StereoRig rig_of(double left_focal, int left_width, double right_focal, int righ
 
 }  // namespace
 
-TEST_CASE("equal scale: a camera of twice the resolution sees the same rays with half of it", "[odometry][rig]") {
+TEST_CASE("equal scale: a camera with twice the resolution is halved and keeps its rays", "[odometry][rig]") {
   const StereoRig rig = rig_of(300, 400, 150, 200), equal = odometry::with_equal_scales(rig);
   CHECK(equal.right.fx == 150);
   CHECK(equal.right_undistortion.empty());
@@ -28,7 +28,7 @@ TEST_CASE("equal scale: a camera of twice the resolution sees the same rays with
   for (const int x : {0, 17, 199}) {
     for (const int y : {0, 5, 39}) {
       const std::size_t i = static_cast<std::size_t>(200 * y + x);
-      // In the middle of the four pixels that it is the mean of, and on the same ray.
+      // At the centre of the four pixels that it averages, and on the same ray.
       CHECK(table.source_x[i] == 2 * static_cast<float>(x) + 0.5F);
       CHECK(table.source_y[i] == 2 * static_cast<float>(y) + 0.5F);
       CHECK((equal.left.ray({x, y}) - rig.left.ray({table.source_x[i], table.source_y[i]})).norm() < 1e-6);
@@ -36,7 +36,7 @@ TEST_CASE("equal scale: a camera of twice the resolution sees the same rays with
   }
 }
 
-TEST_CASE("equal scale: a table is followed, and other rigs stay as they are", "[odometry][rig]") {
+TEST_CASE("equal scale: an undistortion table is rescaled, and other rigs stay unchanged", "[odometry][rig]") {
   StereoRig rig = rig_of(150, 200, 300, 400);
   UndistortionTable& table = rig.right_undistortion;
   table.width = 400;

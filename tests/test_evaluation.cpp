@@ -14,7 +14,7 @@ Eigen::Isometry3d turn(double degrees, const Eigen::Vector3d& axis) {
   return Eigen::Isometry3d(Eigen::AngleAxisd(degrees * kDegree, axis.normalized()));
 }
 
-/// A curve that leaves every plane, 50 ms per pose.
+/// A non-planar curve, 50 ms per pose.
 Trajectory curve(int count) {
   Trajectory trajectory;
   for (int i = 0; i < count; ++i) {
@@ -33,7 +33,7 @@ Trajectory moved(Trajectory trajectory, const Eigen::Isometry3d& left,
 
 }  // namespace
 
-TEST_CASE("evaluation: another world frame costs nothing", "[evaluation]") {
+TEST_CASE("evaluation: another world frame adds no error", "[evaluation]") {
   const Trajectory truth = curve(20);
   const Eigen::Isometry3d world = Eigen::Translation3d(5, -3, 2) * turn(70, {1, 1, 0});
   const TrajectoryEvaluation result = evaluate_trajectory(moved(truth, world), truth);
@@ -48,8 +48,7 @@ TEST_CASE("evaluation: another world frame costs nothing", "[evaluation]") {
 }
 
 TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
-  // Truth stands still but for steps of 1 m along x; the estimate makes steps of 1.02 m and turns 0.5 degrees per step
-  // about x.
+  // Ground truth: steps of 1 m along x; estimate: steps of 1.02 m with a rotation of 0.5 degrees about x.
   Trajectory truth, estimate;
   for (int i = 0; i < 5; ++i) {
     truth.push_back({i, Eigen::Isometry3d(Eigen::Translation3d(i, 0, 0))});
@@ -58,7 +57,7 @@ TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
   const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth, 0, 0);
   const PoseErrors& errors = result.origin_aligned;
   CHECK(errors.ape_translation_m.mean == Approx(0.04));                   // 0, 2, 4, 6, 8 cm
-  CHECK(errors.ape_translation_m.std == Approx(0.02 * std::sqrt(2.0)));   // over N: mean square deviation 2 units
+  CHECK(errors.ape_translation_m.std == Approx(0.02 * std::sqrt(2.0)));   // over N: mean squared deviation 2 units
   CHECK(errors.ape_translation_m.rmse == Approx(0.02 * std::sqrt(6.0)));  // (0 + 1 + 4 + 9 + 16) / 5
   CHECK(errors.ape_translation_m.max == Approx(0.08));
   CHECK(errors.ape_rotation_deg.max == Approx(2.0));
@@ -71,13 +70,13 @@ TEST_CASE("evaluation: a known drift gives known errors", "[evaluation]") {
   CHECK(std::isnan(result.per_pose[0].rpe_translation_m));
   CHECK(result.per_pose[3].rpe_translation_m == Approx(0.02));
   CHECK(result.per_pose[3].ape_rotation_deg == Approx(1.5));
-  CHECK(std::isnan(result.se3_aligned.ape_translation_m.mean));  // a straight line leaves a turn open
+  CHECK(std::isnan(result.se3_aligned.ape_translation_m.mean));  // a straight line leaves a rotation undetermined
   CHECK_THAT(result.se3_open_rotation, Catch::Matchers::Contains("straight line"));
 }
 
-TEST_CASE("evaluation: a path that hardly bends, or hardly moves, leaves the rotation of its alignment open",
+TEST_CASE("evaluation: an almost straight or stationary path leaves the rotation of its alignment undetermined",
           "[evaluation]") {
-  // Truth along z with a bend of some size; the estimate is off by 10 mm to alternating sides.
+  // Ground truth along z with a given bend; the estimate is off by 10 mm to alternating sides.
   const auto evaluate = [](double length, double bend) {
     Trajectory truth, estimate;
     for (int i = 0; i < 20; ++i) {
@@ -99,9 +98,9 @@ TEST_CASE("evaluation: a path that hardly bends, or hardly moves, leaves the rot
   CHECK(std::isfinite(still.origin_aligned.ape_rotation_deg.mean));
 }
 
-TEST_CASE("evaluation: the SE(3) alignment spreads what the origin alignment accumulates", "[evaluation]") {
-  // Every pose but the first displaced: the origin alignment charges all the others, the least-squares one nearly
-  // nothing.
+TEST_CASE("evaluation: the SE(3) alignment distributes errors that the origin alignment accumulates", "[evaluation]") {
+  // Every pose but the first is displaced: the origin alignment has an error at all others, the least-squares alignment
+  // almost none.
   const Trajectory truth = curve(30);
   Trajectory estimate = truth;
   estimate[0].world_from_left = Eigen::Translation3d(0.3, 0, 0) * estimate[0].world_from_left;
@@ -120,7 +119,7 @@ TEST_CASE("evaluation: small and large angles are exact", "[evaluation]") {
   }
 }
 
-TEST_CASE("evaluation: poses are matched by the nearest stamp, each once", "[evaluation]") {
+TEST_CASE("evaluation: poses are matched to the nearest timestamp, each once", "[evaluation]") {
   const Trajectory truth = curve(20);
   Trajectory estimate;
   for (int i = 0; i < 20; i += 3) estimate.push_back(truth[static_cast<std::size_t>(i)]);
@@ -131,9 +130,9 @@ TEST_CASE("evaluation: poses are matched by the nearest stamp, each once", "[eva
   CHECK(sparse.truth_poses == 20);
   CHECK(sparse.origin_aligned.ape_translation_m.max < 1e-12);
   CHECK_THROWS_AS(evaluate_trajectory(estimate, truth, 0, 3'999'999), DataError);
-  // Half of the truth: the rest of the estimate is not compared.
+  // Half of the ground truth: the rest of the estimate is not compared.
   CHECK(evaluate_trajectory(estimate, Trajectory(truth.begin(), truth.begin() + 10)).matched == 4);
-  // Three poses within the tolerance of one truth pose.
+  // Three poses within the tolerance of one ground-truth pose.
   const Trajectory close = {{0, truth[0].world_from_left},
                             {1'000'000, truth[1].world_from_left},
                             {2'000'000, truth[1].world_from_left},
@@ -141,7 +140,7 @@ TEST_CASE("evaluation: poses are matched by the nearest stamp, each once", "[eva
   CHECK(evaluate_trajectory(close, truth).matched == 2);
 }
 
-TEST_CASE("evaluation: from_frame leaves out the first poses of the estimate and aligns at the next", "[evaluation]") {
+TEST_CASE("evaluation: from_frame drops the first poses of the estimate and aligns at the next one", "[evaluation]") {
   const Trajectory truth = curve(20);
   Trajectory estimate = truth;
   for (std::size_t i = 0; i < 10; ++i)
@@ -152,7 +151,7 @@ TEST_CASE("evaluation: from_frame leaves out the first poses of the estimate and
   CHECK(late.origin_aligned.ape_translation_m.max < 1e-12);
 }
 
-TEST_CASE("evaluation: too few matches say what there was", "[evaluation]") {
+TEST_CASE("evaluation: an error about too few matches states the stamps and counts", "[evaluation]") {
   const Trajectory truth = curve(20);
   Trajectory other = curve(5);
   for (auto& pose : other) pose.stamp_ns += 3'600'000'000'000;

@@ -9,8 +9,8 @@ using namespace quadedge;
 using namespace quadedge::evaluation;
 using namespace paper_scene;
 
-// LONG: one scene, judged from all sides.
-TEST_CASE("A scene on paper has the recall, precision and ambiguity that were worked out on paper", "[matching]") {
+// LONG: one scene with all its checks.
+TEST_CASE("A hand-made scene has the recall, precision and ambiguity calculated by hand", "[matching]") {
   EdgeSet left, right;
   add_edge(left, 30, 10);     // 0: counterpart 0 (and the near duplicate 1)
   add_edge(left, 40, 20);     // 1: counterpart 2
@@ -35,8 +35,9 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   lists.first = {0, 3, 4, 5, 6, 7, 8, 8};
   lists.target = {0, 1, 3, 2, 3, 0, 0, 2};
   observer.stereo_filter(StereoFilter::epipolar_distance, lists);
-  // Edge 0 keeps one true candidate, edge 1 loses its own and keeps nothing, edge 2 gets a refined position that is
-  // true, and edge 5 one that would be if it could be seen.
+  // Edge 0 keeps one true candidate, edge 1 loses its only one, edge 2 gets a true refined position, and edge 5 one
+  // that
+  // would be true if it were visible.
   CandidateLists refined;
   refined.first = {0, 1, 1, 2, 2, 2, 3, 3};
   refined.target = {1, 3, 2};
@@ -76,7 +77,7 @@ TEST_CASE("A scene on paper has the recall, precision and ambiguity that were wo
   CHECK(second.all.precision() == Approx(2.0 / 3));
 }
 
-TEST_CASE("The error of a final stereo edge is its distance from the true position, and the part of it across the edge",
+TEST_CASE("The error of a final stereo edge is its disparity error and the component of it across the edge",
           "[matching]") {
   EdgeSet left, right;
   add_edge(left, 30, 10);
@@ -100,7 +101,7 @@ TEST_CASE("The error of a final stereo edge is its distance from the true positi
   CHECK(measured.across_error[0] == Approx(0.5 * std::sin(0.5)));
 }
 
-TEST_CASE("Pooled tables add up counts, not percentages, and tell the spread over the frames", "[matching]") {
+TEST_CASE("Pooled tables add up counts, not percentages, and give the spread over the frames", "[matching]") {
   FilterCounts small, large;
   small.add_edge(1, 1);  // one edge, found
   for (int i = 0; i < 3; ++i) large.add_edge(2, i == 0 ? 1 : 0);

@@ -23,7 +23,7 @@ std::vector<std::string> names(const std::vector<data::FoundSequence>& sequences
 
 }  // namespace
 
-TEST_CASE("find sequences: all layouts below a folder, and no still pairs", "[data]") {
+TEST_CASE("find sequences: all layouts below a folder are found, except still pairs", "[data]") {
   const TemporaryFolder folder;
   write_kitti(folder / "data/kitti");
   write_euroc(folder / "data/flights/V1 01");
@@ -33,20 +33,20 @@ TEST_CASE("find sequences: all layouts below a folder, and no still pairs", "[da
   write_image(folder / "data/.hidden/rgb2/1.png");
   CHECK(names(data::find_sequences(folder / "data")) ==
         std::vector<std::string>{"V1_01 euroc", "kitti_07 kitti", "cables_1 eth3d-slam"});
-  // The folder itself may be a sequence, also with a slash behind it and when it is EuRoC's inner folder.
+  // The folder itself may be a sequence, also with a trailing slash, and EuRoC's inner folder.
   CHECK(names(data::find_sequences(folder / "data/slam/training/cables_1/")) ==
         std::vector<std::string>{"cables_1 eth3d-slam"});
   CHECK(names(data::find_sequences(folder / "data/flights/V1 01/mav0")) == std::vector<std::string>{"V1_01 euroc"});
 }
 
-TEST_CASE("find sequences: equal names are made longer until they differ", "[data]") {
+TEST_CASE("find sequences: equal names are extended until they differ", "[data]") {
   const TemporaryFolder folder;
   for (const char* place : {"monday/room", "tuesday/room", "tuesday/hall"}) write_eth3d_slam(folder / place, 1);
   CHECK(names(data::find_sequences(folder.path())) ==
         std::vector<std::string>{"monday_room eth3d-slam", "hall eth3d-slam", "tuesday_room eth3d-slam"});
 }
 
-TEST_CASE("find sequences: links are followed, circles end, nothing is found twice", "[data]") {
+TEST_CASE("find sequences: links are followed, cycles end, nothing is found twice", "[data]") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "elsewhere/room", 1);
   std::filesystem::create_directories(folder / "root/deep");
@@ -58,12 +58,12 @@ TEST_CASE("find sequences: links are followed, circles end, nothing is found twi
   CHECK(found[0].path == folder / "root/link");
 }
 
-TEST_CASE("find sequences: what cannot be read is found without a format, and the others too", "[data]") {
+TEST_CASE("find sequences: unreadable folders are listed without a format, beside the others", "[data]") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "root/room", 1);
   std::filesystem::create_symlink("itself", folder / "root/itself");
   std::filesystem::create_symlink("nowhere", folder / "root/dangling");
-  // Longer than a path may be: made from within, name by name.
+  // Longer than a path may be: created from inside, folder by folder.
   const std::filesystem::path here = std::filesystem::current_path();
   const std::string name(250, 'x');
   std::filesystem::current_path(folder / "root");
@@ -77,11 +77,11 @@ TEST_CASE("find sequences: what cannot be read is found without a format, and th
   CHECK_THROWS_WITH(open_dataset(found[0].path), Contains("itself") && Contains("Too many levels"));
   CHECK_THROWS_WITH(open_dataset(found[2].path), Contains("File name too long") && Contains("expected"));
   for (const auto* sequence : {&found[0], &found[2]}) CHECK_THROWS_AS(open_dataset(sequence->path), DataError);
-  CHECK(std::system(("rm -rf '" + (folder / "root") + "'").c_str()) == 0);  // the library cannot go so deep
+  CHECK(std::system(("rm -rf '" + (folder / "root") + "'").c_str()) == 0);  // too deep for std::filesystem
   CHECK_THROWS_AS(data::find_sequences(name + name), DataError);
 }
 
-TEST_CASE("find sequences: a list keeps its order and its bad lines", "[data]") {
+TEST_CASE("find sequences: a list keeps its order and its invalid lines", "[data]") {
   const TemporaryFolder folder;
   write_eth3d_slam(folder / "b", 1);
   write_eth3d_slam(folder / "a", 1);
@@ -94,7 +94,7 @@ TEST_CASE("find sequences: a list keeps its order and its bad lines", "[data]") 
   CHECK(found[1].path == folder / "absent/folder");
 }
 
-TEST_CASE("find sequences: nothing to find is an error that names the place", "[data]") {
+TEST_CASE("find sequences: an empty folder is an error that names it", "[data]") {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "empty");
   write_text(folder / "list.txt", "# nothing\n");

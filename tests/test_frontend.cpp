@@ -10,8 +10,8 @@ using namespace matching;
 
 namespace {
 
-/// A position in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all
-/// numbers.
+/// A position in the left image in hundredths of a pixel. Rows are compared by position: an additional edge in one list
+/// shifts all indices.
 using Key = std::pair<long, long>;
 Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
 
@@ -36,10 +36,10 @@ double shared(const Matches& a_x, const Matches& a_y, const Matches& a_u, const 
   return a_x.empty() ? 1 : static_cast<double>(found) / static_cast<double>(a_x.size());
 }
 
-/// Device and reference see the same, but for what hangs on rounding: the reference works in double precision,
-/// positions differ by up to 0.01 px in 99.9 % (doc/method.md section 1), and each of some twenty thresholds parts
-/// candidates that lie within that of it. Decisions between equals must not hang on rounding, so 0.5 % is ample in
-/// stereo; a quad needs two good stereo edges and their neighbours: 1 %.
+/// Device and reference agree except for rounding: the reference works in double precision, positions differ by up to
+/// 0.01 px in 99.9 % of the cases (doc/method.md section 1), and each of about twenty thresholds separates candidates
+/// that are closer than that. Ties do not depend on rounding, so 0.5 % is ample for stereo; a quad needs two good
+/// stereo edges and their neighbours: 1 %.
 void compare(const FrontendResult& a, const FrontendResult& b) {
   const auto stereo = [](const StereoEdges& p, const StereoEdges& q) {
     return shared(p.left_x, p.left_y, p.right_x, q.left_x, q.left_y, q.right_x);
@@ -75,7 +75,7 @@ class Lists : public Tap {
   TemporalMatches matched;
 };
 
-/// Whether two taps of the same frames were told the same of the filters in time.
+/// Whether two taps of the same frames received the same results of the temporal filters.
 bool same_searches(const Lists& a, const Lists& b) {
   for (const Side side : kSides) {
     const auto &p = a.temporal_lists[index_of(side)], &q = b.temporal_lists[index_of(side)];
@@ -101,7 +101,7 @@ void check_cue(const CandidateLists& before, const CandidateLists& after, const 
   CHECK(expected == after.target);
 }
 
-/// Every row of `after` is a part of the same row of `before`; returns how many went.
+/// Checks that every row of `after` is a subset of the same row of `before`. \returns the number of rejected candidates
 std::size_t check_subset(const CandidateLists& before, const CandidateLists& after) {
   REQUIRE(before.first.size() == after.first.size());
   std::size_t strangers = 0;
@@ -130,7 +130,7 @@ TEST_CASE("frontend: every device finds the reference's stereo edges and quads",
   }
 }
 
-TEST_CASE("frontend: found anywhere, edges are the reference's on every device, and where the motion brings them",
+TEST_CASE("frontend: every device finds the reference's global matches, at the positions that the motion predicts",
           "[frontend][matching][device]") {
   const RenderedScene scene("room", 240, 150, 2, 8);
   const auto find = [&](const std::string& device_name) {
@@ -160,13 +160,13 @@ TEST_CASE("frontend: found anywhere, edges are the reference's on every device, 
   const auto expected = find("reference");
   for (const auto& name : all_devices()) {
     const auto found = find(name);
-    // Every few bytes of a descriptor differ by one, and an edge more or less moves the choice of those that take part.
+    // Some bytes of a descriptor differ by one, and an additional edge changes the selection of edges.
     CHECK(shared(found.left_x, found.left_y, found.right_x, expected.left_x, expected.left_y, expected.right_x) > 0.8);
     CHECK(shared(expected.left_x, expected.left_y, expected.right_x, found.left_x, found.left_y, found.right_x) > 0.8);
   }
 }
 
-TEST_CASE("frontend: a rig that is held stays as it was, one that nobody holds serves again", "[frontend][device]") {
+TEST_CASE("frontend: a rig in use stays unchanged, an unused one is recycled", "[frontend][device]") {
   const RenderedScene scene("cables", 120, 75, 4);
   auto names = all_devices();
   names.emplace_back("reference");
@@ -182,7 +182,7 @@ TEST_CASE("frontend: a rig that is held stays as it was, one that nobody holds s
     auto second = frontend->process(scene.frame(2));
     CHECK(second.get() == free);
     CHECK(second->frame == 2);
-    CHECK(frontend->process(scene.frame(3)).get() != free);  // held by now
+    CHECK(frontend->process(scene.frame(3)).get() != free);  // in use now
     CHECK((name == "reference" || frontend->device_bytes() > bytes));
     CHECK(held->frame == 0);
     CHECK(same_bytes(held->edges, edges));
@@ -194,7 +194,7 @@ TEST_CASE("frontend: a rig that is held stays as it was, one that nobody holds s
   }
 }
 
-TEST_CASE("frontend: a rig measures its edges once per disparity offset", "[frontend]") {
+TEST_CASE("frontend: a rig computes its depths once per disparity offset", "[frontend]") {
   const RenderedScene scene("cables", 120, 75, 2);
   Device device("reference");
   const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
@@ -210,7 +210,7 @@ TEST_CASE("frontend: a rig measures its edges once per disparity offset", "[fron
   };
   const auto far = depths(scene.rig, 0);
   REQUIRE(far.size() > 10);
-  CHECK(depths(nearer, 0) == far);  // measured already
+  CHECK(depths(nearer, 0) == far);  // computed already
   CHECK(depths(nearer, 0.5).front() > far.front());
   CHECK(depths(scene.rig, 0) == far);
   const auto* memory = rig.get();
@@ -220,7 +220,7 @@ TEST_CASE("frontend: a rig measures its edges once per disparity offset", "[fron
   CHECK(depths(scene.rig, 0) != far);  // of the new frame's edges
 }
 
-TEST_CASE("frontend: every variant of every stage gives the default's bytes, and so does a second run",
+TEST_CASE("frontend: every variant of every stage gives the default's bytes, and a second run gives them again",
           "[frontend][matching][device]") {
   const RenderedScene scene("room", 161, 97, 2);
   for (const auto& device : all_devices()) {
@@ -236,8 +236,8 @@ TEST_CASE("frontend: every variant of every stage gives the default's bytes, and
   }
 }
 
-// LONG: the tap that the test puts in counts every list.
-TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[frontend][matching][device]") {
+// LONG: the test's tap counts every list.
+TEST_CASE("frontend: a tap changes nothing and receives lists that only shrink", "[frontend][matching][device]") {
   RenderedScene scene("room", 161, 97, 2);
   scene.config.temporal.sift_max = 300;
   scene.config.stereo.sift_max = 400;
@@ -262,7 +262,7 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       const auto& owned = tap.stereo_lists[11].target;
       CHECK(std::set<std::int32_t>(owned.begin(), owned.end()).size() == owned.size());
       CHECK(owned.size() < seen.current.size());
-      // The cue of a list is what the next filter judges.
+      // A list's cue is the input of the next filter.
       const Config& config = scene.config;
       check_cue(tap.stereo_lists[3], tap.stereo_lists[4],
                 [&](float sift) { return sift <= static_cast<float>(config.stereo.sift_max); });
@@ -285,7 +285,7 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
       CHECK(tap.search.left.x == seen.previous.left_x);
       CHECK(tap.search.right.direction == seen.previous.right_direction);
       CHECK(seen.quads.search == 0);
-      for (std::size_t i = 0; i < seen.current.size(); ++i) {  // the final edge is the cluster that was chosen
+      for (std::size_t i = 0; i < seen.current.size(); ++i) {  // the final edge is the chosen cluster
         const auto row = static_cast<std::size_t>(seen.current.left_index[i]);
         const auto& lists = chosen;
         bool found = false;
@@ -303,7 +303,7 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
         for (int order = 2; order <= 7; ++order)
           check_subset(tap.temporal_lists[side][order - 1], tap.temporal_lists[side][order]);
       }
-      for (std::size_t q = 0; q < seen.quads.size(); ++q) {  // a quad was alive in both lists
+      for (std::size_t q = 0; q < seen.quads.size(); ++q) {  // a quad has survived in both lists
         CHECK(seen.quads.previous[q] % step == 0);
         const auto row = static_cast<std::size_t>(seen.quads.previous[q] / step);
         for (const int side : {0, 1}) {
@@ -317,7 +317,7 @@ TEST_CASE("frontend: a tap changes nothing and sees lists that only shrink", "[f
   }
 }
 
-TEST_CASE("frontend: without SIFT a tap sees the one kernel's own decisions, which are those of the lists",
+TEST_CASE("frontend: without SIFT a tap receives the single kernel's decisions, which equal those of the lists",
           "[frontend][matching][device]") {
   const RenderedScene scene("room", 161, 97, 2);
   for (const auto& device : all_devices()) {

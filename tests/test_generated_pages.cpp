@@ -7,7 +7,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// What a shell command prints, both streams. A tool that is missing is a failure.
+/// A shell command's output on both streams. A missing tool is a failure.
 std::string shell(const std::string& command) {
   const TemporaryFolder folder;
   const int status = std::system(("(" + command + ") >'" + (folder / "out") + "' 2>&1").c_str());
@@ -17,7 +17,7 @@ std::string shell(const std::string& command) {
   return out;
 }
 
-/// Words that bash offers for the line "quadedge WORDS...", of which the last is being typed.
+/// Completions of bash for the line "quadedge WORDS..." while the last word is being typed.
 std::string completions(const std::string& script, const std::vector<std::string>& words) {
   std::string line = "COMP_WORDS=(quadedge";
   for (const auto& word : words) line += " '" + word + "'";
@@ -28,7 +28,7 @@ std::string completions(const std::string& script, const std::vector<std::string
 
 }  // namespace
 
-TEST_CASE("generate man: troff accepts it without a warning, and it tells commands, options and constants", "[cli]") {
+TEST_CASE("generate man: troff accepts it without a warning, and it lists commands, options and constants", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "quadedge.1") << run_program({"generate", "man"}).out;
   CHECK(shell("groff -man -ww -z -Tutf8 '" + (folder / "quadedge.1") + "'") == "");
@@ -37,7 +37,7 @@ TEST_CASE("generate man: troff accepts it without a warning, and it tells comman
   CHECK_THAT(page, Contains("QUADEDGE_DEVICE") && Contains("quadedge generate man | man -l -"));
 }
 
-TEST_CASE("generate bash: completes commands, options, their words and constants", "[cli]") {
+TEST_CASE("generate bash: completes commands, options, their values and constants", "[cli]") {
   const TemporaryFolder folder;
   const std::string script = folder / "quadedge";
   std::ofstream(script) << run_program({"generate", "bash"}).out;
@@ -49,10 +49,10 @@ TEST_CASE("generate bash: completes commands, options, their words and constants
   CHECK(completions(script, {"run", "x", "--format", "eur"}) == "euroc\n");
   CHECK(completions(script, {"run", "--stereo.ncc_n"}) == "--stereo.ncc_nearly_best\n");
   CHECK(completions(script, {"demo", "--odometry.key_rig", "t"}) == "true\n");
-  CHECK(completions(script, {"run", "x", "--output", "res"}) == "\n");  // a file: bash's own business
+  CHECK(completions(script, {"run", "x", "--output", "res"}) == "\n");  // a file, which bash completes itself
 }
 
-TEST_CASE("generate: something else is refused", "[cli]") {
+TEST_CASE("generate: unknown kinds are refused", "[cli]") {
   const auto unknown = run_program({"generate", "cake"});
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("cake") && Contains("man, bash, configuration or self-test"));

@@ -1,4 +1,4 @@
-/// \file test_image_depth.cpp  Images of 12 and 16 bits, from the stages to the path.
+/// \file test_image_depth.cpp  Images of 12 and 16 bits, from single stages to the trajectory.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -17,7 +17,7 @@ using matching::run_frontend;
 
 namespace {
 
-/// Share of the stereo edges of `a` that `b` has, too, to 0.02 px.
+/// Fraction of the stereo edges of `a` that `b` has too, to 0.02 px.
 double shared(const StereoEdges& a, const StereoEdges& b) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -31,7 +31,7 @@ double shared(const StereoEdges& a, const StereoEdges& b) {
   return a.size() == 0 ? 1 : static_cast<double>(found) / static_cast<double>(a.size());
 }
 
-/// The same grey levels in 16 bits.
+/// The same grey levels at 16 bits.
 Image deepened(const Image& image) {
   Image result(image.width, image.height, 65535);
   for (int y = 0; y < image.height; ++y)
@@ -41,7 +41,7 @@ Image deepened(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("image depth: pixels are values, grey levels do not depend on the depth", "[image]") {
+TEST_CASE("image depth: pixels hold raw values, grey levels do not depend on the bit depth", "[image]") {
   Image image(3, 2, 4095);
   image.set(2, 1, 4095);
   image.set(0, 1, 819);
@@ -55,7 +55,7 @@ TEST_CASE("image depth: pixels are values, grey levels do not depend on the dept
   CHECK(view.value(0, 1) == 3);
 }
 
-TEST_CASE("image depth: the same grey levels in 16 bits have the same edges", "[edges][device]") {
+TEST_CASE("image depth: the same grey levels at 16 bits have the same edges", "[edges][device]") {
   const Image image = textured_image(161, 123), deep = deepened(image);
   auto names = all_devices();
   names.emplace_back("reference");
@@ -72,7 +72,7 @@ TEST_CASE("image depth: the same grey levels in 16 bits have the same edges", "[
   }
 }
 
-TEST_CASE("image depth: devices find the reference's stereo edges in 12 and 16 bits, every variant the same bytes",
+TEST_CASE("image depth: devices find the reference's stereo edges at 12 and 16 bits, every variant the same bytes",
           "[frontend][matching][device]") {
   const std::set<std::string> readers = {"edge_threshold", "edge_detection", "patches", "sift", "stereo_refinement"};
   for (const int bits : {12, 16}) {
@@ -93,7 +93,7 @@ TEST_CASE("image depth: devices find the reference's stereo edges in 12 and 16 b
   }
 }
 
-TEST_CASE("image depth: a hundredth of the contrast in 16 bits is tracked like the whole", "[odometry][device]") {
+TEST_CASE("image depth: a hundredth of the contrast at 16 bits is tracked like full contrast", "[odometry][device]") {
   const RenderedScene bright("room", 320, 200, 4, 1, 16), dim("room", 320, 200, 4, 1, 16, 0.01);
   for (const auto& name : all_devices()) {
     Device device(name, kept_programs());
@@ -109,7 +109,7 @@ TEST_CASE("image depth: a hundredth of the contrast in 16 bits is tracked like t
   }
 }
 
-TEST_CASE("image depth: images of another depth than the rig's are refused", "[odometry][device]") {
+TEST_CASE("image depth: images whose bit depth differs from the rig's are refused", "[odometry][device]") {
   const RenderedScene scene("room", 160, 100, 1);
   StereoRig rig = scene.rig;
   rig.max_value = 65535;

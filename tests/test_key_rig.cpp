@@ -8,7 +8,7 @@ using odometry::KeyRigFitness;
 
 namespace {
 
-/// `count` stereo edges at left (10 i, 0), right (10 i - 5, 0), all moved by `shift` px.
+/// `count` stereo edges at left (10 i, 0), right (10 i - 5, 0), all shifted by `shift` px.
 StereoEdges row_of_edges(int count, float shift = 0) {
   StereoEdges edges;
   for (int i = 0; i < count; ++i) {
@@ -34,7 +34,7 @@ KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isom
 
 }  // namespace
 
-TEST_CASE("key rig: parallax is the median distance of both ends", "[odometry][key_rig]") {
+TEST_CASE("key rig: parallax is the median distance between both ends", "[odometry][key_rig]") {
   StereoEdges current = row_of_edges(3);
   current.left_x[0] += 3;
   current.left_y[0] += 4;   // 5 px
@@ -47,7 +47,7 @@ TEST_CASE("key rig: parallax is the median distance of both ends", "[odometry][k
   CHECK(odometry::median_parallax(row_of_edges(3), {}, distances) == 0);
 }
 
-TEST_CASE("key rig: remembers its frame and pose", "[odometry][key_rig]") {
+TEST_CASE("key rig: keeps its frame and pose", "[odometry][key_rig]") {
   CHECK(KeyRig().frame() == -1);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(1, 2, 3);
@@ -56,7 +56,7 @@ TEST_CASE("key rig: remembers its frame and pose", "[odometry][key_rig]") {
   CHECK(rig.world_from_left().translation() == Eigen::Vector3d(1, 2, 3));
 }
 
-TEST_CASE("key rig: each criterion alone calls for a replacement", "[odometry][key_rig]") {
+TEST_CASE("key rig: each criterion alone triggers a replacement", "[odometry][key_rig]") {
   OdometryConfig config;
   config.key_min_quads = 2;
   config.key_max_parallax = 40;
@@ -71,13 +71,13 @@ TEST_CASE("key rig: each criterion alone calls for a replacement", "[odometry][k
   };
   KeyRig rig = key_rig(0);
   KeyRigFitness first = fit();
-  first.quads = 10;  // the mark: at least 0.3 x 10 = 3 have to stay
+  first.quads = 10;  // the reference count: at least 0.3 x 10 = 3 must remain
   CHECK_FALSE(rig.needs_replacement(first, config));
   CHECK_FALSE(rig.needs_replacement(fit(), config));
   KeyRigFitness fitness = fit();
-  fitness.quads = 2;  // under the ratio
+  fitness.quads = 2;  // below the ratio
   CHECK(rig.needs_replacement(fitness, config));
-  config.key_min_quads = 4;  // under the number
+  config.key_min_quads = 4;  // below the minimum number
   CHECK(rig.needs_replacement(fit(), config));
   config.key_min_quads = 2;
   fitness = fit();
@@ -92,15 +92,14 @@ TEST_CASE("key rig: each criterion alone calls for a replacement", "[odometry][k
   fitness = fit();
   fitness.frames = 10;
   CHECK(rig.needs_replacement(fitness, config));
-  // A new key rig sets a new mark.
+  // A new key rig sets a new reference count.
   rig = key_rig(9);
   fitness = fit();
   fitness.quads = 2;
   CHECK_FALSE(rig.needs_replacement(fitness, config));
 }
 
-TEST_CASE("key rig: with a pose that was only predicted it is replaced by the first frame located",
-          "[odometry][key_rig]") {
+TEST_CASE("key rig: one with a predicted pose is replaced by the first tracked frame", "[odometry][key_rig]") {
   OdometryConfig config;
   KeyRigFitness fitness;
   fitness.quads = 1000;

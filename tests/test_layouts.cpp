@@ -11,13 +11,13 @@ using namespace quadedge;
 
 namespace {
 
-/// One structure of kernels/layouts.cl: the 4-byte values in it, in their order, as C names them (a.limits.ncc_min).
+/// One structure of kernels/layouts.cl: its 4-byte values in order, under their C names (a.limits.ncc_min).
 struct Structure {
   std::string name;
   std::vector<std::string> values;
 };
 
-/// Reads the declarations from the text itself, so that no structure and no field can be left out.
+/// Reads the declarations from the source text, so that no structure and no field can be left out.
 std::vector<Structure> declared_structures() {
   std::string text = opencl::embedded_kernels().at("layouts.cl");
   text = std::regex_replace(text, std::regex("//[^\n]*"), "");
@@ -62,7 +62,7 @@ template <class T>
 void check_structure(opencl::Context& context, const cl::Program& program, const Structure& structure) {
   INFO(structure.name << " on " << context.name());
   const std::size_t words = structure.values.size();
-  REQUIRE(sizeof(T) == 4 * words);  // nothing in between: value k stands at byte 4 k
+  REQUIRE(sizeof(T) == 4 * words);  // no padding: value k is at byte 4 k
   std::vector<cl_uint> bits(words), expected;
   for (std::size_t k = 0; k < words; ++k) bits[k] = static_cast<cl_uint>(0x3f800000 + 7 * k);  // floats near 1
   T value;
@@ -77,7 +77,7 @@ void check_structure(opencl::Context& context, const cl::Program& program, const
 
 }  // namespace
 
-TEST_CASE("layouts: every structure arrives on every device as the host lays it out", "[device][oclgrind]") {
+TEST_CASE("layouts: every structure has the host's layout on every device", "[device][oclgrind]") {
   const auto structures = declared_structures();
   std::map<std::string, Structure> by_name;
   for (const auto& structure : structures) by_name[structure.name] = structure;

@@ -16,7 +16,7 @@ Lens lens_of(LensModel model, std::vector<double> parameters) {
   return lens;
 }
 
-/// Lenses of every model, with parameters as calibrations of real cameras have them.
+/// Lenses of every model, with typical parameters of real cameras.
 std::vector<Lens> typical_lenses() {
   return {
       lens_of(LensModel::radial_tangential, {}),
@@ -38,7 +38,7 @@ std::vector<Lens> typical_lenses() {
 
 }  // namespace
 
-TEST_CASE("lens: radial, tangential, rational, prism and tilted coefficients are OpenCV's to 1e-9 px", "[lens]") {
+TEST_CASE("lens: radial, tangential, rational, prism and tilted coefficients agree with OpenCV to 1e-9 px", "[lens]") {
   int counts = 0;
   for (const Lens& lens : typical_lenses()) {
     if (lens.model != LensModel::radial_tangential || lens.parameters.empty()) continue;
@@ -61,7 +61,7 @@ TEST_CASE("lens: radial, tangential, rational, prism and tilted coefficients are
   CHECK(counts == 5);
 }
 
-TEST_CASE("lens: equidistant is OpenCV's fisheye model to 1e-9 px", "[lens]") {
+TEST_CASE("lens: equidistant agrees with OpenCV's fisheye model to 1e-9 px", "[lens]") {
   for (const Lens& lens : typical_lenses()) {
     if (lens.model != LensModel::equidistant) continue;
     const LensMapping mapping(lens);
@@ -80,7 +80,7 @@ TEST_CASE("lens: equidistant is OpenCV's fisheye model to 1e-9 px", "[lens]") {
   }
 }
 
-TEST_CASE("lens: what a pixel looks at is seen in it, to 1e-9 px, in every model", "[lens]") {
+TEST_CASE("lens: projection inverts unprojection to 1e-9 px in every model", "[lens]") {
   for (const Lens& lens : typical_lenses()) {
     INFO(to_string(lens.model) << ", " << lens.parameters.size() << " parameters");
     const LensMapping mapping(lens);
@@ -96,11 +96,11 @@ TEST_CASE("lens: what a pixel looks at is seen in it, to 1e-9 px, in every model
         CHECK((*back - Eigen::Vector2d(x, y)).norm() < 1e-9);
       }
     }
-    CHECK(seen > 1700);  // of 1800: no model leaves more than the corners out
+    CHECK(seen > 1700);  // of 1800: every model covers all but the corners
   }
 }
 
-TEST_CASE("lens: special parameters give projections that are known", "[lens]") {
+TEST_CASE("lens: special parameters give known projections", "[lens]") {
   const double f = 458.654;
   const auto radius = [&](LensModel model, std::vector<double> parameters, double angle) {
     Lens lens = lens_of(model, std::move(parameters));
@@ -110,7 +110,7 @@ TEST_CASE("lens: special parameters give projections that are known", "[lens]") 
   for (const double angle : {0.1, 0.7, 1.3}) {
     CHECK(radius(LensModel::equidistant, {0, 0, 0, 0}, angle) == Approx(f * angle).epsilon(1e-12));
     CHECK(radius(LensModel::double_sphere, {0, 0}, angle) == Approx(f * std::tan(angle)).epsilon(1e-12));
-    // Stereographic: seen from the far end of the sphere.
+    // Stereographic: projected from the far pole of the sphere.
     CHECK(radius(LensModel::double_sphere, {0, 0.5}, angle) == Approx(2 * f * std::tan(angle / 2)).epsilon(1e-12));
     CHECK(radius(LensModel::omnidirectional, {1}, angle) == Approx(f * std::tan(angle / 2)).epsilon(1e-12));
     CHECK(radius(LensModel::omnidirectional, {0}, angle) == Approx(f * std::tan(angle)).epsilon(1e-12));
@@ -120,7 +120,7 @@ TEST_CASE("lens: special parameters give projections that are known", "[lens]") 
   }
 }
 
-TEST_CASE("lens: the scale on the axis is that of small angles", "[lens]") {
+TEST_CASE("lens: the scale on the axis equals the scale of small angles", "[lens]") {
   for (const Lens& lens : typical_lenses()) {
     INFO(to_string(lens.model));
     const LensMapping mapping(lens);
@@ -130,7 +130,7 @@ TEST_CASE("lens: the scale on the axis is that of small angles", "[lens]") {
   }
 }
 
-TEST_CASE("lens: nothing is seen beyond the angle where the image folds back", "[lens]") {
+TEST_CASE("lens: nothing projects beyond the angle where the image folds back", "[lens]") {
   // r (1 - 0.3 r^2) is largest at r^2 = 1 / 0.9.
   const double turn = std::sqrt(1 / 0.9);
   const LensMapping radial(lens_of(LensModel::radial_tangential, {-0.3, 0, 0, 0}));
@@ -143,7 +143,7 @@ TEST_CASE("lens: nothing is seen beyond the angle where the image folds back", "
   const LensMapping fisheye(lens_of(LensModel::equidistant, {-1.0 / 3, 0, 0, 0}));
   CHECK(fisheye.project({std::sin(0.97), 0, std::cos(0.97)}));
   CHECK_FALSE(fisheye.project({std::sin(1.02), 0, std::cos(1.02)}));
-  // A fisheye without a fold also sees what is behind its plane.
+  // A fisheye without a fold also sees points behind its image plane.
   const LensMapping wide(lens_of(LensModel::equidistant, {0, 0, 0, 0}));
   CHECK(wide.project({1, 0, -0.5})->x() == Approx(458.654 * (kPi - std::atan(2.0)) + 367.215));
 }

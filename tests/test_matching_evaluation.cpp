@@ -24,7 +24,7 @@ SyntheticOptions small_room() {
   return options;
 }
 
-/// The rendered room with something done to its frames.
+/// The rendered room with a change to its rig and frames.
 class ChangedRoom : public MatchingSource {
  public:
   ChangedRoom(const std::function<void(StereoRig&)>& change_rig, std::function<void(TrueFrame&)> change)
@@ -69,13 +69,13 @@ const FilterCounts& plain() {
 
 }  // namespace
 
-TEST_CASE("On the rendered room most final stereo edges are true", "[matching][device]") {
+TEST_CASE("Most final stereo edges of the rendered room are true", "[matching][device]") {
   CHECK(plain().pool > 5000);
   CHECK(plain().precision() > 0.9);
   CHECK(plain().recall() > 0.6);
 }
 
-TEST_CASE("Ground truth that is wrong by two pixels leaves nearly nothing true", "[matching][device]") {
+TEST_CASE("Ground truth that is off by two pixels leaves almost no true edges", "[matching][device]") {
   const auto wrong = last_row(ChangedRoom([](StereoRig&) {},
                                           [](TrueFrame& frame) {
                                             for (auto* map : {&frame.truth.left, &frame.truth.right}) {
@@ -86,7 +86,7 @@ TEST_CASE("Ground truth that is wrong by two pixels leaves nearly nothing true",
   CHECK(wrong.precision() < 0.05);
 }
 
-TEST_CASE("Left and right change places without harm", "[matching][device]") {
+TEST_CASE("Swapping left and right hardly changes the result", "[matching][device]") {
   const auto swapped = last_row(ChangedRoom(
       [](StereoRig& rig) {
         rig.left.cx = rig.left.width - 1 - rig.left.cx;
@@ -102,7 +102,7 @@ TEST_CASE("Left and right change places without harm", "[matching][device]") {
   CHECK(swapped.recall() == Approx(plain().recall()).margin(0.03));
 }
 
-TEST_CASE("The reference has no filters to observe and says so", "[matching]") {
+TEST_CASE("The reference has no filters to observe and is refused", "[matching]") {
   Device device("reference");
   CHECK_THROWS_AS(evaluate_matching(*make_rendered_source(small_room()), device, {}), UsageError);
 }
@@ -130,7 +130,9 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
   CHECK(pooled["quads"]["precision"].get<double>() > 0.8);
   REQUIRE(pooled["constraints"].size() == 7);
   CHECK(pooled["constraints"][0]["recall"] == 1.0);
-  // The distributions count what the tables count: candidates of paired edges before a filter, after the one before it.
+  // The distributions count the same candidates as the tables: those of paired edges before a filter, after the
+  // previous
+  // one.
   const auto& cues = pooled["distributions"];
   for (const auto& cue : cues) {
     const auto total = [&](const char* kind) {
@@ -148,14 +150,14 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
   CHECK(pooled["stereo_edges"]["correct"].get<int>() > 10 * pooled["stereo_edges"]["inaccurate"].get<int>());
   CHECK(json["pairs"][0]["counts"][1]["status"] == "tracked");
   CHECK(json["pairs"][0]["counts"][1]["rotation_error_deg"].get<double>() < 0.1);
-  // Each filter reads the list of the one before it, so nothing that is true can come back before the refinement.
+  // Each filter reads the previous filter's list, so no true candidate can return before the refinement.
   for (std::size_t row = 1; row < 8; ++row) {
     CHECK(pooled["stereo"][row]["recall"].get<double>() <= pooled["stereo"][row - 1]["recall"].get<double>());
     CHECK(pooled["stereo"][row]["kept"].get<long long>() < pooled["stereo"][row - 1]["kept"].get<long long>());
   }
 }
 
-TEST_CASE("evaluate matching draws, refuses files in the way, and says what overflows", "[matching][device][cli]") {
+TEST_CASE("evaluate matching draws, refuses to overwrite files, and reports overflows", "[matching][device][cli]") {
   const TemporaryFolder folder;
   const auto result =
       run_program({"evaluate", "matching", small_sequence(), "room", "--size", "320x200", "--frames", "2", "--draw",
@@ -201,7 +203,7 @@ TEST_CASE("A sweep shows one line per value, and a stricter threshold keeps less
   CHECK(strict_recall < generous_recall);
 }
 
-TEST_CASE("evaluate matching refuses what it cannot judge", "[matching][cli]") {
+TEST_CASE("evaluate matching refuses input that it cannot evaluate", "[matching][cli]") {
   const TemporaryFolder folder;
   CHECK(run_program({"evaluate", "matching", folder / "nothing"}).code == 3);
   CHECK(run_program({"evaluate", "matching", "room", "--sweep", "stereo.nothing=0:1:1"}).code == 2);

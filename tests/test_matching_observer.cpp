@@ -11,7 +11,7 @@ using namespace paper_scene;
 
 namespace {
 
-/// A stereo edge whose left and right points are given.
+/// A stereo edge with the given left and right points.
 void add_stereo(StereoEdges& edges, float left_x, float y, float right_x) {
   edges.left_index.push_back(static_cast<std::int32_t>(edges.left_index.size()));
   edges.right_index.push_back(edges.left_index.back());
@@ -22,7 +22,7 @@ void add_stereo(StereoEdges& edges, float left_x, float y, float right_x) {
   edges.ncc.push_back(1);
 }
 
-/// The edges that the stereo edges were made of.
+/// The edges that the stereo edges consist of.
 std::pair<EdgeSet, EdgeSet> images_of(const StereoEdges& stereo) {
   std::pair<EdgeSet, EdgeSet> sets;
   for (std::size_t i = 0; i < stereo.size(); ++i) {
@@ -32,7 +32,7 @@ std::pair<EdgeSet, EdgeSet> images_of(const StereoEdges& stereo) {
   return sets;
 }
 
-/// The plane 1 m away, seen from `x` m further right.
+/// The plane 1 m away, seen from `x` m farther right.
 FrameTruth plane_from(double x) {
   FrameTruth truth = plane_truth();
   truth.depth_scale = 10;  // focal length 100 px, baseline 0.1 m
@@ -86,15 +86,14 @@ FrameResult found(FrameStatus status, int search, int reference_frame, double x)
 
 }  // namespace
 
-// LONG: one pair of frames, judged from all sides.
-TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time that were worked out on paper",
-          "[matching]") {
+// LONG: one pair of frames with all its checks.
+TEST_CASE("Two hand-made frames have the temporal recall, precision and ambiguity calculated by hand", "[matching]") {
   // The rig moves by 0.05 m: everything shifts 5 px to the left in both images.
   StereoEdges before, now;
   add_stereo(before, 30, 10, 20);  // 0: goes to 0
   add_stereo(before, 40, 20, 30);  // 1: goes to 1
   add_stereo(before, 50, 30, 40);  // 2: nothing within a pixel of (45, 30)
-  add_stereo(before, 60, 40, 55);  // 3: a wrong stereo edge; what its left point becomes is known all the same
+  add_stereo(before, 60, 40, 55);  // 3: a wrong stereo edge; its left point's true position is still known
   add_stereo(now, 25, 10, 15);
   add_stereo(now, 35, 20, 25);
   add_stereo(now, 48, 30, 38);
@@ -163,7 +162,7 @@ TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time 
   CHECK(second.temporal->quads_all.precision() == Approx(2.0 / 3));
   MatchingResult sequence{"paper", {first, second}, {}, {}};
   CHECK(summarise({sequence}).quads_paired.ambiguity_mean == Approx((3 + 1) / 2.0));
-  // Pairs are drawn from the quads 0, 1 and 3; one of three has two true ones.
+  // Pairs are drawn from the quads 0, 1 and 3; one of three pairs consists of true quads.
   const auto& pairs = second.temporal->pairs.table[0];
   CHECK(static_cast<double>(pairs.veridical) / static_cast<double>(pairs.pairs) == Approx(1.0 / 3).margin(0.01));
   REQUIRE(second.motion);
@@ -171,10 +170,11 @@ TEST_CASE("Two frames on paper have the recall, precision and ambiguity in time 
   CHECK(second.motion->rotation_deg == Approx(0).margin(1e-9));
 }
 
-TEST_CASE("After a loss the observer judges by the frame that the pipeline relocalised against, and by no other search",
+TEST_CASE("After a loss the observer evaluates only the search against the frame that the pipeline relocalised against",
           "[matching]") {
-  // Frame 0 has three stereo edges, frame 1 (lost) the same ones in another order and one more, frame 2 those of frame
-  // 1. The rig moves by 0.05 m = 5 px per frame.
+  // Frame 0 has three stereo edges, frame 1 (lost) the same in another order and one more, frame 2 those of frame 1.
+  // The
+  // rig moves by 0.05 m = 5 px per frame.
   StereoEdges zero, one, two;
   for (const float x : {30.0F, 40.0F, 50.0F}) add_stereo(zero, x, 10 + x / 5, x - 10);
   for (const float x : {50.0F, 30.0F, 60.0F, 40.0F}) add_stereo(one, x - 5, 10 + x / 5, x - 15);
@@ -184,16 +184,16 @@ TEST_CASE("After a loss the observer judges by the frame that the pipeline reloc
   observer.end(found(FrameStatus::first, -1, 0, 0));
 
   show(observer, 1, 0.05, one);
-  show_search(observer, 0, 0, zero, {1, 3, 0}, one);  // true, but no motion came of it
+  show_search(observer, 0, 0, zero, {1, 3, 0}, one);  // true, but gave no motion
   const auto lost = observer.end(found(FrameStatus::lost_no_consensus, -1, 0, 0.3));
   CHECK_FALSE(lost.temporal);
   CHECK_FALSE(lost.motion);
 
   show(observer, 2, 0.1, two);
-  show_search(observer, 0, 0, zero, {0, 0, 0}, two);    // all wrong, and of another base
-  show_search(observer, 1, 1, one, {0, 1, 2, 3}, two);  // all true: the motion comes of this one
+  show_search(observer, 0, 0, zero, {0, 0, 0}, two);    // all wrong, with another base
+  show_search(observer, 1, 1, one, {0, 1, 2, 3}, two);  // all true: gives the motion
   show_search(observer, 2, 1, one, {3, 2, 1, 0}, two);  // tried afterwards
-  show_search(observer, 3, 1, one, {0, 1}, two, 2);     // a part of the edges
+  show_search(observer, 3, 1, one, {0, 1}, two, 2);     // a subset of the edges
   const auto relocalised = observer.end(found(FrameStatus::tracked, 1, 1, 0.352));
   REQUIRE(relocalised.temporal);
   CHECK(relocalised.temporal->quads_paired.pool == 4);
@@ -204,10 +204,10 @@ TEST_CASE("After a loss the observer judges by the frame that the pipeline reloc
     CHECK((*table)[1].paired.precision() == 1);
     CHECK((*table)[1].paired.recall() == 1);
   }
-  REQUIRE(relocalised.motion);  // since frame 1, by the poses that the pipeline gave both
+  REQUIRE(relocalised.motion);  // since frame 1, from the pipeline's poses of both
   CHECK(relocalised.motion->translation_m == Approx(0.002));
 
-  // What was found before the last search counts where the pipeline says so, also when that one was of an older frame.
+  // The pipeline may choose a search before the last one, even if the last one was against an older frame.
   show(observer, 3, 0.1, two);
   show_search(observer, 0, 2, two, {0, 1, 2, 3}, two);
   show_search(observer, 1, 1, one, {1, 0, 3, 2}, two);
@@ -219,7 +219,7 @@ TEST_CASE("After a loss the observer judges by the frame that the pipeline reloc
 
 namespace {
 
-/// Which frames were searched for, and which searches of the last frame found what.
+/// The searches of the last frame and what each found.
 class Searches : public Tap {
  public:
   void edges(const EdgeSet&, const EdgeSet&) override {
@@ -233,7 +233,7 @@ class Searches : public Tap {
   std::vector<TemporalMatches> found;  ///< one per search
 };
 
-/// Two frames of the cables, then four of the room: tracking is lost in between and goes on from the lost frame.
+/// Two frames of the cables, then four of the room: tracking is lost in between and resumes from the lost frame.
 std::vector<FrameResult> track_with_loss(const std::string& device_name, Tap* tap,
                                          const std::function<void(const FrameResult&, const FrameDetails&)>& visit) {
   static const matching::RenderedScene before("cables", 240, 150, 2), after("room", 240, 150, 4);
@@ -256,9 +256,8 @@ std::vector<FrameResult> track_with_loss(const std::string& device_name, Tap* ta
 
 }  // namespace
 
-TEST_CASE(
-    "The pipeline tells a tap which frame each search is for and which one gave the motion, and gives the same poses",
-    "[matching][odometry][device]") {
+TEST_CASE("A tap receives the base frame of each search and the one that gave the motion, and the poses stay the same",
+          "[matching][odometry][device]") {
   for (const auto& device : all_devices()) {
     Searches tap;
     int frame = 0, relocalisations = 0, oldest = 0;
@@ -268,7 +267,7 @@ TEST_CASE(
       for (std::size_t s = 0; s < tap.observed.size(); ++s) {
         CHECK(tap.observed[s].number == static_cast<int>(s));
         CHECK(tap.observed[s].base_frame < frame);
-        CHECK(tap.observed[s].base_frame >= oldest);  // the observer forgets frames before it
+        CHECK(tap.observed[s].base_frame >= oldest);  // the observer drops older frames
       }
       oldest = result.reference_frame;
       if (result.search >= 0) {

@@ -18,7 +18,7 @@ namespace {
 constexpr int kWidth = 48, kHeight = 24;
 constexpr float kVertical = 1.5707963F;
 
-/// An ETH3D pair before a wall of 6 px, with a board of 12 px in columns 30 to 39 of the left view.
+/// An ETH3D pair of a wall at 6 px, with a board at 12 px in columns 30 to 39 of the left view.
 std::string write_pair(const std::string& root) {
   const std::string folder = root + "/two_view_training/scene";
   write_image(folder + "/im0.png", kWidth, kHeight);
@@ -36,7 +36,7 @@ void write_mask(const std::string& folder) {
   cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
   mask.col(20) = 128;
   mask.col(12) = 0;
-  mask.col(29) = 128;  // the wall just beside the board, which hides it
+  mask.col(29) = 128;  // the wall just beside the board, which occludes it
   REQUIRE(cv::imwrite(folder + "/mask0nocc.png", mask));
 }
 
@@ -48,10 +48,10 @@ TruePositions positions(const MatchingSource& source, const std::vector<float>& 
 
 }  // namespace
 
-TEST_CASE("Without a mask the disparities themselves tell what is occluded", "[matching][io]") {
+TEST_CASE("Without a mask, occlusion follows from the disparities", "[matching][io]") {
   const TemporaryFolder folder;
   const auto source = make_recorded_source(open_dataset(write_pair(folder.path())));
-  // Column 25 of the wall falls on column 19 of the right view, where the board stands (30 - 12 = 18 to 27).
+  // Column 25 of the wall maps to column 19 of the right view, which shows the board (30 - 12 = 18 to 27).
   const auto found = positions(*source, {20, 25, 35, 12});
   CHECK(found.state ==
         std::vector<Visibility>{Visibility::visible, Visibility::occluded, Visibility::visible, Visibility::visible});
@@ -59,14 +59,14 @@ TEST_CASE("Without a mask the disparities themselves tell what is occluded", "[m
   CHECK(found.x[2] == 23);
 }
 
-TEST_CASE("A mask marks occluded and unknown pixels, and leaves the contour of a nearer surface alone",
-          "[matching][io]") {
+TEST_CASE("A mask marks occluded and unknown pixels, but not the contour of a nearer surface", "[matching][io]") {
   const TemporaryFolder folder;
   const std::string path = write_pair(folder.path());
   write_mask(path);
   const auto source = make_recorded_source(open_dataset(path));
-  // 12: unknown; 13: an unknown pixel lies beside it; 16: neither; 20: occluded; 29.4: the board's contour, though the
-  // pixel is marked.
+  // 12: unknown; 13: next to an unknown pixel; 16: neither; 20: occluded; 29.4: the board's contour, though the pixel
+  // is
+  // marked.
   const auto found = positions(*source, {12, 13, 16, 20, 29.4F});
   CHECK(found.state == std::vector<Visibility>{Visibility::unknown, Visibility::unknown, Visibility::visible,
                                                Visibility::occluded, Visibility::visible});
@@ -74,7 +74,7 @@ TEST_CASE("A mask marks occluded and unknown pixels, and leaves the contour of a
   CHECK(found.x[4] == Approx(29.4 - 12));
 }
 
-TEST_CASE("A mask or a disparity map of another size is refused by name", "[matching][io]") {
+TEST_CASE("A mask or a disparity map of the wrong size is refused by name", "[matching][io]") {
   const TemporaryFolder folder;
   const std::string path = write_pair(folder.path());
   REQUIRE(cv::imwrite(path + "/mask0nocc.png", cv::Mat(kHeight, kWidth - 1, CV_8UC1, cv::Scalar(255))));
@@ -83,10 +83,10 @@ TEST_CASE("A mask or a disparity map of another size is refused by name", "[matc
   CHECK_THROWS_AS(source->load(0), DataError);
 }
 
-TEST_CASE("Measured disparities of the right view decide where both views disagree", "[matching][io]") {
+TEST_CASE("Where the views disagree, measured disparities of the right view decide", "[matching][io]") {
   const TemporaryFolder folder;
   const std::string path = write_pair(folder.path());
-  // The right view sees something of 20 px everywhere: nothing of the left view's wall and board.
+  // The right view has 20 px everywhere: it shows neither the wall nor the board of the left view.
   data::write_float_map(path + "/disp1GT.pfm", {kWidth, kHeight, std::vector<float>(kWidth * kHeight, 20.0F)});
   const auto source = make_recorded_source(open_dataset(path));
   CHECK(source->load(0).truth.right_is_measured);

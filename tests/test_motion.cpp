@@ -18,7 +18,7 @@ const quadedge::PoseConfig kConfig;
 
 }  // namespace
 
-TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a crooked rig", "[pose][motion]") {
+TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a general rig", "[pose][motion]") {
   generated::Random random(50);
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
     for (int trial = 0; trial < 5; ++trial) {
@@ -39,7 +39,7 @@ TEST_CASE("Exact quads give the motion to 1e-9, on a rectified and on a crooked 
   }
 }
 
-TEST_CASE("No motion is a motion", "[pose][motion]") {
+TEST_CASE("Zero motion is found", "[pose][motion]") {
   generated::Problem problem;
   problem.noise = {0.12, 0.4, 0.02};
   const auto g = generated::generate(problem, 52);
@@ -49,7 +49,7 @@ TEST_CASE("No motion is a motion", "[pose][motion]") {
   CHECK(generated::translation_error(found.current_from_previous, problem.motion) < 3e-3);
 }
 
-TEST_CASE("70 % outliers are told from the rest", "[pose][motion]") {
+TEST_CASE("70 % outliers are separated from the inliers", "[pose][motion]") {
   generated::Problem problem = forward_drive();
   problem.quads = 1500;
   problem.outliers = 0.7;
@@ -70,7 +70,7 @@ TEST_CASE("70 % outliers are told from the rest", "[pose][motion]") {
   CHECK(found.inlier_ratio == Approx(static_cast<double>(found.inliers) / 1500));
 }
 
-TEST_CASE("Switching the refinement off leaves the consensus pose without covariance", "[pose][motion]") {
+TEST_CASE("Without the refinement the consensus pose has no covariance", "[pose][motion]") {
   generated::Problem problem = forward_drive();
   problem.noise = {0.12, 0.4, 0.02};
   problem.quads = 3000;
@@ -89,7 +89,7 @@ TEST_CASE("Switching the refinement off leaves the consensus pose without covari
   CHECK(coarse.hypotheses == fine.hypotheses);
 }
 
-TEST_CASE("What cannot be trusted has a status and no pose", "[pose][motion]") {
+TEST_CASE("An unreliable result has a status and no pose", "[pose][motion]") {
   generated::Problem problem = forward_drive();
   for (int count : {0, 1, 2, 11}) {
     problem.quads = count;
@@ -104,7 +104,7 @@ TEST_CASE("What cannot be trusted has a status and no pose", "[pose][motion]") {
   CHECK(estimate_motion(problem.rig, generated::generate(problem, 56).quads, kConfig, 42).status ==
         MotionStatus::no_consensus);
 
-  // All quads in one corner: samples need some distance, so give the search the true motion as a guess.
+  // All quads in one corner: samples need a minimum distance, so the search gets the true motion as a guess.
   problem.outliers = 0;
   generated::Random random(57);
   QuadObservations corner, spot;

@@ -6,7 +6,7 @@ using namespace matching;
 
 namespace {
 
-/// The reference front end, counting what is asked of it.
+/// The reference front end with counters of its calls.
 class CountingFrontend : public frontend::Frontend {
  public:
   CountingFrontend(const StereoRig& rig, const Config& config)
@@ -65,14 +65,14 @@ struct TwoFrames {
   }
 };
 
-/// A motion that leads all predictions astray.
+/// A motion whose predictions are all wrong.
 Eigen::Isometry3d turned(const Eigen::Isometry3d& motion) {
   return Eigen::AngleAxisd(30 * kDegree, Eigen::Vector3d::UnitY()) * motion;
 }
 
 }  // namespace
 
-TEST_CASE("motion search: a good prediction ends it, any other calls for edges found anywhere", "[odometry][long]") {
+TEST_CASE("motion search: a good prediction ends it, any other starts the global search", "[odometry][long]") {
   TwoFrames frames(3000);
   frames.check(frames.truth());
   CHECK(frames.frontend->coarse == 1);
@@ -86,7 +86,7 @@ TEST_CASE("motion search: a good prediction ends it, any other calls for edges f
   CHECK(frames.frontend->global == 1);
 }
 
-TEST_CASE("motion search: without edges found anywhere the coarse search widens", "[odometry]") {
+TEST_CASE("motion search: without the global search the coarse search widens", "[odometry]") {
   TwoFrames frames(0);
   const double wide = frames.scene.config.temporal.coarse_wide_radius_ratio * 200;
   frames.check(frames.truth());
@@ -98,9 +98,9 @@ TEST_CASE("motion search: without edges found anywhere the coarse search widens"
   CHECK(frames.frontend->global == 0);
 }
 
-TEST_CASE("motion search: the key rig is preferred, and holding no step holds no rig", "[odometry]") {
+TEST_CASE("motion search: the key rig is preferred, and releasing the step releases its rig", "[odometry]") {
   TwoFrames frames(3000);
-  // The key rig shows the base's own frame, so the same motion leads there.
+  // The key rig is the base's frame, so the same motion applies.
   const auto key = frames.frontend->process(frames.scene.frame(0));
   frames.query.current = frames.frontend->process(frames.scene.frame(1));
   frames.query.key = key;
