@@ -56,7 +56,7 @@ TEST_CASE("self-test: rows that differ are counted and the first is shown", "[se
   CHECK_THAT(frontend::difference(found, expected, 0.009),
              Contains("1 of them are wrong and 1 are missing") && Contains("(70 0 0 0 0)"));
   found.rows.clear();
-  CHECK_THAT(frontend::difference(found, expected, 0.5), Contains("0 results where the reference has 100"));
+  CHECK_THAT(frontend::difference(found, expected, 0.5), Contains("0 results, the reference has 100"));
 }
 
 TEST_CASE("self-test: a long loop reaches its end on every device", "[selftest][device][oclgrind]") {

@@ -7,7 +7,7 @@
 
 namespace quadedge {
 
-/// Smallest difference of two directions modulo a full turn [rad], both in (-pi, pi].
+/// Smallest difference of two directions modulo a full turn [rad]; both in (-pi, pi].
 inline float angle_between(float a, float b) {
   constexpr auto kHalfTurn = static_cast<float>(kPi);
   const float d = std::fabs(a - b);

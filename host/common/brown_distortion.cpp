@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kWidestRadius = 60;  // tangent of 89 degrees
 
-/// The projection from the sensor that is turned about x, then y, to the plane at right angles to the optical axis.
+/// Projection from a sensor that is rotated about x, then y, to the plane orthogonal to the optical axis.
 Eigen::Matrix3d tilt_of(double tau_x, double tau_y) {
   Eigen::Matrix3d about_x, about_y, onto_sensor;
   about_x << 1, 0, 0, 0, std::cos(tau_x), std::sin(tau_x), 0, -std::sin(tau_x), std::cos(tau_x);
@@ -34,8 +34,8 @@ double BrownDistortion::radial(double square) const {
          (1 + square * (k_[5] + square * (k_[6] + square * k_[7])));
 }
 
-/// Does the distorted radius grow with the radius whose square this is? With r N(s) / D(s), s = r^2, its derivative has
-/// the sign of N D + 2 s (N' D - N D').
+/// Whether the distorted radius increases at the radius with this square. For r N(s) / D(s) with s = r^2, the
+/// derivative has the sign of N D + 2 s (N' D - N D').
 bool BrownDistortion::grows(double square) const {
   const double above = 1 + square * (k_[0] + square * (k_[1] + square * k_[4]));
   const double below = 1 + square * (k_[5] + square * (k_[6] + square * k_[7]));
@@ -67,7 +67,7 @@ Eigen::Vector2d BrownDistortion::distort(const Eigen::Vector2d& place) const {
   return k_[12] == 0 && k_[13] == 0 ? flat : Eigen::Vector2d((tilt_ * flat.homogeneous()).hnormalized());
 }
 
-/// The point that the radial part alone would put there: by bisection, as the radius grows up to the limit.
+/// Solution for the radial part alone, by bisection, because the radius increases up to the limit.
 Eigen::Vector2d BrownDistortion::start_of_search(const Eigen::Vector2d& place) const {
   const double wanted = place.norm();
   if (wanted == 0) return place;
@@ -86,7 +86,7 @@ std::optional<Eigen::Vector2d> BrownDistortion::undistort(const Eigen::Vector2d&
   constexpr int kSteps = 20;
   constexpr double kDifference = 1e-6, kSettled = 1e-15, kWrong = 1e-11;
   for (int step = 0; step < kSteps; ++step) {
-    Eigen::Matrix2d slope;  // by differences: its error of 1e-9 only slows down the last step
+    Eigen::Matrix2d slope;  // by finite differences, accurate to 1e-9
     slope << (distort(found + Eigen::Vector2d(kDifference, 0)) - distort(found - Eigen::Vector2d(kDifference, 0))),
         (distort(found + Eigen::Vector2d(0, kDifference)) - distort(found - Eigen::Vector2d(0, kDifference)));
     const Eigen::Vector2d move = (slope / (2 * kDifference)).inverse() * (seen - distort(found));

@@ -11,14 +11,14 @@ namespace quadedge {
 /// One set of coefficients.
 class BrownDistortion {
  public:
-  /// `coefficients`: the first `count` of the fourteen, the others are zero.
+  /// `coefficients`: the first `count` of the fourteen; the others are zero.
   BrownDistortion(const double* coefficients, std::size_t count);
 
-  /// Where a point is seen, without regard to radius_limit().
+  /// Distorted position of a point, regardless of radius_limit().
   Eigen::Vector2d distort(const Eigen::Vector2d& place) const;
-  /// The point within radius_limit() that is seen at `place`; nothing where there is none.
+  /// The point within radius_limit() whose distorted position is `place`, or nothing if there is none.
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& place) const;
-  /// Largest radius up to which points further out are seen further out: where the polynomial turns, the image folds.
+  /// Largest radius up to which the distorted radius increases; beyond it, the polynomial folds the image.
   double radius_limit() const { return limit_; }
 
  private:

@@ -1,4 +1,4 @@
-/// \file calibrated_rig.cpp  From lenses to pinhole cameras: the view, the undistortion tables, the masks.
+/// \file calibrated_rig.cpp  Derives pinhole cameras from lenses: field of view, undistortion tables, masks.
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 namespace quadedge {
 namespace {
 
-/// Beyond 60 degrees from the axis a pinhole image stretches what it shows four times and more.
+/// Beyond 60 degrees from the axis, a pinhole image is stretched by a factor of four or more.
 constexpr double kWidestView = 120;  // degrees
-/// As close as things come to a camera in the hand or on a small robot.
+/// Nearest objects in front of a handheld camera or a small robot.
 constexpr double kNearestDepth = 0.5;  // m
 
-/// The pinhole camera whose images stand for the lens's: the same size and principal point.
+/// The pinhole camera to which the images of a lens are resampled, with the same size and principal point.
 PinholeCamera view_of(const Lens& lens, double fov) {
   PinholeCamera view = lens.camera;
   const double scale = LensMapping(lens).axial_scale();
@@ -32,8 +32,8 @@ PinholeCamera view_of(const Lens& lens, double fov) {
   return view;
 }
 
-/// Where a direction would be seen that the lens does not show: on the rim, on the same side. Nothing is computed from
-/// it but the surroundings of what is shown.
+/// Replacement for a direction that the lens does not show: the point of its rim on the same side. Used only for the
+/// surroundings of visible pixels.
 Eigen::Vector2d on_the_rim(const LensMapping& mapping, const Eigen::Vector3d& ray) {
   double inside = 0, outside = 1;
   for (int i = 0; i < 30; ++i) {
@@ -43,7 +43,7 @@ Eigen::Vector2d on_the_rim(const LensMapping& mapping, const Eigen::Vector3d& ra
   return mapping.project({inside * ray.x(), inside * ray.y(), ray.z()}).value_or(Eigen::Vector2d::Zero());
 }
 
-/// Fills the table of a view, and its mask where some pixel is not shown by the recorded image.
+/// Fills the table of a view, and its mask if some pixels are not visible in the recorded image.
 void add_table(const Lens& lens, const PinholeCamera& view, UndistortionTable& table, PixelMask& mask) {
   const LensMapping mapping(lens);
   const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
@@ -72,7 +72,7 @@ StereoRig make_rig(const StereoCalibration& calibration, double fov) {
     throw UsageError("--fov " + std::to_string(fov) + ": expected degrees above 0 and below 180");
   const auto see = [&](const Lens& lens, PinholeCamera& camera, UndistortionTable& table, PixelMask& mask) {
     if (lens.camera.width <= 0 || lens.camera.height <= 0)
-      throw DataError(calibration.files + ": found no size of the recorded images, expected columns and rows");
+      throw DataError(calibration.files + ": the size of the recorded images is missing, expected columns and rows");
     camera = view_of(lens, fov);
     const bool unchanged = lens.is_pinhole() && camera.fx == lens.camera.fx;
     if (!unchanged) add_table(lens, camera, table, mask);

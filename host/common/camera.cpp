@@ -42,7 +42,8 @@ void check_mask(const PixelMask& mask, const PinholeCamera& camera, const std::s
 }  // namespace
 
 void check_rig(const StereoRig& rig, const char* source) {
-  /// Largest entry of R^T R - I; readers project what a file holds onto the rotations, so this is rounding alone.
+  /// Largest permitted entry of R^T R - I. Readers project the stored matrix onto the rotations, so that only rounding
+  /// remains.
   constexpr double kRotationTolerance = 1e-6;
   const std::string where(source);
   check_camera(rig.left, where + " (left camera)");
@@ -56,7 +57,7 @@ void check_rig(const StereoRig& rig, const char* source) {
   }
   if (!std::isfinite(rig.baseline()) || rig.baseline() <= 0) {
     throw DataError(where + ": found a baseline of " + std::to_string(rig.baseline()) +
-                    " m, expected a finite length above zero");
+                    " m, expected a finite positive length");
   }
   check_table(rig.left_undistortion, rig.left, where + " (left camera)");
   check_table(rig.right_undistortion, rig.right, where + " (right camera)");

@@ -1,4 +1,4 @@
-/// \file config.cpp  The list of constants made from quadedge/constants.inc, and their range checks.
+/// \file config.cpp  The list of constants, generated from quadedge/constants.inc, and their range checks.
 #include "quadedge/config.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kLargestInt = std::numeric_limits<int>::max();
-constexpr double kLargestSeed = 9007199254740992;  // 2^53: exact as a double, too, and an integer in TOML and JSON
+constexpr double kLargestSeed = 9007199254740992;  // 2^53: exact as a double and as an integer in TOML and JSON
 enum Level : bool { advanced = false, basic = true };
 
 template <class T>
@@ -28,13 +28,13 @@ std::string text_of(std::uint64_t value) { return number(value); }
 std::string text_of(bool value) { return value ? "true" : "false"; }
 std::string text_of(const std::string& value) { return value; }
 
-/// A bound of whole numbers without an exponent.
+/// Text of a bound; integers without an exponent.
 std::string bound(double value) {
   return std::abs(value) >= 1e5 && value == std::floor(value) ? number(static_cast<std::int64_t>(value))
                                                               : number(value);
 }
 
-/// The field only to be read.
+/// Pointer to a field that is only read.
 ConfigField read_only(const Constant& constant, const Config& config) {
   return constant.field(const_cast<Config&>(config));
 }

@@ -7,20 +7,20 @@
 namespace quadedge {
 namespace {
 
-constexpr float kSegmentTolerance = 1.0f;  // px beyond either end of the segment, doc/method.md section 3 filter 2
-constexpr float kWholeImage = 1e5f;        // px, longer than any line
+constexpr float kSegmentTolerance = 1.0f;  // px beyond each end of the segment, doc/method.md section 3 filter 2
+constexpr float kWholeImage = 1e5f;        // px, longer than any epipolar line
 
 }  // namespace
 
 EpipolarGeometry make_epipolar_geometry(const StereoRig& rig, const StereoConfig& config) {
   if (config.max_disparity <= 0 && config.min_depth <= 0) {
-    throw UsageError("stereo.max_disparity [px] or stereo.min_depth [m] must be given: nothing limits the disparity");
+    throw UsageError("stereo.max_disparity [px] or stereo.min_depth [m] must be given to limit the disparity");
   }
   const Eigen::Matrix3d rotation = rig.right_from_left.linear();
   const Eigen::Vector3d translation = rig.right_from_left.translation();
   const Eigen::Matrix3d h = rig.right.matrix() * rotation * rig.left.matrix().inverse();
   const Eigen::Vector3d t = rig.right.matrix() * translation;
-  // Scaled to unit length: only its direction counts.
+  // Scaled to unit length, because only its direction matters.
   const Eigen::Vector3d epipole = (rig.left.matrix() * (-(rotation.transpose() * translation))).normalized();
 
   EpipolarGeometry geometry{};
@@ -45,7 +45,7 @@ EpipolarGeometry without_limits(EpipolarGeometry geometry, bool all_disparities,
     geometry.tolerance = kWholeImage;
   }
   if (all_orientations) {
-    geometry.orientation = 4.0f;  // more than any angle
+    geometry.orientation = 4.0f;  // larger than any angle
   }
   return geometry;
 }

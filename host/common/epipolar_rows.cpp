@@ -6,7 +6,7 @@
 namespace quadedge {
 namespace {
 
-/// By so much the sines of an edge's and its counterpart's angles with their epipolar lines may differ.
+/// Maximum ratio between the sines of the angles that matching edges form with their epipolar lines.
 constexpr float kDirectionSlack = 1.2F;
 
 }  // namespace
@@ -17,7 +17,7 @@ EpipolarRows epipolar_rows(const StereoRig& rig, Side side) {
   const Eigen::Vector3d along = baseline.normalized();
   const Eigen::Vector3d axes = Eigen::Vector3d::UnitZ() + rotation.transpose() * Eigen::Vector3d::UnitZ();
   Eigen::Vector3d forward = axes - axes.dot(along) * along;
-  // Cameras one behind the other have no such plane: any serves.
+  // Without such a plane (one camera behind the other), any plane serves.
   forward = forward.norm() > 1e-6 * axes.norm() ? Eigen::Vector3d(forward.normalized()) : along.unitOrthogonal();
   const Eigen::Vector3d across = forward.cross(along);
   const Eigen::Matrix3d rays = side == Side::left

@@ -1,5 +1,5 @@
 #pragma once
-/// \file epipolar_rows.hpp  Numbers for epipolar lines that both images of a rig share. doc/method.md section 1.
+/// \file epipolar_rows.hpp  Common numbering of the epipolar lines of both images of a rig. doc/method.md section 1.
 
 #include "common/layouts.hpp"
 #include "quadedge/camera.hpp"
@@ -8,11 +8,11 @@
 
 namespace quadedge {
 
-/// The numbers of one image's epipolar lines: angles of the planes through both camera centres, as tangents times the
-/// left focal length. The plane half-way between the two optical axes has number 0.
+/// Numbering of an image's epipolar lines: angles of the epipolar planes, as tangents times the left focal length. The
+/// plane half-way between the two optical axes has number 0.
 EpipolarRows epipolar_rows(const StereoRig& rig, Side side);
 
-/// What kernels/edge_selection.cl asks of an image. The right one is the searched one and keeps a little more.
+/// Arguments of kernels/edge_selection.cl for an image. The right image, which is searched, keeps slightly more edges.
 SelectionArguments selection_arguments(const StereoRig& rig, Side side, const StereoConfig& config);
 
 }  // namespace quadedge

@@ -1,6 +1,6 @@
 #pragma once
-/// \file filter_limits.hpp  Limits of the filters that several sides compute, for stereo and for each kind of search in
-/// time, and how a search in time chooses its quads.
+/// \file filter_limits.hpp  Derived limits of the filters, for stereo and for each kind of temporal search, and the
+/// selection of quads in a temporal search. Shared by kernels, reference and evaluation.
 
 #include "common/layouts.hpp"
 #include "common/temporal_search.hpp"
@@ -18,17 +18,17 @@ inline FilterLimits stereo_limits(const StereoConfig& config) {
           order_of(StereoFilter::sift)};
 }
 
-/// What full support by the neighbours counts in similarity; 0 where nobody asks them.
+/// Weight of full support by the neighbours relative to similarity; 0 without relaxation.
 inline float support_weight(const StereoConfig& config) {
   return config.relaxation_rounds > 0 ? static_cast<float>(config.support_weight) : 0.0F;
 }
 
-/// Filter 9: the smallest similarity that support can lift to refined_ncc_min.
+/// Filter 9: the lowest similarity that support can raise to refined_ncc_min.
 inline float lowest_similarity(const StereoConfig& config) {
   return static_cast<float>(config.refined_ncc_min) - support_weight(config);
 }
 
-/// Cells of the relaxation along a side of the left image of so many px.
+/// Number of relaxation cells along a side of the left image of `pixels` px.
 inline int relaxation_cells(int pixels) { return static_cast<int>(static_cast<float>(pixels) / kRelaxationCell) + 1; }
 
 inline FilterLimits temporal_limits(const TemporalConfig& config, const TemporalSearch& search) {

@@ -1,5 +1,6 @@
 #pragma once
-/// \file gaussian_taps.hpp  Sampled Gaussian derivatives; the host tables of the device kernels come from here too.
+/// \file gaussian_taps.hpp  Sampled Gaussian derivatives, used by the reference and for the tables of the device
+/// kernels.
 
 #include <array>
 #include <cmath>
@@ -9,7 +10,7 @@
 namespace quadedge {
 
 /// The Gaussian and its first four derivatives at offset `u` [px] for scale `sigma` [px]; analytic, not renormalised.
-/// Element n is the derivative of order n. A derivative of the image at x is the sum over pixels k of I(k) G^(n)(x -
+/// Element n is the derivative of order n. The derivative of an image at x is the sum over pixels k of I(k) G^(n)(x -
 /// k).
 inline std::array<double, 5> gaussian_derivatives(double u, double sigma) {
   const double s2 = sigma * sigma;
@@ -19,8 +20,8 @@ inline std::array<double, 5> gaussian_derivatives(double u, double sigma) {
           (u2 * u2 - 6.0 * u2 * s2 + 3.0 * s2 * s2) / (s2 * s2 * s2 * s2) * g};
 }
 
-/// Pixels that a kernel reaches to either side: at least 4 sigma. Kernels centred on a pixel have 2 R + 1 taps, kernels
-/// centred half-way between two pixels 2 R + 2, both symmetric, so that a constant image has no gradient.
+/// Radius of a filter [px], at least 4 sigma. Filters centred on a pixel have 2 R + 1 taps, filters centred half-way
+/// between two pixels 2 R + 2. Both are symmetric, so that a constant image has zero gradient.
 inline int kernel_radius(double sigma) { return static_cast<int>(std::ceil(4.0 * sigma)); }
 
 }  // namespace quadedge

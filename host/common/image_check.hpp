@@ -1,5 +1,5 @@
 #pragma once
-/// \file image_check.hpp  What every image that comes into the library has to fulfil.
+/// \file image_check.hpp  Checks of every image passed to the library.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace quadedge {
 
-/// \throws DataError, which calls the image `name`, for one without pixels and for a stride below a row's bytes.
+/// \throws DataError for an empty image and for a stride smaller than a row; `name` identifies the image.
 inline void check_pixels(const ImageView& image, const std::string& name) {
   if (image.empty()) throw DataError(name + " is empty");
   const auto row_bytes = static_cast<std::ptrdiff_t>(bytes_per_pixel(image.max_value)) * image.width;

@@ -1,10 +1,10 @@
 #pragma once
-/// \file layouts.hpp  kernels/layouts.cl as the host reads it: what kernels store per edge, and the structures that
-/// they take by value.
+/// \file layouts.hpp  Host view of kernels/layouts.cl: data that kernels store per edge, and structures that they take
+/// by value.
 
 namespace quadedge {
 
-#include "../../kernels/layouts.cl"  // the one text of both
+#include "../../kernels/layouts.cl"  // shared source
 
 #undef FLOAT_CONSTANT
 

@@ -18,7 +18,7 @@ BrownDistortion brown_of(const Lens& lens) {
   return {lens.parameters.data() + first, has_one ? lens.parameters.size() - first : 0};
 }
 
-/// The angle up to which theta (1 + k1 theta^2 + ... + k4 theta^8) grows, half a turn at most.
+/// Angle up to which theta (1 + k1 theta^2 + ... + k4 theta^8) increases, at most a half turn.
 double growing_angle(const std::vector<double>& k) {
   const auto grows = [&](double angle) {
     const double s = angle * angle;
@@ -69,7 +69,7 @@ double LensMapping::equidistant_radius(double angle) const {
   return angle * (1 + s * (k[0] + s * (k[1] + s * (k[2] + s * k[3]))));
 }
 
-/// By bisection: the radius grows with the angle.
+/// By bisection, because the radius increases with the angle.
 double LensMapping::equidistant_angle(double radius) const {
   double low = 0, high = widest_angle_;
   for (int i = 0; i < 60; ++i) {

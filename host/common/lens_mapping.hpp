@@ -1,5 +1,5 @@
 #pragma once
-/// \file lens_mapping.hpp  Rays to pixels of a lens and back.
+/// \file lens_mapping.hpp  Mapping between viewing rays and pixels of a lens.
 
 #include <Eigen/Core>
 #include <optional>
@@ -9,19 +9,20 @@
 
 namespace quadedge {
 
-/// Evaluates a lens. Rays are directions of any length in the camera's frame (x right, y down, z forward).
+/// Evaluates a lens model. Rays are directions of any length in the camera frame (x right, y down, z forward).
 class LensMapping {
  public:
   explicit LensMapping(const Lens& lens);
 
-  /// The pixel that shows what lies in a direction; nothing beyond the angle where the model ends or folds back. It may
-  /// lie outside of the recorded image.
+  /// Pixel for a viewing direction; nothing beyond the angle at which the model ends or folds. The pixel may lie
+  /// outside the recorded image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& ray) const;
 
-  /// The direction (unit length) that a pixel shows; nothing where no ray of the model meets it.
+  /// Viewing direction (unit length) of a pixel; nothing if no ray of the model maps to it.
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 
-  /// Scale at the optical axis: the pinhole camera whose focal lengths are those of the model times this has it too.
+  /// Scale at the optical axis: a pinhole camera has the same scale if its focal lengths are those of the model times
+  /// this.
   double axial_scale() const;
 
  private:
@@ -32,8 +33,8 @@ class LensMapping {
   std::optional<Eigen::Vector3d> from_double_sphere(double square, const Eigen::Vector2d& place) const;
 
   Lens lens_;
-  BrownDistortion brown_;    ///< radial_tangential, omnidirectional
-  double widest_angle_ = 0;  ///< equidistant: from the optical axis [rad]
+  BrownDistortion brown_;    ///< for radial_tangential and omnidirectional
+  double widest_angle_ = 0;  ///< for equidistant: limit of the angle from the optical axis [rad]
 };
 
 }  // namespace quadedge

@@ -1,5 +1,5 @@
 #pragma once
-/// \file nearest_word.hpp  What a mistyped word was meant to be.
+/// \file nearest_word.hpp  Suggestions for mistyped words.
 
 #include <algorithm>
 #include <numeric>
@@ -8,7 +8,8 @@
 
 namespace quadedge {
 
-/// Edits (a letter more, less, other, or swapped with its neighbour) that make `b` of `a`: optimal string alignment.
+/// Number of edits (insertion, deletion, substitution, transposition of neighbours) from `a` to `b`: optimal string
+/// alignment.
 inline std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), std::size_t{0});
@@ -25,7 +26,7 @@ inline std::size_t edit_distance(const std::string& a, const std::string& b) {
   return above[b.size()];
 }
 
-/// The word nearest to `typed`, or nothing where more than a third of its letters would have to change.
+/// The word nearest to `typed`, or an empty string if more than a third of its letters would have to change.
 inline std::string nearest_word(const std::string& typed, const std::vector<std::string>& words) {
   std::string nearest;
   std::size_t least = typed.size() / 3 + 1;
@@ -40,7 +41,7 @@ inline std::string nearest_word(const std::string& typed, const std::vector<std:
   return nearest;
 }
 
-/// "; did you mean 'run'?", or nothing.
+/// "; did you mean 'run'?", or an empty string.
 inline std::string did_you_mean(const std::string& typed, const std::vector<std::string>& words) {
   const std::string nearest = nearest_word(typed, words);
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";

@@ -1,5 +1,5 @@
 #pragma once
-/// \file pool.hpp  Objects that keep their memory from frame to frame.
+/// \file pool.hpp  A pool of objects that keep their memory between frames.
 
 #include <memory>
 #include <utility>
@@ -7,8 +7,8 @@
 
 namespace quadedge {
 
-/// Objects that are given back instead of destroyed. Must outlive all that it hands out; one thread at a time.
-/// \tparam T has clear(), which empties it and keeps its memory
+/// Objects are returned instead of destroyed. The pool must outlive its objects; not thread-safe.
+/// \tparam T has clear(), which empties the object and keeps its memory
 template <class T>
 class Pool {
  public:
@@ -21,8 +21,8 @@ class Pool {
   };
   using Handle = std::unique_ptr<T, GiveBack>;
 
-  /// What was given back longest ago, or a new one: so each step of a frame finds the memory that the same step of the
-  /// frame before has left.
+  /// Returns the object that was returned longest ago, or a new one, so that each step of a frame reuses the memory of
+  /// the same step in the previous frame.
   Handle take() {
     if (spare_.empty()) return Handle(new T(), GiveBack{this});
     Handle object(spare_.front().release(), GiveBack{this});

@@ -1,5 +1,5 @@
 #pragma once
-/// \file recorded_images.hpp  What a pair of images has to be to belong to a rig.
+/// \file recorded_images.hpp  Checks that a pair of images matches a rig.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace quadedge {
 
-/// The images that a rig expects: of its cameras' sizes, or of any where an undistortion table samples them.
+/// Image sizes that a rig expects: those of its cameras, or any size if an undistortion table samples the image.
 class RecordedImages {
  public:
   explicit RecordedImages(const StereoRig& rig)
@@ -16,7 +16,8 @@ class RecordedImages {
         right_(size_of(rig.right, rig.right_undistortion)),
         max_value_(rig.max_value) {}
 
-  /// \throws DataError for an image without pixels, a stride below a row's bytes, another size or depth.
+  /// \throws DataError for an empty image, a stride smaller than a row, or a size or bit depth that differs from the
+  /// rig's.
   void check(const ImageView& left, const ImageView& right) const {
     check(left, left_, "the left image");
     check(right, right_, "the right image");
@@ -33,8 +34,8 @@ class RecordedImages {
   void check(const ImageView& image, const Size& size, const std::string& name) const {
     check_pixels(image, name);
     if (image.max_value != max_value_)
-      throw DataError(name + " has values to " + std::to_string(image.max_value) + ", the rig says to " +
-                      std::to_string(max_value_));
+      throw DataError(name + " has pixel values up to " + std::to_string(image.max_value) +
+                      ", the rig expects values up to " + std::to_string(max_value_));
     if (size.width > 0 && (image.width != size.width || image.height != size.height))
       throw DataError(name + " has " + std::to_string(image.width) + "x" + std::to_string(image.height) +
                       " pixels, the calibration expects " + std::to_string(size.width) + "x" +

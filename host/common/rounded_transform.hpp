@@ -1,17 +1,17 @@
 #pragma once
-/// \file rounded_transform.hpp  Rigid transforms to 1e-9 m and 1e-9 rad, as StereoCalibration keeps them.
+/// \file rounded_transform.hpp  Rigid transforms rounded to 1e-9 m and 1e-9 rad, as stored in StereoCalibration.
 
 #include <Eigen/Geometry>
 
 namespace quadedge {
 
-/// Rounded to 1e-9; never a negative zero.
+/// Rounds to 1e-9 without negative zeros.
 inline Eigen::Vector3d rounded(const Eigen::Vector3d& values) {
   constexpr double kPerUnit = 1e9;
   return (values * kPerUnit).array().round().matrix() / kPerUnit + Eigen::Vector3d::Zero();
 }
 
-/// Axis times angle [rad], rounded.
+/// Rotation vector [rad], rounded.
 inline Eigen::Vector3d rounded_rotation(const Eigen::Isometry3d& transform) {
   const Eigen::AngleAxisd turn(transform.linear());
   return rounded(turn.angle() * turn.axis());

@@ -1,5 +1,5 @@
 #pragma once
-/// \file row_blocks.hpp  Loops over many rows on all processors, with results that do not depend on how many there are.
+/// \file row_blocks.hpp  Parallel loops over many rows, with results that do not depend on the number of processors.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,11 +12,11 @@ constexpr std::size_t kBlockRows = 1024;
 
 inline std::size_t block_count(std::size_t rows) { return (rows + kBlockRows - 1) / kBlockRows; }
 
-/// Rows that are done before a second thread would have started, where a row takes nanoseconds.
+/// Number of rows below which a loop is not parallelised if a row takes nanoseconds.
 constexpr std::size_t kCheapRows = 16 * kBlockRows;
 
-/// Calls body(block, begin, end) for consecutive blocks of rows, in any order and at the same time; one after the other
-/// where there are `alone` rows or fewer.
+/// Calls body(block, begin, end) for consecutive blocks of rows, concurrently and in any order; sequentially if there
+/// are at most `alone` rows.
 template <class Body>
 void for_row_blocks(std::size_t rows, Body&& body, std::size_t alone = kBlockRows) {
   const auto one = [&](std::size_t block) {
@@ -29,8 +29,8 @@ void for_row_blocks(std::size_t rows, Body&& body, std::size_t alone = kBlockRow
   }
 }
 
-/// Sum over all rows: body(begin, end, sum) adds a block's rows to a sum that starts as `zero`; the blocks' sums are
-/// added in order. `alone`: see for_row_blocks().
+/// Sum over all rows: body(begin, end, sum) adds the rows of a block to a sum initialised with `zero`; the sums of the
+/// blocks are added in order. `alone`: see for_row_blocks().
 template <class Sum, class Body>
 Sum sum_row_blocks(std::size_t rows, const Sum& zero, Body&& body, std::size_t alone = kBlockRows) {
   Sum total = zero;
@@ -45,7 +45,7 @@ Sum sum_row_blocks(std::size_t rows, const Sum& zero, Body&& body, std::size_t a
   return total;
 }
 
-/// The same for sums that hold memory, which `blocks` and `total` keep between calls.
+/// The same for sums that own memory, which `blocks` and `total` keep between calls.
 template <class Sum, class Body>
 void sum_row_blocks(std::size_t rows, const Sum& zero, std::vector<Sum>& blocks, Sum& total, Body&& body) {
   const std::size_t count = block_count(rows);

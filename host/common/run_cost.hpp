@@ -1,5 +1,5 @@
 #pragma once
-/// \file run_cost.hpp  Time and memory that this process takes.
+/// \file run_cost.hpp  Time and memory used by this process.
 
 #include <chrono>
 #include <sys/resource.h>
@@ -22,7 +22,7 @@ inline double processor_ms() {
   return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
 }
 
-/// Largest resident size of this process so far.
+/// Peak resident memory of this process so far [MiB].
 inline double host_peak_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file temporal_search.hpp  Where the matching in time looks.
+/// \file temporal_search.hpp  Search areas of the temporal matching.
 
 #include <cstddef>
 
@@ -7,15 +7,15 @@
 
 namespace quadedge {
 
-/// One entry per stereo edge of the base, an earlier rig: where it is expected in the current images.
+/// One entry per stereo edge of the base, an earlier rig: its predicted position in the current images.
 struct TemporalSearch {
   EdgePositions left, right;
-  float radius = 0;     ///< px around the expected position
-  int step = 1;         ///< only every step-th previous edge is looked for
-  bool coarse = false;  ///< the limits of TemporalConfig::coarse_* hold
+  float radius = 0;     ///< [px], around the predicted position
+  int step = 1;         ///< only every step-th previous edge is matched
+  bool coarse = false;  ///< whether the limits TemporalConfig::coarse_* apply
 };
 
-/// Every wide_step()-th edge takes part in a search anywhere in the image: about `wanted` of `count`.
+/// Step of the edges used in a global search, so that about `wanted` of `count` take part.
 inline int wide_step(std::size_t count, int wanted) {
   const int step = static_cast<int>(count) / wanted;
   return step > 1 ? step : 1;

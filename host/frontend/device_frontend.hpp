@@ -1,5 +1,5 @@
 #pragma once
-/// \file device_frontend.hpp  The frontend on an OpenCL device.
+/// \file device_frontend.hpp  The front end on an OpenCL device.
 
 #include "common/epipolar_geometry.hpp"
 #include "frontend/frontend.hpp"
@@ -24,13 +24,13 @@
 
 namespace quadedge::frontend {
 
-/// A rig with its memory on the device.
+/// A rig with its buffers on the device.
 struct DeviceRig : Rig {
   explicit DeviceRig(const StereoRig& calibration);
   stages::DeviceStereoEdges on_device;
 };
 
-/// Owns every stage and the rigs.
+/// Owns all stages and the rigs.
 class DeviceFrontend : public Frontend {
  public:
   DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config);
@@ -62,11 +62,12 @@ class DeviceFrontend : public Frontend {
   void index_current();
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
   stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, Side side) const;
-  /// SIFT descriptors of a rig's stereo edges, unless it has them.
+  /// Computes SIFT descriptors of a rig's stereo edges, unless they exist.
   void describe_by_sift(DeviceRig& rig);
-  /// The search in one kernel. \returns false where it has no room for the candidates: `matches` is nothing then.
+  /// Runs the search in one kernel. \returns false, with undefined `matches`, if there are too many candidates for it
   bool match_fused(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches);
-  /// For searches with SIFT, for those without room, and for the variant that wants it.
+  /// Runs the search with candidate lists: for searches with SIFT, for too many candidates, and for the corresponding
+  /// variant.
   void match_by_lists(DeviceRig& base, const TemporalSearch& search, TemporalMatches& matches);
   void match_side(Side side, DeviceRig& base, const TemporalSearch& search, stages::DeviceCandidates& candidates);
   void tap_stereo();
@@ -96,7 +97,7 @@ class DeviceFrontend : public Frontend {
   stages::WideMatching wide_matching_;
 
   stages::DeviceCandidates candidates_, temporal_left_, temporal_right_;
-  opencl::Buffer<cl_float> small_;  ///< scratch of match_globally(), as are these descriptors
+  opencl::Buffer<cl_float> small_;  ///< reduced image for match_globally(), as are these descriptors
   opencl::Buffer<cl_uchar> wide_before_, wide_now_;
   stages::DeviceRefined refined_;
   stages::DeviceClusters clusters_;
@@ -104,11 +105,11 @@ class DeviceFrontend : public Frontend {
   stages::DeviceMutual owners_;
   stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
-  bool indexed_ = false;                   ///< of the current frame
-  opencl::Buffer<cl_char> right_patches_;  ///< of every edge of the right image
+  bool indexed_ = false;                   ///< for the current frame
+  opencl::Buffer<cl_char> right_patches_;  ///< of all edges of the right image
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
-      right_sift_{context_, 0};    ///< of every edge, where the stereo cascade asks for SIFT
-  opencl::Buffer<cl_int> itself_;  ///< 0, 1, 2 ...
+      right_sift_{context_, 0};    ///< of all edges, if the stereo cascade uses SIFT
+  opencl::Buffer<cl_int> itself_;  ///< the identity permutation 0, 1, 2 ...
   RigPool<DeviceRig> rigs_;
 };
 

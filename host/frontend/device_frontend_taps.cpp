@@ -1,14 +1,14 @@
-/// \file device_frontend_taps.cpp  What the device frontend shows a tap after each filter; nothing here runs without
-/// one.
+/// \file device_frontend_taps.cpp  Passes data of the device front end to a tap after each filter; runs only if there
+/// is a tap.
 #include "common/filter_limits.hpp"
 #include "frontend/device_frontend.hpp"
 
 namespace quadedge::frontend {
 namespace {
 
-constexpr float kAllDirections = 4.0f;  // rad, more than any angle
+constexpr float kAllDirections = 4.0f;  // rad, larger than any angle
 
-/// The scores that a filter judges; null for filters that judge neither.
+/// The scores that a filter compares; null for filters that use neither.
 template <class Filter>
 const std::vector<float>* scores_for(const stages::JudgedCandidates& lists, Filter filter) {
   if (filter == Filter::sift || filter == Filter::nearly_best_sift) return &lists.sift;
@@ -16,7 +16,7 @@ const std::vector<float>* scores_for(const stages::JudgedCandidates& lists, Filt
   return nullptr;
 }
 
-/// What a filter left, with the scores that the next one judges.
+/// The candidates that a filter leaves, with the scores that the next filter compares.
 template <class Filter>
 CandidateLists passing(const stages::JudgedCandidates& lists, Filter filter) {
   return lists.alive_after(order_of(filter), scores_for(lists, next(filter)));
@@ -29,8 +29,8 @@ void DeviceFrontend::set_tap(Tap* tap) {
   if (tap != nullptr) temporal_match_.prepare_tap();
 }
 
-/// Filters 1 and 2, which the kernel applies together with filter 3: the kernel itself, with the limits of the later
-/// ones opened. Filter 3's lists are those that the frame goes on with.
+/// Filters 1 and 2, which the kernel combines with filter 3: runs the same kernel with the limits of the later filters
+/// removed. The frame continues with the lists of filter 3.
 void DeviceFrontend::tap_candidates_without_limits() {
   stages::DeviceCandidates lists;
   for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
@@ -69,7 +69,7 @@ void DeviceFrontend::tap_stereo() {
     return lists;
   };
   tap_->stereo_filter(StereoFilter::refinement, clusters_that([](std::size_t, std::size_t) { return true; }));
-  // The kernel's own comparison: it lets the clusters that pass compete without marking the others.
+  // As in the kernel: clusters that pass compete, and the others are not marked.
   tap_->stereo_filter(StereoFilter::similarity, clusters_that([&](std::size_t, std::size_t k) {
                         return similarity[k] >= lowest_similarity(config_.stereo);
                       }));
@@ -88,8 +88,8 @@ void DeviceFrontend::tap_search(const Rig& base, const TemporalSearch& search) {
   tap_->temporal_search({counts_.searches, base.frame, search.left, search.right, search.radius, search.step});
 }
 
-/// Filter 1 of a search by lists, whose kernel applies it together with filter 2: the kernel itself, with the limit of
-/// filter 2 opened.
+/// Filter 1 of a search with lists, which the kernel combines with filter 2: runs the same kernel with the limit of
+/// filter 2 removed.
 void DeviceFrontend::tap_displaced(const TemporalSearch& search) {
   stages::DeviceCandidates lists;
   for (const Side side : kSides) {
@@ -99,7 +99,7 @@ void DeviceFrontend::tap_displaced(const TemporalSearch& search) {
   }
 }
 
-/// Both sides from filter `first` to the agreement.
+/// Both sides, from filter `first` to the agreement.
 void DeviceFrontend::tap_temporal(TemporalFilter first, const stages::JudgedCandidates& left,
                                   const stages::JudgedCandidates& right) {
   for (auto filter = first; filter < TemporalFilter::agreement; filter = next(filter)) {

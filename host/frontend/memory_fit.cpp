@@ -8,9 +8,9 @@ namespace quadedge::frontend {
 namespace {
 
 constexpr double kBytesPerPixel = 160, kBytesPerEdge = 5000, kFixedBytes = 16e6;
-constexpr double kUsable = 0.75;        // of the memory; the rest is the driver's and other programs'
-constexpr double kEdgesPerPixel = 0.2;  // of pictures full of edges, where all are kept
-constexpr int kFewest = 1000;           // edges per image that are worth a start
+constexpr double kUsable = 0.75;        // of the memory; the rest is left to the driver and other programs
+constexpr double kEdgesPerPixel = 0.2;  // in densely textured images if all edges are used
+constexpr int kFewest = 1000;           // minimum number of edges per image with which tracking is worthwhile
 constexpr double kMegabyte = 1e6;
 
 std::string megabytes(double bytes) { return std::to_string(static_cast<long>(bytes / kMegabyte)) + " MB"; }
@@ -26,16 +26,16 @@ MemoryFit fit_memory(const StereoRig& rig, const Config& config, std::size_t mem
   const double wanted = std::min<double>(config.edges.max_edges, all ? kEdgesPerPixel * pixels : config.edges.budget);
   if (wanted <= room) return fit;
   if (room < kFewest) {
-    throw DeviceError("the device's memory of " + megabytes(static_cast<double>(memory_bytes)) + " is too small for " +
+    throw DeviceError("the device memory of " + megabytes(static_cast<double>(memory_bytes)) + " is too small for " +
                       "images of " + std::to_string(rig.left.width) + "x" + std::to_string(rig.left.height) +
-                      " px, which take about " + megabytes(images) + " without edges. Expected another device, or " +
+                      " px, which need about " + megabytes(images) + " without edges. Use another device or " +
                       "smaller images");
   }
   const int budget = static_cast<int>(room);
   fit.config.edges.budget = budget;
   fit.config.edges.max_edges = std::min(config.edges.max_edges, 2 * budget);
-  fit.message = "the device's memory of " + megabytes(static_cast<double>(memory_bytes)) + " holds about " +
-                std::to_string(budget) + " edges per image: edges.budget is that instead of " +
+  fit.message = "the device memory of " + megabytes(static_cast<double>(memory_bytes)) + " holds about " +
+                std::to_string(budget) + " edges per image: edges.budget is reduced to that from " +
                 (all ? "all" : std::to_string(config.edges.budget));
   return fit;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// \file memory_fit.hpp  How many edges a device's memory holds.
+/// \file memory_fit.hpp  Fits the number of edges to the memory of a device.
 
 #include <cstddef>
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace quadedge::frontend {
 
-/// A configuration that fits.
+/// A configuration that fits into memory.
 struct MemoryFit {
   Config config;
-  std::string message;  ///< empty where nothing had to be changed, or a sentence for the user
+  std::string message;  ///< empty if nothing was changed, otherwise a message for the user
 };
 
-/// Lowers edges.budget, and edges.max_edges with it, where the memory of a device might run out. The estimate is on the
-/// safe side: 160 bytes per pixel of the left image, and 5 KB per edge of an image, twice what the rendered scenes
-/// take. \throws DeviceError where the images alone take too much.
+/// Lowers edges.budget and edges.max_edges if the memory of a device might not suffice. The estimate is conservative:
+/// 160 bytes per pixel of the left image, and 5 KB per edge of an image, twice the demand of the rendered scenes.
+/// \throws DeviceError if the images alone need too much memory
 MemoryFit fit_memory(const StereoRig& rig, const Config& config, std::size_t memory_bytes);
 
 }  // namespace quadedge::frontend

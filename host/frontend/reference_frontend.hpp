@@ -1,5 +1,6 @@
 #pragma once
-/// \file reference_frontend.hpp  The frontend in plain C++: the oracle as a whole pipeline (`--device reference`).
+/// \file reference_frontend.hpp  The front end in C++, used as the reference for the whole pipeline (`--device
+/// reference`).
 
 #include "frontend/frontend.hpp"
 #include "reference/candidate_filters.hpp"
@@ -10,13 +11,13 @@
 
 namespace quadedge::frontend {
 
-/// A rig with its images and the descriptions of its stereo edges.
+/// A rig with its images and the descriptors of its stereo edges.
 struct ReferenceRig : Rig {
   Image left, right;
   reference::EdgeDescriptions left_descriptions, right_descriptions;
 };
 
-/// Slow, clear, single-threaded.
+/// Optimised for clarity, not speed; single-threaded.
 class ReferenceFrontend : public Frontend {
  public:
   ReferenceFrontend(const StereoRig& rig, const Config& config);
@@ -28,7 +29,7 @@ class ReferenceFrontend : public Frontend {
   std::size_t device_bytes() const override { return 0; }
 
  private:
-  /// The edges of both images, as many as the budget allows.
+  /// Detects the edges of both images, limited by the budget.
   void detect(ReferenceRig& now, double threshold);
   void tap_candidates(const reference::Candidates& candidates, const reference::CandidateScores& scores);
   void tap_clusters(const reference::StereoClusters& clusters, const reference::StereoRelaxation& relaxation);

@@ -1,11 +1,11 @@
-/// \file reference_frontend_taps.cpp  What the reference shows a tap of the stereo cascade, from its lists of
-/// candidates on.
+/// \file reference_frontend_taps.cpp  Passes data of the reference's stereo cascade to a tap, from the candidate lists
+/// on.
 #include "frontend/reference_frontend.hpp"
 
 namespace quadedge::frontend {
 namespace {
 
-/// Candidates that no filter up to `filter` has rejected, with what the next one judges.
+/// Candidates that no filter up to `filter` has rejected, with the scores that the next filter compares.
 CandidateLists alive_after(StereoFilter filter, const reference::Candidates& candidates,
                            const reference::CandidateScores& scores) {
   const StereoFilter judge = next(filter);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file rig.hpp  What the front end has seen at one time, handed out for as long as somebody needs it.
+/// \file rig.hpp  Handles to the stereo edges of a frame, valid for as long as they are held.
 
 #include <algorithm>
 #include <limits>
@@ -13,17 +13,18 @@
 
 namespace quadedge::frontend {
 
-/// The stereo rig of one frame. Each front end derives from it what it needs to match the rig's edges with later ones.
+/// The stereo rig of one frame. Each front end derives a class with the data it needs to match the rig's edges later.
 class Rig {
  public:
   virtual ~Rig() = default;
 
-  int frame = -1;     ///< number of the frame, counted from 0 by the front end
+  int frame = -1;     ///< frame number, counted from 0 by the front end
   StereoEdges edges;  ///< on the host
-  /// Distance of the epipolar lines where edges were kept [px]; 0: all were. See kernels/edge_selection.cl.
+  /// Spacing of the epipolar lines on which edges were selected [px]; 0: all edges. See kernels/edge_selection.cl.
   double edges_spacing = 0;
 
-  /// The stereo edges measured with a calibration whose disparities carry `offset` [px]. Kept until the offset changes.
+  /// Measurements of the stereo edges with a calibration whose disparities include `offset` [px]. Cached until the
+  /// offset changes.
   /// \param min_epipolar_angle see pose::measure() [rad]
   const pose::MeasuredEdges& measured_edges(const StereoRig& calibration, double offset,
                                             double min_epipolar_angle) const {
@@ -33,7 +34,7 @@ class Rig {
     }
     return measured_;
   }
-  /// The memory serves for another frame.
+  /// Prepares the rig for another frame; keeps its memory.
   void start(int frame_number) {
     frame = frame_number;
     measured_with_ = kNever;
@@ -45,16 +46,17 @@ class Rig {
   mutable double measured_with_ = kNever;  ///< disparity offset [px]
 };
 
-/// Keeps a rig: its memory serves for another frame when the last handle is gone. Must not outlive the device.
+/// Keeps a rig; its memory is reused when the last handle is released. Must not outlive the device.
 using RigHandle = std::shared_ptr<const Rig>;
 
-/// The rigs of a front end. There are as many as were ever needed at once, so that steady frames allocate nothing.
-/// \tparam T the front end's rig
+/// The rigs of a front end. Their number is the maximum ever held at once, so that nothing is allocated in steady
+/// state.
+/// \tparam T the rig type of the front end
 template <class T>
 class RigPool {
  public:
-  /// The rig of the next frame, which becomes the current one: a rig that nobody holds any more, its memory as it was
-  /// left, or else a new one made of `arguments`.
+  /// Returns the rig for the next frame: one that is no longer held, with its memory unchanged, or a new one
+  /// constructed from `arguments`.
   template <class... Arguments>
   T& next(const Arguments&... arguments) {
     auto spare = std::find_if(rigs_.begin(), rigs_.end(), [](const auto& rig) { return rig.use_count() == 1; });
@@ -66,7 +68,7 @@ class RigPool {
   T& current() { return *rigs_.at(current_); }
   RigHandle current_handle() const { return rigs_.at(current_); }
 
-  /// The front end's own view of a rig that it has handed out. \throws std::invalid_argument for any other.
+  /// The front end's own type of a rig that it has created. \throws std::invalid_argument for any other rig
   T& own(const Rig& rig) {
     for (const auto& own : rigs_)
       if (own.get() == &rig) return *own;

@@ -6,9 +6,9 @@
 namespace quadedge {
 
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
-  constexpr double kAllowed = 0.02;  // of the rows: a driver that rounds otherwise decides otherwise near a limit
+  constexpr double kAllowed = 0.02;  // fraction of the rows: different rounding changes decisions near a limit
   if (device.context() != nullptr) {
-    // The frames of the record are small: no stage's loops are long there.
+    // Checked first, because the recorded frames are small, so that no stage has long loops.
     const std::string difference = stages::long_loop_difference(*device.context());
     if (!difference.empty()) return {"long_loop", difference};
   }

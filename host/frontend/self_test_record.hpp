@@ -1,5 +1,5 @@
 #pragma once
-/// \file self_test_record.hpp  The stored side of the self-test: two small frames and what the reference makes of them.
+/// \file self_test_record.hpp  Stored data of the self-test: two small frames and the results of the reference.
 
 #include <string>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace quadedge::frontend {
 
-/// What host/frontend/self_test.rows holds.
+/// Content of host/frontend/self_test.rows.
 struct SelfTestRecord {
   SmallSequence sequence;
   std::vector<StageRows> stages;
 };
 
-/// As text: the rig, the images in hexadecimal digits, the rows of every stage.
+/// Converts to text: the rig, the images in hexadecimal digits, the rows of every stage.
 std::string to_text(const SelfTestRecord& record);
 
-/// \throws std::runtime_error for a text that to_text() did not write.
+/// \throws std::runtime_error for a text that was not written by to_text()
 SelfTestRecord parse_self_test(const std::string& text);
 
-/// The text that the build embeds.
+/// The text embedded by the build.
 const std::string& stored_self_test();
 
 }  // namespace quadedge::frontend

@@ -19,7 +19,7 @@ constexpr double kPositions = 100, kDirections = 200, kSimilarities = 500, kGrad
 int units(double value, double per_one) { return static_cast<int>(std::lround(value * per_one)); }
 int place(float value) { return units(static_cast<double>(value), kPositions); }
 
-/// Directions from -pi to pi; the two ends are one direction.
+/// Quantises a direction; -pi and pi are equal.
 int turned(float direction) {
   const int half_turn = units(kPi, kDirections), value = units(static_cast<double>(direction), kDirections);
   return value <= StageRows::kTolerance - half_turn ? value + 2 * half_turn : value;
@@ -30,7 +30,7 @@ Row edge_row(const EdgeSet& edges, std::size_t i) {
           units(static_cast<double>(edges.strength[i]), kGradients), 0};
 }
 
-/// Turns what a frontend shows into rows.
+/// Converts the data that a tap receives to rows.
 class Collector : public Tap {
  public:
   std::vector<Row>& of(const std::string& stage) {
@@ -79,7 +79,7 @@ class Collector : public Tap {
   std::vector<StageRows> stages;
 
  private:
-  /// `cue_scale`: units per one of what the next filter judges; 0: left out.
+  /// `cue_scale`: units per one of the score that the next filter compares; 0: the score is omitted.
   void add_candidates(const std::string& stage, const CandidateLists& lists, double cue_scale) {
     for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
       for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]);
@@ -114,7 +114,7 @@ UndistortionTable mild_distortion(const Image& image) {
 
 void observe_undistortion(const Image& image, Device& device, const std::map<std::string, std::string>& variants,
                           std::vector<Row>& rows) {
-  constexpr int kStep = 53;  // prime: every column has its turn
+  constexpr int kStep = 53;  // prime, so that every column is used
   const UndistortionTable table = mild_distortion(image);
   Image pinhole(image.width, image.height);
   if (device.is_reference()) {
@@ -140,7 +140,7 @@ TemporalSearch without_motion(const StereoEdges& base, double radius, bool coars
   return search;
 }
 
-/// The method's constants, with every stage at work.
+/// The default configuration with every stage enabled.
 Config configuration(const SmallSequence& sequence, const std::map<std::string, std::string>& variants) {
   Config config;
   config.stereo.max_disparity = sequence.max_disparity;
@@ -184,7 +184,7 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
 
 namespace {
 
-/// Rows of `a` that `b` lacks; the first of them.
+/// Number of rows of `a` that `b` lacks, and the first of them.
 std::size_t missing(const std::vector<Row>& a, const std::vector<Row>& b, const Row*& first) {
   std::size_t count = 0;
   for (const Row& row : a) {
@@ -210,11 +210,10 @@ std::string difference(const StageRows& found, const StageRows& expected, double
   if (few(wrong, found.rows.size()) && few(lacking, expected.rows.size())) return {};
   const Row& row = first_missing != nullptr ? *first_missing : *first_wrong;
   char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "%zu results where the reference has %zu; %zu of them are wrong and %zu are missing, the first of which "
-      "is (%d %d %d %d %d)",
-      found.rows.size(), expected.rows.size(), wrong, lacking, row[0], row[1], row[2], row[3], row[4]);
+  std::snprintf(text, sizeof text,
+                "%zu results, the reference has %zu; %zu are wrong and %zu are missing, the first of which "
+                "is (%d %d %d %d %d)",
+                found.rows.size(), expected.rows.size(), wrong, lacking, row[0], row[1], row[2], row[3], row[4]);
   return text;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// \file stage_rows.hpp  What every stage leaves of two small frames, in rows that two implementations can be compared
-/// by.
+/// \file stage_rows.hpp  Results of every stage for two small frames, as rows that can be compared between
+/// implementations.
 
 #include <array>
 #include <map>
@@ -12,16 +12,16 @@
 
 namespace quadedge::frontend {
 
-/// Two frames of a stereo rig that is rectified.
+/// Two frames of a rectified stereo rig.
 struct SmallSequence {
   StereoRig rig;
   double max_disparity = 0;  ///< [px]
   Image left[2], right[2];
 };
 
-/// What one stage left, without an order. Numbers are whole multiples of a unit: 1/100 px of positions, 1/200 rad of
-/// directions, 1/500 of similarities, 1/100 grey level per px of gradients, 1 of distances between descriptors and of
-/// grey levels; what a row lacks is 0.
+/// Results of one stage, unordered. Numbers are integer multiples of a unit: 1/100 px for positions, 1/200 rad for
+/// directions, 1/500 for similarities, 1/100 grey level per px for gradients, 1 for descriptor distances and grey
+/// levels; unused numbers are 0.
 struct StageRows {
   static constexpr int kTolerance = 3;  ///< of every number, in its unit
   using Row = std::array<int, 5>;
@@ -30,13 +30,14 @@ struct StageRows {
   std::vector<Row> rows;
 };
 
-/// Every stage in the order of a frame; the last ones by a guided search, a coarse one with SIFT, and one anywhere.
+/// Observes every stage in the order of a frame; the last stages with a guided search, a coarse search with SIFT, and a
+/// global search.
 /// \param device  with its front end, or the reference \throws DeviceError
 std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& device,
                                       const std::map<std::string, std::string>& variants);
 
-/// How the results of a stage differ; empty where they agree but for `allowed`, a fraction of either side's rows: the
-/// reference works in double precision, so that decisions near a limit may differ.
+/// Describes how the results of a stage differ; empty if they agree except for a fraction `allowed` of either side's
+/// rows. The reference computes in double precision, so that decisions near a limit may differ.
 std::string difference(const StageRows& found, const StageRows& expected, double allowed);
 
 }  // namespace quadedge::frontend

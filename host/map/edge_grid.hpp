@@ -1,5 +1,5 @@
 #pragma once
-/// \file edge_grid.hpp  Edges of an image by the cell that they lie in.
+/// \file edge_grid.hpp  Edges of an image, sorted into cells.
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 namespace quadedge::map {
 
-/// Finds the edges near a position. Cells have a side of two pixels, as much as edges are looked for around it.
+/// Finds the edges near a position. The side of a cell is 2 px, the search radius around an edge.
 class EdgeGrid {
  public:
-  /// Sorts edges by cell, within a cell by number. Positions in pixels.
+  /// Sorts edges by cell, then by index. Positions in pixels.
   void fill(const std::vector<float>& x, const std::vector<float>& y, int width, int height) {
     columns_ = width / kCell + 1;
     rows_ = height / kCell + 1;
@@ -23,7 +23,7 @@ class EdgeGrid {
     for (std::size_t i = 0; i < x.size(); ++i) edges_[next[cell(column(x[i]), row(y[i]))]++] = i;
   }
 
-  /// Calls visit(number) for every edge within two pixels along both axes, and for some beyond.
+  /// Calls visit(index) for every edge within 2 px along both axes, and for some farther away.
   template <class Visit>
   void for_each_near(double x, double y, const Visit& visit) const {
     for (int r = std::max(row(y) - 1, 0); r <= std::min(row(y) + 1, rows_ - 1); ++r) {
@@ -42,7 +42,7 @@ class EdgeGrid {
   }
 
   int columns_ = 0, rows_ = 0;
-  std::vector<std::size_t> first_;  ///< edges of cell c: first_[c] .. first_[c + 1]
+  std::vector<std::size_t> first_;  ///< edges of cell c: first_[c] .. first_[c + 1] - 1
   std::vector<std::size_t> edges_;
 };
 

@@ -1,4 +1,4 @@
-/// \file edge_map.cpp  Merging the stereo edges of key rigs (doc/method.md section 9).
+/// \file edge_map.cpp  Merges the stereo edges of key rigs (doc/method.md section 9).
 #include "quadedge/edge_map.hpp"
 
 #include <algorithm>
@@ -15,27 +15,27 @@
 namespace quadedge {
 namespace {
 
-constexpr double kLargestDepthError = 0.1;  ///< of the depth: beyond it a point says little more than its direction
-constexpr double kAcross = 1.0;             ///< px that a projected point may miss an edge by, across the edge
-constexpr double kAlong = 1.0;              ///< px along it; edges lie half a pixel apart
-constexpr double kLongestSlide = 2;         ///< px of a point along its tangent, which may be wrong in depth
-constexpr double kTurn = 15 * kPi / 180;    ///< rad between the directions of a projected tangent and an edge
-constexpr double kDeviations = 3;           ///< of the disparity
-constexpr double kPoseNoise = 0.5;          ///< px of disparity that poses may be wrong by between two key rigs
-constexpr int kMaxUnseenViews = 20;         ///< key rigs for which a point with few views may go unseen
+constexpr double kMaxDepthError = 0.1;  ///< relative; points with larger errors carry little more than their direction
+constexpr double kAcross = 1.0;         ///< maximum distance of a projected point from an edge, across the edge [px]
+constexpr double kAlong = 1.0;          ///< the same along the edge; edges are half a pixel apart [px]
+constexpr double kMaxSlide = 2;         ///< maximum displacement along the tangent, whose depth may be wrong [px]
+constexpr double kTurn = 15 * kPi / 180;  ///< maximum angle between a projected tangent and an edge [rad]
+constexpr double kDeviations = 3;         ///< maximum deviation of the disparity, in standard deviations
+constexpr double kPoseNoise = 0.5;        ///< effect of pose errors between two key rigs on disparities [px]
+constexpr int kMaxUnseenViews = 20;       ///< key rigs for which a point with few views may remain unobserved
 constexpr std::size_t kMostSightings = 8;
 constexpr std::int32_t kNone = -1;
 
 using Sightings = std::array<MapSighting, kMostSightings>;
 
-/// 76 bytes of a point; the information matrix is symmetric.
+/// 76 bytes per point; the information matrix is symmetric.
 struct Point {
   Eigen::Vector3d position;
   std::array<float, 6> information;
   Eigen::Vector3f tangent;
   float grey;
   std::int32_t views;
-  std::int32_t last_view;  ///< number of the key rig that saw it last
+  std::int32_t last_view;  ///< number of the last key rig that observed it
 
   Eigen::Matrix3d information_matrix() const {
     const auto& i = information;
@@ -51,11 +51,11 @@ struct Point {
   }
 };
 
-/// What an edge of the current key rig is offered.
+/// A point that may be merged with an edge of the current key rig.
 struct Offer {
   std::int32_t point = kNone;
-  double distance = std::numeric_limits<double>::infinity();  ///< px
-  float x = 0, y = 0;  ///< where the point is seen on the edge: the place on its tangent nearest to the projection [px]
+  double distance = std::numeric_limits<double>::infinity();  ///< [px]
+  float x = 0, y = 0;  ///< position on the edge's tangent nearest to the projected point [px]
 };
 
 double disparity_sigma(const Point& point, const Eigen::Vector3d& ray_in_world, double z, double per_pixel) {
@@ -99,12 +99,12 @@ class EdgeMap::Implementation {
   Config config_;
   EdgeMapOptions options_;
   std::vector<Point> points_;
-  std::vector<Sightings> sightings_;  ///< one per point, the first ones of it; empty without tracks
+  std::vector<Sightings> sightings_;  ///< the first observations of each point; empty without tracks
   std::vector<MapView> views_;
   std::vector<Offer> offers_;  ///< one per edge of the current key rig
   map::EdgeGrid grid_;
   std::size_t dropped_ = 0;
-  int frames_ = 0;  ///< told to add()
+  int frames_ = 0;  ///< number of calls of add()
 };
 
 bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
@@ -125,7 +125,7 @@ bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& r
       merge(point, offers_[i].point);
     } else {
       const double depth_error = point.inverse_depth_per_pixel * point.disparity_sigma / point.inverse_depth;
-      if (depth_error > kLargestDepthError) continue;
+      if (depth_error > kMaxDepthError) continue;
       append(point);
     }
     if (!options_.tracks) continue;
@@ -138,7 +138,7 @@ bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& r
   return true;
 }
 
-/// Offers every point in view to the edge that it seems to be; an edge takes the nearest one.
+/// Assigns every point in view to the edge that it probably shows; an edge keeps the nearest point.
 void EdgeMap::Implementation::offer(const StereoRig& rig, const StereoEdges& edges, const Measured& measured) {
   offers_.assign(edges.size(), {});
   grid_.fill(edges.left_x, edges.left_y, rig.left.width, rig.left.height);
@@ -159,7 +159,7 @@ void EdgeMap::Implementation::consider(std::int32_t index, const pose::ImageEdge
                                        const StereoEdges& edges, const Measured& measured) {
   const Point& point = points_[static_cast<std::size_t>(index)];
   const Eigen::Vector3d ray = point.position - views_.back().world_from_left.translation();
-  double sigma = -1;  // of the point's disparity; asked where an edge is near
+  double sigma = -1;  // of the point's disparity; computed once an edge is near
   std::size_t best = 0;
   Offer found;
   grid_.for_each_near(seen.pixel.x(), seen.pixel.y(), [&](std::size_t i) {
@@ -185,14 +185,14 @@ void EdgeMap::Implementation::consider(std::int32_t index, const pose::ImageEdge
   if (found.point != kNone && found.distance < offers_[best].distance) offers_[best] = found;
 }
 
-/// The mean of both, weighted by their information. Along the curve edges lie anywhere: the measured point slides along
-/// its tangent to where it is nearest.
+/// Mean of both positions, weighted by information. Because the position along the curve is arbitrary, the measured
+/// point is first moved along its tangent to the nearest position.
 void EdgeMap::Implementation::merge(const map::MeasuredPoint& measured, std::int32_t index) {
   Point& point = points_[static_cast<std::size_t>(index)];
   const Eigen::Isometry3d& world_from_left = views_.back().world_from_left;
   const Eigen::Matrix3d rotation = world_from_left.linear();
   const Eigen::Vector3d tangent = rotation * measured.tangent, place = world_from_left * measured.position;
-  const double longest = kLongestSlide * measured.metres_per_pixel;
+  const double longest = kMaxSlide * measured.metres_per_pixel;
   const Eigen::Vector3d slid = place + std::clamp(tangent.dot(point.position - place), -longest, longest) * tangent;
   const Eigen::Matrix3d known = point.information_matrix();
   const Eigen::Matrix3d added = rotation * measured.information * rotation.transpose();
@@ -237,8 +237,8 @@ void EdgeMap::Implementation::keep_only(const Keep& keep) {
   if (options_.tracks) sightings_.resize(kept);
 }
 
-/// Where there are too many points, those of the fewest views give way until a tenth of the room is free; of equally
-/// many the ones that were seen longest ago.
+/// If there are too many points, discards those with the fewest views until a tenth of the capacity is free; of points
+/// with equal numbers of views, those observed longest ago.
 void EdgeMap::Implementation::make_room() {
   if (points_.size() <= options_.most_points) return;
   const std::size_t room = options_.most_points - options_.most_points / 10;
@@ -248,7 +248,7 @@ void EdgeMap::Implementation::make_room() {
   const auto first_kept = ranks.end() - static_cast<std::ptrdiff_t>(room);
   std::nth_element(ranks.begin(), first_kept, ranks.end());
   const auto least = *first_kept;
-  auto alike = std::count(first_kept, ranks.end(), least);  // kept of those of the same rank, the oldest first
+  auto alike = std::count(first_kept, ranks.end(), least);  // points to keep of the same rank, oldest first
   keep_only([&](const Point& point) {
     const bool keep = rank(point) > least || (rank(point) == least && alike-- > 0);
     dropped_ += !keep && point.views >= options_.min_views ? 1 : 0;

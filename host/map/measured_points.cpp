@@ -10,12 +10,12 @@
 namespace quadedge::map {
 namespace {
 
-constexpr double kEdgeReach = 0.5;  // px of curve to either side that an edge stands for
+constexpr double kEdgeReach = 0.5;  // half length of the segment of curve that an edge represents [px]
 
-/// Sum of the outer products of three orthogonal directions over the squares of their standard deviations.
+/// Sum of the outer products of three orthogonal directions, divided by the squares of their standard deviations.
 Eigen::Matrix3d information_of(const Eigen::Vector3d& ray, const Eigen::Vector3d& direction, double depth_sigma,
                                double along, double across) {
-  // Pixel and depth are independent: what is measured are depth along the ray, and two angles of the ray.
+  // Pixel and depth are independent: the measurements are the depth along the ray and two angles of the ray.
   const Eigen::Vector3d forward = ray.normalized();
   const Eigen::Vector3d sideways = (direction - direction.dot(forward) * forward).normalized();
   const Eigen::Vector3d normal = forward.cross(sideways);

@@ -23,7 +23,7 @@ def test_a_rig_by_numbers():
 
 
 @pytest.mark.parametrize("transform, words", [
-    (right_from_left(0), "stereo rig: found a baseline of 0.000000 m, expected a finite length above zero"),
+    (right_from_left(0), "stereo rig: found a baseline of 0.000000 m, expected a finite positive length"),
     (numpy.diag([1.0, 1, -1, 1]), "right_from_left: found a matrix that is no rigid transform"),
     (2 * numpy.eye(4), "right_from_left: found a matrix that is no rigid transform"),
     (numpy.eye(3), "right_from_left: found 3 x 3 numbers, expected 4 x 4"),
