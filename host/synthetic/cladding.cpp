@@ -10,16 +10,16 @@
 namespace quadedge::synthetic {
 namespace {
 
-constexpr double kFilter = 1.5;  // width of the mean [texels]
+constexpr double kFilter = 1.5;  // width of the averaging filter [texels]
 
-/// A unit's part in the mean over an interval.
+/// Contribution of a unit to the mean over an interval.
 struct Part {
   std::int64_t unit;
-  double weight;  // of the interval, 0 to 1
-  double place;   // of the part's middle in the unit, -1 to 1
+  double weight;  // fraction of the interval, 0 to 1
+  double place;   // position of the part's middle in the unit, -1 to 1
 };
 
-/// The units of a pitch that an interval [m] meets; what their weights lack of 1 is joint.
+/// Finds the units that an interval [m] overlaps; the rest of the weights up to 1 is joint.
 void find_parts(double middle, double width, double pitch, double joint, std::vector<Part>& parts) {
   parts.clear();
   const double low = middle - 0.5 * width, high = middle + 0.5 * width;

@@ -37,7 +37,7 @@ struct Leaf {
   }
 };
 
-/// The leaf of a cell. Its circumscribed circle is smaller than the cell's side.
+/// The leaf of a cell. Its circumscribed circle is smaller than the side of the cell.
 Leaf make_leaf(Random& random, const TextureStyle& style, double cell, double cell_x, double cell_y) {
   Leaf leaf{};
   leaf.x = (cell_x + random(0.0, 1.0)) * cell;
@@ -72,7 +72,7 @@ Leaf make_leaf(Random& random, const TextureStyle& style, double cell, double ce
   }
   leaf.sides = 3 + static_cast<int>(random(0.0, 3.0));
   const double inner = cell * random(0.18, 0.3);
-  double widest = 0.0;  // angle between neighbouring normals, 129 degrees at most
+  double widest = 0.0;  // angle between adjacent normals, at most 129 degrees
   std::array<double, 7> directions{};
   for (int i = 0; i < leaf.sides; ++i) {
     const auto k = static_cast<std::size_t>(i);

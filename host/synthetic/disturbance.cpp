@@ -9,7 +9,7 @@
 namespace quadedge::synthetic {
 namespace {
 
-constexpr double kBoardDepth = 1.15;      // [m] before nearly everything in the scenes, behind their nearest depth
+constexpr double kBoardDepth = 1.15;      // [m], in front of nearly everything but beyond the nearest depth
 constexpr double kBoardRhythm = 0.11;     // [rad per frame]
 constexpr double kMomentsPerPixel = 2.0;  // of image motion
 
@@ -19,7 +19,7 @@ MovingBoard::MovingBoard(const PinholeCamera& left, double fraction, std::uint64
   const double side = std::sqrt(fraction);  // of the image's sides
   half_width_ = 0.5 * side * left.width / left.fx * kBoardDepth;
   half_height_ = 0.5 * side * left.height / left.fy * kBoardDepth;
-  // Half of what would bring it to the border.
+  // Half the amplitude at which it would reach the border.
   sway_x_ = 0.5 * (1.0 - side) / side * half_width_;
   sway_y_ = 0.5 * (1.0 - side) / side * half_height_;
   TextureStyle style;
@@ -52,8 +52,8 @@ Radiance expose(const Exposure& exposure, int frame, Side side) {
     return render(exposure.scene, exposure.rays, camera_from_scene, rays, exposure.threads, &surface);
   };
   if (!(exposure.duration > 0.0)) return at(frame, exposure.supersampling);
-  // An odd number, so that the moment in the middle is the frame's own; the moments spread the rays, so that each needs
-  // fewer.
+  // An odd number, so that the middle moment is the time of the frame; the rays are spread over the moments, so that
+  // each moment needs fewer.
   const double way = exposure.path.image_motion(exposure.rig.left, frame, exposure.duration);
   const int moments = 2 * static_cast<int>(std::ceil(0.5 * kMomentsPerPixel * way)) + 1;
   const int rays = std::max(2, exposure.supersampling / 2);

@@ -1,6 +1,5 @@
 #pragma once
-/// \file disturbance.hpp  What makes rendered images worse than a still camera before a still scene: blur and a moving
-/// board.
+/// \file disturbance.hpp  Disturbances of rendered images: motion blur and a moving board.
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -13,12 +12,12 @@
 
 namespace quadedge::synthetic {
 
-/// A textured board that sways before the camera on a path of its own, always in view.
+/// A textured board that sways in front of the camera, independently of it and always in view.
 class MovingBoard {
  public:
   /// \param fraction of the left image that it covers
   MovingBoard(const PinholeCamera& left, double fraction, std::uint64_t seed);
-  /// Its surface after `phase` frames before the left camera at `scene_from_left`.
+  /// Its surface after `phase` frames, in front of the left camera at `scene_from_left`.
   PlaneSurface surface(double phase, const Eigen::Isometry3d& scene_from_left) const;
 
  private:
@@ -27,19 +26,19 @@ class MovingBoard {
   std::shared_ptr<const Texture> texture_;
 };
 
-/// What is seen, from where, and for how long the shutter is open.
+/// Scene, cameras and exposure time of a view.
 struct Exposure {
   const Scene& scene;
   const MovingBoard* board;  ///< or null
   const StereoRig& rig;
-  const PixelRays& rays;  ///< of the camera whose view it is
+  const PixelRays& rays;  ///< rays of the rendered camera
   const CameraPath& path;
-  double duration;  ///< [frame periods]; 0: an instant
+  double duration;  ///< [frame periods]; 0: instantaneous
   int supersampling, threads;
 };
 
-/// One view with the shutter open around the time of `frame`: the mean over two moments per pixel of the image's
-/// motion. The depth is the one at the frame's own time.
+/// One view exposed around the time of `frame`: the mean over two moments per pixel of image motion. The depth is that
+/// at the time of the frame.
 Radiance expose(const Exposure& exposure, int frame, Side side);
 
 }  // namespace quadedge::synthetic

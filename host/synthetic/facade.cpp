@@ -1,5 +1,5 @@
-/// \file facade.cpp  The scene "facade". Its own frame, "street": x along the house fronts, y down, z towards them; the
-/// origin is where the path "ellipse" starts, at the height of a camera in the hand.
+/// \file facade.cpp  The scene "facade". Its frame, "street": x along the house fronts, y down, z towards them; the
+/// origin is the start of the path "ellipse", at the height of a handheld camera.
 #include <algorithm>
 #include <cmath>
 
@@ -15,14 +15,14 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kSlant = 0.56;               // [rad] of the first view against the fronts
+constexpr double kSlant = 0.56;               // [rad], angle between the first view and the fronts
 constexpr double kGround = 1.45;              // [m] below the camera
 constexpr double kFence = 2.0, kFront = 4.6;  // z [m]
 constexpr double kStart = -9.0, kEnd = 40.0;  // x [m]
 constexpr double kEaves = -4.4;               // y [m]
-constexpr double kFacingUp = -0.5 * kPi;      // pitch of a plane
+constexpr double kFacingUp = -0.5 * kPi;      // pitch of a horizontal plane
 
-/// Where the path "ellipse" starts.
+/// Start of the path "ellipse".
 Isometry3d street_from_world() { return pose(Vector3d::Zero(), kSlant, 0.02, 0.02); }
 
 using TexturePointer = std::shared_ptr<const Texture>;
@@ -51,7 +51,7 @@ class Facade {
     return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, nearest);
   }
 
-  /// Road, pavement, garden, what stands on the other side of the road and at its end, and the sky.
+  /// Road, pavement, garden, the far side and the end of the road, and the sky.
   void surroundings() {
     constexpr double kMiddle = 0.5 * (kStart + kEnd), kHalf = 0.5 * (kEnd - kStart) + 12.0;
     const auto ground = [&](double from, double to, const TextureStyle& style, double drop) {
@@ -97,11 +97,11 @@ class Facade {
     return style;
   }
 
-  /// Fronts in a row: boards and bricks take turns, every other one stands back a little.
+  /// A row of fronts, boards and bricks alternately; every second front is set back slightly.
   void houses() {
     bool boarded = random_(0.0, 1.0) < 0.5;
     double x = kStart;
-    // The border between the second and the third one is in the middle of the first view.
+    // The second border between fronts is in the middle of the first view.
     for (const double end : {-3.0 + random_(-0.6, 0.6), 2.9 + random_(-0.5, 0.5)}) {
       house(x, end, boarded);
       x = end;
@@ -139,7 +139,7 @@ class Facade {
     return style;
   }
 
-  /// A grid of two rows; one window of the lower row is a door instead.
+  /// A grid of two rows of windows, with a door in place of one window of the lower row.
   void windows(double from, double to, double front, bool boarded) {
     const int columns = std::max(2, static_cast<int>((to - from) / 1.9));
     const double pitch = (to - from) / columns;
@@ -170,7 +170,7 @@ class Facade {
     }
   }
 
-  /// A pane with a frame, bars across it, before the wall.
+  /// A pane with a frame and bars, in front of the wall.
   void opening(const Vector3d& centre, double half_width, double half_height, int bars, const TexturePointer& frame,
                const TexturePointer& pane) {
     constexpr double kFrame = 0.04, kProud = 0.05;
@@ -210,7 +210,7 @@ class Facade {
     }
   }
 
-  /// Shrubs behind the fence, one before it, a tree, and a climber on the wall.
+  /// Shrubs behind the fence, one in front of it, a tree, and a climber on the wall.
   void shrubs() {
     for (int i = 0; i < 8; ++i) {
       TextureStyle style = plain(random_(55.0, 150.0));
@@ -229,14 +229,15 @@ class Facade {
     foliage({random_(0.2, 1.0), -1.2, kFront - 0.02}, {0.35, 2.4, 0.12}, 0.07, 420, false);
   }
 
-  /// Leaves all over an ellipsoid; its inside is dark.
+  /// Leaves on an ellipsoid with a dark interior.
   void foliage(const Vector3d& centre, const Vector3d& half, double leaf_size, int count, bool filled) {
     TextureStyle inside = leaves(0.1, 3, 0.0, 52.0);
     inside.spread = 25.0;
     if (filled) build_.sphere(at(centre.x(), centre.y(), centre.z()), 0.6 * half.minCoeff(), inside, 2.5);
     for (int i = 0; i < count; ++i) {
-      // On the half that faces the street; every leaf faces away from the middle, more or less.
-      Vector3d outwards{random_(-1.0, 1.0), random_(-1.0, 1.0), random_(-1.0, 0.25)};  // braces: in this order
+      // On the half that faces the street; leaves face approximately outwards.
+      Vector3d outwards{random_(-1.0, 1.0), random_(-1.0, 1.0),
+                        random_(-1.0, 0.25)};  // braces fix the order of evaluation
       outwards.normalize();
       const Vector3d place = centre + random_(filled ? 0.55 : 0.2, 1.0) * outwards.cwiseProduct(half);
       const Vector3d facing = (outwards + 0.7 * Vector3d{random_(-1.0, 0.4), random_(-1.0, 0.6), -0.6}).normalized();

@@ -1,5 +1,5 @@
 #pragma once
-/// \file gradient_noise.hpp  Smooth noise of one wavelength, for textures.
+/// \file gradient_noise.hpp  Smooth noise of one wavelength for textures.
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace quadedge::synthetic {
 
-/// Gradient noise of unit wavelength, about -1..1. Neighbouring calls share the lattice cell, which is kept.
+/// Gradient noise of unit wavelength, about -1..1. Caches the lattice cell, which neighbouring calls share.
 class GradientNoise {
  public:
   explicit GradientNoise(std::uint64_t key) : key_(key) {}

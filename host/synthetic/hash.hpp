@@ -1,12 +1,12 @@
 #pragma once
-/// \file hash.hpp  Counter-based random numbers: a value depends on its key alone, not on the order of asking.
+/// \file hash.hpp  Counter-based random numbers: a value depends only on its key, not on the order of evaluation.
 
 #include <cmath>
 #include <cstdint>
 
 namespace quadedge::synthetic {
 
-/// Finaliser of SplitMix64: a bijection in which every input bit changes about half of the output bits.
+/// Finaliser of SplitMix64: a bijection in which every input bit affects about half of the output bits.
 inline std::uint64_t mix(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -14,7 +14,7 @@ inline std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Key of a pair (nest it for longer keys).
+/// Key of a pair; can be nested for longer keys.
 inline std::uint64_t combine(std::uint64_t key, std::int64_t index) {
   return mix(key ^ mix(static_cast<std::uint64_t>(index)));
 }

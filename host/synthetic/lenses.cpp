@@ -10,11 +10,11 @@ namespace {
 struct NamedLens {
   const char* name;
   LensModel model;
-  double focal;  ///< factor on the pinhole camera's focal length
+  double focal;  ///< factor for the pinhole camera's focal length
   std::vector<double> parameters;
 };
 
-/// The wide ones see 150 to 170 degrees in an image as wide as the default's.
+/// The wide-angle lenses have a field of view of 150 to 170 degrees at the default image width.
 const std::vector<NamedLens>& lenses() {
   static const std::vector<NamedLens> all = {
       {"pinhole", LensModel::radial_tangential, 1, {}},

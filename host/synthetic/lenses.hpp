@@ -7,8 +7,8 @@
 
 namespace quadedge::synthetic {
 
-/// One of synthetic_lenses(): its model, parameters as calibrations of real cameras have them, and focal lengths made
-/// of those of the pinhole camera that it stands for [px]. Wide lenses see more than that camera.
+/// One of synthetic_lenses(), with parameters typical of calibrations of real cameras. `focal`: focal length of the
+/// corresponding pinhole camera [px]. Wide-angle lenses have a larger field of view than that camera.
 Lens make_lens(const std::string& name, double focal);
 
 }  // namespace quadedge::synthetic

@@ -15,7 +15,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kMotionDepth = 2.5;  // [m] of the points whose way in the image is measured
+constexpr double kMotionDepth = 2.5;  // [m], depth of the points whose image motion is measured
 
 Isometry3d turned(const Vector3d& place, double yaw, double pitch, double roll) {
   Isometry3d pose = Isometry3d::Identity();
@@ -26,8 +26,8 @@ Isometry3d turned(const Vector3d& place, double yaw, double pitch, double roll) 
   return pose;
 }
 
-/// An ellipse in the horizontal plane, run through in 114 frames while height and attitude sway in other rhythms. It
-/// stays within 0.7 m of the start for ever: steps of 1 to 4 cm and less than 1 degree per frame.
+/// An ellipse in the horizontal plane, traversed in 114 frames, while height and attitude sway at other frequencies.
+/// Stays within 0.7 m of the start at all times: steps of 1 to 4 cm and less than 1 degree per frame.
 Isometry3d room_from_ellipse(double phase) {
   const double p = 0.055 * phase;
   const double yaw = -0.14 * std::sin(p) + 0.03 * std::sin(1.7 * p + 1.0);  // towards the middle of the scene
@@ -47,7 +47,7 @@ class Sway {
   struct Wave {
     double amplitude, rhythm;  // [rad per frame]
   };
-  /// Phases from `random`; each rhythm is changed by up to 8 % either way.
+  /// Random phases; each frequency is changed by up to 8 %.
   Sway(std::initializer_list<Wave> waves, Random& random) {
     for (const Wave& wave : waves) {
       const double rhythm = wave.rhythm * random(0.92, 1.08);
@@ -67,8 +67,8 @@ class Sway {
   std::vector<Term> terms_;
 };
 
-/// A camera in the hand of somebody who walks to and fro in 1.2 x 0.8 m at 0.5 to 1 m/s: two steps per second lift the
-/// camera and sway it; the hand turns it by up to 5 degrees, in no rhythm above 3 Hz.
+/// A camera held by a person who walks to and fro within 1.2 x 0.8 m at 0.5 to 1 m/s. Two steps per second raise and
+/// sway the camera; the hand rotates it by up to 5 degrees at up to 3 Hz.
 std::function<Isometry3d(double)> handheld(std::uint64_t seed) {
   Random random(combine(seed, 7));
   const Sway x({{0.52, 0.062}, {0.02, 0.28}}, random), y({{0.05, 0.021}, {0.022, 0.57}}, random);
@@ -81,10 +81,10 @@ std::function<Isometry3d(double)> handheld(std::uint64_t seed) {
   };
 }
 
-/// A car: forward along the lane, its axis along its track; the body nods and rocks a little on its springs.
+/// A car that drives along the lane, with the camera axis along its track and slight pitch and roll of the body.
 std::function<Isometry3d(double)> drive(std::uint64_t seed, const Lane& lane) {
   Random random(combine(seed, 8));
-  const Sway speed_change({{1.1, 0.08}}, random);  // [frames of way]
+  const Sway speed_change({{1.1, 0.08}}, random);  // [frames of travel]
   const Sway bounce({{0.006, 0.35}, {0.003, 0.74}}, random);
   const Sway pitch({{0.35 * kDegree, 0.31}, {0.15 * kDegree, 0.67}}, random);
   const Sway roll({{0.3 * kDegree, 0.22}}, random);
@@ -97,13 +97,13 @@ std::function<Isometry3d(double)> drive(std::uint64_t seed, const Lane& lane) {
   };
 }
 
-/// A closed round of `period` frames, at most 5 cm each and up to 1.2 m wide.
+/// A closed loop of `period` frames, at most 5 cm each and up to 1.2 m wide.
 std::function<Isometry3d(double)> loop(std::uint64_t seed, int period) {
   Random random(combine(seed, 9));
   const double size = std::min(1.0, 0.05 * period / 3.6);  // of 3.6 m
   const double a = random(0.0, 2.0 * kPi), b = random(0.0, 2.0 * kPi), c = random(0.0, 2.0 * kPi);
   return [=](double phase) {
-    const double wrapped = std::fmod(phase, static_cast<double>(period));  // so that the last pose is the first one
+    const double wrapped = std::fmod(phase, static_cast<double>(period));  // so that the last pose equals the first
     const double p = 2.0 * kPi * wrapped / period;
     const Vector3d place(0.6 * std::sin(p), 0.06 * std::sin(2.0 * p + a), 0.5 * (std::cos(p) - 1.0));
     return turned(size * place, size * 0.1 * std::sin(p + b), size * 0.03 * std::sin(2.0 * p + c),
@@ -119,7 +119,7 @@ CameraPath::CameraPath(const std::string& name, std::uint64_t seed, int frames, 
     motion_ = handheld(seed);
   } else if (name == "drive") {
     motion_ = drive(seed, lane);
-    longest_ = static_cast<int>(lane.length / lane.step) - 1;  // 2 frames of way for what the speed changes
+    longest_ = static_cast<int>(lane.length / lane.step) - 1;  // margin of 2 frames for variations of the speed
     typical_ = longest_;
   } else if (name == "loop") {
     typical_ = std::max(1, frames - 1);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file path.hpp  How the camera of the synthetic sequences moves.
+/// \file path.hpp  Camera motion of the synthetic sequences.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -15,20 +15,21 @@ namespace quadedge::synthetic {
 class CameraPath {
  public:
   /// \param name    one of synthetic_paths()
-  /// \param seed    of the phases of all swaying; the ellipse has none
-  /// \param frames  of the sequence: the loop closes with the last one
+  /// \param seed    of the phases of the sway; unused by the ellipse
+  /// \param frames  of the sequence: the loop closes at the last one
   CameraPath(const std::string& name, std::uint64_t seed, int frames, const Lane& lane);
 
-  /// Pose after `phase` frames (any real number) in the frame of the scene.
+  /// Pose after `phase` frames (any real number) in the scene frame.
   Eigen::Isometry3d scene_from_left(double phase) const { return motion_(phase); }
-  /// The same in the frame of the camera at phase 0, where it is the identity.
+  /// The same in the camera frame at phase 0, where it is the identity.
   Eigen::Isometry3d world_from_left(double phase) const;
-  /// Length of the longest sequence for which there is way [frames].
+  /// Maximum number of frames that fit into the scene.
   int longest() const { return longest_; }
-  /// How far the image's middle, at 2.5 m, moves per frame period on average [px]: over the whole loop or lane, else
-  /// over half a minute.
+  /// Mean displacement of the middle of the image, at 2.5 m, per frame period [px]: over the whole loop or lane,
+  /// otherwise over half a minute.
   double mean_image_motion(const PinholeCamera& camera) const;
-  /// Largest way of the image's middle and corners, at 2.5 m, in the `periods` [frame periods] around `phase` [px].
+  /// Largest displacement of the middle and corners of the image, at 2.5 m, within `periods` [frame periods] around
+  /// `phase` [px].
   double image_motion(const PinholeCamera& camera, double phase, double periods) const;
 
  private:
@@ -36,7 +37,7 @@ class CameraPath {
   Motion motion_;
   Eigen::Isometry3d world_from_scene_;
   int longest_;
-  int typical_;  // frames that mean_image_motion() is taken over
+  int typical_;  // number of frames for mean_image_motion()
 };
 
 }  // namespace quadedge::synthetic

@@ -40,7 +40,7 @@ PixelRays::PixelRays(const Lens& lens) : camera_(lens.camera), pinhole_(lens.cam
         seen = seen && corner_seen[corner] != 0;
     }
   }
-  // Wide enough for every ray that is seen.
+  // Large enough for every visible ray.
   pinhole_.width = pinhole_.height = 2 * static_cast<int>(std::ceil(kWidest * camera_.fx)) + 1;
   pinhole_.fy = pinhole_.fx;
   pinhole_.cx = pinhole_.cy = 0.5 * (pinhole_.width - 1);
@@ -87,7 +87,7 @@ PixelBox PixelRays::footprint(const PixelBox& pixels) const {
     }
   }
   if (low.x() > high.x()) return {};
-  // Pixels spread around their centres, and a side may bulge by a fraction of a pixel.
+  // Pixels extend around their centres, and sides may bulge by a fraction of a pixel.
   return {static_cast<int>(std::floor(low.x())) - 1, static_cast<int>(std::floor(low.y())) - 1,
           static_cast<int>(std::ceil(high.x())) + 2, static_cast<int>(std::ceil(high.y())) + 2};
 }

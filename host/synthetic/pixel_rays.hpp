@@ -1,5 +1,5 @@
 #pragma once
-/// \file pixel_rays.hpp  Where the pixels of a rendered camera look, through any lens.
+/// \file pixel_rays.hpp  Viewing rays of the pixels of a rendered camera, for any lens.
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace quadedge::synthetic {
 
-/// The rays of an image's pixels, normalised to (x, y, 1). Exact in the centres and corners of pixels; within a pixel a
-/// lens's rays are spread evenly. Pixels that look more than 80 degrees away from the optical axis see nothing.
+/// Viewing rays of the pixels of an image, normalised to (x, y, 1). Exact at the centres and corners of pixels; within
+/// a pixel, the rays of a lens are spaced evenly. Pixels more than 80 degrees away from the optical axis see nothing.
 class PixelRays {
  public:
   PixelRays(const Lens& lens);
@@ -20,16 +20,16 @@ class PixelRays {
   int height() const { return camera_.height; }
   bool is_seen(int x, int y) const { return table_.empty() || table_[index(x, y)].seen; }
   Eigen::Vector3d centre(int x, int y) const;
-  /// The top left corner of a pixel; those of the last column and row plus one are the image's corners.
+  /// Ray of the top left corner of a pixel; x and y may equal width and height, for the image's right and lower border.
   Eigen::Vector3d corner(int x, int y) const;
-  /// `offset` from the centre, up to half a pixel.
+  /// Ray at `offset` from the pixel centre, up to half a pixel.
   Eigen::Vector3d within(int x, int y, const Eigen::Vector2d& offset) const;
-  /// Pixels per unit at unit depth, where a pixel looks.
+  /// Local focal length at a pixel: pixels per unit at unit depth.
   double focal_length(int x, int y) const;
 
-  /// A pinhole camera that sees all that is seen: surfaces tell in its pixels where they may show.
+  /// A pinhole camera that contains all visible rays; surfaces report their extent in its pixels.
   const PinholeCamera& pinhole() const { return pinhole_; }
-  /// Pixels of pinhole() that meet a box of pixels.
+  /// Pixels of pinhole() that overlap a box of pixels.
   PixelBox footprint(const PixelBox& pixels) const;
 
  private:
@@ -40,11 +40,11 @@ class PixelRays {
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width + 1) + static_cast<std::size_t>(x);
   }
-  /// Right and lower minus left and upper side of a pixel, at unit depth.
+  /// Extent of a pixel at unit depth: differences of opposite sides, along x and y.
   Eigen::Matrix2d spread(int x, int y) const;
 
   PinholeCamera camera_, pinhole_;
-  std::vector<Pixel> table_;  ///< one column and row more than the image; empty: a pinhole camera
+  std::vector<Pixel> table_;  ///< one column and row more than the image; empty for a pinhole camera
 };
 
 }  // namespace quadedge::synthetic

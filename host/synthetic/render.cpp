@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kTile = 8;  // [px] rays of a tile try only the surfaces that may show in it
+constexpr int kTile = 8;  // [px], rays of a tile test only the surfaces that may be visible in it
 
 struct Hit {
   double inverse_depth = 0.0;
@@ -30,7 +30,7 @@ struct BoxedSurface {
   PixelBox box;
 };
 
-/// The nearest surface; the first of several at the same depth.
+/// The nearest surface; at equal depth, the first.
 Hit cast(const Candidates& candidates, const Vector3d& ray) {
   Hit hit;
   for (const VisibleSurface* surface : candidates) {
@@ -48,7 +48,7 @@ std::vector<Vector2d> regular_grid(int count) {
   return offsets;
 }
 
-/// Hammersley's set in the unit square: any upright or level edge is placed to 1 / count.
+/// Hammersley's set in the unit square; the position of any vertical or horizontal edge is resolved to 1 / count.
 std::vector<Vector2d> hammersley(int count) {
   std::vector<Vector2d> offsets;
   for (int i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ bool overlap(const PixelBox& one, const PixelBox& other) {
   return one.x0 < other.x1 && other.x0 < one.x1 && one.y0 < other.y1 && other.y0 < one.y1;
 }
 
-/// Lists of the surfaces that may show in each tile of the image.
+/// Lists of the surfaces that may be visible in each tile of the image.
 struct TiledView {
   TiledView(const VisibleSurfaces& parts, const PixelRays& rays)
       : columns((rays.width() + kTile - 1) / kTile),
@@ -95,7 +95,7 @@ class TileRenderer {
 
   void render(const std::vector<BoxedSurface>& surfaces, int left, int top) const {
     const int columns = std::min(kTile, rays_.width() - left), rows = std::min(kTile, rays_.height() - top);
-    std::array<std::array<Candidates, kTile>, kTile> candidates;  // of each pixel
+    std::array<std::array<Candidates, kTile>, kTile> candidates;  // for each pixel
     for (std::size_t j = 0; j < kTile; ++j) {
       for (std::size_t i = 0; i < kTile; ++i) {
         const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
@@ -139,10 +139,10 @@ class TileRenderer {
     return hit.surface ? hit.surface->radiance(ray, 1.0 / hit.inverse_depth, spread) : 0.0;
   }
 
-  /// Distance between neighbouring rays of the grid at unit depth.
+  /// Distance between adjacent rays of the grid at unit depth.
   double spread(int x, int y) const { return 1.0 / (supersampling_ * rays_.focal_length(x, y)); }
 
-  /// Mean over the grid; stops at a ray that meets another object.
+  /// Mean over the grid; stops at a ray that hits another object.
   double coarse(const Candidates& candidates, int x, int y, const void* object, bool& mixed) const {
     double sum = 0.0;
     for (const Vector2d& offset : grid_) {

@@ -12,10 +12,10 @@ using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kTexel = 0.5;  // [px] at the nearest distance of a surface
-constexpr int kLevels = 7;      // of textures that are seen from near and far
+constexpr double kTexel = 0.5;  // [px] at the smallest distance of a surface
+constexpr int kLevels = 7;      // of textures that are seen at small and large distances
 
-/// One side of a box: its frame, whose -z faces outwards (or into the box), and its half sizes.
+/// One side of a box: its frame, whose -z axis faces outwards (or inwards), and its half sizes.
 struct Side {
   Isometry3d box_from_side;
   double half_width, half_height;
@@ -98,7 +98,7 @@ Scene SceneBuilder::take(double nearest, const Lane& lane) {
   return std::move(scene_);
 }
 
-/// No two faces have quite the same tone.
+/// The tone varies slightly between faces.
 std::shared_ptr<const Texture> SceneBuilder::texture(TextureStyle style, double half_width, double half_height,
                                                      double nearest) {
   if (style.feature > 0.0) style.mean += 25.0 * (2.0 * uniform(combine(~seed_, count_)) - 1.0);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file scene_builder.hpp  Puts the scenes together.
+/// \file scene_builder.hpp  Builds scenes from solids.
 
 #include <cstdint>
 #include <memory>
@@ -10,13 +10,13 @@
 
 namespace quadedge::synthetic {
 
-/// Turned around y, then x, then z of its own frame [rad], placed at `centre`.
+/// Pose at `centre`, rotated about y, then x, then z of its own frame [rad].
 Eigen::Isometry3d pose(const Eigen::Vector3d& centre, double yaw, double pitch, double roll);
 
-/// Dead leaves with the usual noise.
+/// Dead leaves with the default noise.
 TextureStyle leaves(double feature, int levels, double alignment, double mean);
 
-/// Puts solids together in a frame of the scene's own, "room"; every face gets a texture of its own.
+/// Assembles solids in the frame "room"; every face gets its own texture.
 class SceneBuilder {
  public:
   SceneBuilder(std::uint64_t seed, double focal, const Eigen::Isometry3d& world_from_room)
@@ -29,10 +29,10 @@ class SceneBuilder {
   void cylinder(const Eigen::Isometry3d& room_from_cylinder, double radius, double half_height,
                 const TextureStyle& style, double nearest);
 
-  /// A texture for any number of surfaces, sampled for every distance from `nearest` to 64 times that.
+  /// A texture for any number of surfaces, sampled for distances from `nearest` to 64 times that.
   std::shared_ptr<const Texture> shared_texture(std::unique_ptr<const Painter> painter, double half_width,
                                                 double half_height, double nearest) const;
-  /// The sides of a box that look towards -x, -y and -z (left, up and towards the viewer), with one texture.
+  /// The sides of a box that face -x, -y and -z (left, up and towards the viewer), with one texture.
   void front_sides(const Eigen::Isometry3d& room_from_box, const Eigen::Vector3d& half,
                    const std::shared_ptr<const Texture>& texture);
   void plane(const Eigen::Isometry3d& room_from_surface, double half_width, double half_height,
@@ -43,7 +43,7 @@ class SceneBuilder {
   /// Key of the next texture.
   std::uint64_t next_seed();
 
-  /// The scene. `nearest`: see Scene.
+  /// Returns the scene. `nearest`: see Scene.
   Scene take(double nearest, const Lane& lane);
 
  private:

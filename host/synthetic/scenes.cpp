@@ -26,7 +26,7 @@ Scene make_scene(const std::string& name, std::uint64_t seed, double focal) {
 }
 
 Scene make_room(std::uint64_t seed, double focal) {
-  // Room: x right, y down, z into the depth; turned so that no wall is parallel to the first image.
+  // Room: x right, y down, z into the scene; rotated so that no wall is parallel to the first image.
   SceneBuilder build(combine(seed, 1), focal, pose(Vector3d::Zero(), 0.2, 0.05, 0.03));
   TextureStyle walls = leaves(0.8, 4, 0.75, 150.0);
   walls.cover = 0.3;
@@ -39,13 +39,13 @@ Scene make_room(std::uint64_t seed, double focal) {
   build.cylinder(pose({-0.15, -0.15, 4.2}, 0.3, 0.0, 0.0), 0.17, 1.45, leaves(0.3, 3, 0.1, 200.0), 3.0);
   build.box(pose({-1.15, 1.0, 4.1}, 0.5, 0.0, 0.0), {0.3, 0.3, 0.3}, leaves(0.3, 3, 0.4, 70.0), 3.0);
 
-  // A table with things on it.
+  // A table with objects on it.
   build.box(pose({-0.55, 1.0, 2.5}, 0.35, 0.0, 0.0), {0.55, 0.3, 0.32}, leaves(0.24, 3, 0.5, 75.0), 1.6);
   build.cylinder(pose({-0.82, 0.5, 2.45}, 0.0, 0.0, 0.0), 0.11, 0.2, leaves(0.14, 2, 0.0, 195.0), 1.6);
   build.sphere(pose({-0.4, 0.53, 2.45}, 0.0, 0.0, 0.0), 0.17, leaves(0.14, 2, 0.0, 170.0), 1.5);
   build.box(pose({-0.55, 0.5, 2.75}, -0.5, 0.0, 0.0), {0.09, 0.2, 0.14}, leaves(0.14, 2, 0.6, 110.0), 1.8);
 
-  // Boards and balls in the air, the nearest things.
+  // Boards and balls in the air, the nearest objects.
   build.box(pose({0.55, 0.25, 2.3}, 0.55, 0.2, 0.1), {0.25, 0.36, 0.02}, leaves(0.2, 3, 0.6, 90.0), 1.4);
   build.box(pose({-0.2, -0.55, 1.95}, -0.35, -0.25, -0.15), {0.24, 0.16, 0.02}, leaves(0.16, 3, 0.4, 190.0), 1.2);
   build.box(pose({-1.25, 0.05, 2.2}, -0.6, 0.15, 0.2), {0.2, 0.28, 0.02}, leaves(0.18, 3, 0.1, 175.0), 1.3);
@@ -63,7 +63,7 @@ Scene make_cables(std::uint64_t seed, double focal) {
   build.box(pose({0.0, 0.0, 0.0}, 0.0, 0.0, 0.0), {9.0, 9.0, 3.1}, plain, 8.0, true);
   Scene scene = build.take(0.9, lane_ahead(-2.6, 3.1, 0.05));
 
-  // Every cable keeps to its own layer of depth, so that cables cross but never run through one another.
+  // Every cable has its own layer of depth, so that cables cross without intersecting.
   Random random(combine(seed, 3));
   constexpr int kCables = 16, kControlPoints = 14;
   constexpr double kFront = 1.45, kBack = 2.65, kLayer = (kBack - kFront) / kCables;

@@ -10,10 +10,10 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kNear = 0.01;     // [m] surfaces are cut here
-constexpr double kAmbient = 0.72;  // of textured surfaces
+constexpr double kNear = 0.01;     // [m], near clipping distance
+constexpr double kAmbient = 0.72;  // for textured surfaces
 
-/// Corners of the box |x| <= half in the frame of `camera_from_box`.
+/// Corners of the box |x| <= half in the frame of the camera.
 std::vector<Vector3d> corners(const Isometry3d& camera_from_box, const Vector3d& half) {
   std::vector<Vector3d> result;
   for (int i = 0; i < 8; ++i)
@@ -50,7 +50,8 @@ class VisiblePlane : public VisibleSurface {
   }
 
   double radiance(const Vector3d& ray, double depth, double spread) const override {
-    // Rays meet a slanted plane further apart: depth^2 |ray| / distance of the plane, times their spread.
+    // On a slanted plane the hits of adjacent rays are farther apart: depth^2 |ray| / distance of the plane, times
+    // their spread.
     const double footprint = spread * depth * depth * ray.norm() * inverse_.norm();
     return shade_ * texture_.sample(u_.dot(ray) * depth - u_offset_, v_.dot(ray) * depth - v_offset_, footprint);
   }
@@ -169,7 +170,7 @@ PixelBox box_around(const std::vector<Vector3d>& points, const PinholeCamera& ca
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
   };
   constexpr double kFirst = 0.5 - 0.01,
-                   kLast = 1.5 + 0.01;  // a pixel's square reaches half a pixel; 0.01 px for rounding
+                   kLast = 1.5 + 0.01;  // a pixel extends by half a pixel; 0.01 px for rounding
   return {clip(std::floor(low.x() + kFirst), camera.width), clip(std::floor(low.y() + kFirst), camera.height),
           clip(std::floor(high.x() + kLast), camera.width), clip(std::floor(high.y() + kLast), camera.height)};
 }
@@ -184,7 +185,7 @@ PlaneSurface::PlaneSurface(const Isometry3d& world_from_surface, double half_wid
 
 void PlaneSurface::view(const Isometry3d& camera_from_world, VisibleSurfaces& parts) const {
   const Isometry3d camera_from_surface = camera_from_world * world_from_surface_;
-  if (camera_from_surface.linear().col(2).dot(camera_from_surface.translation()) < 1e-6) return;  // seen from behind
+  if (camera_from_surface.linear().col(2).dot(camera_from_surface.translation()) < 1e-6) return;  // back face
   auto part = std::make_unique<VisiblePlane>(camera_from_surface, half_width_, half_height_, *texture_, elliptic_);
   part->set_shade(shade(-world_from_surface_.linear().col(2), light_direction(), kAmbient));
   parts.push_back(std::move(part));

@@ -57,7 +57,7 @@ void check(const SyntheticOptions& options) {
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads, "0 (one per processor) to 1024");
 }
 
-/// The camera's answer to an exposure: saturated, bent by its gamma, then flattened. Grey levels, 0 to 255.
+/// Camera response to an exposure: saturation, gamma, contrast. Grey levels, 0 to 255.
 double tone(double grey, const SyntheticOptions& options) {
   constexpr double kMax = kMaxValue8, kMiddle = 128.0;
   grey = std::clamp(grey, 0.0, kMax);
@@ -69,7 +69,7 @@ double tone(double grey, const SyntheticOptions& options) {
 StereoCalibration calibrate(const SyntheticOptions& options) {
   StereoCalibration calibration;
   calibration.left = synthetic::make_lens(options.lens, options.focal);
-  // The optical axis misses the middle by a little, as in a real camera.
+  // As in a real camera, the optical axis misses the middle of the image slightly.
   PinholeCamera& camera = calibration.left.camera;
   camera.cx = 0.5 * (options.width - 1) + 0.011 * options.width;
   camera.cy = 0.5 * (options.height - 1) - 0.013 * options.height;
@@ -91,15 +91,15 @@ StereoRig rig_of(const StereoCalibration& calibration, int bits) {
   return rig;
 }
 
-/// How long the shutter is open for the blur that is asked for [frame periods].
+/// Exposure time for the requested blur [frame periods].
 double exposure_of(const SyntheticOptions& options, const synthetic::CameraPath& path, const PinholeCamera& camera) {
   if (options.blur == 0.0) return 0.0;
   const double motion = path.mean_image_motion(camera);
   if (options.blur > motion) {
     std::ostringstream message;
     message << "synthetic sequence: blur = " << options.blur << ", allowed: 0 to " << std::floor(100.0 * motion) / 100.0
-            << " px: so far the image moves per frame on path " << options.path << " in " << options.width << " x "
-            << options.height << " px, and a shutter cannot be open for longer than a frame";
+            << " px, the image motion per frame on path " << options.path << " in " << options.width << " x "
+            << options.height << " px, because the exposure time cannot exceed a frame period";
     throw UsageError(message.str());
   }
   return options.blur / motion;

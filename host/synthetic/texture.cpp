@@ -51,7 +51,7 @@ double Texture::sample(const Level& level, double u, double v) const {
 const Texture::Tile& Texture::tile(const Level& level, int index) const {
   std::atomic<Tile*>& slot = level.tiles[static_cast<std::size_t>(index)];
   if (const Tile* ready = slot.load(std::memory_order_acquire)) return *ready;
-  // Two threads may paint the same tile: both get the same texels, and one of them is dropped.
+  // Two threads may paint the same tile; both produce the same texels, and one tile is dropped.
   auto fresh = std::make_unique<Tile>();
   painter_->paint({index % level.tiles_x * kTile * level.texel - half_width_,
                    index / level.tiles_x * kTile * level.texel - half_height_, level.texel, kStride, fresh->texels});

@@ -1,5 +1,5 @@
 #pragma once
-/// \file texture.hpp  Flat reflectance maps: painted in tiles when somebody looks, each at the resolution of the look.
+/// \file texture.hpp  Flat reflectance maps, painted on demand in tiles at the required resolution.
 
 #include <atomic>
 #include <memory>
@@ -9,35 +9,36 @@ namespace quadedge::synthetic {
 
 /// A square of texels to paint.
 struct TexelSquare {
-  double left, top;  ///< place of the first texel on the surface [m]
-  double texel;      ///< from texel to texel [m]
+  double left, top;  ///< position of the first texel on the surface [m]
+  double texel;      ///< distance between texels [m]
   int side;          ///< texels per side
   float* texels;     ///< side x side, row-major [grey levels]
 };
 
-/// What a surface looks like: a function of the place on it, band-limited to the texels that are asked for.
+/// Appearance of a surface: a function of the position on it, band-limited to the requested texel size.
 class Painter {
  public:
   virtual ~Painter() = default;
-  /// Fills the square. The same place gets the same value in every square of the same texel size.
+  /// Fills the square. A position has the same value in all squares of the same texel size.
   virtual void paint(const TexelSquare& square) const = 0;
 };
 
-/// A flat reflectance map in grey levels, sampled at `texel` and interpolated bilinearly; with several levels also at
-/// 2, 4, 8 ... times that, for surfaces that are seen from near and far. Tiles are painted when somebody looks at
-/// them; what they hold depends on the painter alone. Safe for several threads.
+/// A flat reflectance map in grey levels, sampled at `texel` and interpolated bilinearly; with several levels, also at
+/// 2, 4, 8 ... times that, for surfaces seen at small and large distances. Tiles are painted on demand, and their
+/// content depends on the painter only. Thread-safe.
 class Texture {
  public:
   /// Covers |u| <= half_width, |v| <= half_height [m].
   Texture(std::unique_ptr<const Painter> painter, double half_width, double half_height, double texel, int levels = 1);
 
-  /// Reflectance [grey levels] at (u, v) [m]; places outside the map take the value of its border. `footprint`:
-  /// distance between neighbouring rays on the surface [m]; the levels around it are blended linearly in its logarithm.
+  /// Reflectance [grey levels] at (u, v) [m]; positions outside the map take the value of its border. `footprint`:
+  /// distance between adjacent rays on the surface [m]; adjacent levels are blended linearly in its logarithm.
   double sample(double u, double v, double footprint = 0.0) const;
 
  private:
-  static constexpr int kTile = 64;           // texels per tile side
-  static constexpr int kStride = kTile + 1;  // one more, shared with the neighbour, to interpolate inside one tile
+  static constexpr int kTile = 64;  // texels per tile side
+  static constexpr int kStride =
+      kTile + 1;  // one more than a tile, shared with the neighbour, so that interpolation needs one tile only
   struct Tile {
     float texels[kStride * kStride];
   };

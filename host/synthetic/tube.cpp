@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTubeAmbient = 0.3;  // of cables: their two sides differ clearly
+constexpr double kTubeAmbient = 0.3;  // low, so that the two sides of a cable differ clearly
 
 /// Position and derivative of a uniform cubic B-spline in segment `i`, t in 0..1.
 std::pair<Vector3d, Vector3d> spline(const std::vector<Vector3d>& c, std::size_t i, double t) {
@@ -21,7 +21,7 @@ std::pair<Vector3d, Vector3d> spline(const std::vector<Vector3d>& c, std::size_t
   return {position, derivative};
 }
 
-/// A round link between two points, with a ball at its start that closes the joint to the link before.
+/// A cylindrical link between two points, with a ball at its start that closes the joint to the previous link.
 class VisibleLink : public VisibleSurface {
  public:
   VisibleLink(const Vector3d& start, const Vector3d& end, const Vector3d& start_tangent, const Vector3d& end_tangent,
@@ -42,13 +42,13 @@ class VisibleLink : public VisibleSurface {
   double inverse_depth(const Vector3d& ray) const override {
     const double squared = ray.squaredNorm(), toward = ray.dot(start_), slant = ray.dot(axis_);
     const double a = squared - slant * slant, half_b = toward - slant * along_, root = half_b * half_b - a * side_;
-    if (root < 0.0) return 0.0;  // misses the endless cylinder, and so the ball in it
+    if (root < 0.0) return 0.0;  // misses the infinite cylinder, and hence the ball inside it
     double nearest = 0.0;
     const double ball_root = toward * toward - squared * ball_;
     if (ball_root >= 0.0 && toward > 0.0 && ball_ > 0.0) nearest = (toward + std::sqrt(ball_root)) / ball_;
     if (half_b <= 0.0 || side_ <= 0.0) return nearest;
     const double inverse = (half_b + std::sqrt(root)) / side_;
-    const double place = slant - along_ * inverse;  // along the axis, / depth
+    const double place = slant - along_ * inverse;  // along the axis, divided by depth
     return place >= 0.0 && place <= length_ * inverse ? std::max(inverse, nearest) : nearest;
   }
 
@@ -84,7 +84,8 @@ class VisibleLink : public VisibleSurface {
 TubeSurface::TubeSurface(const std::vector<Vector3d>& control, double radius, double reflectance, double tolerance)
     : radius_(radius), reflectance_(reflectance) {
   for (std::size_t i = 0; i + 3 < control.size(); ++i) {
-    // A chord over dt leaves the curve by at most |second derivative| dt^2 / 8; the second derivative is linear in t.
+    // A chord over dt deviates from the curve by at most |second derivative| dt^2 / 8; the second derivative is linear
+    // in t.
     const double bend = std::max((control[i] - 2.0 * control[i + 1] + control[i + 2]).norm(),
                                  (control[i + 1] - 2.0 * control[i + 2] + control[i + 3]).norm());
     const int links = std::max(1, static_cast<int>(std::ceil(std::sqrt(bend / (8.0 * tolerance)))));

@@ -173,7 +173,7 @@ LEFT, RIGHT = numpy.zeros((200, 320), numpy.uint8), numpy.zeros((200, 320), nump
     (LEFT[:, ::-1], quadedge.DataError, "the left image has a stride of -1 bytes from pixel to pixel"),
     (numpy.broadcast_to(LEFT[0], LEFT.shape), quadedge.DataError,
      "the left image has a stride of 0 bytes, expected at least the 320 of a row"),
-    (LEFT.astype(numpy.uint16), quadedge.DataError, "the left image has pixel values up to 65535, the rig expects values up to 255"),
+    (LEFT.astype(numpy.uint16), quadedge.DataError, "pixel values up to 65535, the rig expects values up to 255"),
 ])  # fmt: skip
 def test_what_is_no_image_is_refused(untouched, left, error, words):
     with pytest.raises(error, match=words):
