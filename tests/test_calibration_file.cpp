@@ -159,7 +159,7 @@ TEST_CASE("calibration: errors in a Kalibr chain name the file and the entry", "
   // The inverse transform: it contradicts the one via the IMU.
   const Rig rig;
   damage(kalibr_matrix("T_cn_cnm1", rig.right_from_left()), kalibr_matrix("T_cn_cnm1", rig.right_from_left().inverse()),
-         "differs from the one over the IMU");
+         "differs from the one via the IMU");
 
   write_text(file, kalibr_chain(rig, "none"));
   CHECK_THROWS_WITH(read_calibration(file), Contains(file) && Contains("neither cam1.T_cn_cnm1 nor T_cam_imu"));

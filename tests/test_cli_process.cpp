@@ -93,7 +93,7 @@ TEST_CASE("process: a file that cannot be written in the end is refused in the b
       INFO(command[0] << " " << file);
       const auto result = run_program(arguments);
       CHECK(result.code == 3);
-      CHECK_THAT(result.err, Contains(file) && Contains("expected a place that can be written"));
+      CHECK_THAT(result.err, Contains(file) && Contains("expected a writable location"));
       CHECK_FALSE(fs::exists(folder / "out/trajectory.txt"));
     }
   }

@@ -103,15 +103,15 @@ TEST_CASE("config file: an error names the file, the line, the key, the expected
              Contains("FILE:4: ") && Contains("'edges'"));
   for (const char* text : {"seed = 18446744073709551616\n", "seed = 010\n", "seed =\n", "seed\n", "seed = 1 2\n"}) {
     INFO(text);
-    CHECK_THAT(refusal(text), Contains("FILE:1: no TOML"));
+    CHECK_THAT(refusal(text), Contains("FILE:1: not TOML"));
   }
-  CHECK_THAT(refusal(std::string("seed = 1\0\n", 10)), Contains("FILE:1: no TOML"));
+  CHECK_THAT(refusal(std::string("seed = 1\0\n", 10)), Contains("FILE:1: not TOML"));
 }
 
 TEST_CASE("config file: overlong and deeply nested files end quickly with a message", "[config]") {
   CHECK_THAT(refusal(std::string(1'000'001, '\n')), Contains("longer than 1 MB"));
   CHECK(refusal(std::string(1'000'000, '\n')) == "");
-  CHECK_THAT(refusal("seed = " + std::string(2000, '[')), Contains("FILE:1: no TOML") && Contains("depth"));
+  CHECK_THAT(refusal("seed = " + std::string(2000, '[')), Contains("FILE:1: not TOML") && Contains("depth"));
   CHECK_THAT(refusal("\nseed = \"" + std::string(5000, 'x')), Contains("FILE:2: longer than 4096 characters"));
   CHECK_THAT(refusal(nested_tables(2000)), Contains("FILE:2: unknown key"));
   std::string numbers = "seed = [\n";

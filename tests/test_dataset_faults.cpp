@@ -75,7 +75,7 @@ TEST_CASE("dataset: errors about unreadable calibrations name the file and the v
   write_text(calib, good.substr(0, good.find("P1")));
   check_fault(kitti, "calib.txt", "no row P1");
   std::filesystem::remove(calib);
-  check_fault(kitti, "calib.txt", "nothing that can be opened");
+  check_fault(kitti, "calib.txt", "a file that cannot be opened");
   const std::string euroc = write_euroc(folder / "e");
   write_text(euroc + "/mav0/cam1/sensor.yaml", "camera_model: pinhole\n");
   check_fault(euroc, "cam1/sensor.yaml", "no entry distortion_model");
@@ -103,8 +103,8 @@ TEST_CASE("dataset: a damaged sensor.yaml is refused with the key or the line", 
     write_text(yaml, std::string(good).replace(good.find(from), from.size(), to));
     check_fault(euroc, "cam0/sensor.yaml" + place, found);
   };
-  damaged("[32, 24]", "[32, 24", ":", "no YAML");
-  damaged("cols: 4", "cols: 4\n   rows: 4", ":", "no YAML");
+  damaged("[32, 24]", "[32, 24", ":", "not YAML");
+  damaged("cols: 4", "cols: 4\n   rows: 4", ":", "not YAML");
   damaged("T_BS:", "T_SB:", "", "no entry T_BS");
   damaged("data:", "date:", "", "no entry T_BS.data");
   damaged("resolution:", "#resolution:", "", "no entry resolution");
@@ -210,7 +210,7 @@ TEST_CASE("dataset: duplicate entries and paths outside the folder are refused w
                           {pair + "/calib.txt", "width=32", "width=1e300", "calib.txt:4", "1e300"},
                           {yaml, "rate_hz: 20", "resolution: [30, 20]", "sensor.yaml:11", "a second entry resolution"},
                           {yaml, "cols: 4", "rows: 4", "sensor.yaml:5", "a second entry rows"},
-                          {list, "1403715273362143104,", stamp + ",", "data.csv:3", "the stamp " + stamp + " again"},
+                          {list, "1403715273362143104,", stamp + ",", "data.csv:3", "timestamp " + stamp + " again"},
                           {list, "," + stamp + ".png", ",../data/" + stamp + ".png", "data.csv:2", "../data/"},
                           {list, "," + stamp + ".png", "," + list, "data.csv:2", "/cam0/"},
                           {list, "," + stamp + ".png", ",..", "data.csv:2", "\"..\""}}) {

@@ -48,7 +48,7 @@ TEST_CASE("dataset: a rendered sequence is read back as it was written", "[datas
     CHECK(map.width == 80);
     CHECK(map.values == right.depth);
   }
-  CHECK_THROWS_WITH(write_eth3d_slam(folder / "s", sequence), Contains("already there"));
+  CHECK_THROWS_WITH(write_eth3d_slam(folder / "s", sequence), Contains("existing sequence"));
   dataset_files::write_text(folder / "file", "");
   CHECK_THROWS_AS(write_eth3d_slam(folder / "file/s", sequence), DataError);
 }

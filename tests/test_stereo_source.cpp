@@ -225,7 +225,7 @@ TEST_CASE("own camera: checking reads everything and says what is wrong", "[data
   source.video = folder / "cut.mkv";
   const DatasetCheck check = check_stereo_source(source);
   REQUIRE(check.errors.size() == 1);
-  CHECK_THAT(check.errors[0], Contains("cut.mkv") && Contains("the 4 that it says it holds"));
+  CHECK_THAT(check.errors[0], Contains("cut.mkv") && Contains("the 4 announced by its header"));
 }
 
 TEST_CASE("own camera: a line of a list is read and turned into words again", "[data]") {

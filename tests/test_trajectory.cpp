@@ -101,7 +101,7 @@ TEST_CASE("trajectory: bad rows are named with file and line", "[trajectory]") {
   fault("1 0 0 0 0 0 0 1", "1.000000000 after 1.000000000");
   fault("1e30 0 0 0 0 0 0 1", "\"1e30\"");
   write_text(file, "1 0 0 0 0 1 0 0 0 0 1 0\n2 0 0 0 0 1 0 0 0 0 1 0\n");
-  CHECK_THROWS_WITH(read_kitti(file), StartsWith(file + ":2") && Contains("no rotation"));
+  CHECK_THROWS_WITH(read_kitti(file), StartsWith(file + ":2") && Contains("not a rotation"));
 }
 
 TEST_CASE("trajectory: a file that cannot be written is an error and leaves the old one alone", "[trajectory]") {

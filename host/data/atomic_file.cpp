@@ -11,7 +11,7 @@
 namespace quadedge::data {
 namespace {
 
-/// Is the file written beside its place and then renamed? Devices and pipes are written as they are.
+/// Whether the file is written to a temporary name and renamed. Devices and pipes are written directly.
 bool is_replaced(const std::string& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
@@ -21,7 +21,7 @@ bool is_replaced(const std::string& path) {
 std::string unfinished_name(const std::string& path) { return path + ".part" + std::to_string(getpid()); }
 
 [[noreturn]] void refuse(const std::string& path, const char* step, int reason) {
-  throw DataError(path + ": cannot " + step + ": " + std::strerror(reason) + "; expected a place that can be written");
+  throw DataError(path + ": cannot " + step + ": " + std::strerror(reason) + "; expected a writable location");
 }
 
 constexpr const char* kOpen = "open the file for writing";
@@ -31,7 +31,7 @@ constexpr const char* kOpen = "open the file for writing";
 void check_writable(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) refuse(path, kOpen, EISDIR);
-  if (!is_replaced(path)) return;  // to open a pipe could wait, to open a device could do something
+  if (!is_replaced(path)) return;  // opening a pipe may block, opening a device may have side effects
   const std::string name = unfinished_name(path);
   std::FILE* stream = std::fopen(name.c_str(), "wb");
   if (stream == nullptr) refuse(path, kOpen, errno);

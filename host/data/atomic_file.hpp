@@ -1,17 +1,17 @@
 #pragma once
-/// \file atomic_file.hpp  Output files that are complete or not there at all.
+/// \file atomic_file.hpp  Writes output files completely or not at all.
 
 #include <string>
 #include <string_view>
 
 namespace quadedge::data {
 
-/// \throws DataError with the system's reason when write_atomically() could not put a file here: to ask before long
-/// work.
+/// Checks, before long work, that write_atomically() can put a file here. \throws DataError with the system's reason
 void check_writable(const std::string& path);
 
-/// Writes to a temporary name in the same folder and renames, so that a reader never sees half a file and a failure
-/// leaves an older file as it was. Devices and pipes are written directly. \throws DataError with the system's reason.
+/// Writes to a temporary name in the same folder and renames it, so that readers never see an incomplete file and a
+/// failure leaves an existing file unchanged. Devices and pipes are written directly. \throws DataError with the
+/// system's reason
 void write_atomically(const std::string& path, std::string_view bytes);
 
 }  // namespace quadedge::data

@@ -1,4 +1,5 @@
-/// \file calibration_euroc.cpp  EuRoC: a sensor.yaml per camera; T_BS maps the camera's frame to the body's.
+/// \file calibration_euroc.cpp  EuRoC: one sensor.yaml per camera; T_BS maps points from the camera frame to the body
+/// frame.
 
 #include "data/calibration_formats.hpp"
 

@@ -1,4 +1,5 @@
-/// \file calibration_file.cpp  Recognises a calibration by what it holds, has it read, and checks the rig that it says.
+/// \file calibration_file.cpp  Recognises the format of a calibration by its content, reads it and checks the resulting
+/// rig.
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +29,11 @@ std::string first_keys(const YamlMap& map) {
 
 const YamlMap& second_of(const std::vector<YamlMap>& maps, const std::string& format) {
   if (maps.size() == 2) return maps[1];
-  fail(maps[0].file(), "the " + format + " of one camera", "those of both: LEFT.yaml,RIGHT.yaml");
+  fail(maps[0].file(), "the " + format + " of one camera", "those of both cameras: LEFT.yaml,RIGHT.yaml");
 }
 
 std::pair<std::string, StereoCalibration> read_any_calibration(const std::vector<std::string>& files) {
-  for (const auto& file : files)  // cv::FileStorage writes this tag of its matrices whatever the language
+  for (const auto& file : files)  // tag of matrices in all formats of cv::FileStorage
     if (read_text(file).find("opencv-matrix") != std::string::npos) return {"opencv", read_opencv_calibration(files)};
   std::vector<YamlMap> maps;
   for (const auto& file : files) maps.emplace_back(file, kFormats);
@@ -48,9 +49,9 @@ std::pair<std::string, StereoCalibration> read_any_calibration(const std::vector
   fail(files[0], first_keys(maps[0]), kFormats);
 }
 
-/// \throws DataError for a baseline that is no stereo camera's: none, or the right camera on the left.
+/// \throws DataError for a baseline that a stereo camera cannot have: zero, or with the right camera on the left.
 void check_baseline(const StereoCalibration& calibration) {
-  const Eigen::Vector3d right = calibration.right_from_left.inverse().translation();  // seen from the left camera
+  const Eigen::Vector3d right = calibration.right_from_left.inverse().translation();  // in the left camera frame
   std::ostringstream place;
   place << "(" << right.x() << ", " << right.y() << ", " << right.z() << ") m";
   constexpr double kShortest = 1e-6;  // m
@@ -58,7 +59,7 @@ void check_baseline(const StereoCalibration& calibration) {
     fail(calibration.files, "a right camera at " + place.str() + " from the left one", "a baseline above zero");
   if (right.x() < 0 && -right.x() >= std::abs(right.y())) {
     fail(calibration.files, "a right camera at " + place.str() + " in the left one's frame, which is on its left",
-         "x above zero: the cameras are exchanged, or a transform is written the other way round");
+         "x above zero: the cameras are exchanged or a transform is inverted");
   }
 }
 

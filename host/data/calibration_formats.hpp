@@ -1,5 +1,5 @@
 #pragma once
-/// \file calibration_formats.hpp  What the readers of calibration files share. One reader per file: calibration_euroc,
+/// \file calibration_formats.hpp  Common parts of the readers of calibration files: calibration_euroc,
 /// calibration_kalibr, calibration_opencv, calibration_ros, calibration_native.
 
 #include <string>
@@ -11,41 +11,41 @@
 
 namespace quadedge::data {
 
-/// Reads both sensor.yaml of a EuRoC recording.
+/// Reads the sensor.yaml files of both cameras of a EuRoC recording.
 StereoCalibration read_euroc_calibration(const std::string& left, const std::string& right);
 
-/// sensor.yaml of both cameras.
+/// Reads parsed sensor.yaml files of both cameras.
 StereoCalibration read_euroc_sensors(const YamlMap& left, const YamlMap& right);
 
-/// Kalibr's camera chain.
+/// Reads Kalibr's camera chain.
 StereoCalibration read_kalibr_chain(const YamlMap& chain);
 
-/// ROS camera_info of both cameras.
+/// Reads ROS camera_info files of both cameras.
 StereoCalibration read_ros_camera_infos(const YamlMap& left, const YamlMap& right);
 
-/// OpenCV's stereo files, one or two.
+/// Reads one or two of OpenCV's stereo files.
 StereoCalibration read_opencv_calibration(const std::vector<std::string>& files);
 
-/// What write_calibration() writes.
+/// Reads the format of write_calibration().
 StereoCalibration read_native_calibration(const YamlMap& file);
 
-/// What one of the readers found, with its names; the rig is checked and rounded (see StereoCalibration). \throws
-/// DataError for a baseline that no stereo camera has.
+/// Completes the result of a reader with format and file names; checks and rounds the rig (see StereoCalibration).
+/// \throws DataError for a baseline that a stereo camera cannot have
 StereoCalibration finished(StereoCalibration calibration, const std::string& format, const std::string& files);
 
-/// A lens told by Kalibr's and EuRoC's words: entries camera_model, distortion_model, intrinsics, `coefficients` (the
-/// key of the distortion's coefficients) and resolution. \throws DataError
+/// Reads a lens in Kalibr's and EuRoC's notation: entries camera_model, distortion_model, intrinsics, `coefficients`
+/// (key of the distortion coefficients) and resolution. \throws DataError
 Lens read_worded_lens(const YamlMap& camera, const std::string& coefficients);
 
-/// The rotation by a vector (axis times radians). \throws DataError, which names `where`, for more than half a turn:
-/// degrees, most likely.
+/// Rotation of a rotation vector (axis times radians). \throws DataError that names `where`, for more than a half turn,
+/// which suggests degrees
 Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::string& where);
 
-/// \throws DataError, which names the lens by `where` ("FILE (cam0)"), for numbers that are no lens of its model.
+/// \throws DataError that names the lens by `where` ("FILE (cam0)"), for values that are invalid for its model.
 void check_lens(const Lens& lens, const std::string& where);
 
-/// Fills in the sizes of the recorded images where the calibration leaves them open. \throws DataError, which names
-/// `images`, where it says otherwise.
+/// Sets the sizes of the recorded images if the calibration does not contain them. \throws DataError that names
+/// `images`, if the calibration contains other sizes
 void set_image_sizes(StereoCalibration& calibration, ImageSize left, ImageSize right, const std::string& images);
 
 }  // namespace quadedge::data

@@ -1,6 +1,6 @@
 /// \file calibration_kalibr.cpp  Kalibr's camera chain, camchain.yaml: cam0, cam1 ... with T_cn_cnm1, the transform of
-/// points from the camera before into this one, or T_cam_imu (from the IMU into the camera), or T_imu_cam, which
-/// OpenVINS writes instead. The first two cameras are taken, left first.
+/// points from the previous camera to this one, or T_cam_imu (from the IMU to the camera), or T_imu_cam, which OpenVINS
+/// writes instead. The first two cameras are used, left first.
 
 #include <sstream>
 
@@ -10,7 +10,7 @@
 namespace quadedge::data {
 namespace {
 
-/// By how much two ways of writing the same transform may differ: Kalibr estimates them together.
+/// Maximum difference between two representations of the same transform, which Kalibr estimates jointly.
 constexpr double kTolerance = 1e-3;  // m and rad
 
 std::optional<Eigen::Isometry3d> camera_from_imu(const YamlMap& camera) {
@@ -24,7 +24,7 @@ void check_agreement(const Eigen::Isometry3d& chain, const Eigen::Isometry3d& ov
   const double metres = rest.translation().norm(), radians = Eigen::AngleAxisd(rest.linear()).angle();
   if (metres <= kTolerance && radians <= kTolerance) return;
   std::ostringstream found;
-  found << "a transform that differs from the one over the IMU by " << metres << " m and " << radians << " rad";
+  found << "a transform that differs from the one via the IMU by " << metres << " m and " << radians << " rad";
   right.complain("T_cn_cnm1", found.str(), "T_cam_imu of cam1 times the inverse of cam0's: is the order right?");
 }
 

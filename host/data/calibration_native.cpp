@@ -1,4 +1,4 @@
-/// \file calibration_native.cpp  The program's own calibration file: ten entries, exact numbers.
+/// \file calibration_native.cpp  The program's own calibration format: ten entries, exact numbers.
 
 #include <charconv>
 
@@ -35,7 +35,7 @@ Eigen::Vector3d read_vector(const YamlMap& file, const std::string& key) {
   return {values[0], values[1], values[2]};
 }
 
-/// The fewest digits that read back as the same double.
+/// The shortest decimal number that reads back as the same double.
 std::string shortest(double value) {
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;

@@ -1,7 +1,7 @@
-/// \file calibration_opencv.cpp  What people store of OpenCV's stereoCalibrate, in one file or in two (intrinsics.yml,
-/// extrinsics.yml): M1 D1 M2 D2, and R T with x_right = R x_left + T. YAML, XML or JSON as cv::FileStorage writes them.
-/// image_width and image_height where they are stored; distortion_model: equidistant tells what
-/// fisheye::stereoCalibrate made.
+/// \file calibration_opencv.cpp  Results of OpenCV's stereoCalibrate as usually stored, in one file or in two
+/// (intrinsics.yml, extrinsics.yml): M1 D1 M2 D2, and R T with x_right = R x_left + T. YAML, XML or JSON, as written by
+/// cv::FileStorage. Optional: image_width and image_height; distortion_model: equidistant for results of
+/// fisheye::stereoCalibrate.
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
@@ -16,14 +16,14 @@ namespace {
 
 constexpr const char* kExpected = "M1 D1 M2 D2 R T, as OpenCV's stereo calibration has them";
 
-/// \throws DataError for an entry that stands twice.
+/// \throws DataError for a duplicate entry.
 void check_keys(const cv::FileNode& root, const std::string& file) {
   std::set<std::string> keys;
   for (const std::string& key : root.keys())
     if (!keys.insert(key).second) fail(file, "a second entry " + key, "each entry once");
 }
 
-/// Files opened together; entries are looked for in all of them.
+/// Files that are opened together; entries are looked up in all of them.
 class Storage {
  public:
   explicit Storage(const std::vector<std::string>& files) : files_(files) {
@@ -41,7 +41,7 @@ class Storage {
 
   bool has(const std::string& key) const { return find(key).second != nullptr; }
 
-  /// \throws DataError unless the entry is a matrix of numbers; then as doubles.
+  /// Returns a matrix of numbers as doubles. \throws DataError if the entry is not a matrix of finite numbers
   cv::Mat matrix(const std::string& key) const {
     const auto [node, file] = required(key);
     try {
@@ -116,7 +116,7 @@ Lens read_lens(const Storage& storage, const std::string& number) {
   return lens;
 }
 
-/// 3 x 3, or a rotation vector in radians.
+/// Reads a 3 x 3 matrix or a rotation vector [rad].
 Eigen::Matrix3d read_rotation(const Storage& storage) {
   const cv::Mat r = storage.matrix("R");
   const std::string where = storage.file_of("R") + " (R)";

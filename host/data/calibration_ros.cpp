@@ -1,6 +1,6 @@
-/// \file calibration_ros.cpp  ROS camera_info files of a stereo pair: the camera that recorded (camera_matrix,
-/// distortion), how it is turned to be rectified (rectification_matrix), and the rectified camera (projection_matrix,
-/// whose fourth column is -fx' baseline).
+/// \file calibration_ros.cpp  ROS camera_info files of a stereo pair: the recording camera (camera_matrix, distortion),
+/// the rotation that rectifies it (rectification_matrix), and the rectified camera (projection_matrix, whose fourth
+/// column is -fx' baseline).
 
 #include "data/calibration_formats.hpp"
 #include "data/layout.hpp"
@@ -15,7 +15,7 @@ struct CameraInfo {
   Eigen::Vector3d rectified_from_left_rectified = Eigen::Vector3d::Zero();  ///< m
 };
 
-/// The numbers of "NAME: {rows, cols, data: [...]}".
+/// Values of "NAME: {rows, cols, data: [...]}".
 std::vector<double> matrix_of(const YamlMap& camera, const std::string& key, std::size_t count) {
   return camera.map(key).numbers("data", count);
 }
@@ -27,7 +27,7 @@ LensModel model_of(const YamlMap& camera) {
   camera.complain("distortion_model", in_quotes(word), "plumb_bob, rational_polynomial or equidistant");
 }
 
-/// What K [I | t] of a rectified camera says of its place, in the left one's frame.
+/// Position of a rectified camera in the left camera frame, from its K [I | t].
 Eigen::Vector3d offset_of(const YamlMap& camera) {
   const auto p = matrix_of(camera, "projection_matrix", 12);
   if (!(p[0] > 0 && p[5] > 0)) camera.complain("projection_matrix", "no focal length", "fx' and fy' above zero");

@@ -1,4 +1,4 @@
-/// \file check.cpp  What `quadedge check` prints.
+/// \file check.cpp  Checks of `quadedge check`.
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ void describe_lenses(const Dataset& dataset, DatasetCheck& check) {
     const double fov = 2 * std::atan(0.5 * rig.left.width / rig.left.fx) / kDegree;
     check.facts.push_back("calibration: " + calibration->format + ", " + calibration->files);
     check.facts.push_back(std::string("lenses: ") + to_string(calibration->left.model) + " and " +
-                          to_string(calibration->right.model) + ", seen " + decimals(fov, 1) + " degrees wide");
+                          to_string(calibration->right.model) + ", field of view " + decimals(fov, 1) + " degrees");
   }
   if (!rig.left_mask.empty() || !rig.right_mask.empty()) {
     check.facts.push_back("hidden: " + hidden_part(rig.left_mask) + " % of the left image, " +
@@ -62,7 +62,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
   describe_camera(dataset.rig.left, "left", check);
   describe_camera(dataset.rig.right, "right", check);
   check.facts.push_back(std::string("images: ") +
-                        (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, undone by a table"));
+                        (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, corrected by a table"));
   describe_lenses(dataset, check);
   check.facts.push_back("baseline: " + decimals(dataset.rig.baseline(), 6) + " m");
   check.facts.push_back("largest disparity: " + decimals(dataset.max_disparity, 1) + " px");
@@ -74,7 +74,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
   for (const auto& note : dataset.notes) check.facts.push_back("note: " + note);
 }
 
-/// A step longer than twice the usual one.
+/// Finds steps of more than twice the usual one.
 void find_gaps(const Dataset& dataset, DatasetCheck& check) {
   const std::int64_t period = median_period(dataset);
   for (std::size_t i = 1; period > 0 && i < dataset.frames.size(); ++i) {
@@ -90,7 +90,7 @@ void check_truth(const Dataset& dataset, DatasetCheck& check) {
   if (dataset.truth_file.empty()) {
     check.facts.push_back("ground truth: no poses");
   } else {
-    constexpr std::int64_t kToleranceNs = 10'000'000;  // as evaluate_trajectory matches
+    constexpr std::int64_t kToleranceNs = 10'000'000;  // as in evaluate_trajectory()
     const auto covered = std::count_if(dataset.frames.begin(), dataset.frames.end(), [&](const FrameFiles& frame) {
       return std::any_of(dataset.truth.begin(), dataset.truth.end(), [&](const StampedPose& pose) {
         return std::abs(pose.stamp_ns - frame.stamp_ns) <= kToleranceNs;
@@ -105,7 +105,7 @@ void check_truth(const Dataset& dataset, DatasetCheck& check) {
   if (!dataset.disparity_truth.empty()) check.facts.push_back("disparity of the left view: " + dataset.disparity_truth);
 }
 
-/// Reads an image file; nothing, and what is wrong among the errors, where it is not as it should be.
+/// Reads an image file; returns nothing and records an error if it is not as expected.
 std::optional<Image> read_image(const std::string& file, const PinholeCamera& camera, DatasetCheck& check) {
   try {
     Image image = read_grey_image(file);
@@ -118,7 +118,7 @@ std::optional<Image> read_image(const std::string& file, const PinholeCamera& ca
   return std::nullopt;
 }
 
-/// Every image file, also those after a damaged one.
+/// Reads every image file, including those after a damaged one.
 void read_files(const Dataset& dataset, const std::function<void(const Dataset&, const StereoPair&)>& seen,
                 DatasetCheck& check) {
   for (std::size_t i = 0; i < dataset.frames.size(); ++i) {
@@ -130,7 +130,7 @@ void read_files(const Dataset& dataset, const std::function<void(const Dataset&,
   }
 }
 
-/// All pairs of a stream, up to the first that is damaged. The frames become those that there are.
+/// Reads all pairs of a stream up to the first damaged one, and sets the list of frames accordingly.
 void read_stream(Dataset& dataset, const std::function<void(const Dataset&, const StereoPair&)>& seen,
                  DatasetCheck& check) {
   std::vector<FrameFiles> frames;

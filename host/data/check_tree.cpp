@@ -30,7 +30,7 @@ std::vector<std::string> missing_members(const std::string& root) {
 std::string one_line(const DatasetCheck& check) {
   std::string line;
   const auto add = [&](const std::string& text) { line += (line.empty() ? "" : ", ") + text; };
-  // What follows a fact's name; of the left camera the size alone, of files no path.
+  // Value of a fact: for cameras the image size only, for files without the path.
   const auto value_of = [&](const std::string& name) {
     for (const auto& fact : check.facts) {
       if (fact.rfind(name + ": ", 0) == 0) return fact.substr(name.size() + 2);

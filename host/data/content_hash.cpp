@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#define XXH_INLINE_ALL  // the header holds all of it: nothing to link
+#define XXH_INLINE_ALL  // header-only
 #include <xxhash.h>
 
 #include "data/text.hpp"
@@ -37,7 +37,7 @@ void add_mask(ContentHash& hash, const PixelMask& mask) {
   hash.add({reinterpret_cast<const char*>(mask.hidden.data()), mask.hidden.size()});
 }
 
-/// Name, size and both ends of an image or video file.
+/// Adds name, size and both ends of an image or video file.
 void add_image(ContentHash& hash, const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) fail(path, "a file that cannot be read", "an image");
@@ -92,7 +92,7 @@ std::string dataset_hash(const Dataset& dataset) {
   add_mask(hash, dataset.rig.left_mask);
   add_mask(hash, dataset.rig.right_mask);
   hash.add({dataset.max_disparity});
-  std::set<std::string> added;  // videos come with every frame
+  std::set<std::string> added;  // videos are listed with every frame
   for (const auto& frame : dataset.frames) {
     hash.add(std::to_string(frame.stamp_ns));
     for (const auto& file : {frame.left, frame.right})

@@ -36,7 +36,7 @@ const Layout& choose(const fs::path& folder, const std::string& format) {
   fail(folder.string(), entries.empty() ? "an empty folder" : found, "one of the layouts " + format_names());
 }
 
-/// Half-open range of frames that the user asked for.
+/// Limits the frames to the half-open range given by the user.
 void cut_frames(Dataset& dataset, int first_frame, int last_frame) {
   const int count = static_cast<int>(dataset.frames.size());
   const int last = last_frame < 0 ? count : last_frame;
@@ -52,40 +52,39 @@ void check_stamps(const Dataset& dataset, Findings& findings) {
   for (std::size_t i = 1; i < dataset.frames.size(); ++i) {
     if (dataset.frames[i].stamp_ns > dataset.frames[i - 1].stamp_ns) continue;
     findings.error(dataset.frames[i].left,
-                   "the stamp " + format_seconds(dataset.frames[i].stamp_ns) + " after " +
+                   "timestamp " + format_seconds(dataset.frames[i].stamp_ns) + " after " +
                        format_seconds(dataset.frames[i - 1].stamp_ns),
-                   "increasing stamps");
+                   "increasing timestamps");
   }
 }
 
-/// \throws DataError for a calibration of which no search for disparities comes: it is far from any camera.
+/// \throws DataError for a calibration that is implausible because it implies excessive disparities.
 void check_disparities(const Dataset& dataset) {
   constexpr double kLargest = 10'000;  // px; constants.inc allows no more for stereo.max_disparity
   if (dataset.max_disparity <= kLargest) return;
   std::ostringstream found;
   found << "a focal length of " << dataset.rig.left.fx << " px and a baseline of " << dataset.rig.baseline()
-        << " m, so that things near by have disparities of " << dataset.max_disparity << " px";
+        << " m, so that nearby objects have disparities of " << dataset.max_disparity << " px";
   fail(calibration_of(dataset), found.str(), "pixels and metres that give at most 10000 px");
 }
 
-/// \throws DataError where the first images have other sizes than the calibration says.
+/// Sets the image sizes from the first images. \throws DataError if the calibration contains other sizes
 void set_sizes_from_images(StereoCalibration& calibration, const Dataset& dataset) {
   const FrameFiles& first = dataset.frames.front();
   set_image_sizes(calibration, image_size(first.left), image_size(first.right), first.left + ", " + first.right);
 }
 
-/// What the user says of the cameras, instead of the layout's own calibration or on top of it.
+/// Applies the user's calibration, field of view and mask to the layout's own.
 void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
   if (!options.calibration.empty()) {
     dataset.calibration = read_calibration(options.calibration);
     set_sizes_from_images(*dataset.calibration, dataset);
   }
   if (options.fov != 0 && !dataset.calibration) {
-    throw UsageError("--fov: " + dataset.path +
-                     " says nothing of lenses; give a --calibration, or leave the field of view as it is");
+    throw UsageError("--fov: " + dataset.path + " does not describe lenses; give --calibration or omit --fov");
   }
   if (dataset.calibration && (!options.calibration.empty() || options.fov != 0)) {
-    const double usual_before = usual_max_disparity(dataset.rig);  // the layout knows how near things come
+    const double usual_before = usual_max_disparity(dataset.rig);  // includes the layout's nearest depth
     dataset.rig = make_rig(*dataset.calibration, options.fov);
     const double usual = usual_max_disparity(dataset.rig);
     dataset.max_disparity = usual_before > 0 ? dataset.max_disparity * (usual / usual_before) : usual;
@@ -93,7 +92,7 @@ void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
   if (!options.mask.empty()) mask_rig(dataset.rig, options.mask);
 }
 
-/// Largest value of an image's pixels. What is wrong with the image is said by who reads it.
+/// Largest pixel value of an image. Damaged images are reported when they are read.
 int max_value_of(const std::string& file) {
   try {
     return image_size(file).max_value;

@@ -2,11 +2,11 @@
 /// calibration2.txt (fx fy cx cy), extrinsics_1_2.txt (3 x 4), groundtruth.txt (TUM, global_from_camera1). Other
 /// folders are ignored.
 ///
-/// extrinsics_1_2.txt maps points of camera 2 (rgb2/) into camera 1 (rgb/). In the published recordings its translation
-/// is about (-0.09, 0, 0) m: camera 1 stands to the RIGHT of camera 2 although it comes first. The sign of that
-/// component tells which camera sees the scene from the left, so that disparities are positive whichever way a set was
-/// written; the ground truth, which belongs to camera 1, is carried over to the left camera. `quadedge synth --lens`
-/// writes calibration.yaml (see read_calibration) instead of the three, with camera 1 on the left.
+/// extrinsics_1_2.txt maps points from camera 2 (rgb2/) to camera 1 (rgb/). In the published recordings its translation
+/// is about (-0.09, 0, 0) m: camera 1 is to the RIGHT of camera 2. The sign of that component determines which camera
+/// is the left one, so that disparities are positive for either order; the ground truth, which refers to camera 1, is
+/// converted to the left camera. `quadedge synth --lens` writes calibration.yaml (see read_calibration) instead of the
+/// three files, with camera 1 on the left.
 
 #include "data/layout.hpp"
 #include "data/text.hpp"
@@ -14,7 +14,7 @@
 namespace quadedge::data {
 namespace {
 
-/// Hand-held rig in a room with things on a table at arm's length: 0.5 m.
+/// A handheld rig in a room with objects on a table, at 0.5 m or more.
 constexpr double kNearestDepth = 0.5;
 
 PinholeCamera read_camera(const std::string& file) {
@@ -39,7 +39,7 @@ Eigen::Isometry3d read_extrinsics(const std::string& file) {
   return camera1_from_camera2;
 }
 
-/// Stamp and file name of the images of camera 1: from rgb.txt, or from the names in rgb/ where there is none.
+/// Timestamps and file names of the images of camera 1: from rgb.txt, or from the names in rgb/ if there is none.
 std::vector<std::pair<std::int64_t, std::string>> read_list(const fs::path& folder) {
   std::vector<std::pair<std::int64_t, std::string>> list;
   const std::string file = (folder / "rgb.txt").string();
@@ -80,7 +80,7 @@ bool is_eth3d_slam(const fs::path& folder) {
 
 namespace {
 
-/// calibration.txt, calibration2.txt and extrinsics_1_2.txt. \returns camera1_from_camera2
+/// Reads calibration.txt, calibration2.txt and extrinsics_1_2.txt. \returns camera1_from_camera2
 Eigen::Isometry3d read_pinhole_cameras(Dataset& dataset, const fs::path& folder, Findings& findings) {
   Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
   PinholeCamera camera1, camera2;
@@ -102,14 +102,14 @@ Dataset read_eth3d_slam(const fs::path& folder, const DatasetOptions& options, F
   dataset.path = folder.string();
   dataset.name = folder_name(folder);
   const fs::path lenses = folder / "calibration.yaml";
-  // Another calibration replaces all of these files; where they are, they still say which camera is the left one.
+  // A user's calibration replaces these files; if they exist, they still determine which camera is the left one.
   const bool has_lenses = fs::exists(lenses);
   const bool has_cameras = !has_lenses && (options.calibration.empty() || fs::exists(folder / "extrinsics_1_2.txt"));
   Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
   if (has_cameras) camera1_from_camera2 = read_pinhole_cameras(dataset, folder, findings);
   const bool first_is_left = !has_cameras || camera1_from_camera2.translation().x() > 0;
   if (!first_is_left) {
-    dataset.notes.push_back("the left camera is rgb2/; groundtruth.txt, which is of rgb/, is carried over to it");
+    dataset.notes.push_back("the left camera is rgb2/; groundtruth.txt, which refers to rgb/, is converted to it");
   }
   findings.attempt([&] { read_frames(dataset, folder, first_is_left, findings); });
   if (has_lenses) findings.attempt([&] { set_calibration(dataset, read_calibration(lenses.string())); });

@@ -18,7 +18,7 @@ void make_folder(const fs::path& folder) {
   fs::create_directories(folder, problem);
   if (problem)
     throw DataError(folder.string() + ": cannot make the folder: " + problem.message() +
-                    "; expected a place that can be written");
+                    "; expected a writable location");
 }
 
 void write_png(const fs::path& file, const Image& image) {
@@ -46,7 +46,7 @@ void write_eth3d_slam(const std::string& folder, const SyntheticSequence& sequen
                       const std::function<void(int, int)>& progress) {
   const fs::path root(folder);
   if (fs::exists(root / "rgb") || fs::exists(root / "rgb2")) {
-    data::fail(folder, "a sequence that is already there", "an empty or new folder");
+    data::fail(folder, "an existing sequence", "an empty or new folder");
   }
   for (const char* name : {"rgb", "rgb2", "depth", "depth2"}) make_folder(root / name);
   if (sequence.calibration().left.is_pinhole()) {

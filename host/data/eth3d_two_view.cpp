@@ -1,18 +1,18 @@
 /// \file eth3d_two_view.cpp  ETH3D low-resolution two-view pairs: two_view_training/SCENE/{im0.png,im1.png,calib.txt}
-/// and two_view_training_gt/SCENE/disp0GT.pfm. The same files as Middlebury 2014, told apart by the folder names and
-/// the truth.
+/// and two_view_training_gt/SCENE/disp0GT.pfm. The same files as in Middlebury 2014; folder names and ground truth
+/// distinguish the two.
 
 #include "data/layout.hpp"
 
 namespace quadedge::data {
 namespace {
 
-/// Indoor and outdoor scenes seen from about 0.7 m on: at most 64 px of disparity, the range that methods on this
-/// benchmark search; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %).
-/// (ndisp of its calib.txt is the image width and says nothing.)
+/// Indoor and outdoor scenes at distances of about 0.7 m and more: at most 64 px of disparity, the usual search range
+/// on this benchmark; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %). (ndisp in
+/// calib.txt is the image width and therefore not usable.)
 constexpr double kMaxDisparity = 64;
-/// Published calibrations have two kinds of image: the wide "l" ones (above 900 columns) and the "s" ones, about 6 cm
-/// apart.
+/// Published calibrations are of two kinds: the wide "l" images (above 900 columns) and the "s" images, both with a
+/// baseline of about 6 cm.
 constexpr double kFocalWide = 541.764, kFocalNarrow = 711.499, kTwoViewBaseline = 0.06;
 constexpr int kWideColumns = 900;
 
@@ -54,7 +54,7 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
     dataset.rig.right.width = right.width;
     dataset.rig.right.height = right.height;
     dataset.notes.push_back("no calib.txt: nominal calibration (f " + std::to_string(dataset.rig.left.fx) +
-                            " px, baseline 0.06 m); matches are sound, depths and poses are nominal");
+                            " px, baseline 0.06 m); matches are valid, depths and poses are nominal");
   });
   return dataset;
 }

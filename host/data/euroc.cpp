@@ -1,6 +1,6 @@
 /// \file euroc.cpp  EuRoC MAV: mav0/{cam0,cam1}/{sensor.yaml,data.csv,data/},
-/// mav0/state_groundtruth_estimate0/data.csv. The recorded images are distorted; the rig describes pinhole images of
-/// the same K, and two tables make them.
+/// mav0/state_groundtruth_estimate0/data.csv. The recorded images are distorted; the rig describes pinhole images with
+/// the same K, created by two tables.
 
 #include <algorithm>
 #include <map>
@@ -14,7 +14,7 @@
 namespace quadedge::data {
 namespace {
 
-/// Published ground truth comes at 200 Hz (or once per frame), so the nearest row is at most 2.5 ms away.
+/// Published ground truth has a rate of 200 Hz (or one pose per frame), so that the nearest row is at most 2.5 ms away.
 constexpr std::int64_t kTruthToleranceNs = 5'000'000;
 
 void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
@@ -32,11 +32,11 @@ void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
   }
   if (2 * alone > left.size()) {
     findings.error((folder / "cam1" / "data.csv").string(),
-                   std::to_string(left.size() - alone) + " stamps that also stand in cam0/data.csv",
+                   std::to_string(left.size() - alone) + " timestamps that are also in cam0/data.csv",
                    "the " + std::to_string(left.size()) + " of the left camera");
-  } else if (alone > 0 || right.size() != left.size()) {  // a few dropped images happen in the published recordings
+  } else if (alone > 0 || right.size() != left.size()) {  // the published recordings lack a few images
     const std::string note = std::to_string(alone) + " left and " + std::to_string(right.size() + alone - left.size()) +
-                             " right images without a partner of the same stamp are left out";
+                             " right images without a counterpart of the same timestamp are skipped";
     dataset.notes.push_back(note);
     findings.warn(note);
   }
@@ -90,7 +90,7 @@ Dataset read_euroc(const fs::path& root, const DatasetOptions& options, Findings
   if (dataset.name == "mav0") dataset.name = folder_name(fs::absolute(root / ".."));
   findings.attempt([&] { read_frames(dataset, folder, findings); });
   Eigen::Isometry3d body_from_left = Eigen::Isometry3d::Identity();
-  // Another calibration replaces these files; where they are, they still say whose poses the ground truth has.
+  // A user's calibration replaces these files; if they exist, they still determine the frame of the ground truth.
   const fs::path left = folder / "cam0" / "sensor.yaml", right = folder / "cam1" / "sensor.yaml";
   if (options.calibration.empty() || (fs::exists(left) && fs::exists(right))) {
     findings.attempt([&] { set_calibration(dataset, read_euroc_calibration(left.string(), right.string())); });

@@ -1,5 +1,5 @@
 #pragma once
-/// \file file_list.hpp  "LEFT,RIGHT" on the command line.
+/// \file file_list.hpp  Lists of files such as "LEFT,RIGHT" on the command line.
 
 #include <filesystem>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace quadedge::data {
 
-/// The one or two files that an option names, with a comma between two. A file whose name has a comma is one.
+/// The one or two files of an option, separated by a comma. An existing file whose name contains a comma is one file.
 inline std::vector<std::string> file_list(const std::string& files) {
   const auto comma = files.find(',');
   std::error_code ignored;

@@ -12,7 +12,7 @@
 namespace quadedge::data {
 namespace {
 
-/// Layout that the folder itself is a recording of; empty for none.
+/// Layout of the recording in this very folder; empty if it is not a recording.
 std::string recording_format(const fs::path& folder, bool with_pairs) {
   for (const auto& layout : layouts()) {
     const bool pair = layout.is_recording == nullptr;
@@ -21,7 +21,8 @@ std::string recording_format(const fs::path& folder, bool with_pairs) {
   return {};
 }
 
-/// The folders in a folder, sorted, hidden ones left out; and what may be one but cannot be told: a link to itself.
+/// Sorted subfolders, without hidden ones but including entries whose kind cannot be determined, such as a link to
+/// itself.
 std::vector<fs::path> folders_in(const fs::path& folder) {
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -34,8 +35,8 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return folders;
 }
 
-/// Adds the recordings in and below a folder, and what cannot be read without a format. `seen` holds the true places of
-/// folders, so that circular links end.
+/// Adds the recordings in and below a folder, and folders that cannot be read, without a format. `seen` contains the
+/// real paths of folders, so that circular links end.
 void search(const fs::path& folder, bool with_pairs, std::set<fs::path>& seen, std::vector<FoundRecording>& found) {
   std::vector<fs::path> folders;
   try {
@@ -74,7 +75,7 @@ std::vector<FoundRecording> search_list(const std::string& list) {
   return found;
 }
 
-/// The last `parts` names of a path, joined; KITTI's two digits say nothing without the layout's name before them.
+/// The last `parts` names of a path, joined; KITTI's two digits are prefixed with the name of the layout.
 std::string name_of(const FoundRecording& recording, int parts) {
   fs::path rest = fs::absolute(recording.path).lexically_normal();
   if (!rest.has_filename()) rest = rest.parent_path();
@@ -88,7 +89,7 @@ std::string name_of(const FoundRecording& recording, int parts) {
   return plain_name(name);
 }
 
-/// Short names where they are unique, longer ones where they are not.
+/// Short names if they are unique, otherwise longer ones.
 std::vector<FoundSequence> named(const std::vector<FoundRecording>& recordings) {
   constexpr int kMostParts = 8;
   std::vector<FoundSequence> sequences;
@@ -119,7 +120,7 @@ std::vector<FoundRecording> find_recordings(const std::string& root, bool with_p
 }
 
 std::string plain_name(const std::string& text) {
-  constexpr std::size_t kLongest = 128;  // file systems take 255 bytes, and names of several parts are joined
+  constexpr std::size_t kLongest = 128;  // file systems permit 255 bytes, and names are joined
   std::string name;
   for (const char c : text.substr(0, kLongest)) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';

@@ -1,5 +1,5 @@
 #pragma once
-/// \file find_sequences.hpp  Which sequences lie below a folder, or are named by a list file.
+/// \file find_sequences.hpp  Finds the sequences below a folder or in a list file.
 
 #include <optional>
 #include <string>
@@ -9,33 +9,33 @@
 
 namespace quadedge::data {
 
-/// A sequence that a batch works on.
+/// A sequence of a batch.
 struct FoundSequence {
-  std::string name;    ///< unique in its batch, letters, digits and -_. alone: a folder can be called so
-  std::string path;    ///< the sequence's own folder
-  std::string format;  ///< layout by its looks; empty for a line of a list that is no recording, and for a folder that
-                       ///< cannot be read (whose run will say why)
-  std::optional<StereoSource> source;  ///< of a camera of one's own; then `path` is its first folder or file
+  std::string name;  ///< unique in its batch; contains only letters, digits and -_., so that it can name a folder
+  std::string path;  ///< folder of the sequence
+  std::string
+      format;  ///< recognised layout; empty for a line of a list without a recording, and for an unreadable folder
+  std::optional<StereoSource> source;  ///< custom camera; `path` is then its first folder or file
 };
 
-/// A folder: every recording of any layout below it, links followed, sorted by path. Still pairs are no sequences.
-/// Damaged recordings are found, too, as long as their folders have the usual names. A file: one folder per line,
-/// relative to the file's folder, '#' starts a comment; each is searched in the same way, and a line that holds no
-/// recording stays in the result; a line of options names a camera of one's own (source_line.hpp). Nothing is found
-/// twice. \throws DataError for a missing or empty root or list.
+/// For a folder: every recording of any layout below it, following links, sorted by path, without still pairs. Damaged
+/// recordings are included as long as their folders have the usual names. For a file: one folder per line, relative to
+/// the folder of the file; '#' starts a comment. Each folder is searched in the same way; a line without a recording
+/// remains in the result, and a line of options describes a custom camera (source_line.hpp). There are no duplicates.
+/// \throws DataError for a missing or empty root or list
 std::vector<FoundSequence> find_sequences(const std::string& root_or_list);
 
-/// A folder that holds recorded data; without a format one that cannot be read.
+/// A folder with recorded data, or an unreadable folder without a format.
 struct FoundRecording {
   std::string path, format;
-  std::optional<StereoSource> source = std::nullopt;  ///< as FoundSequence
+  std::optional<StereoSource> source = std::nullopt;  ///< see FoundSequence
 };
 
-/// The recordings in and below a folder, sorted by path, links followed; with the still pairs on request. Folders that
-/// cannot be read, links to themselves and paths that are too long are among them.
+/// The recordings in and below a folder, sorted by path, following links; optionally with still pairs. Includes
+/// unreadable folders, links to themselves and paths that are too long.
 std::vector<FoundRecording> find_recordings(const std::string& root, bool with_pairs);
 
-/// The text with everything but letters, digits and -_. replaced by '_', and cut where it is too long for a folder.
+/// The text with everything except letters, digits and -_. replaced by '_', shortened to a permitted folder name.
 std::string plain_name(const std::string& text);
 
 }  // namespace quadedge::data

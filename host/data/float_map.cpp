@@ -9,8 +9,8 @@
 namespace quadedge::data {
 namespace {
 
-/// Size of the scale in the header, whose sign tells the byte order. OpenCV prints to the console what it cannot
-/// decode, so header and length are looked at before.
+/// Absolute scale in the header, whose sign gives the byte order. Header and length are checked here because OpenCV
+/// prints to the console if it fails to decode a file.
 double checked_scale(const std::string& file) {
   const std::string bytes = read_bytes(file);
   constexpr std::size_t kLongestHeader = 100;  // bytes
@@ -20,7 +20,7 @@ double checked_scale(const std::string& file) {
          "\"Pf\", width, height and scale, then one float per pixel");
   }
   const double width = parse_number(words[1], file, 2, "width"), height = parse_number(words[2], file, 2, "height");
-  // Each word of the header is followed by one byte at least.
+  // Each word of the header is followed by at least one byte.
   const std::size_t header = words[0].size() + words[1].size() + words[2].size() + words[3].size() + 4;
   if (static_cast<double>(bytes.size()) < width * height * sizeof(float) + static_cast<double>(header)) {
     fail(file, std::to_string(bytes.size()) + " bytes", "a header and " + words[1] + " x " + words[2] + " floats");
@@ -40,10 +40,10 @@ FloatMap read_float_map(const std::string& file) {
     reason = " (" + problem.err + ")";
   }
   if (map.type() != CV_32FC1 || map.empty()) {
-    fail(file, "a PFM that cannot be decoded" + reason, "width, height, scale, and all floats that they promise");
+    fail(file, "a PFM that cannot be decoded" + reason, "width, height, scale, and the corresponding number of floats");
   }
-  // OpenCV divides by the scale. Published maps hold pixels or metres whatever it says (Middlebury's own writer puts
-  // 1/255 there).
+  // OpenCV divides by the scale, but published maps contain pixels or metres at any scale (Middlebury's own writer uses
+  // 1/255).
   map *= scale;
   return {map.cols, map.rows, std::vector<float>(map.begin<float>(), map.end<float>())};
 }

@@ -1,6 +1,5 @@
 #pragma once
-/// \file float_map.hpp  Maps of depths or disparities: one 32-bit float per pixel, in PFM files, read and written by
-/// OpenCV.
+/// \file float_map.hpp  Depth or disparity maps in PFM files, one 32-bit float per pixel, read and written by OpenCV.
 
 #include <string>
 #include <vector>
@@ -13,11 +12,11 @@ struct FloatMap {
   std::vector<float> values;
 };
 
-/// The values as they stand in the file, infinite ones too. \throws DataError when the file is no PFM of one channel or
-/// ends early.
+/// The stored values, including infinite ones. \throws DataError if the file is not a PFM with one channel or is
+/// incomplete
 FloatMap read_float_map(const std::string& file);
 
-/// Little-endian, written atomically. \throws DataError.
+/// Little-endian, written atomically. \throws DataError
 void write_float_map(const std::string& file, const FloatMap& map);
 
 }  // namespace quadedge::data

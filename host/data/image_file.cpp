@@ -47,7 +47,7 @@ ImageSize check_png(std::string_view bytes, const std::string& file) {
   }
 }
 
-/// Start-of-frame markers carry the size: C0 to CF without the three that mean tables.
+/// Start-of-frame markers contain the size: C0 to CF except the three that denote tables.
 bool is_start_of_frame(std::uint32_t marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
@@ -69,7 +69,7 @@ ImageSize check_jpeg(std::string_view bytes, const std::string& file) {
       size = {static_cast<int>(big_endian(bytes, at + 7, 2)), static_cast<int>(big_endian(bytes, at + 5, 2))};
     }
     at += 2 + length;
-    if (marker == 0xDA) {  // entropy-coded data follow; only the end of the image can be FF D9 there
+    if (marker == 0xDA) {  // in the entropy-coded data, only the end marker can be FF D9
       if (bytes.find("\xFF\xD9"sv, at) == std::string_view::npos) truncated(file, bytes, "JPEG", kComplete);
       return size;
     }
@@ -94,7 +94,7 @@ ImageSize check_pnm(std::string_view bytes, const std::string& file) {
   const ImageSize size{width, height, largest};
   const std::size_t per_pixel = (bytes[1] == '6' ? 3U : 1U) * bytes_per_pixel(largest);
   const std::size_t needed = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * per_pixel;
-  if (bytes.size() < at + 1 + needed) truncated(file, bytes, "PNM", "all pixels that its header promises");
+  if (bytes.size() < at + 1 + needed) truncated(file, bytes, "PNM", "all pixels announced by its header");
   return size;
 }
 
@@ -140,7 +140,7 @@ Image decode_grey_image(std::string_view bytes, const std::string& name) {
   cv::Mat decoded;
   try {
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    // The recorded pixel grid: an EXIF turn would no longer fit the calibration.
+    // The recorded pixel grid: a rotation by EXIF data would contradict the calibration.
     decoded = cv::imdecode(encoded, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception& problem) {
     data::fail(name, "an image that cannot be decoded (" + problem.err + ")",
@@ -151,7 +151,7 @@ Image decode_grey_image(std::string_view bytes, const std::string& name) {
   if (decoded.channels() == 3) cv::cvtColor(decoded, decoded, cv::COLOR_BGR2GRAY);
   const int type = size.max_value > kMaxValue8 ? CV_16UC1 : CV_8UC1;
   if (decoded.type() != type) data::fail(name, "an unusual pixel type", "8 or 16 bit grey or colour");
-  cv::min(decoded, size.max_value, decoded);  // a header may promise less than its pixels hold
+  cv::min(decoded, size.max_value, decoded);  // pixels may exceed the largest value of the header
   Image image(decoded.cols, decoded.rows, size.max_value);
   const cv::Mat target(image.height, image.width, type, image.pixels.data());
   decoded.copyTo(target);

@@ -1,6 +1,6 @@
 #pragma once
-/// \file image_file.hpp  Image files as bytes: what they claim to be, and whether all of it is there.
-/// Decoders fill a truncated picture with grey and go on, so completeness is judged from the container itself.
+/// \file image_file.hpp  Checks image files for format and completeness.
+/// Decoders fill truncated images with grey without an error, so that completeness is checked in the container.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace quadedge::data {
 
-/// Columns and rows, and the largest value of a pixel.
+/// Columns and rows, and the largest pixel value.
 struct ImageSize {
   int width = 0, height = 0;
   int max_value = kMaxValue8;
@@ -20,17 +20,17 @@ struct ImageSize {
 
 constexpr int kLargestImageSide = 1 << 16;  ///< px
 
-/// "W x H", as messages print it.
+/// "W x H", for messages.
 std::string to_string(ImageSize size);
 
-/// Walks a PNG (chunks up to IEND), JPEG (segments, end-of-image marker) or binary PGM/PPM (header against length).
-/// \throws DataError naming `file` when it is none of these or ends early.
+/// Checks a PNG (chunks up to IEND), JPEG (segments, end-of-image marker) or binary PGM/PPM (header against length).
+/// \throws DataError that names `file` if it is none of these or incomplete
 ImageSize check_complete(std::string_view bytes, const std::string& file);
 
-/// check_complete of a file. \throws DataError.
+/// check_complete() of a file. \throws DataError
 ImageSize image_size(const std::string& file);
 
-/// True for the extensions of the formats above.
+/// Whether the name has the extension of one of the formats above.
 bool is_image_name(const std::string& name);
 
 }  // namespace quadedge::data

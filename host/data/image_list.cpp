@@ -13,7 +13,7 @@ namespace {
 
 bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
 
-/// The run of digits at `at`, without the zeros in front.
+/// The digits at `at`, without leading zeros.
 std::string digits_at(const std::string& text, std::size_t& at) {
   std::string digits;
   for (; at < text.size() && is_digit(text[at]); ++at) {
@@ -22,7 +22,7 @@ std::string digits_at(const std::string& text, std::size_t& at) {
   return digits;
 }
 
-/// The time that a name is, if it can be one.
+/// Timestamp given by a name, if it can be one.
 std::optional<std::int64_t> stamp_of_name(const std::string& stem, const std::string& file) {
   const bool is_number =
       !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return is_digit(c) || c == '.'; });
@@ -37,7 +37,7 @@ std::optional<std::int64_t> stamp_of_name(const std::string& stem, const std::st
   }
 }
 
-/// folder/name, or the same beside the folder; empty where neither exists.
+/// folder/name, or the same file next to the folder; empty if neither exists.
 std::string beside(const fs::path& folder, const char* name) {
   for (const auto& place : {folder / name, folder / ".." / name}) {
     std::error_code ignored;
@@ -61,7 +61,7 @@ bool comes_before(const std::string& a, const std::string& b) {
     }
   }
   if (i < a.size() || j < b.size()) return i >= a.size();
-  return a < b;  // zeros in front
+  return a < b;  // leading zeros
 }
 
 std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::string& file) {
@@ -72,7 +72,7 @@ std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::str
     if (cells.size() != 2) fail(file, line.number, in_quotes(line.text), "timestamp [ns],filename");
     list.emplace_back(parse_nanoseconds(cells[0], file, line.number), cells[1]);
     if (!stamps.insert(list.back().first).second)
-      fail(file, line.number, "the stamp " + cells[0] + " again", "it once");
+      fail(file, line.number, "timestamp " + cells[0] + " again", "each timestamp once");
     if (fs::path(cells[1]).filename() != cells[1] || cells[1] == "..")
       fail(file, line.number, in_quotes(cells[1]), "the name of an image in data/");
   }
@@ -91,7 +91,7 @@ std::vector<std::int64_t> read_times(const std::string& file) {
     if (cells.size() != 1) fail(file, line.number, in_quotes(line.text), "one time in seconds");
     stamps.push_back(parse_seconds(cells[0], file, line.number));
   }
-  if (stamps.empty()) fail(file, "no time", "one in seconds on every line");
+  if (stamps.empty()) fail(file, "no timestamps", "one in seconds on every line");
   return stamps;
 }
 

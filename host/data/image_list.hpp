@@ -1,5 +1,5 @@
 #pragma once
-/// \file image_list.hpp  The images of a folder in order, and the times that stand beside them.
+/// \file image_list.hpp  The images of a folder in order, with their timestamps.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,29 +9,29 @@
 
 namespace quadedge::data {
 
-/// Rows of EuRoC's data.csv: stamp and name of an image. \throws DataError for a stamp that stands twice and for a name
-/// that leads to another folder.
+/// Rows of EuRoC's data.csv: timestamp and image name. \throws DataError for a duplicate timestamp and for a name that
+/// refers to another folder
 std::vector<std::pair<std::int64_t, std::string>> read_image_list(const std::string& file);
 
-/// Stamps [ns] of a file with a row per frame: seconds, or as EuRoC's data.csv, where the name ends in .csv. In the
-/// file's order. \throws DataError.
+/// Timestamps [ns] of a file with one row per frame, in its order: seconds, or EuRoC's format if the name ends in .csv.
+/// \throws DataError
 std::vector<std::int64_t> read_times(const std::string& file);
 
 /// The images of one camera.
 struct CameraImages {
   std::vector<std::string> files;
-  std::vector<std::int64_t> stamps_ns;  ///< one per file; empty where nothing tells them
-  std::string stamps_from;              ///< what told them, for messages
+  std::vector<std::int64_t> stamps_ns;  ///< one per file; empty if unknown
+  std::string stamps_from;              ///< where they come from, for messages
 };
 
-/// Every image in a folder in natural order of the names ("img9" before "img10"). Stamps come from data.csv (then only
-/// the images that it lists count, in its order) or times.txt, in the folder or the one above it; or else from the
-/// names, where every one is a number that can be a time: with a decimal point seconds, of 19 digits nanoseconds, of 16
-/// microseconds, of 13 milliseconds. \throws DataError for a folder without images, a list that names a missing one, a
-/// times.txt of another length.
+/// All images of a folder in natural order of their names ("img9" before "img10"). Timestamps come from data.csv (in
+/// which case only the listed images are used, in its order) or times.txt, in the folder or its parent; otherwise from
+/// the names, if every name is a plausible time: seconds with a decimal point, or integer nanoseconds (19 digits),
+/// microseconds (16) or milliseconds (13). \throws DataError for a folder without images, a list with a missing image,
+/// or a times.txt of another length
 CameraImages list_images(const std::filesystem::path& folder);
 
-/// Whether digits in the names are compared as numbers: "img9" comes before "img10".
+/// Natural order: digits in names are compared as numbers.
 bool comes_before(const std::string& a, const std::string& b);
 
 }  // namespace quadedge::data

@@ -3,15 +3,15 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
-// libjpeg's header needs what stands before it.
+// libjpeg's header depends on the headers above.
 #include <jpeglib.h>
 
 namespace quadedge::data {
 namespace {
 
-/// libjpeg's errors and warnings end the reading: a jump, since its C frames pass no exception.
+/// Errors and warnings of libjpeg end the reading with a jump, because exceptions cannot pass its C frames.
 struct Complaint {
-  jpeg_error_mgr manager;  ///< first: libjpeg hands out its address
+  jpeg_error_mgr manager;  ///< first member, because libjpeg passes its address
   std::jmp_buf end;
   char text[JMSG_LENGTH_MAX];
 };
@@ -22,12 +22,12 @@ struct Complaint {
   std::longjmp(complaint->end, 1);
 }
 
-/// Level -1 warns of damaged data, the others trace.
+/// Level -1 is a warning of damaged data; the others are traces.
 void on_message(j_common_ptr state, int level) {
   if (level < 0) end_reading(state);
 }
 
-/// Reads all entropy-coded data, up to a complaint. An eighth of the size is all that is made of them.
+/// Reads all entropy-coded data up to the first error, decoded at an eighth of the size.
 void read_all(jpeg_decompress_struct& decoder, Complaint& complaint, std::string_view bytes) {
   if (setjmp(complaint.end) != 0) return;
   jpeg_create_decompress(&decoder);

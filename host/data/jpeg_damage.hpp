@@ -1,13 +1,12 @@
 #pragma once
-/// \file jpeg_damage.hpp  Is a JPEG whole? OpenCV's decoder fills what it cannot read with grey and goes on.
+/// \file jpeg_damage.hpp  Detects damaged JPEGs, which OpenCV's decoder completes with grey.
 
 #include <string>
 #include <string_view>
 
 namespace quadedge::data {
 
-/// What libjpeg finds wrong, warnings included, when it reads all of a JPEG; empty for an intact one and for bytes that
-/// are no JPEG.
+/// First error or warning of libjpeg when decoding the whole JPEG; empty for an intact one and for other formats.
 std::string jpeg_damage(std::string_view bytes);
 
 }  // namespace quadedge::data

@@ -1,5 +1,5 @@
 /// \file kitti.cpp  KITTI odometry: sequences/NN/{image_0,image_1 | image_2,image_3}/000000.png, calib.txt, times.txt
-/// and poses/NN.txt. Image number k belongs to row k of times.txt and of the poses, so cut-out sequences work too.
+/// and poses/NN.txt. Image number k belongs to row k of times.txt and of the poses, so that partial sequences work too.
 
 #include <algorithm>
 #include <map>
@@ -11,11 +11,11 @@
 namespace quadedge::data {
 namespace {
 
-/// The road comes into view at about 6 m, cars and kerbs beside the lane at 3 m: 127-129 px with KITTI's f and
+/// The road is visible from about 6 m, cars and kerbs beside the lane from 3 m: 127 to 129 px with KITTI's f and
 /// baseline. Semi-global matching finds 99.9 % of sequence 06 below 116 px.
 constexpr double kNearestRoadDepth = 3.0;  // m
 
-/// The sequence's own folder: `folder` itself, or the one named by --sequence below the root or below sequences/.
+/// Folder of the sequence: `folder` itself, or the one named by --sequence below the root or below sequences/.
 fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
   if (is_kitti_recording(folder)) {
     if (!wanted.empty() && wanted != folder_name(folder)) {
@@ -76,7 +76,7 @@ Eigen::Vector3d set_camera(PinholeCamera& camera, const std::map<std::string, Pr
   return camera.matrix().inverse() * p.col(3);
 }
 
-/// The number in a file name like 000123.png; -1 when the name is no number.
+/// Number in a file name such as 000123.png; -1 if the name is not a number.
 long number_of(const std::string& name) {
   const std::string stem = fs::path(name).stem().string();
   if (stem.empty() || stem.size() > 9 || stem.find_first_not_of("0123456789") != std::string::npos) return -1;
@@ -131,7 +131,7 @@ Dataset read_kitti_odometry(const fs::path& root, const DatasetOptions& options,
   dataset.name = "kitti_" + folder_name(folder);
   const bool grey = fs::is_directory(folder / "image_0");
   const fs::path left = folder / (grey ? "image_0" : "image_2"), right = folder / (grey ? "image_1" : "image_3");
-  std::vector<std::size_t> rows;  // of each frame in times.txt and in the poses
+  std::vector<std::size_t> rows;  // row of each frame in times.txt and in the poses
   findings.attempt([&] { read_frames(dataset, rows, left, right, (folder / "times.txt").string(), findings); });
 
   Eigen::Vector3d left_from_camera0 = Eigen::Vector3d::Zero();

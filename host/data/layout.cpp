@@ -95,7 +95,7 @@ bool sizes_fit(const Dataset& dataset) {
       return image_size(frame.left) == size_of(dataset.rig.left) &&
              image_size(frame.right) == size_of(dataset.rig.right);
     } catch (const DataError&) {
-      continue;  // said by who reads the frame
+      continue;  // reported when the frame is read
     }
   }
   return true;
@@ -106,7 +106,7 @@ void set_calibration(Dataset& dataset, const StereoCalibration& calibration) {
   dataset.rig.left = calibration.left.camera;
   dataset.rig.right = calibration.right.camera;
   dataset.rig.right_from_left = calibration.right_from_left;
-  // Tables of a resolution that is no image's may fill the memory; what is wrong is said where the images are read.
+  // Tables of a wrong resolution might exhaust the memory; the mismatch is reported when the images are read.
   if (sizes_fit(dataset)) dataset.rig = make_rig(calibration);
   dataset.max_disparity = usual_max_disparity(dataset.rig);
 }
@@ -165,7 +165,7 @@ Dataset still_pair(const fs::path& folder, const std::string& left, const std::s
 
 namespace {
 
-/// "[f 0 cx; 0 f cy; 0 0 1]" into a camera.
+/// Parses "[f 0 cx; 0 f cy; 0 0 1]" into a camera.
 void set_camera(PinholeCamera& camera, const std::string& text, const std::string& file, int line) {
   const auto tokens = split(text, " \t[];,");
   const std::string expected = "nine numbers [fx 0 cx; 0 fy cy; 0 0 1]";

@@ -1,6 +1,6 @@
 #pragma once
-/// \file layout.hpp  What the readers of the published layouts share. One reader per file: kitti, euroc, eth3d_slam,
-/// eth3d_two_view, middlebury, viso2_quad.
+/// \file layout.hpp  Common parts of the readers of published layouts: kitti, euroc, eth3d_slam, eth3d_two_view,
+/// middlebury, viso2_quad.
 
 #include <filesystem>
 #include <functional>
@@ -14,7 +14,7 @@ namespace quadedge::data {
 
 namespace fs = std::filesystem;
 
-/// Where a reader puts what it finds wrong. Opening for a run stops at the first error; checking collects all of them.
+/// Collects the errors that a reader finds. Opening for a run stops at the first error; checking collects all of them.
 class Findings {
  public:
   explicit Findings(bool collect) : collect_(collect) {}
@@ -23,8 +23,7 @@ class Findings {
   void error(const std::string& message);
   void error(const std::string& file, const std::string& found, const std::string& expected);
   void warn(const std::string& message) { warnings_.push_back(message); }
-  /// Runs a part of a reader whose failure does not make the other parts useless; records its DataError when
-  /// collecting.
+  /// Runs a part of a reader that is independent of the others; records its DataError when collecting.
   void attempt(const std::function<void()>& part);
 
   const std::vector<std::string>& errors() const { return errors_; }
@@ -38,32 +37,33 @@ class Findings {
 /// One published layout.
 struct Layout {
   std::string name;
-  /// Does the folder look like it? Judged by names alone, so that a damaged set is still recognised and then complained
-  /// about.
+  /// Whether the folder has this layout. Considers names only, so that damaged datasets are recognised and reported.
   bool (*recognise)(const fs::path& folder);
   /// Fills everything but `format`. \throws DataError, UsageError.
   Dataset (*read)(const fs::path& folder, const DatasetOptions& options, Findings& findings);
-  /// Is the folder itself a recording of many frames (not a folder of such folders)? By names alone; null for still
-  /// pairs.
+  /// Whether the folder itself is a recording of many frames (not a folder of such folders). Considers names only; null
+  /// for still pairs.
   bool (*is_recording)(const fs::path& folder) = nullptr;
 };
 
-/// All of them, in the order in which they are tried.
+/// All layouts, in the order in which they are tried.
 const std::vector<Layout>& layouts();
 
-/// open_dataset and check_dataset: chooses the layout, reads it, checks stamps and rig, cuts the range of frames.
+/// Implements open_dataset() and check_dataset(): selects the layout, reads it, checks timestamps and rig, limits the
+/// frames.
 Dataset read_dataset(const std::string& path, const DatasetOptions& options, Findings& findings);
 
-/// What readers leave to be checked of every data set: frames cut to a half-open range (last -1: to the end),
-/// increasing stamps, a rig that can be used. \throws UsageError for a range that the data set does not have.
+/// Common final steps of all datasets: limits the frames to a half-open range (last -1: to the end), checks that
+/// timestamps increase and that the rig is usable. \throws UsageError for a range outside the dataset
 void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings& findings);
 
-/// Describes an opened data set and reads all of it. \param seen told every pair that could be read; may be empty
-/// \param findings what opening it has found
+/// Describes an opened dataset and reads all of it. \param seen called with every pair that could be read; may be empty
+/// \param findings errors found while opening it
 DatasetCheck check_opened(Dataset dataset, const Findings& findings,
                           const std::function<void(const Dataset&, const StereoPair&)>& seen);
 
-/// An image and what it has to be: pixels as the camera's, values as the rig's. \throws DataError that names `source`.
+/// Checks the size of an image against the camera's and its depth against the rig's. \throws DataError that names
+/// `source`
 void check_image(const Image& image, const std::string& source, const PinholeCamera& camera, int max_value);
 
 /// Folder and files that a dataset's rig was read from, for messages.
@@ -89,39 +89,39 @@ Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions& optio
 bool is_viso2_quad(const fs::path& folder);
 Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions& options, Findings& findings);
 
-/// Names of the images in a folder, sorted. \throws DataError when the folder is missing or holds none.
+/// Names of the images in a folder, sorted. \throws DataError if the folder is missing or contains none
 std::vector<std::string> image_names(const fs::path& folder);
 
-/// folder/stem.EXT for the first known image extension that exists; folder/stem.png, for the message, when none does.
+/// folder/stem.EXT for the first known image extension that exists; otherwise folder/stem.png, for the message.
 std::string image_with_stem(const fs::path& folder, const std::string& stem);
 
-/// Adds the frame (or reports which file is missing).
+/// Adds a frame, or reports which file is missing.
 void add_frame(Dataset& dataset, std::int64_t stamp_ns, const fs::path& left, const fs::path& right,
                Findings& findings);
 
 /// Sets width and height of both cameras from the first frame's images.
 void set_sizes_from_first_frame(Dataset& dataset);
 
-/// Do the first images that can be read have the sizes of the rig's cameras? Also where none can be read.
+/// Whether the first readable images have the sizes of the rig's cameras; true if none is readable.
 bool sizes_fit(const Dataset& dataset);
 
-/// Makes the dataset's rig of a calibration, and the largest disparity of it.
+/// Sets the rig and the maximum disparity of a dataset from a calibration.
 void set_calibration(Dataset& dataset, const StereoCalibration& calibration);
 
-/// \throws DataError, which names the image and `calibration`, when the images of the first frame are damaged or have
-/// other sizes than the rig's cameras.
+/// \throws DataError that names the image and `calibration`, if the images of the first frame are damaged or have other
+/// sizes than the rig's cameras.
 void check_sizes(const Dataset& dataset, const std::string& calibration);
 
-/// What the file system says of a place that cannot be read, as a complaint about `path`.
+/// Error message of the file system for an unreadable location, with `path`.
 std::string unreadable_place(const std::string& path, const fs::filesystem_error& problem);
 
-/// The rotation nearest to a matrix read from a file. \throws DataError when it is off by more than rounding (1e-3).
+/// The rotation nearest to a matrix read from a file. \throws DataError if it deviates by more than rounding (1e-3)
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::string& file);
 
-/// The rig of a rectified pair: equal focal lengths, right camera `baseline` metres to the right.
+/// Rig of a rectified pair: equal focal lengths, right camera `baseline` metres to the right.
 StereoRig rectified_rig(double focal, double cx, double cy, double right_cx, double baseline);
 
-/// Last part of a path, also when it ends in a slash or is ".".
+/// Last part of a path, including paths that end in a slash or are ".".
 std::string folder_name(const fs::path& folder);
 
 /// A dataset of one still pair.

@@ -1,4 +1,5 @@
-/// \file lens_words.cpp  Lenses as Kalibr and EuRoC write them: a camera model, a distortion model, and their numbers.
+/// \file lens_words.cpp  Lenses in the notation of Kalibr and EuRoC: a camera model, a distortion model, and their
+/// parameters.
 
 #include <cmath>
 
@@ -9,7 +10,7 @@
 namespace quadedge::data {
 namespace {
 
-/// How many numbers of `intrinsics` stand before fx fy cx cy.
+/// Number of values in `intrinsics` before fx fy cx cy.
 std::size_t leading_numbers(const std::string& camera_model, const YamlMap& camera) {
   if (camera_model == "pinhole") return 0;
   if (camera_model == "omni") return 1;  // xi

@@ -1,4 +1,4 @@
-/// \file mask_file.cpp  Masks that users draw over a recorded image, carried over to the pinhole image.
+/// \file mask_file.cpp  Masks drawn by the user for a recorded image, transferred to the pinhole image.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace quadedge {
 namespace {
 
-/// Hides every pixel of the view that takes part of its grey level from a black one of the mask.
+/// Hides every pixel of the view whose grey level is interpolated from a black pixel of the mask.
 void hide(const Image& drawn, const PinholeCamera& camera, const UndistortionTable& table, PixelMask& mask) {
   if (mask.empty()) {
     mask = {camera.width, camera.height, {}};

@@ -1,8 +1,8 @@
 /// \file middlebury.cpp  Middlebury stereo pairs of 2003, 2005, 2006 and 2014.
 ///
-/// Depth of the 2005 and 2006 pairs, as their page gives it: Z = 3740 px x 160 mm / (disparity + dmin), all in
-/// full-size pixels. The offset dmin (and doffs of 2014) enters as the right camera's principal point lying that much
-/// further right.
+/// Depth of the 2005 and 2006 pairs, according to their page: Z = 3740 px x 160 mm / (disparity + dmin), all in
+/// full-size pixels. The offset dmin (and doffs of 2014) is represented by moving the right camera's principal point to
+/// the right.
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@ constexpr double kFullFocal = 3740;  // px, 2005 and 2006 at full size
 constexpr double kBaseline = 0.16;   // m
 constexpr int kFullRows2006 = 1110;  // image rows of the full size of 2005 and 2006
 constexpr int kFullRows2003 = 1500;
-/// Disparities are stored as 8-bit grey values in full-size pixels (2003: in quarters of a quarter-size pixel), so none
-/// is larger than 255 of these; this bounds the search.
+/// Disparities are stored as 8-bit grey values in full-size pixels (2003: in quarters of a quarter-size pixel), so that
+/// none exceeds 255 of these units, which bounds the search.
 constexpr double kLargestGrey = 255;
 
-/// ndisp over the width is 0.09 to 0.12 in all published scenes of 2014 but Jadeplant and Vintage; for copies without
-/// ndisp.
+/// ndisp over the width is 0.09 to 0.12 in all published scenes of 2014 except Jadeplant and Vintage; used for copies
+/// without ndisp.
 constexpr double kUsualRange2014 = 0.12;
 
 constexpr const char* kScenes2006[] = {"Aloe",       "Baby1",  "Baby2",  "Baby3",    "Bowling1",   "Bowling2",
@@ -34,7 +34,7 @@ bool has(const fs::path& folder, const std::string& stem) { return fs::exists(im
 
 std::string if_there(const std::string& file) { return fs::exists(file) ? file : std::string(); }
 
-/// Rig, range and truth scale of a pair that was reduced by a whole number from its full size.
+/// Rig, range and ground-truth scale of a pair that was reduced from its full size by an integer factor.
 /// `offset`: dmin in full-size pixels.
 void set_reduced_rig(Dataset& dataset, int full_rows, double offset) {
   set_sizes_from_first_frame(dataset);
@@ -61,7 +61,7 @@ Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
         fail(file, std::to_string(lines.size()) + " rows", "one number, the smallest disparity in full-size pixels");
       offset = parse_row(lines[0], file, 1, "the smallest disparity in full-size pixels")[0];
     } else {
-      dataset.notes.push_back("no dmin.txt: disparity offset taken as zero, depths are nominal");
+      dataset.notes.push_back("no dmin.txt: disparity offset assumed to be zero, depths are nominal");
     }
     set_reduced_rig(dataset, kFullRows2006, offset);
   });
@@ -78,7 +78,7 @@ Dataset read_middlebury_2003(const fs::path& folder, const DatasetOptions&, Find
   findings.attempt([&] { set_reduced_rig(dataset, kFullRows2003, 0); });
   dataset.disparity_truth = if_there(image_with_stem(folder, "disp2"));
   dataset.notes.push_back(
-      "2003 pairs come without calibration: that of 2005 is taken; matches are sound, depths are nominal");
+      "2003 pairs have no calibration: that of 2005 is used; matches are valid, depths are nominal");
   return dataset;
 }
 
@@ -97,11 +97,11 @@ bool is_middlebury_2006(const fs::path& folder) {
 
 Dataset read_middlebury_2006(const fs::path& folder, const DatasetOptions&, Findings& findings) {
   if (!has(folder, "aloeL")) return read_2005_or_2006(folder, findings);
-  // The scene Aloe under the names that the OpenCV samples give it.
+  // The scene Aloe under its file names in the OpenCV samples.
   Dataset dataset = still_pair(folder, image_with_stem(folder, "aloeL"), image_with_stem(folder, "aloeR"), findings);
   findings.attempt([&] { set_reduced_rig(dataset, kFullRows2006, 0); });
   dataset.disparity_truth = if_there(image_with_stem(folder, "aloeGT"));
-  dataset.notes.push_back("no dmin.txt: disparity offset taken as zero, depths are nominal");
+  dataset.notes.push_back("no dmin.txt: disparity offset assumed to be zero, depths are nominal");
   return dataset;
 }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kName = "the pipe";
 constexpr int kPollInterval = 100;  // ms between checks for a request to stop
 
-/// stop() was called.
+/// Thrown after stop().
 struct Stopped : std::exception {};
 
 class PipeReader : public PairReader {
@@ -59,13 +59,13 @@ class PipeReader : public PairReader {
     return pair;
   }
 
-  /// The next byte, or -1 at the end of the pipe.
+  /// Returns the next byte, or -1 at the end of the pipe.
   int next_byte() {
     if (at_ == filled_ && !fill()) return -1;
     return static_cast<unsigned char>(buffer_[at_++]);
   }
 
-  /// Waits for more bytes; false at the end.
+  /// Waits for more bytes; returns false at the end.
   bool fill() {
     for (;;) {
       if (stop_) throw Stopped();
@@ -82,8 +82,7 @@ class PipeReader : public PairReader {
   }
 
   [[noreturn]] void refuse_header() const {
-    fail(kName, picture() + " that does not begin like one",
-         "binary PGM (P5) or PPM (P6) pictures, one after the other");
+    fail(kName, picture() + " without a valid header", "binary PGM (P5) or PPM (P6) pictures, one after the other");
   }
   std::string picture() const { return "picture " + std::to_string(pictures_); }
 
@@ -100,7 +99,7 @@ class PipeReader : public PairReader {
       value = value * 10 + (letter - '0');
       if (value > kLargestImageSide) refuse_header();
     }
-    if (!std::isspace(letter)) refuse_header();  // one byte of space ends the header
+    if (!std::isspace(letter)) refuse_header();  // a single whitespace character ends the header
     return value;
   }
 
@@ -137,14 +136,14 @@ class PipeReader : public PairReader {
       have += part;
       at_ += part;
     }
-    if (deep) {  // the first byte of a value is its higher one
+    if (deep) {  // the first byte is the more significant one
       auto* words = reinterpret_cast<std::uint16_t*>(samples.data);
       for (std::size_t i = 0; i < needed / 2; ++i) {
         words[i] = static_cast<std::uint16_t>(samples.data[2 * i] << 8 | samples.data[2 * i + 1]);
       }
     }
     if (channels == 3) cv::cvtColor(samples, samples, cv::COLOR_RGB2GRAY);
-    cv::min(samples, size.max_value, samples);  // a header may promise less than its pixels hold
+    cv::min(samples, size.max_value, samples);  // pixels may exceed the largest value of the header
     Image image(size.width, size.height, size.max_value);
     std::memcpy(image.pixels.data(), samples.data, image.pixels.size());
     return image;

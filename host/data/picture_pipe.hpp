@@ -1,5 +1,5 @@
 #pragma once
-/// \file picture_pipe.hpp  Stereo pairs from a pipe: binary PGM or PPM pictures, one after the other.
+/// \file picture_pipe.hpp  Stereo pairs from a pipe of binary PGM or PPM images.
 
 #include <memory>
 
@@ -8,17 +8,17 @@
 
 namespace quadedge::data {
 
-/// How to read the pipe.
+/// Format of the pipe.
 struct PipeOptions {
-  Split split = Split::none;  ///< none: the left and the right picture of every pair follow one another
-  double fps = 0;             ///< pair i has the stamp i / fps, also where pairs before it were left out
-  int queue = 0;              ///< as PairStream::longest_queue()
+  Split split = Split::none;  ///< none: the left and right images of a pair are sent in succession
+  double fps = 0;             ///< pair i has the timestamp i / fps, even if earlier pairs were dropped
+  int queue = 0;              ///< see PairStream::longest_queue()
 };
 
-/// A stream of the pairs that come in at a file descriptor, which stays the caller's. The format is netpbm's: pictures
-/// follow one another without anything in between, as `ffmpeg -f image2pipe -c:v pgm` and `cat *.pgm` write them; 8
-/// bits or, with two bytes per value, up to 16. Its reader can be had once; it throws a DataError for what is no
-/// picture, one of another size or depth than the first, one that ends early, and a left one without its right one.
+/// A stream of the pairs read from a file descriptor, which remains owned by the caller. The format is netpbm's: images
+/// in direct succession, as written by `ffmpeg -f image2pipe -c:v pgm` and `cat *.pgm`, with 8 bits or, with two bytes
+/// per value, up to 16. Only one reader can be opened. It throws DataError for invalid images, images that differ from
+/// the first in size or depth, incomplete images, and a left image without a right one.
 std::shared_ptr<const PairStream> make_picture_pipe(int descriptor, const PipeOptions& options);
 
 }  // namespace quadedge::data

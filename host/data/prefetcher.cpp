@@ -1,4 +1,4 @@
-/// \file prefetcher.cpp  FramePrefetcher: one thread decodes, a bounded queue in between.
+/// \file prefetcher.cpp  FramePrefetcher: one thread decodes frames into a bounded queue.
 
 #include <algorithm>
 #include <chrono>
@@ -31,9 +31,9 @@ void check_image(const Image& image, const std::string& source, const PinholeCam
 
 namespace {
 
-constexpr std::chrono::milliseconds kAskEvery{50};  // between two questions whether to stop
+constexpr std::chrono::milliseconds kAskEvery{50};  // between two calls of `stop`
 
-/// The image files of a data set.
+/// Reads the image files of a dataset.
 class FileReader : public PairReader {
  public:
   explicit FileReader(const Dataset& dataset) : frames_(dataset.frames) {}
@@ -101,20 +101,20 @@ class FramePrefetcher::Implementation {
   }
 
  private:
-  /// A frame, or what went wrong in its place.
+  /// A frame, or the error that occurred instead.
   struct Item {
     Frame frame;
     std::exception_ptr problem;
   };
 
-  /// What an image is called in messages.
+  /// Name of an image in messages.
   std::string source_of(const StereoPair& pair, Side side) const {
     const auto number = static_cast<std::size_t>(pair.number);
     if (number < frames_.size()) return side == Side::left ? frames_[number].left : frames_[number].right;
     return path_ + ", " + (side == Side::left ? "left" : "right") + " image " + std::to_string(pair.number);
   }
 
-  /// The next frame; nothing at the end.
+  /// Reads the next frame; nothing at the end.
   std::optional<Item> read() const {
     Item item;
     try {
@@ -157,7 +157,7 @@ class FramePrefetcher::Implementation {
   const std::string path_;
   const PinholeCamera left_, right_;
   const int max_value_;
-  const std::size_t longest_queue_;  ///< 0: the stream waits
+  const std::size_t longest_queue_;  ///< 0: the stream waits for its reader
   const std::size_t ahead_;
   const std::function<bool()> asked_to_stop_;
   mutable std::mutex mutex_;
@@ -166,7 +166,7 @@ class FramePrefetcher::Implementation {
   int dropped_ = 0;
   bool finished_ = false;
   bool stop_ = false;
-  std::thread reader_;  ///< last member: everything that it uses exists before it starts
+  std::thread reader_;  ///< last member, so that the other members exist before it starts
 };
 
 FramePrefetcher::FramePrefetcher(const Dataset& dataset, int ahead, std::function<bool()> stop)

@@ -1,5 +1,5 @@
 #pragma once
-/// \file presets.hpp  Named sets of constants: the files of config/ that the program carries with it.
+/// \file presets.hpp  Presets: named configuration files of config/, embedded in the program.
 
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ const std::vector<Preset>& presets();
 
 std::vector<std::string> preset_names();
 
-/// The keys of a preset; complaints name it as "preset NAME". \throws UsageError for an unknown name.
+/// The entries of a preset; messages refer to it as "preset NAME". \throws UsageError for an unknown name
 std::vector<TomlEntry> read_preset(const std::string& name);
 
 }  // namespace quadedge::data

@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
 
-/// Stands for the pixels of all frames with these options.
+/// Key of the pixels of all frames with these options.
 std::string key_of(const SyntheticOptions& options) {
-  // Naming every member makes this fail to compile when one is added. Threads do not change a pixel, nor does the
-  // length, but of the loop, which closes with the last frame.
+  // Naming every member causes a compile error when one is added. The pixels do not depend on the number of threads,
+  // and on the number of frames only for the loop, which closes with the last frame.
   const auto& [scene, path, frames, width, height, focal, baseline, lens, right_rotation, noise, gain, right_gain,
                light, gamma, bits, contrast, blur, mover, supersampling, seed, threads] = options;
   static_cast<void>(threads);
@@ -45,8 +45,8 @@ std::string view_file(const std::string& folder, int frame, Side side) {
   return folder + name;
 }
 
-/// Head of a binary PGM file, with the checksum of its pixels as a comment. The machine's byte order, as nobody else
-/// reads the file.
+/// Header of a binary PGM file, with the checksum of its pixels as a comment. Pixels are in native byte order, because
+/// the file is only read by this program on this machine.
 std::string pgm_head(const Image& image) {
   ContentHash hash;
   hash.add({reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size()});
@@ -60,7 +60,7 @@ std::string pgm(const Image& image) {
   return bytes;
 }
 
-/// Reads a view of the image's size. False where there is none, or not the whole of it, or a changed one.
+/// Reads a view of the image's size. Returns false if it is missing, incomplete or modified.
 bool read_view(const std::string& file, Image& image) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return false;
@@ -79,8 +79,8 @@ struct KeptSequence {
   std::uintmax_t bytes = 0;
 };
 
-/// Removes the sequences that were not used for the longest time, but `current`, until no more than `bound` bytes are
-/// left. Others may read and write meanwhile: what they miss they render anew.
+/// Removes the least recently used sequences, except `current`, until at most `bound` bytes remain. Other processes may
+/// use the folder concurrently; they render missing frames again.
 void bound_folders(const std::string& all_folders, const fs::path& current, std::uintmax_t bound) {
   std::vector<KeptSequence> kept;
   std::uintmax_t sum = 0;
@@ -107,7 +107,7 @@ int thread_count(const SyntheticOptions& options) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// Views are made side by side; a view is shared among threads only where there are more of these than views.
+/// Views are rendered in parallel; the threads share a view only if there are more threads than views.
 SyntheticOptions with_threads_per_view(SyntheticOptions options) {
   options.threads = std::clamp(thread_count(options) / (2 * std::max(1, options.frames)), 1, 1024);
   return options;
@@ -147,10 +147,11 @@ void RenderedFrames::make_folder() {
     why_not_kept_ = folder_ + ": cannot be made: " + error.message();
     return;
   }
-  fs::last_write_time(folder_, fs::file_time_type::clock::now(), error);  // used now; no harm where that cannot be said
+  fs::last_write_time(folder_, fs::file_time_type::clock::now(),
+                      error);  // marks the folder as used; errors are harmless
 }
 
-/// Returns true where the view had to be rendered.
+/// Returns true if the view had to be rendered.
 bool RenderedFrames::make_view(int frame, Side side, Image& image) {
   const auto& camera = sequence_.rig().left;
   image = Image(camera.width, camera.height, sequence_.rig().max_value);
@@ -161,7 +162,7 @@ bool RenderedFrames::make_view(int frame, Side side, Image& image) {
   try {
     write_atomically(file, pgm(image));
   } catch (const DataError& error) {
-    if (keeps_.exchange(false)) why_not_kept_ = error.what();  // read when no other thread is at work
+    if (keeps_.exchange(false)) why_not_kept_ = error.what();  // read only when no other thread is running
   }
   return true;
 }

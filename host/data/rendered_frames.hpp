@@ -1,5 +1,5 @@
 #pragma once
-/// \file rendered_frames.hpp  Frames of a rendered sequence, made ahead of their use and kept between runs.
+/// \file rendered_frames.hpp  Frames of a rendered sequence, rendered ahead of time and cached between runs.
 
 #include <atomic>
 #include <cstdint>
@@ -13,45 +13,45 @@
 
 namespace quadedge::data {
 
-/// How far a sequence is.
+/// Progress of the rendering.
 struct RenderingProgress {
-  int ready = 0;     ///< frames that need not be waited for
+  int ready = 0;     ///< frames that are available
   int frames = 0;    ///< of the whole sequence
-  int rendered = 0;  ///< of the ready ones, those that were not kept from an earlier run
+  int rendered = 0;  ///< available frames that were not cached by an earlier run
 };
 
-/// Renders whole blocks of frames on all cores before the first of them is asked for, so that whoever takes them works
-/// at its own speed. Views are kept as PGM images with a checksum in FOLDER/KEY, where KEY stands for the scene's
-/// options and the renderer: one that is there, whole and sound, is read instead of rendered. Several processes may
-/// share the folder. What cannot be kept is rendered all the same.
+/// Renders blocks of frames on all cores before the first of them is used, so that rendering does not slow down the
+/// consumer. Views are cached as PGM images with a checksum in FOLDER/KEY, where KEY identifies the scene options and
+/// the renderer. Valid cached views are read instead of rendered. Several processes may share the folder. Views that
+/// cannot be cached are rendered in every run.
 class RenderedFrames {
  public:
-  /// Bytes of images that may be in memory at a time, and that stay in the folder: the sequences that were not used for
-  /// the longest time go first.
+  /// Maximum size of the images in memory, and of the cache folder [bytes]; the least recently used sequences are
+  /// removed first.
   static constexpr std::uintmax_t kBound = std::uintmax_t{512} << 20U;
 
-  /// Told now and then by the thread that waits for frames; false ends the sequence.
+  /// Called occasionally by the thread that waits for frames; returning false ends the sequence.
   using Watch = std::function<bool(const RenderingProgress&)>;
 
-  /// \param folder  of all kept sequences; empty: nothing is kept \throws UsageError for options that cannot be
+  /// \param folder  cache folder of all sequences; empty: no cache \throws UsageError for options that cannot be
   /// rendered
   RenderedFrames(const SyntheticOptions& options, const std::string& folder, Watch watch = {},
                  std::uintmax_t bound = kBound);
 
   const SyntheticSequence& sequence() const { return sequence_; }
-  /// Makes the next frames ready if none is. Returns false when the watch ended the sequence.
+  /// Makes the next frames available. Returns false if the watch ended the sequence.
   bool prepare();
-  /// The next frame, or nothing at the end.
+  /// Returns the next frame, or nothing at the end.
   std::optional<FramePrefetcher::Frame> next();
-  /// Starts again with the first frame.
+  /// Restarts at the first frame.
   void rewind();
 
   const RenderingProgress& progress() const { return progress_; }
-  /// Where this sequence's views are kept, FOLDER/KEY; empty without a folder.
+  /// Cache folder of this sequence, FOLDER/KEY; empty without a cache.
   const std::string& folder() const { return folder_; }
-  /// How many of the ready frames another run will find in folder().
+  /// Number of available frames that another run will find in folder().
   int kept() const;
-  /// Why views that were rendered are not kept; empty when they are.
+  /// Reason why rendered views are not cached; empty if they are.
   const std::string& why_not_kept() const { return why_not_kept_; }
 
  private:
@@ -67,13 +67,13 @@ class RenderedFrames {
   int threads_;
   RenderingProgress progress_;
   std::vector<FramePrefetcher::Frame> block_;
-  int first_ = 0, next_ = 0;  ///< number of the block's first frame and of the one that comes next
+  int first_ = 0, next_ = 0;  ///< index of the first frame of the block and of the next frame
   bool ended_ = false;
   std::atomic<bool> keeps_;
   std::string why_not_kept_;
 };
 
-/// Stands for everything in this program that decides the pixels: changes with the sources of the renderer.
+/// Version of everything that determines the pixels: changes with the renderer's sources.
 const char* renderer_version();
 
 }  // namespace quadedge::data

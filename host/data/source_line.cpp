@@ -10,7 +10,7 @@
 namespace quadedge::data {
 namespace {
 
-/// An option with a word.
+/// An option with a text value.
 struct Word {
   const char* option;
   std::string& (*value)(StereoSource& source);
@@ -26,7 +26,7 @@ constexpr Word kWords[] = {
     {"--mask", [](StereoSource& source) -> std::string& { return source.mask; }, true},
 };
 
-/// An option with a number.
+/// An option with a numeric value.
 struct Number {
   const char* option;
   double& (*value)(StereoSource& source);
@@ -36,7 +36,7 @@ constexpr Number kNumbers[] = {
     {"--fov", [](StereoSource& source) -> double& { return source.fov; }},
 };
 
-/// Each of the paths between commas, in `folder`.
+/// Prepends `folder` to each of the comma-separated paths.
 std::string in_folder(const std::string& paths, const fs::path& folder) {
   std::string result;
   for (const auto& path : split(paths, ",")) result += (result.empty() ? "" : ",") + (folder / path).string();

@@ -1,5 +1,5 @@
 #pragma once
-/// \file source_line.hpp  A camera of one's own as words of a command line, and back: lines of a batch's list.
+/// \file source_line.hpp  Converts a custom camera to and from words of a command line, for list files of batches.
 
 #include <string>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace quadedge::data {
 
-/// Whether a line of a list names a camera of one's own: it begins with an option.
+/// Whether a line of a list describes a custom camera, that is, begins with an option.
 bool is_source_line(const std::string& text);
 
-/// The source that a line such as `--left a/left --right a/right --calibration rig.yaml` names; words with spaces stand
-/// in double quotes. Paths are relative to `folder`. `file` and `line`: for messages. \throws DataError for an option
-/// that is none of `quadedge run`'s for cameras of one's own.
+/// The source described by a line such as `--left a/left --right a/right --calibration rig.yaml`; words with spaces are
+/// in double quotes. Paths are relative to `folder`. `file` and `line` are used in messages. \throws DataError for an
+/// option other than those of `quadedge run` for custom cameras
 StereoSource parse_source_line(const std::string& text, const std::string& folder, const std::string& file, int line);
 
-/// The words that name the source on the command line of `quadedge run`.
+/// The words that describe the source on the command line of `quadedge run`.
 std::vector<std::string> source_words(const StereoSource& source);
 
-/// A short name of a sequence of image folders or videos: of a video the file's, of `NAME/left`, `NAME/cam0/data` or
-/// `NAME/mav0/cam0/data` NAME.
+/// A short name for a sequence of image folders or videos: the file name of a video, or NAME for `NAME/left`,
+/// `NAME/cam0/data` or `NAME/mav0/cam0/data`.
 std::string source_name(const StereoSource& source);
 
 }  // namespace quadedge::data

@@ -9,7 +9,7 @@
 namespace quadedge::data {
 namespace {
 
-/// The part of an image that begins at a pixel.
+/// The part of an image that starts at a pixel.
 Image part_of(const Image& whole, int x, int y, int width, int height) {
   Image part(width, height, whole.max_value);
   const std::size_t pixel = bytes_per_pixel(whole.max_value), row = pixel * static_cast<std::size_t>(width);

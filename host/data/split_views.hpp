@@ -1,5 +1,5 @@
 #pragma once
-/// \file split_views.hpp  Pictures that hold both views of a stereo pair.
+/// \file split_views.hpp  Splits images that contain both views of a stereo pair.
 
 #include <string>
 #include <utility>
@@ -8,13 +8,13 @@
 
 namespace quadedge::data {
 
-/// How a picture holds the left and the right view.
+/// Arrangement of the left and the right view in an image.
 enum class Split { none, left_right, top_bottom };
 
-/// "" (none), "left-right" or "top-bottom" (the left view above). \throws UsageError.
+/// Parses "" (none), "left-right" or "top-bottom" (the left view on top). \throws UsageError
 Split parse_split(const std::string& word);
 
-/// The left and the right view. \throws DataError that names `picture` for a side that cannot be halved.
+/// The left and the right view. \throws DataError that names `picture`, if a side cannot be halved
 std::pair<Image, Image> split_views(const Image& both, Split split, const std::string& picture);
 
 }  // namespace quadedge::data

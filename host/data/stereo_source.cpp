@@ -1,4 +1,4 @@
-/// \file stereo_source.cpp  Folders of images, videos or a pipe as data sets.
+/// \file stereo_source.cpp  Opens image folders, videos and pipes as datasets.
 #include "quadedge/stereo_source.hpp"
 
 #include <algorithm>
@@ -26,12 +26,12 @@ constexpr double kNanoseconds = 1e9;  // per second
 
 std::int64_t stamp_at(int number, double fps) { return std::llround(number / fps * kNanoseconds); }
 
-/// A part of a stream, with stamps of the user's. Its first reader may have been opened before it.
+/// A part of a stream, with timestamps given by the user. Its first reader may have been opened before.
 class PartOfStream : public PairStream {
  public:
   struct Part {
-    int first = 0, last = -1;             ///< half-open; -1: to the end
-    std::vector<std::int64_t> stamps_ns;  ///< one per pair of the whole stream; empty: the stream's own
+    int first = 0, last = -1;             ///< half-open range; -1: to the end
+    std::vector<std::int64_t> stamps_ns;  ///< one per pair of the whole stream; empty: those of the stream
     std::string stamps_from;
   };
   PartOfStream(std::shared_ptr<const PairStream> whole, Part part) : whole_(std::move(whole)), part_(std::move(part)) {}
@@ -42,8 +42,8 @@ class PartOfStream : public PairStream {
   }
   int longest_queue() const override { return whole_->longest_queue(); }
 
-  /// The first pair of the whole stream. What a pipe has given stays with its reader.
-  /// \throws DataError where there is none.
+  /// Reads the first pair of the whole stream. The data read from a pipe stays with its reader.
+  /// \throws DataError if there is none
   StereoPair look(const std::string& name) {
     begun_ = whole_->open();
     first_pair_ = begun_->next();
@@ -81,7 +81,7 @@ class PartOfStream : public PairStream {
     std::unique_ptr<PairReader> whole_;
     std::optional<StereoPair> first_;
     const Part part_;
-    int read_ = 0;  ///< pairs of the whole stream
+    int read_ = 0;  ///< pairs of the whole stream read so far
     std::atomic<bool> stopped_{false};
   };
 
@@ -91,15 +91,15 @@ class PartOfStream : public PairStream {
   mutable std::optional<StereoPair> first_pair_;
 };
 
-/// Left and right image of one index belong together: their stamps are less than half a period apart.
+/// Checks that the left and right images of an index differ by less than half a period in time.
 void check_partners(const CameraImages& left, const CameraImages& right) {
   const std::vector<std::int64_t>&a = left.stamps_ns, &b = right.stamps_ns;
   if (a.size() < 2 || b.empty()) return;
   const std::int64_t period = (a.back() - a.front()) / static_cast<std::int64_t>(a.size() - 1);
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (2 * std::abs(a[i] - b[i]) < period) continue;
-    fail(right.files[i], "the stamp " + format_seconds(b[i]) + " (" + right.stamps_from + ")",
-         format_seconds(a[i]) + " as of " + left.files[i] + ", whose partner it is by the order");
+    fail(right.files[i], "timestamp " + format_seconds(b[i]) + " (" + right.stamps_from + ")",
+         format_seconds(a[i]) + " as of its counterpart " + left.files[i]);
   }
 }
 
@@ -109,7 +109,7 @@ void check_count(const std::string& shorter_or_equal, std::size_t found, const s
   fail(shorter_or_equal, std::to_string(found) + " " + what, "the " + std::to_string(expected) + " of " + other);
 }
 
-/// The stamps of --times or --fps for so many pairs; empty where neither is given.
+/// The timestamps of --times or --fps for `pairs` pairs; empty if neither is given.
 std::vector<std::int64_t> given_stamps(const StereoSource& source, std::size_t pairs) {
   if (!source.times.empty()) return read_times(source.times);
   std::vector<std::int64_t> stamps;
@@ -118,7 +118,7 @@ std::vector<std::int64_t> given_stamps(const StereoSource& source, std::size_t p
   return stamps;
 }
 
-/// The images of a folder, or the one that a file is.
+/// The images of a folder, or a single image file.
 CameraImages images_of(const std::string& place) {
   if (fs::is_directory(place)) return list_images(place);
   return {{place}, {}, {}};
@@ -137,7 +137,8 @@ Dataset open_images(const StereoSource& source, Findings& findings) {
     check_partners(left, right);
   }
   if (stamps.empty()) {
-    fail(source.left, "images whose names are no times, like " + fs::path(left.files.front()).filename().string(),
+    fail(source.left,
+         "images whose names are not timestamps, such as " + fs::path(left.files.front()).filename().string(),
          "--fps N, --times FILE, or a times.txt or data.csv beside them");
   }
   Dataset dataset;
@@ -149,14 +150,14 @@ Dataset open_images(const StereoSource& source, Findings& findings) {
   return dataset;
 }
 
-/// How many pairs two videos, or one, say they hold; 0: they do not say. \throws DataError where they differ.
+/// Number of pairs according to the videos' headers; 0 if unknown. \throws DataError if the videos differ
 int promised_pairs(const VideoPair& videos) {
   const int left = VideoFile(videos.left).promised();
   if (videos.split != Split::none) return left;
   const int right = VideoFile(videos.right).promised();
   if (left == 0 || right == 0) return 0;
   const bool right_is_short = right < left;
-  if (std::abs(left - right) > 1) {  // a duration may be told for the last picture's beginning or for its end
+  if (std::abs(left - right) > 1) {  // the duration may refer to the start or the end of the last frame
     fail(right_is_short ? videos.right : videos.left, std::to_string(std::min(left, right)) + " pictures",
          "the " + std::to_string(std::max(left, right)) + " of " + (right_is_short ? videos.left : videos.right));
   }
@@ -196,16 +197,16 @@ void check_source(const StereoSource& source) {
   parse_split(source.split);
   if (one && source.split.empty()) throw UsageError("--video needs --split left-right or --split top-bottom");
   if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose pictures hold both views");
-  if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected pictures per second, above 0");
+  if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected frames per second, above 0");
   if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
-  if (source.pipe && source.fps == 0) throw UsageError("pictures in a pipe have no times: --fps N gives them some");
+  if (source.pipe && source.fps == 0) throw UsageError("images in a pipe have no timestamps: give --fps N");
   if (source.queue < 0)
     throw UsageError("--queue " + std::to_string(source.queue) + ": expected 0 (wait for every pair) or more");
 }
 
 ImageSize size_of(const Image& image) { return {image.width, image.height, image.max_value}; }
 
-/// The rig for images of these sizes. \throws DataError where the calibration is for others.
+/// Sets the rig for images of these sizes. \throws DataError if the calibration is for other sizes
 void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const std::string& images, Dataset& dataset) {
   dataset.calibration = read_calibration(source.calibration);
   set_image_sizes(*dataset.calibration, left, right, images);
@@ -254,7 +255,7 @@ DatasetCheck check_stereo_source(const StereoSource& source,
   data::Findings findings(true);
   DatasetCheck check;
   StereoSource waiting = source;
-  waiting.queue = 0;  // every pair counts
+  waiting.queue = 0;  // no pair may be dropped
   try {
     return data::check_opened(data::read_source(waiting, findings), findings, seen);
   } catch (const DataError& problem) {

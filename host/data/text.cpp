@@ -36,7 +36,7 @@ std::string read_bytes(const std::string& file) {
   if (const std::string kind = irregular_kind(file); !kind.empty()) fail(file, kind, "a regular file");
   std::FILE* stream = std::fopen(file.c_str(), "rb");
   if (stream == nullptr)
-    fail(file, std::string("nothing that can be opened (") + std::strerror(errno) + ")", "a readable file");
+    fail(file, std::string("a file that cannot be opened (") + std::strerror(errno) + ")", "a readable file");
   std::string bytes;
   char buffer[1 << 16];
   for (std::size_t count; (count = std::fread(buffer, 1, sizeof buffer, stream)) > 0;) bytes.append(buffer, count);
@@ -122,10 +122,10 @@ std::vector<double> parse_row(const Line& line, const std::string& file, std::si
 
 std::int64_t parse_seconds(const std::string& token, const std::string& file, int line) {
   const std::string expected = "a time in seconds";
-  parse_number(token, file, line, expected);  // refuses everything that is not one decimal number
+  parse_number(token, file, line, expected);  // checks that the token is a single decimal number
   const bool negative = token[0] == '-';
   std::string digits;
-  long exponent = 9;  // of the last digit kept in `digits`, in powers of ten nanoseconds
+  long exponent = 9;  // power of ten, in nanoseconds, of the last digit in `digits`
   bool after_point = false;
   for (std::size_t i = negative || token[0] == '+' ? 1 : 0; i < token.size(); ++i) {
     if (token[i] == '.') {
@@ -143,7 +143,7 @@ std::int64_t parse_seconds(const std::string& token, const std::string& file, in
   }
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
   if (digits.empty()) return 0;
-  constexpr long kMostDigits = 19;  // of a 64-bit count of nanoseconds
+  constexpr long kMostDigits = 19;  // digits of a 64-bit number of nanoseconds
   if (static_cast<long>(digits.size()) + exponent > kMostDigits)
     fail(file, line, in_quotes(token), expected + " below 9.2e9");
   bool round_up = false;

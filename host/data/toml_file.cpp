@@ -11,17 +11,18 @@
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
-#define TOML_MAX_NESTED_VALUES 16  // arrays of strings are the deepest that any option takes
+#define TOML_MAX_NESTED_VALUES 16  // options need at most arrays of strings
 #include <toml++/toml.h>
 
 namespace quadedge::data {
 namespace {
 
-constexpr std::size_t kMostBytes = 1'000'000, kLongestLine = 4096;  // a dotted key nests as deep as its line is long
+constexpr std::size_t kMostBytes = 1'000'000,
+                      kLongestLine = 4096;  // a dotted key nests in proportion to the length of its line
 
 std::string at_line(const std::string& file, std::size_t line) { return file + ":" + std::to_string(line) + ": "; }
 
-/// The file's text, so short that reading it cannot take long.
+/// Text of the file, limited in length so that parsing it takes bounded time.
 std::string bounded_text(const std::string& file) {
   if (const std::string kind = irregular_kind(file); !kind.empty()) {
     throw UsageError(file + ": found " + kind + ", expected a configuration file");
@@ -33,7 +34,7 @@ std::string bounded_text(const std::string& file) {
     throw UsageError(file + ": the configuration file cannot be read");
   }
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMostBytes) throw UsageError(file + ": longer than 1 MB; that is no configuration file");
+  if (text.size() > kMostBytes) throw UsageError(file + ": longer than 1 MB, not a configuration file");
   std::size_t number = 0;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -45,7 +46,7 @@ std::string bounded_text(const std::string& file) {
   return text;
 }
 
-/// Value and description of a node that is no table.
+/// Sets value and description from a node that is not a table.
 void set_value(TomlEntry& entry, const toml::node& node) {
   std::ostringstream found;
   if (node.is_value()) found << toml::node_view(node);
@@ -81,7 +82,7 @@ void list_entries(const toml::table& table, const std::string& file, const std::
   }
 }
 
-/// The entry's whole number. \throws UsageError for another type or a number out of the range.
+/// The entry's integer. \throws UsageError for another type or a number out of range
 std::int64_t whole(const TomlEntry& entry, std::int64_t low, std::int64_t high) {
   const auto* number = std::get_if<std::int64_t>(&entry.value);
   if (number == nullptr || *number < low || *number > high) {
@@ -99,7 +100,7 @@ std::vector<TomlEntry> read_toml_text(const std::string& text, const std::string
   try {
     table = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw UsageError(at_line(file, error.source().begin.line) + "no TOML: " + std::string(error.description()));
+    throw UsageError(at_line(file, error.source().begin.line) + "not TOML: " + std::string(error.description()));
   }
   std::vector<TomlEntry> entries;
   list_entries(table, file, "", entries);
@@ -148,7 +149,7 @@ void assign(const TomlEntry& entry, bool& value) {
 
 void assign(const TomlEntry& entry, std::string& value) {
   const auto* text = std::get_if<std::string>(&entry.value);
-  if (text == nullptr) refuse(entry, "a text in quotes");
+  if (text == nullptr) refuse(entry, "a string in quotes");
   value = *text;
 }
 
@@ -158,12 +159,12 @@ void assign(const TomlEntry& entry, std::vector<std::string>& value) {
   } else if (const auto* texts = std::get_if<std::vector<std::string>>(&entry.value)) {
     value = *texts;
   } else {
-    refuse(entry, "an array of texts in quotes");
+    refuse(entry, "an array of strings in quotes");
   }
 }
 
 std::string toml_text(double value) {
-  char text[40];  // toml++ writes 17 digits where fewer read back as the same number
+  char text[40];  // toml++ writes 17 digits even if fewer read back as the same number
   return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 std::string toml_text(int value) { return std::to_string(value); }

@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char* kTumColumns = "timestamp tx ty tz qx qy qz qw";
 constexpr const char* kKittiColumns = "the 3 x 4 matrix world_from_left, row by row";
-/// Written rotations have at least four significant digits in every file known; what is further off is no rotation.
+/// Rotations in all known files have at least four significant digits; a matrix with a larger deviation is not a
+/// rotation.
 constexpr double kRotationTolerance = 1e-3;
 
 StampedPose tum_pose(const data::Line& line, const std::string& path) {
@@ -37,9 +38,9 @@ Trajectory read_tum(const std::string& path) {
     const std::size_t count = trajectory.size();
     if (count > 1 && trajectory[count - 1].stamp_ns <= trajectory[count - 2].stamp_ns) {
       data::fail(path, line.number,
-                 "the stamp " + data::format_seconds(trajectory[count - 1].stamp_ns) + " after " +
+                 "timestamp " + data::format_seconds(trajectory[count - 1].stamp_ns) + " after " +
                      data::format_seconds(trajectory[count - 2].stamp_ns),
-                 "increasing stamps");
+                 "increasing timestamps");
     }
   }
   return trajectory;
@@ -54,7 +55,7 @@ void write_tum(const std::string& path, const Trajectory& trajectory) {
 Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
   const auto lines = data::data_lines(path);
   if (!stamps_ns.empty() && stamps_ns.size() != lines.size()) {
-    data::fail(path, std::to_string(lines.size()) + " poses", std::to_string(stamps_ns.size()) + ", one per stamp");
+    data::fail(path, std::to_string(lines.size()) + " poses", std::to_string(stamps_ns.size()) + ", one per timestamp");
   }
   Trajectory trajectory;
   for (const auto& line : lines) {
@@ -65,7 +66,7 @@ Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& 
     const Eigen::Matrix3d rotation = pose.world_from_left.linear();
     const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
     if (deviation > kRotationTolerance || rotation.determinant() < 0) {
-      data::fail(path, line.number, "a 3 x 3 part that is no rotation (deviation " + std::to_string(deviation) + ")",
+      data::fail(path, line.number, "a 3 x 3 part that is not a rotation (deviation " + std::to_string(deviation) + ")",
                  kKittiColumns);
     }
     trajectory.push_back(pose);

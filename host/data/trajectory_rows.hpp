@@ -1,5 +1,5 @@
 #pragma once
-/// \file trajectory_rows.hpp  Single rows of trajectory files, for writers that add a pose at a time.
+/// \file trajectory_rows.hpp  Single rows of trajectory files, for incremental writing.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace quadedge::data {
 
-/// First line of a TUM file: a comment that names columns and units.
+/// First line of a TUM file: a comment with column names and units.
 std::string tum_header();
-/// One TUM row with its line end; the quaternion has a non-negative w.
+/// One TUM row with line ending; the quaternion has a non-negative w.
 std::string tum_row(const StampedPose& pose);
-/// One KITTI row with its line end.
+/// One KITTI row with line ending.
 std::string kitti_row(const StampedPose& pose);
 
 }  // namespace quadedge::data

@@ -7,7 +7,8 @@ namespace {
 
 std::string user_folder(const char* variable, const char* below_home) {
   const char* base = std::getenv(variable);
-  if (base != nullptr && base[0] == '/') return std::string(base) + "/quadedge";  // relative ones are to be ignored
+  if (base != nullptr && base[0] == '/')
+    return std::string(base) + "/quadedge";  // the specification requires relative paths to be ignored
   const char* home = std::getenv("HOME");
   if (home != nullptr && home[0] != '\0') return std::string(home) + below_home + "/quadedge";
   return {};

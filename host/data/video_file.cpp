@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kStampsPerSecond = 1e9;  // nanoseconds
 
-/// What the libraries complained of last, in this thread. They tell damage that they cover up in no other way.
+/// Last message of the libraries in this thread; the only sign of damage that they conceal.
 thread_local std::string complaint;
 
 void note_complaint(void*, int level, const char* format, va_list arguments) {
@@ -49,11 +49,11 @@ struct Closer {
 template <class T>
 using Owned = std::unique_ptr<T, Closer>;
 
-/// Samples of the picture's first plane, which is grey or luma, brought to their full range.
+/// Samples of the frame's first plane, which is grey or luma, stretched to the full range.
 Image first_plane(const AVFrame& frame, const AVPixFmtDescriptor& format, bool broadcast) {
   const int bits = format.comp[0].depth, max_value = (1 << bits) - 1;
   Image image(frame.width, frame.height, max_value);
-  // 16 to 235 of 8 bits, and the same shifted for more.
+  // 16 to 235 for 8 bits, and the same shifted for more bits.
   const double black = broadcast ? std::ldexp(16, bits - 8) : 0;
   const double scale = broadcast ? max_value / std::ldexp(219, bits - 8) : 1;
   std::vector<int> value(static_cast<std::size_t>(max_value) + 1);
@@ -102,8 +102,8 @@ class VideoFile::Implementation {
   std::int64_t first_time_ = AV_NOPTS_VALUE;
   double fps_ = 0;
   int stream_ = 0, promised_ = 0;
-  int decoded_ = 0;     ///< pictures so far
-  bool ended_ = false;  ///< all packets are with the decoder
+  int decoded_ = 0;     ///< number of frames so far
+  bool ended_ = false;  ///< whether all packets have been passed to the decoder
   int width_ = 0, height_ = 0;
 };
 
@@ -124,7 +124,7 @@ VideoFile::Implementation::Implementation(const std::string& path) : path_(path)
   decoder_.reset(avcodec_alloc_context3(codec));
   error = avcodec_parameters_to_context(decoder_.get(), stream.codecpar);
   decoder_->err_recognition |= AV_EF_CRCCHECK | AV_EF_EXPLODE;
-  decoder_->thread_count = 1;  // complaints have to come in this thread
+  decoder_->thread_count = 1;  // messages must come from this thread
   if (error >= 0) error = avcodec_open2(decoder_.get(), codec, nullptr);
   if (error < 0) refuse("a video that cannot be decoded (" + reason(error) + ")", kVideo);
   time_base_ = stream.time_base;
@@ -138,7 +138,7 @@ VideoFile::Implementation::Implementation(const std::string& path) : path_(path)
   }
 }
 
-/// Gives the decoder the next packet of the video, or tells it that there is none.
+/// Passes the next packet of the video to the decoder, or the end of the video.
 void VideoFile::Implementation::feed() {
   int error = 0;
   do {
@@ -152,7 +152,7 @@ void VideoFile::Implementation::feed() {
   if (error < 0) refuse("a damaged " + picture() + " (" + reason(error) + ")", "an intact video");
 }
 
-/// Decodes the next picture into frame_; false after the last one.
+/// Decodes the next frame into frame_; returns false after the last one.
 bool VideoFile::Implementation::decode() {
   for (;;) {
     const int error = avcodec_receive_frame(decoder_.get(), frame_.get());
@@ -163,7 +163,7 @@ bool VideoFile::Implementation::decode() {
   }
 }
 
-/// A video may round its times; one whose pictures have none follows its rate.
+/// A video may round its timestamps; frames without timestamps follow the frame rate.
 std::int64_t VideoFile::Implementation::stamp() const {
   if (frame_->best_effort_timestamp == AV_NOPTS_VALUE || first_time_ == AV_NOPTS_VALUE)
     return fps_ > 0 ? std::llround(decoded_ / fps_ * kStampsPerSecond) : decoded_;
@@ -171,7 +171,7 @@ std::int64_t VideoFile::Implementation::stamp() const {
                       kStampsPerSecond);
 }
 
-/// BGR, then grey as that of an image file.
+/// Converts to BGR, then to grey as for an image file.
 Image VideoFile::Implementation::by_colour(AVPixelFormat format, bool deep) {
   const AVPixelFormat target = deep ? AV_PIX_FMT_BGR48LE : AV_PIX_FMT_BGR24;
   cv::Mat bgr(frame_->height, frame_->width, deep ? CV_16UC3 : CV_8UC3), result;
@@ -203,10 +203,10 @@ Image VideoFile::Implementation::grey() {
 std::optional<VideoFile::Picture> VideoFile::Implementation::next() {
   complaint.clear();
   if (!decode()) {
-    // A duration may be told for the last picture's beginning or for its end.
+    // The duration may refer to the start or the end of the last frame.
     if (decoded_ + 1 < promised_)
       refuse("the end after " + std::to_string(decoded_) + " pictures",
-             "the " + std::to_string(promised_) + " that it says it holds");
+             "the " + std::to_string(promised_) + " announced by its header");
     return std::nullopt;
   }
   if (!complaint.empty() && !ended_) refuse("a damaged " + picture() + " (" + complaint + ")", "an intact video");

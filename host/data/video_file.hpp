@@ -1,5 +1,5 @@
 #pragma once
-/// \file video_file.hpp  A video file as grey images.
+/// \file video_file.hpp  Reads a video file as grey images.
 
 #include <cstdint>
 #include <memory>
@@ -10,32 +10,31 @@
 
 namespace quadedge::data {
 
-/// Decodes the first video of a file, picture by picture, with libavformat and libavcodec. (OpenCV's reader would hide
-/// what matters here: it stretches a picture of another size, passes over damage, and knows 8 bits alone.)
+/// Decodes the first video stream of a file, frame by frame, with libavformat and libavcodec. (OpenCV's reader is
+/// unsuitable: it rescales frames of another size, ignores damage, and supports 8 bits only.)
 ///
-/// Grey values are those of the images that the video was made of: grey pictures stay as they are, at their depth; of
-/// YCbCr the luma is taken, stretched to full range where it is recorded in the broadcast range (16 to 235 of 8 bits);
-/// other colours become BGR, and these grey as the colour of an image file does.
+/// Grey values equal those of the images from which the video was made. Grey frames are unchanged, at their bit depth.
+/// For YCbCr, the luma is used and, if recorded in the broadcast range (16 to 235 for 8 bits), stretched to the full
+/// range. Other formats are converted to BGR, and then to grey as for a colour image file.
 class VideoFile {
  public:
-  /// One picture.
+  /// One frame.
   struct Picture {
-    std::int64_t stamp_ns = 0;  ///< in the video, the first at 0; by the frame rate where the file holds no times
+    std::int64_t stamp_ns = 0;  ///< relative to the first frame; from the frame rate if the file has no timestamps
     Image image;
   };
 
-  /// \throws DataError for a file that is missing, no video, or of colours that have no grey.
+  /// \throws DataError for a file that is missing, not a video, or in a colour format that cannot be converted to grey.
   explicit VideoFile(const std::string& path);
   ~VideoFile();
 
-  /// The next picture, or nothing after the last one. \throws DataError for a picture that is damaged or of another
-  /// size than the first, and where the file ends before the pictures that it says it holds.
+  /// Returns the next frame, or nothing after the last one. \throws DataError for a damaged frame, a frame that differs
+  /// in size from the first, and if the file has fewer frames than its header announces
   std::optional<Picture> next();
 
-  /// Pictures that the file says it holds: as many as its head lists, or its duration times its rate; 0: it does not
-  /// say.
+  /// Number of frames according to the file: from its header, or duration times frame rate; 0 if unknown.
   int promised() const;
-  double fps() const;  ///< pictures per second; 0: it does not say
+  double fps() const;  ///< frames per second; 0 if unknown
 
  private:
   class Implementation;

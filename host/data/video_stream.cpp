@@ -39,7 +39,7 @@ class VideoReader : public PairReader {
   [[noreturn]] void end_early(const std::string& file, const std::string& other) const {
     fail(file, "the end after " + std::to_string(number_) + " pictures", "as many as in " + other);
   }
-  /// Pictures of a pair are less than half a period apart.
+  /// Checks that the frames of a pair differ by less than half a period in time.
   void check_times(std::int64_t left, std::int64_t right) const {
     const double fps = left_.fps();
     if (videos_.fps > 0 || !(fps > 0)) return;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file video_stream.hpp  Stereo pairs of one video that holds both views, or of two.
+/// \file video_stream.hpp  Stereo pairs from one video with both views, or from two videos.
 
 #include <memory>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace quadedge::data {
 
-/// Which pictures make a pair.
+/// The videos that contain the pairs.
 struct VideoPair {
-  std::string left, right;  ///< two files; or `left` alone, with
+  std::string left, right;  ///< two files; or `left` alone, with `split`
   Split split = Split::none;
-  double fps = 0;  ///< of the stamps; 0: times of the left video's pictures, by which both videos have to agree
+  double fps = 0;  ///< for timestamps; 0: those of the left video's frames, which the right video has to match
 };
 
-/// A stream of the pairs. Its readers throw a DataError, which names the file, where one video ends before the other.
+/// A stream of the pairs. Its readers throw DataError that names the file, if one video ends before the other.
 std::shared_ptr<const PairStream> make_video_stream(const VideoPair& videos);
 
 }  // namespace quadedge::data

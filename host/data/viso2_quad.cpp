@@ -6,12 +6,12 @@
 namespace quadedge::data {
 namespace {
 
-// Calibration that the libviso2 demo sets in its source; no file holds it.
+// Calibration set in the source of the libviso2 demo; no file contains it.
 constexpr double kFocal = 645.24, kCentreX = 635.96, kCentreY = 194.13;  // px
 constexpr double kQuadBaseline = 0.5707;                                 // m
-/// A car's camera sees the road from about 6 m on; what stands beside the lane comes as near as 3 m (123 px here).
+/// A car's camera sees the road from about 6 m on; objects beside the lane are as near as 3 m (123 px here).
 constexpr double kNearestQuadDepth = 3.0;  // m
-/// The Karlsruhe sequences have 10 frames per second; the quad itself carries no time.
+/// The Karlsruhe sequences have 10 frames per second; the quad has no timestamps.
 constexpr std::int64_t kPeriodNs = 100'000'000;
 
 }  // namespace

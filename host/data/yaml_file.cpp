@@ -9,8 +9,8 @@
 namespace quadedge::data {
 namespace {
 
-/// \throws DataError for a key that stands twice in one map: readers of YAML differ in which one counts. Looks no more
-/// than `levels` maps deep, which is all that is read; aliases could make it endless.
+/// \throws DataError for a duplicate key in a map, because YAML readers differ in which one they use. Checks at most
+/// `levels` nested maps, which is as deep as files are read; aliases could make the recursion endless.
 void check_keys(const YAML::Node& node, const std::string& file, int levels = 2) {
   if (levels == 0 || !node.IsMap()) return;
   std::set<std::string> keys;
@@ -25,12 +25,12 @@ void check_keys(const YAML::Node& node, const std::string& file, int levels = 2)
 
 YamlMap::YamlMap(const std::string& file, const std::string& what) : file_(file), what_(what) {
   std::string text = read_text(file);
-  if (text.rfind("%YAML:", 0) == 0) text[0] = '#';  // no directive of YAML, which would be "%YAML 1.0"
+  if (text.rfind("%YAML:", 0) == 0) text[0] = '#';  // not a valid YAML directive, which would be "%YAML 1.0"
   try {
     node_ = YAML::Load(text);
     check_keys(node_, file);
   } catch (const YAML::Exception& problem) {
-    fail(file, problem.mark.line + 1, "text that is no YAML (" + problem.msg + ")", what);
+    fail(file, problem.mark.line + 1, "text that is not YAML (" + problem.msg + ")", what);
   }
   if (!node_.IsMap()) fail(file, "no entries", what);
 }
@@ -64,7 +64,7 @@ std::string YamlMap::word(const std::string& key) const {
   return word.IsScalar() ? word.Scalar() : std::string();
 }
 
-/// Reads without yaml-cpp's conversion, which would depend on the locale.
+/// Reads numbers without yaml-cpp's conversion, which depends on the locale.
 void YamlMap::add_numbers(const YAML::Node& list, const std::string& expected, std::vector<double>& values) const {
   for (const YAML::Node& item : list) {
     const std::string token = item.IsScalar() ? item.Scalar() : std::string();

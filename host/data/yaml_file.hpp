@@ -1,5 +1,5 @@
 #pragma once
-/// \file yaml_file.hpp  Strict reading of YAML files: every complaint names the file, the line and the entry.
+/// \file yaml_file.hpp  Strict parsing of YAML files. Error messages state file, line and entry.
 
 #include <Eigen/Geometry>
 #include <string>
@@ -13,34 +13,35 @@ namespace quadedge::data {
 /// A map of a YAML file.
 class YamlMap {
  public:
-  /// Reads a file that holds a map. `what` it should be, for messages: "a Kalibr camera chain". A first line
-  /// "%YAML:1.0", as OpenCV writes it, is skipped. \throws DataError for what is no YAML, no map, or has an entry
-  /// twice.
+  /// Reads a file that contains a map. `what`: expected content, for messages ("a Kalibr camera chain"). A first line
+  /// "%YAML:1.0", as written by OpenCV, is skipped. \throws DataError for a file that is not YAML, is not a map, or
+  /// contains an entry twice
   YamlMap(const std::string& file, const std::string& what);
 
   const std::string& file() const { return file_; }
-  /// The same map, expected to be something else from now on.
+  /// The same map with another expected content.
   YamlMap as(const std::string& what) const;
   std::vector<std::string> keys() const;
   bool has(const std::string& key) const { return node_[key].IsDefined(); }
-  /// Of the entry in the file, from 1.
+  /// Line number of the entry, from 1.
   int line(const std::string& key) const { return node_[key].Mark().line + 1; }
-  /// The entry's name from the file's top, "cam0.intrinsics".
+  /// Full name of the entry, "cam0.intrinsics".
   std::string name(const std::string& key) const { return prefix_ + key; }
 
-  // All of them \throw DataError for an entry that is missing or of another kind.
+  // All of these \throw DataError if an entry is missing or of another kind.
   YamlMap map(const std::string& key) const;
   std::string word(const std::string& key) const;
   std::vector<double> numbers(const std::string& key) const;
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
   /// "[columns, rows]"
   ImageSize size(const std::string& key) const;
-  /// Columns and rows in entries of their own.
+  /// Columns and rows in separate entries.
   ImageSize size(const std::string& columns, const std::string& rows) const;
-  /// 4 x 4: sixteen numbers in one list, or four lists of four. The rotation nearest to its 3 x 3 part.
+  /// A 4 x 4 matrix: sixteen numbers in one list, or four lists of four. Its 3 x 3 part is replaced by the nearest
+  /// rotation.
   Eigen::Isometry3d transform(const std::string& key) const;
 
-  /// \throws DataError about an entry that is there.
+  /// \throws DataError about an existing entry.
   [[noreturn]] void complain(const std::string& key, const std::string& found, const std::string& expected) const;
 
  private:
