@@ -92,6 +92,6 @@ StereoCalibration pinhole_calibration(const StereoRig& rig) {
   return calibration;
 }
 
-double usual_max_disparity(const StereoRig& rig) { return rig.left.fx * rig.baseline() / kNearestDepth; }
+double default_max_disparity(const StereoRig& rig) { return rig.left.fx * rig.baseline() / kNearestDepth; }
 
 }  // namespace quadedge

@@ -84,9 +84,9 @@ void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
     throw UsageError("--fov: " + dataset.path + " does not describe lenses; give --calibration or omit --fov");
   }
   if (dataset.calibration && (!options.calibration.empty() || options.fov != 0)) {
-    const double usual_before = usual_max_disparity(dataset.rig);  // includes the layout's nearest depth
+    const double usual_before = default_max_disparity(dataset.rig);  // includes the layout's nearest depth
     dataset.rig = make_rig(*dataset.calibration, options.fov);
-    const double usual = usual_max_disparity(dataset.rig);
+    const double usual = default_max_disparity(dataset.rig);
     dataset.max_disparity = usual_before > 0 ? dataset.max_disparity * (usual / usual_before) : usual;
   }
   if (!options.mask.empty()) mask_rig(dataset.rig, options.mask);

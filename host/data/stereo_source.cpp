@@ -213,7 +213,7 @@ void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const 
   dataset.rig = make_rig(*dataset.calibration, source.fov);
   if (!source.mask.empty()) mask_rig(dataset.rig, source.mask);
   dataset.rig.max_value = left.max_value;
-  dataset.max_disparity = usual_max_disparity(dataset.rig);
+  dataset.max_disparity = default_max_disparity(dataset.rig);
 }
 
 Dataset read_source(const StereoSource& source, Findings& findings) {

@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::int64_t kToleranceNs = 10'000'000;
 
-/// (rotation, translation) of the left perturbation that makes `estimate` of `truth`, as FrameResult::covariance has
-/// it.
+/// The left perturbation (rotation, translation) that turns `truth` into `estimate`, as in FrameResult::covariance.
 Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
   const Eigen::Matrix3d turn = estimate.linear() * truth.linear().transpose();
   const Eigen::AngleAxisd rotation(turn);
@@ -25,7 +24,7 @@ Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, cons
   return error;
 }
 
-/// The chain of references of a frame: the frame itself, its key rig, that one's ... to the first one.
+/// The chain of references of a frame: the frame itself, its key rig, the key rig of that frame ... up to the first.
 std::vector<int> references(const std::vector<FrameResult>& results, int frame) {
   std::vector<int> chain{frame};
   while (results[static_cast<std::size_t>(chain.back())].covariance_in_reference &&
@@ -34,7 +33,7 @@ std::vector<int> references(const std::vector<FrameResult>& results, int frame) 
   return chain;
 }
 
-/// The first frame of `chain` in the frame of its member number `length`.
+/// Pose of the first frame of `chain` in the frame of its member number `length`.
 pose::UncertainPose pose_along(const std::vector<FrameResult>& results, const std::vector<int>& chain,
                                std::size_t length) {
   pose::UncertainPose result;
@@ -47,7 +46,7 @@ pose::UncertainPose pose_along(const std::vector<FrameResult>& results, const st
   return result;
 }
 
-/// earlier_from_later; nothing where no measurements connect them.
+/// earlier_from_later; nothing if no measurements connect the frames.
 std::optional<pose::UncertainPose> motion_between(const std::vector<FrameResult>& results, int earlier, int later) {
   const auto a = references(results, earlier), b = references(results, later);
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -62,7 +61,7 @@ double normalised(const Eigen::VectorXd& error, const Eigen::MatrixXd& covarianc
   return error.dot(covariance.ldlt().solve(error)) / static_cast<double>(error.size());
 }
 
-/// Sums over the motions.
+/// Adds an error to the sums over motions.
 void add(const Eigen::Matrix<double, 6, 1>& error, const PoseCovariance& covariance, Consistency& sums) {
   ++sums.poses;
   sums.pose += normalised(error, covariance);
@@ -75,7 +74,7 @@ Consistency mean(const Consistency& sums) {
   return {sums.poses, sums.pose / sums.poses, sums.rotation / sums.poses, sums.translation / sums.poses};
 }
 
-/// Motions from every frame to the one so many frames later.
+/// Evaluates the motions from every frame to the frame `frames` later.
 StepConsistency judge_length(const std::vector<FrameResult>& results, const Trajectory& truth, const PoseConfig& config,
                              int frames) {
   StepConsistency step;

@@ -1,6 +1,6 @@
 #pragma once
-/// \file consistency.hpp  Are the covariances consistent? Errors of the poses against what the estimator says of their
-/// size.
+/// \file consistency.hpp  Consistency of covariances: errors of the poses relative to the errors that the estimator
+/// predicts.
 
 #include <vector>
 
@@ -10,34 +10,33 @@
 
 namespace quadedge::evaluation {
 
-/// Normalised estimation error squared (NEES) e^T C^-1 e over the tracked frames, per degree of freedom: 1 where the
-/// covariances C of the poses relative to their key stereo rigs tell the errors' size, more where they promise too
-/// much.
+/// Normalised estimation error squared (NEES) e^T C^-1 e over the tracked frames, per degree of freedom. It is 1 if the
+/// covariances C of the poses relative to their key stereo rigs describe the errors, and larger if they are too small.
 struct Consistency {
   int poses = 0;           ///< frames compared
-  double pose = 0;         ///< mean over the frames, all six degrees of freedom together
-  double rotation = 0;     ///< of the three of the rotation alone (marginal covariance)
-  double translation = 0;  ///< and of the translation alone
+  double pose = 0;         ///< mean over the frames, for all six degrees of freedom
+  double rotation = 0;     ///< for the rotation alone (marginal covariance)
+  double translation = 0;  ///< for the translation alone
 };
 
-/// \param results of all frames, in order; \param truth poses of the left camera, matched by the nearest stamp within
-/// 10 ms. Frames without a covariance, and those of which the truth does not know both ends, are left out.
+/// \param results of all frames, in order \param truth poses of the left camera, matched by nearest timestamp within 10
+/// ms. Frames without covariance, and frames without ground truth at both ends, are ignored.
 Consistency judge_covariances(const std::vector<FrameResult>& results, const Trajectory& truth);
 
-/// The same of the motions over so many frames, composed over the key stereo rigs: errors of the truth's own stay as
-/// they are however long the motion is, the estimator's grow with it.
+/// The same for motions over `frames` frames, composed over the key stereo rigs: errors of the ground truth do not
+/// depend on the length of the motion, those of the estimator grow with it.
 struct StepConsistency {
   int frames = 0;        ///< length of the motions
-  Consistency edges;     ///< by what the edges promise alone
-  Consistency with_rig;  ///< by edges and rig together (`pose.rig_sigma_*`)
-  /// Root mean squares of the errors, and of what edges and rig promise together.
+  Consistency edges;     ///< with the covariance of the edges alone
+  Consistency with_rig;  ///< with the covariance of edges and calibration (`pose.rig_sigma_*`)
+  /// Root mean squares of the errors, and of the errors predicted from edges and calibration.
   double error_m = 0, promised_m = 0, error_deg = 0, promised_deg = 0;
 };
 
-/// Over 1, 2, 5, 10, 20 and 50 frames, and over one, two and five seconds where those are others; lengths that fewer
-/// than kMinSteps motions have are left out. Only motions of which the truth knows both ends and whose frames hang on
-/// one key rig by measurements.
-/// \param config tells the rig's uncertainty
+/// For motions over 1, 2, 5, 10, 20 and 50 frames, and over one, two and five seconds if different; lengths with fewer
+/// than kMinSteps motions are omitted. Uses only motions with ground truth at both ends whose frames are connected by
+/// measurements.
+/// \param config contains the uncertainty of the calibration
 std::vector<StepConsistency> judge_steps(const std::vector<FrameResult>& results, const Trajectory& truth,
                                          const PoseConfig& config);
 constexpr int kMinSteps = 5;

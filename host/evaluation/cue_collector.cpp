@@ -23,7 +23,7 @@ void visit_candidates(const CandidateLists& lists, const CandidateTruth& judge, 
   }
 }
 
-/// Adds a value to the pools that its row belongs to; every paired edge is one of the pool `all`, too.
+/// Adds a value to the pools to which its row belongs; every paired edge also belongs to the pool `all`.
 void add(double value, bool veridical, bool paired, CueDistribution& cue) {
   if (paired) (veridical ? cue.veridical : cue.other).add(value);
   (veridical ? cue.veridical_all : cue.other_all).add(value);
@@ -65,7 +65,7 @@ void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint
                         CueDistribution& cue) {
   if (judge.target_x.empty()) return;
   const NearbyTargets nearby(judge.target_x, judge.target_y, image_height);
-  // Each kind of row draws from a generator of its own, so that one does not change the sample of the other.
+  // Each kind of row has its own generator, so that their samples are independent.
   std::mt19937_64 of_paired(seed), of_others(seed + 1);
   for (std::size_t i = 0; i < judge.pools.all.size(); ++i) {
     if (judge.pools.all[i] == 0) continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file cue_collector.hpp  Reads the cues of candidates from what a tap sees, and sorts them by the ground truth.
+/// \file cue_collector.hpp  Collects the cues of candidates from a tap, separated by ground truth.
 
 #include <cstdint>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace quadedge::evaluation {
 
-/// What decides whether a candidate is veridical, and to which pools its row belongs.
+/// Data that determine whether a candidate is veridical, and to which pools its row belongs.
 struct CandidateTruth {
   const TruePositions& truth;
   const Pools& pools;
@@ -24,20 +24,20 @@ struct CandidateTruth {
 /// The value of a cue for row i and a target. NaN: no value.
 using PairValue = std::function<double(std::size_t row, std::size_t target)>;
 
-/// A cue of the geometry over all candidates of the lists.
+/// Collects a geometric cue for all candidates in the lists.
 void collect_geometry(const CandidateLists& lists, const CandidateTruth& judge, const PairValue& value,
                       CueDistribution& cue);
 
-/// The cue that the lists carry, as it is.
+/// Collects the scores stored in the lists.
 void collect_scores(const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue);
 
-/// The cue that the lists carry, set in relation to the best of each list: value / highest, or lowest / value.
+/// Collects the scores stored in the lists, relative to the best of each list: value / highest, or lowest / value.
 void collect_ratios(const CandidateLists& lists, const CandidateTruth& judge, bool highest_is_best,
                     CueDistribution& cue);
 
-/// A cue before the first filter, where every row is paired with every target: the veridical pairs all, of the others
-/// kDrawnOthers per row.
-/// \param image_height of the targets' image [px]
+/// Collects a cue before the first filter, when every row is paired with every target: all veridical pairs, and
+/// kDrawnOthers of the others per row.
+/// \param image_height height of the targets' image [px]
 void collect_unfiltered(const CandidateTruth& judge, int image_height, std::uint64_t seed, const PairValue& value,
                         CueDistribution& cue);
 inline constexpr int kDrawnOthers = 40;

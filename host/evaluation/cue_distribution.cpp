@@ -11,11 +11,11 @@ namespace quadedge::evaluation {
 namespace {
 
 constexpr double kSimilarityLow = -1, kSimilarityHigh = 1,
-                 kSiftHigh = 800;  // no two descriptors of norm 512 differ by more
+                 kSiftHigh = 800;  // upper limit for descriptors of norm 512
 
-constexpr double kRounding = 1e-3;  // bins; an NCC of one comes out of single precision a little above
+constexpr double kRounding = 1e-3;  // bins; in single precision, an NCC of one may slightly exceed one
 
-/// What a filter keeps and how its cue is shown.
+/// Range of values that a filter keeps, and the bins that display its cue.
 struct Range {
   double low, high;
   int bins;

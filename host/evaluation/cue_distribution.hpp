@@ -1,6 +1,6 @@
 #pragma once
-/// \file cue_distribution.hpp  How the cues of the filters are distributed over veridical and other pairs (the paper's
-/// Figures 3, 5 and 6).
+/// \file cue_distribution.hpp  Distributions of the filters' cues over veridical and other pairs (the paper's Figures
+/// 3, 5 and 6).
 
 #include <cstdint>
 #include <string>
@@ -19,38 +19,37 @@ struct Histogram {
 
   Histogram() = default;
   Histogram(double from, double to, int count) : low(from), high(to), bins(static_cast<std::size_t>(count), 0) {}
-  /// NaN is left out.
+  /// Adds a value; NaN is ignored.
   void add(double value);
-  /// \throws UsageError for other bins.
+  /// Adds counts. \throws UsageError if the bins differ
   void add(const Histogram& other);
-  std::int64_t total() const;  ///< all values, those outside included
+  std::int64_t total() const;  ///< all values, including those outside the range
   double width() const { return (high - low) / static_cast<double>(bins.size()); }
 };
 
-/// Which cascade a filter belongs to.
+/// Cascade to which a filter belongs.
 enum class CueTable { stereo, temporal_left, temporal_right, constraints };
 inline constexpr const char* kCueTableNames[] = {"stereo", "temporal_left", "temporal_right", "constraints"};
 
-/// The values of one cue over the pairs that reach the filter which judges it, before it does.
+/// Values of one cue over the pairs that reach the filter using it.
 struct CueDistribution {
   CueTable table;
-  int order;              ///< of the filter (Tables 1 and 2) or constraint (Table 3)
-  std::string cue, unit;  ///< the unit may be empty
-  bool keeps_small;       ///< the filter keeps values below its threshold
-  bool sampled;           ///< the other pairs are a drawn sample: there are too many to look at
-  std::vector<double>
-      thresholds;  ///< of the configuration; several where pooled data have several, none where it depends on the edge
-  Histogram veridical, other;          ///< edges of the paired pool
-  Histogram veridical_all, other_all;  ///< edges of the pool `all`; empty for constraints, which judge found quads
+  int order;                       ///< number of the filter (Tables 1 and 2) or constraint (Table 3)
+  std::string cue, unit;           ///< the unit may be empty
+  bool keeps_small;                ///< the filter keeps values below its threshold
+  bool sampled;                    ///< the other pairs are a random sample, because there are too many
+  std::vector<double> thresholds;  ///< from the configuration; several for pooled data, none if it depends on the edge
+  Histogram veridical, other;      ///< edges of the paired pool
+  Histogram veridical_all, other_all;  ///< edges of the pool `all`; empty for constraints, which apply to quads
 };
 
-/// All cues, without values. `config` is the effective one: with the limit of the disparity that the data set brings.
+/// All cues, without values. `config` is the effective configuration, including the disparity limit of the dataset.
 std::vector<CueDistribution> make_cues(const StereoRig& rig, const Config& config);
 
-/// Adds histograms and unites thresholds. An empty `sum` becomes `other`.
+/// Adds histograms and merges thresholds. An empty `sum` becomes `other`.
 void add(std::vector<CueDistribution>& sum, const std::vector<CueDistribution>& other);
 
-/// The cue that filter `order` of a cascade judges; null for a filter without one.
+/// The cue used by filter `order` of a cascade; null for a filter without one.
 CueDistribution* find_cue(std::vector<CueDistribution>& cues, CueTable table, int order);
 
 }  // namespace quadedge::evaluation

@@ -1,5 +1,5 @@
 #pragma once
-/// \file draw.hpp  Random indices that are the same on every standard library.
+/// \file draw.hpp  Random indices that are identical for every standard library.
 
 #include <cstddef>
 #include <random>

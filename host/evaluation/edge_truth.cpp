@@ -14,14 +14,13 @@ bool is_marked_occluded(const FrameTruth& truth, double x, double y) {
   return truth.occluded[row * static_cast<std::size_t>(truth.left.width) + column] != 0;
 }
 
-/// A view that only holds what the left map tells says nothing about positions where it is empty: they count as
-/// visible.
+/// If a view is only predicted from the left map, positions where it is empty are unknown and count as visible.
 Visibility visibility_in(const SurfaceMap& map, bool measured, double x, double y, double nearness) {
   const Visibility found = visibility(map, x, y, nearness);
   return found == Visibility::unknown && !measured ? Visibility::visible : found;
 }
 
-/// Adds the position of a point of the left camera's frame of `before` in a camera of `now`.
+/// Adds the position, in a camera of `now`, of a point in the left camera frame of `before`.
 void push_projection(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_point,
                      const Eigen::Vector3d& point, const SurfaceMap& map, double depth_scale, bool contour,
                      TruePositions& positions) {
@@ -63,7 +62,8 @@ TruePositions true_right_positions(const StereoRig& rig, const FrameTruth& truth
                       truth.right, truth.depth_scale, surface->contour, positions);
     } else {
       const double right_x = x - surface->nearness;
-      // A contour belongs to the nearer surface, which is seen; the pixel under it may be of the farther one.
+      // A contour belongs to the nearer surface, which is visible; the pixel at its position may belong to the farther
+      // one.
       const bool marked = !surface->contour && is_marked_occluded(truth, x, y);
       positions.push(right_x, y,
                      marked ? Visibility::occluded

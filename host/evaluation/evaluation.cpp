@@ -24,7 +24,7 @@ struct Match {
   Pose estimate, truth;
 };
 
-/// Nearest truth pose of each estimated pose, both in increasing order and each used once.
+/// Nearest truth pose for each estimated pose, both in increasing order and each used at most once.
 std::vector<Match> match_by_stamp(const Trajectory& estimate, const Trajectory& truth, std::int64_t tolerance_ns) {
   std::vector<Match> matches;
   std::size_t next = 0;
@@ -38,7 +38,7 @@ std::vector<Match> match_by_stamp(const Trajectory& estimate, const Trajectory& 
   return matches;
 }
 
-/// Angle of a rotation [deg], accurate near zero and near 180 degrees, where the arc cosine of the trace is not.
+/// Angle of a rotation [deg], accurate near 0 and 180 degrees, unlike the arc cosine of the trace.
 double angle_deg(const Eigen::Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
   return 2 * std::atan2(q.vec().norm(), std::abs(q.w())) * kDegreesPerRadian;
@@ -60,7 +60,7 @@ ErrorStatistics statistics(const std::vector<double>& errors) {
   return result;
 }
 
-/// The four errors of every matched pose once the estimate is moved by `world_from_estimate`.
+/// The four errors of every matched pose after the estimate is transformed by `world_from_estimate`.
 struct Errors {
   std::vector<double> ape_rotation, ape_translation, rpe_rotation, rpe_translation;
 
@@ -87,7 +87,8 @@ struct Errors {
   }
 };
 
-/// Umeyama's alignment of the positions without scale; nothing where they lie on one line, which leaves a turn open.
+/// Umeyama's alignment of the positions without scale; nothing if they lie on a line, which leaves the rotation
+/// undetermined.
 std::optional<Pose> se3_alignment(const std::vector<Match>& matches) {
   const auto count = static_cast<Eigen::Index>(matches.size());
   Eigen::Matrix3Xd from(3, count), to(3, count);
@@ -98,7 +99,7 @@ std::optional<Pose> se3_alignment(const std::vector<Match>& matches) {
   const Eigen::Matrix3d covariance = (to.colwise() - to.rowwise().mean()) *
                                      (from.colwise() - from.rowwise().mean()).transpose() / static_cast<double>(count);
   const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::Matrix3d>(covariance).singularValues();
-  // The rule that evo applies: two of the three spreads must exceed the rounding of a double.
+  // As in evo: two of the three spreads must exceed the rounding error of a double.
   if (spread[1] <= std::numeric_limits<double>::epsilon()) return std::nullopt;
   Pose alignment;
   alignment.matrix() = Eigen::umeyama(from, to, false);
@@ -113,8 +114,9 @@ std::string length_text(double metres) {
   return text;
 }
 
-/// Is the turn of the alignment open? Off the main direction of the path the positions extend by the second of their
-/// three root mean square extents; errors of a quarter of that turn the alignment by some 14 degrees.
+/// Explains why the rotation of the alignment is undetermined; empty if it is determined. The second of the three root
+/// mean square extents measures the extent of the positions off the main direction of the path; errors of a quarter of
+/// it rotate the alignment by about 14 degrees.
 std::string open_rotation(const std::vector<Match>& matches, double residual) {
   constexpr double kLargestRatio = 0.25;
   const auto count = static_cast<Eigen::Index>(matches.size());
@@ -127,8 +129,8 @@ std::string open_rotation(const std::vector<Match>& matches, double residual) {
   if (residual <= kLargestRatio * across) return {};
   const bool still = residual > kLargestRatio * along;
   return "the positions extend " + length_text(still ? along : across) +
-         (still ? " around one point" : " around a straight line") + " and stay " + length_text(residual) +
-         " apart (root mean squares), which leaves a turn open";
+         (still ? " around one point" : " around a straight line") + ", and differ by " + length_text(residual) +
+         " after alignment (root mean squares), so that the rotation is undetermined";
 }
 
 PoseErrors undefined() {
@@ -150,7 +152,7 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
   const Trajectory kept(estimate.begin() + static_cast<std::ptrdiff_t>(first), estimate.end());
   const auto matches = match_by_stamp(kept, truth, max_stamp_difference_ns);
   if (matches.size() < 2) {
-    throw DataError("trajectories: found " + std::to_string(matches.size()) + " poses whose stamps agree to " +
+    throw DataError("trajectories: found " + std::to_string(matches.size()) + " poses whose timestamps agree within " +
                     data::format_seconds(max_stamp_difference_ns) + " s, expected at least 2; estimate: " +
                     stamp_range(kept) + " (from frame " + std::to_string(first) + "), truth: " + stamp_range(truth));
   }
@@ -162,9 +164,9 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
   evaluation.origin_aligned = origin.summary();
   const auto alignment = se3_alignment(matches);
   evaluation.se3_aligned = alignment ? Errors(matches, *alignment).summary() : undefined();
-  evaluation.se3_open_rotation = alignment
-                                     ? open_rotation(matches, evaluation.se3_aligned.ape_translation_m.rmse)
-                                     : std::string("the positions lie on one straight line, which leaves a turn open");
+  evaluation.se3_open_rotation =
+      alignment ? open_rotation(matches, evaluation.se3_aligned.ape_translation_m.rmse)
+                : std::string("the positions lie on a straight line, so that the rotation is undetermined");
   if (!evaluation.se3_open_rotation.empty()) evaluation.se3_aligned.ape_rotation_deg = {kNan, kNan, kNan, kNan};
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (i > 0) evaluation.path_length_m += (matches[i].truth.translation() - matches[i - 1].truth.translation()).norm();

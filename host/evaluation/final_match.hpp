@@ -1,5 +1,5 @@
 #pragma once
-/// \file final_match.hpp  The final stereo edges of a frame beside the truth, as the paper's Figures 8 and 9 draw them.
+/// \file final_match.hpp  Final stereo edges of a frame with ground truth, as drawn in the paper's Figures 8 and 9.
 
 #include <array>
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace quadedge::evaluation {
 
-/// What the truth says about a final stereo edge whose true position is known.
+/// Class of a final stereo edge with a known true position.
 enum class MatchClass {
   correct,     ///< within MatchingTolerance::position of the true position
-  inaccurate,  ///< farther, but within MatchingTolerance::wrong
-  wrong,       ///< farther still
-  occluded,    ///< the right view cannot show the edge: whatever was matched is something else
+  inaccurate,  ///< farther away, but within MatchingTolerance::wrong
+  wrong,       ///< beyond MatchingTolerance::wrong
+  occluded,    ///< the edge is not visible in the right view, so that its match must be another edge
 };
 inline constexpr std::array<const char*, 4> kMatchClassNames = {"correct", "inaccurate", "wrong", "occluded"};
 using MatchClassCounts = std::array<std::int64_t, kMatchClassNames.size()>;
@@ -27,7 +27,7 @@ struct FinalMatch {
   MatchClass kind;
 };
 
-/// Everything that a drawing of one frame needs.
+/// Data for the drawing of one frame.
 struct DrawnFrame {
   int number = 0;
   Image left, right;

@@ -10,10 +10,10 @@ namespace quadedge::evaluation {
 MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config,
                                  const MatchingOptions& options) {
   if (device.is_reference())
-    throw UsageError("the filters are observed on an OpenCL device; the reference shows its results only");
+    throw UsageError("evaluate matching needs an OpenCL device, because the reference has no taps");
   if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
     config.stereo.max_disparity = source.max_disparity();
-  config.odometry.key_rig = false;  // the tables are about neighbouring frames
+  config.odometry.key_rig = false;  // the tables refer to consecutive frames
   MatchingObserver observer(source.rig(), config, options.tolerance, options.distributions);
   StereoOdometry odometry(source.rig(), device, config);
   odometry.set_tap(&observer);

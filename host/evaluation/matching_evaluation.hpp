@@ -1,5 +1,5 @@
 #pragma once
-/// \file matching_evaluation.hpp  Runs the production pipeline over a pair or a sequence and judges every filter.
+/// \file matching_evaluation.hpp  Runs the production pipeline over a pair or a sequence and evaluates every filter.
 
 #include <functional>
 
@@ -9,18 +9,18 @@
 
 namespace quadedge::evaluation {
 
-/// What to evaluate, and how far.
+/// Options of evaluate_matching().
 struct MatchingOptions {
-  int frames = 0;  ///< only the first of each source; 0: all
+  int frames = 0;  ///< number of frames to use from each source; 0: all
   MatchingTolerance tolerance;
-  bool distributions = false;  ///< of the cues
-  int draw_frame = -1;         ///< keep this frame (or the last one, where there are not as many) for drawing; -1: none
+  bool distributions = false;  ///< whether to collect distributions of the cues
+  int draw_frame = -1;         ///< frame to keep for drawing (the last one if there are fewer frames); -1: none
   std::function<void(int done, int total)> progress;
 };
 
-/// Tracks a source's frames with a tap on the pipeline. Where neither configuration entry limits the disparity, the
-/// source's own limit holds. \throws UsageError for the reference device, whose stages have no taps; DataError,
-/// DeviceError.
+/// Tracks the frames of a source with a tap on the pipeline. If the configuration does not limit the disparity, the
+/// source's limit applies. \throws UsageError for the reference device, whose stages have no taps; DataError;
+/// DeviceError
 MatchingResult evaluate_matching(const MatchingSource& source, Device& device, Config config,
                                  const MatchingOptions& options = {});
 

@@ -8,7 +8,7 @@
 namespace quadedge::evaluation {
 namespace {
 
-/// The final stereo edges as lists over all left edges.
+/// Converts the final stereo edges to lists over all left edges.
 CandidateLists lists_of(const StereoEdges& edges, std::size_t left_edges) {
   CandidateLists lists;
   lists.first.assign(left_edges + 1, 0);
@@ -20,7 +20,7 @@ CandidateLists lists_of(const StereoEdges& edges, std::size_t left_edges) {
   return lists;
 }
 
-/// Matches as lists over all stereo edges of the base, with the positions in one image.
+/// Converts matches to lists over all stereo edges of the base, with the positions in one image.
 CandidateLists lists_of(const TemporalMatches& matches, std::size_t base_edges, Side side) {
   CandidateLists lists;
   lists.first.assign(base_edges + 1, 0);
@@ -32,7 +32,7 @@ CandidateLists lists_of(const TemporalMatches& matches, std::size_t base_edges, 
   return lists;
 }
 
-/// What the truth says about a match; nothing for edges of unknown truth.
+/// Class of a match; nothing for edges without ground truth.
 MatchClass classify(const TruePositions& truth, std::size_t i, double x, double y, const MatchingTolerance& tolerance) {
   if (truth.state[i] == Visibility::occluded) return MatchClass::occluded;
   if (is_veridical(truth, i, x, y, tolerance)) return MatchClass::correct;
@@ -73,7 +73,7 @@ FrameMatching MatchingObserver::end(const FrameResult& result) {
     measured_.temporal = std::move(found->second.measured);
     add(measured_.cues, found->second.cues);
   }
-  // No later frame is matched with one before the key stereo rig.
+  // No later frame is matched with a frame before the key stereo rig.
   rigs_.erase(rigs_.begin(), rigs_.lower_bound(result.reference_frame));
   return std::move(measured_);
 }
@@ -137,7 +137,7 @@ void MatchingObserver::temporal_search(const ObservedSearch& search) {
   start_temporal(base, *search_);
 }
 
-/// Truth and pools of the matching with the base, and row 0 of both tables.
+/// Computes ground truth and pools of the matching with the base, and row 0 of both tables.
 void MatchingObserver::start_temporal(const Rig& base, Search& search) {
   const StereoEdges& now = current().edges;
   for (const Side side : kSides) {
@@ -175,7 +175,7 @@ void MatchingObserver::quads(const TemporalMatches& matches) {
   measure_quads(matches);
 }
 
-/// The quads' own recall and precision, and pairs of them under the constraints.
+/// Evaluates recall and precision of the quads, and pairs of quads under the constraints.
 void MatchingObserver::measure_quads(const TemporalMatches& matches) {
   const Rig& base = rigs_.at(search_->base_frame);
   TemporalMatching& measured = *search_->measured;
@@ -197,7 +197,7 @@ void MatchingObserver::measure_quads(const TemporalMatches& matches) {
     if (search_->quad_pools.paired[i] != 0) measured.quads_paired.add_edge(candidates[i], true_candidates[i]);
   }
   const auto quads = pose::build_quads(rig_, base.edges, current().edges, matches, pose::QuadLimits(config_));
-  std::vector<std::size_t> usable;  // quads of known truth
+  std::vector<std::size_t> usable;  // quads with ground truth
   std::vector<std::uint8_t> veridical_quad;
   for (std::size_t q = 0; q < quads.size(); ++q) {
     const auto match = static_cast<std::size_t>(quads.match[q]);

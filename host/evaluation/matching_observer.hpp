@@ -1,5 +1,5 @@
 #pragma once
-/// \file matching_observer.hpp  Judges what the pipeline's filters leave, while it runs.
+/// \file matching_observer.hpp  Evaluates the results of the pipeline's filters while it runs.
 
 #include <map>
 #include <optional>
@@ -12,20 +12,20 @@
 
 namespace quadedge::evaluation {
 
-/// A tap of one StereoOdometry. Per frame: begin(), StereoOdometry::track(), end(). The pipeline learns nothing from
-/// it, and it decides nothing: the pipeline tells what each search looked for and which one gave the motion.
+/// A tap of one StereoOdometry. To be called per frame: begin(), StereoOdometry::track(), end(). It has no effect on
+/// the pipeline; the pipeline reports what each search looks for and which search gave the motion.
 class MatchingObserver : public Tap {
  public:
   /// \param distributions also collect the cues of all candidates
   MatchingObserver(const StereoRig& rig, const Config& config, const MatchingTolerance& tolerance,
                    bool distributions = false);
 
-  /// The truth of the frame that is tracked next. \param frame its number, as the pipeline counts
+  /// Sets the ground truth of the next frame. \param frame its number in the pipeline
   void begin(int frame, FrameTruth truth);
-  /// Takes the pipeline's own result of the frame and returns what was measured. Of the searches in time only the one
-  /// that the frame's motion was taken from counts; a lost frame has none.
+  /// Takes the pipeline's result of the frame and returns the measurements. Only the temporal search that gave the
+  /// motion of the frame is evaluated; a lost frame has none.
   FrameMatching end(const FrameResult& result);
-  /// The final stereo edges of known truth of the frame that ended last.
+  /// The final stereo edges with ground truth of the last frame.
   const std::vector<FinalMatch>& final_matches() const { return final_matches_; }
 
   void edges(const EdgeSet& left, const EdgeSet& right) override;
@@ -36,21 +36,21 @@ class MatchingObserver : public Tap {
   void quads(const TemporalMatches& matches) override;
 
  private:
-  /// A frame that others may be matched with.
+  /// A frame with which others may be matched.
   struct Rig {
     FrameTruth truth;
     StereoEdges edges;
-    std::vector<std::uint8_t> veridical;                                ///< per stereo edge
-    Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();  ///< as the pipeline found it
+    std::vector<std::uint8_t> veridical;                                ///< one per stereo edge
+    Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();  ///< as estimated by the pipeline
   };
-  /// One search of the current frame: the truth of what it looks for, and what it leaves.
+  /// One search of the current frame: the ground truth of its edges, and its results.
   struct Search {
     int base_frame = 0;
-    EdgePositions expected[2];  ///< these and the next two: left, right
+    EdgePositions expected[2];  ///< this and the next two: left, right
     TruePositions later[2];
     Pools pools[2], quad_pools;
-    /// Nothing where the motion is unknown, or only a part of the edges is looked for: that makes a prediction, never a
-    /// pose.
+    /// Nothing if the true motion is unknown, or if only a subset of the edges is searched for, which gives a
+    /// prediction but never a pose.
     std::optional<TemporalMatching> measured;
     std::vector<CueDistribution> cues;
   };
@@ -69,15 +69,15 @@ class MatchingObserver : public Tap {
   MatchingTolerance tolerance_;
   std::vector<CueDistribution> empty_cues_;
   int frame_ = -1;
-  std::map<int, Rig> rigs_;  ///< by the number of the frame: the current one, and those that it may be matched with
+  std::map<int, Rig> rigs_;  ///< by frame number: the current frame, and those that it may be matched with
   FrameMatching measured_;
   std::vector<FinalMatch> final_matches_;
 
   EdgeSet left_, right_;
   TruePositions stereo_truth_;
   Pools stereo_pools_;
-  std::map<int, Search> searches_;  ///< of the current frame, by their number
-  Search* search_ = nullptr;        ///< the one that goes on
+  std::map<int, Search> searches_;  ///< of the current frame, by number
+  Search* search_ = nullptr;        ///< the search in progress
 };
 
 }  // namespace quadedge::evaluation

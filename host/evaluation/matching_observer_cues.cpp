@@ -1,4 +1,4 @@
-/// \file matching_observer_cues.cpp  Which cue the observer reads where.
+/// \file matching_observer_cues.cpp  Collects the cues of each filter.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace quadedge::evaluation {
 namespace {
 
-/// Adds the NCC or SIFT distance that lists carry, as `filter` judges it.
+/// Adds the NCC or SIFT distance of the lists, as used by `filter`.
 template <class Filter>
 void collect_similarity(Filter filter, const CandidateLists& lists, const CandidateTruth& judge, CueDistribution& cue) {
   if (filter == Filter::nearly_best_ncc || filter == Filter::nearly_best_sift) {
@@ -25,7 +25,7 @@ double direction_difference_deg(double a, double b) { return std::abs(std::remai
 
 }  // namespace
 
-/// What the filter after `filter` judges.
+/// Collects the cue of the filter that follows `filter`.
 void MatchingObserver::collect_stereo(StereoFilter filter, const CandidateLists& candidates) {
   CueDistribution* found = find_cue(measured_.cues, CueTable::stereo, order_of(next(filter)));
   if (found == nullptr) return;
@@ -61,7 +61,7 @@ void MatchingObserver::collect_stereo(StereoFilter filter, const CandidateLists&
   }
 }
 
-/// The same in time, of the search that goes on.
+/// The same for the temporal search in progress.
 void MatchingObserver::collect_temporal(TemporalFilter filter, Side side, const CandidateLists& candidates) {
   const CueTable table = side == Side::left ? CueTable::temporal_left : CueTable::temporal_right;
   CueDistribution* found = find_cue(search_->cues, table, order_of(next(filter)));

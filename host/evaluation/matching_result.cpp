@@ -23,7 +23,7 @@ double deviation(const std::vector<double>& values) {
   return count > 1 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Quantile of values in any order; NaN without any.
+/// Quantile of values in any order; NaN if there are none.
 double quantile(std::vector<float> values, double fraction) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto rank = static_cast<std::ptrdiff_t>(std::lround(fraction * static_cast<double>(values.size() - 1)));
@@ -31,7 +31,7 @@ double quantile(std::vector<float> values, double fraction) {
   return values[static_cast<std::size_t>(rank)];
 }
 
-/// Recall, precision and ambiguity of single frames.
+/// Recall, precision and ambiguity of individual frames.
 struct FrameValues {
   std::vector<double> recall, precision, ambiguity;
   void add(const FilterCounts& counts) { add(counts.recall(), counts.precision(), counts.ambiguity_mean()); }
@@ -58,7 +58,7 @@ std::vector<PooledRow> pool(const std::vector<const FilterTable*>& tables) {
   return rows;
 }
 
-/// The frames with a matching in time.
+/// Pools the quads of all frames with temporal matching.
 void pool_quads(const std::vector<const TemporalMatching*>& frames, MatchingSummary& summary) {
   FrameValues paired, all;
   std::int64_t competing_paired = 0, competing_all = 0;

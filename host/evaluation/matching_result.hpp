@@ -1,5 +1,5 @@
 #pragma once
-/// \file matching_result.hpp  What the evaluation of the matching measures; frames add up to sequences and pairs to
+/// \file matching_result.hpp  Results of the matching evaluation; results of frames are added to those of sequences and
 /// sets.
 
 #include <array>
@@ -16,20 +16,20 @@
 
 namespace quadedge::evaluation {
 
-/// What the ground truth says about the left edges of a frame.
+/// Ground truth of the left edges of a frame.
 struct EdgeCensus {
   std::int64_t edges = 0;
-  std::int64_t no_statement = 0;  ///< unknown disparity, or no telling which surface owns the edge
-  std::int64_t along_line = 0;    ///< known, but along the epipolar line: takes no part in stereo
+  std::int64_t no_statement = 0;  ///< unknown disparity, or undetermined surface
+  std::int64_t along_line = 0;    ///< known, but parallel to the epipolar line and therefore not matched
   std::int64_t occluded = 0;      ///< of the others: not visible in the right view
   std::int64_t contour = 0;       ///< of the others: on a depth step
 };
 
-/// What was measured of the search in time that a frame's motion was taken from.
+/// Evaluation of the temporal search that gave the motion of a frame.
 struct TemporalMatching {
   FilterTable left, right;  ///< Table 2
   FilterCounts quads_paired, quads_all;
-  std::int64_t competing_paired = 0, competing_all = 0;  ///< further clusters that the quads' edges of a pool had
+  std::int64_t competing_paired = 0, competing_all = 0;  ///< competing clusters of the edges of a pool's quads
   PairMeasurement pairs;                                 ///< Table 3 and Figure 7
 
   FilterTable& table(Side side) { return side == Side::left ? left : right; }
@@ -37,20 +37,20 @@ struct TemporalMatching {
 
 /// One frame.
 struct FrameMatching {
-  FrameCounts counts;  ///< the pipeline's own
+  FrameCounts counts;  ///< as reported by the pipeline
   FrameStatus status = FrameStatus::first;
-  std::string message;  ///< the pipeline's: why a frame was lost, or what overflowed
+  std::string message;  ///< as reported by the pipeline: why a frame was lost, or which capacity was exceeded
   FilterTable stereo;   ///< Table 1
   EdgeCensus census;
-  /// Nothing for first and lost frames, single pairs, and where the true motion is unknown.
+  /// Nothing for first and lost frames, single pairs, and if the true motion is unknown.
   std::optional<TemporalMatching> temporal;
-  /// Error of the motion that the pipeline found since the frame that this one was matched with; for tracked frames.
+  /// Error of the motion estimated since the frame that this one was matched with; for tracked frames.
   std::optional<MotionError> motion;
-  /// Final stereo edges whose truth is known and visible [px]: position along the epipolar line minus the true one, and
-  /// the part of it that is across the edge, without sign.
+  /// Errors of final stereo edges with known, visible true position [px]: position along the epipolar line minus the
+  /// true position, and the absolute component across the edge.
   std::vector<float> disparity_error, across_error;
   MatchClassCounts classes{};         ///< final stereo edges of the pool `all`
-  std::vector<CueDistribution> cues;  ///< moved to the result when the frame is done
+  std::vector<CueDistribution> cues;  ///< moved to the result at the end of the frame
 };
 
 /// One pair or one sequence.
@@ -58,15 +58,16 @@ struct MatchingResult {
   std::string name;
   std::vector<FrameMatching> frames;
   std::vector<CueDistribution> cues;  ///< over all frames
-  std::optional<DrawnFrame> drawn;    ///< the frame that MatchingOptions asked for
+  std::optional<DrawnFrame> drawn;    ///< the frame selected by MatchingOptions
 };
 
-/// Standard deviations over frames (N, not N - 1); NaN for fewer than two.
+/// Standard deviations over frames (divided by N); NaN for fewer than two.
 struct FilterSpread {
   double recall = 0, precision = 0, ambiguity = 0;
 };
 
-/// A row of a pooled table: sums of the counts, and how recall, precision and mean ambiguity of single frames scatter.
+/// A row of a pooled table: sums of the counts, and standard deviations of recall, precision and mean ambiguity over
+/// frames.
 struct PooledRow {
   FilterRow row;
   FilterSpread paired_std, all_std;
@@ -85,15 +86,15 @@ struct PooledConstraint {
   double recall_std = 0, precision_std = 0;
 };
 
-/// Everything that tables and JSON print of one or several results.
+/// Data of one or several results that tables and JSON contain.
 struct MatchingSummary {
   std::vector<PooledRow> stereo, temporal_left, temporal_right;
   PooledQuads quads_paired, quads_all;
   std::array<PooledConstraint, kConstraintNames.size()> constraints{};
   double disparity_median = 0,
-         disparity_p90 = 0;                  ///< of the absolute error [px]; NaN without stereo edges of known truth
+         disparity_p90 = 0;                  ///< of the absolute error [px]; NaN without stereo edges with ground truth
   double disparity_bias = 0;                 ///< median of the signed error [px]
-  double across_median = 0, across_p90 = 0;  ///< of the part across the edge [px]
+  double across_median = 0, across_p90 = 0;  ///< of the component across the edge [px]
   EdgeCensus census;
   MatchClassCounts classes{};
   std::vector<CueDistribution> cues;

@@ -14,9 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint8_t kMaskOccluded = 128,
-                       kMaskUnknown = 0;  // of mask0nocc.png, whose third value is 255: seen in both views
+                       kMaskUnknown = 0;  // in mask0nocc.png, whose third value, 255, means visible in both views
 
-/// Names of the right view's disparities and of the mask that belong to a left one, in the published layouts.
+/// File names of the right view's disparities and of the mask that belong to those of a left view, in the published
+/// layouts.
 struct Companions {
   const char *left, *right, *mask;
 };
@@ -28,7 +29,7 @@ constexpr Companions kCompanions[] = {{"disp0GT.pfm", "disp1GT.pfm", "mask0nocc.
 void check_size(const SurfaceMap& map, const PinholeCamera& camera, const std::string& file) {
   if (map.width == camera.width && map.height == camera.height) return;
   data::fail(file, std::to_string(map.width) + " x " + std::to_string(map.height) + " values",
-             std::to_string(camera.width) + " x " + std::to_string(camera.height) + " as the image");
+             std::to_string(camera.width) + " x " + std::to_string(camera.height) + " as in the image");
 }
 
 SurfaceMap read_disparity(const std::string& file, double scale, const PinholeCamera& camera) {
@@ -38,7 +39,7 @@ SurfaceMap read_disparity(const std::string& file, double scale, const PinholeCa
   return map;
 }
 
-/// depth/NAME.pfm beside rgb/NAME.png, depth2 beside rgb2.
+/// depth/NAME.pfm for rgb/NAME.png, depth2/NAME.pfm for rgb2/NAME.png.
 std::string depth_file(const std::string& image) {
   const fs::path path(image), folder = path.parent_path();
   const std::string name = folder.filename().string();
@@ -128,7 +129,7 @@ class RenderedSource : public MatchingSource {
   SyntheticSequence sequence_;
 };
 
-/// Data sets below a folder, `levels` deep, in the order of their names.
+/// Datasets below a folder, up to `levels` deep, sorted by name.
 void find_below(const fs::path& folder, int levels, std::vector<Dataset>& found, std::vector<std::string>& skipped) {
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -143,7 +144,7 @@ void find_below(const fs::path& folder, int levels, std::vector<Dataset>& found,
       } else {
         skipped.push_back(path.string());
       }
-    } catch (const DataError&) {  // no data set of its own: look inside
+    } catch (const DataError&) {  // not a dataset: search inside
       if (levels > 1) find_below(path, levels - 1, found, skipped);
     }
   }
@@ -161,10 +162,10 @@ bool has_matching_truth(const Dataset& dataset) {
 std::unique_ptr<MatchingSource> make_recorded_source(const Dataset& dataset) {
   if (!has_matching_truth(dataset)) {
     data::fail(dataset.path, "no ground truth of edges",
-               "disparities (pairs), or depth and poses as `quadedge synth` writes them");
+               "disparities (pairs), or depths and poses as written by `quadedge synth`");
   }
   if (!dataset.rig.left_undistortion.empty() || !dataset.rig.right_undistortion.empty()) {
-    data::fail(dataset.path, "distorted images", "pinhole images, to which the ground truth belongs");
+    data::fail(dataset.path, "distorted images", "pinhole images, to which the ground truth refers");
   }
   return std::make_unique<RecordedSource>(dataset);
 }
@@ -184,7 +185,7 @@ std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std
     if (found.empty() && skipped.empty()) throw;
   }
   if (found.empty())
-    data::fail(path, std::to_string(skipped.size()) + " data sets, none with ground truth", "disparities or depth");
+    data::fail(path, std::to_string(skipped.size()) + " datasets, none with ground truth", "disparities or depth");
   return found;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file matching_source.hpp  Pairs and sequences with the ground truth of every frame.
+/// \file matching_source.hpp  Pairs and sequences with ground truth of every frame.
 
 #include <memory>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace quadedge::evaluation {
 
-/// One frame with its truth.
+/// One frame with its ground truth.
 struct TrueFrame {
   FramePrefetcher::Frame frame;
   FrameTruth truth;
@@ -29,18 +29,18 @@ class MatchingSource {
   virtual TrueFrame load(int number) const = 0;
 };
 
-/// A data set whose frames have disparities, or depths and poses (the layout that `synth` writes).
-/// \throws DataError when it has neither, or lenses are distorted.
+/// A dataset whose frames have disparities, or depths and poses (the layout written by `synth`).
+/// \throws DataError if it has neither, or if its images are distorted
 std::unique_ptr<MatchingSource> make_recorded_source(const Dataset& dataset);
 
 /// A rendered scene.
 std::unique_ptr<MatchingSource> make_rendered_source(const SyntheticOptions& options);
 
-/// Has the data set what make_recorded_source needs?
+/// Whether a dataset has the ground truth that make_recorded_source() needs.
 bool has_matching_truth(const Dataset& dataset);
 
-/// The data set at `path`, or all data sets with truth in the folders below it (two levels), by name. Sets without
-/// truth are named in `skipped`. \throws DataError when there is none with truth.
+/// The dataset at `path`, or all datasets with ground truth in the folders below it (two levels), sorted by name.
+/// Datasets without ground truth are listed in `skipped`. \throws DataError if none has ground truth
 std::vector<Dataset> find_true_datasets(const std::string& path, std::vector<std::string>& skipped);
 
 }  // namespace quadedge::evaluation

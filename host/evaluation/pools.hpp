@@ -1,5 +1,5 @@
 #pragma once
-/// \file pools.hpp  Which edges have a counterpart at all.
+/// \file pools.hpp  Determines which edges have a counterpart.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace quadedge::evaluation {
 
-/// Edges of an image that can be asked for those near a position.
+/// Finds the edges of an image near a position.
 class NearbyTargets {
  public:
   /// The arrays must outlive the object. `height`: of the image [px].
@@ -38,23 +38,23 @@ class NearbyTargets {
   reference::PointIndex index_;
 };
 
-/// Angle between two directions modulo half a turn [deg].
+/// Angle between two directions modulo a half turn [deg].
 double line_angle_deg(double a, double b);
 
-/// Pools of stereo matching. Edges nearer than `min_epipolar_angle` [deg] to their epipolar line belong to neither:
-/// they take no part in stereo. An edge is paired when it is visible and a right edge lies within the tolerance of its
-/// true position, of its epipolar line, and of its own direction.
+/// Pools of stereo matching. Edges with an angle below `min_epipolar_angle` [deg] to their epipolar line belong to
+/// neither pool, because they are not matched. An edge is paired if it is visible and a right edge lies within the
+/// tolerances of its true position, its epipolar line and its direction.
 Pools stereo_pools(const StereoRig& rig, const EdgeSet& left, const EdgeSet& right, const TruePositions& truth,
                    double min_epipolar_angle, const MatchingTolerance& tolerance);
 
-/// Pools of matching in time within one image. An edge is paired when it is visible, its own stereo edge is veridical,
-/// and a current stereo edge lies within the tolerance of its true position and of its previous direction. \param
-/// previous_is_veridical one entry per previous stereo edge
+/// Pools of temporal matching within one image. An edge is paired if it is visible, its stereo edge is veridical, and a
+/// current stereo edge lies within the tolerances of its true position and its previous direction.
+/// \param previous_is_veridical one entry per previous stereo edge
 Pools temporal_pools(const std::vector<float>& previous_direction,
                      const std::vector<std::uint8_t>& previous_is_veridical, const EdgePositionsView& current,
                      int image_height, const TruePositions& truth, const MatchingTolerance& tolerance);
 
-/// Pools of quads: paired when ONE current stereo edge is the counterpart in both images.
+/// Pools of quads: an edge is paired if ONE current stereo edge is the counterpart in both images.
 Pools quad_pools(const StereoEdges& previous, const std::vector<std::uint8_t>& previous_is_veridical,
                  const StereoEdges& current, int image_height, const TruePositions& left_truth,
                  const TruePositions& right_truth, const MatchingTolerance& tolerance);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file pose_lookup.hpp  The pose of a trajectory at a time.
+/// \file pose_lookup.hpp  Looks up the pose of a trajectory at a time.
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace quadedge::evaluation {
 
-/// The pose nearest in time, of poses with increasing stamps; null where none is within the tolerance.
+/// The pose nearest in time, among poses with increasing timestamps; null if none is within the tolerance.
 inline const Eigen::Isometry3d* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
   const auto later =
       std::lower_bound(poses.begin(), poses.end(), stamp_ns,

@@ -22,7 +22,7 @@ double median(std::vector<double> values) {
 /// Angle between two lines from the cosine of their directions [deg].
 double line_angle(double cosine) { return std::acos(std::min(1.0, std::abs(cosine))) * kDegreesPerRadian; }
 
-/// Errors of the motions of one selection of pairs.
+/// Errors of the motions of a set of pairs.
 struct Motions {
   std::vector<double> rotation, translation;
   MotionError typical() const { return {median(rotation), median(translation)}; }
@@ -46,7 +46,7 @@ std::array<double, 5> constraint_values(const pose::OrientedPair& previous, cons
   const double second = unit.dot(previous.second.tangent), second_bar = unit_bar.dot(current.second.tangent);
   const double tangents = previous.first.tangent.dot(previous.second.tangent);
   const double tangents_bar = current.first.tangent.dot(current.second.tangent);
-  // The quads may take each other's role: the better of both counts, before and after.
+  // The roles of the quads are interchangeable: the better of both counts, before and after.
   const double angle = std::max(std::min(line_angle(first), line_angle(first_bar)),
                                 std::min(line_angle(second), line_angle(second_bar)));
   return {std::abs(length - length_bar) / length, std::abs(first - first_bar), std::abs(second - second_bar),

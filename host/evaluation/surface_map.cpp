@@ -8,7 +8,7 @@ namespace quadedge::evaluation {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr double kNormalStep = 0.5;  // px between two looks along the normal
+constexpr double kNormalStep = 0.5;  // px between samples along the normal
 
 template <class Values, class Convert>
 SurfaceMap make_map(int width, int height, const Values& values, const Convert& convert) {
@@ -21,7 +21,7 @@ SurfaceMap make_map(int width, int height, const Values& values, const Convert& 
   return map;
 }
 
-/// Bilinear interpolation over the pixels that lie on the surface of the nearest one.
+/// Bilinear interpolation over the pixels on the same surface as the nearest pixel.
 double interpolate(const SurfaceMap& map, double x, double y, double surface) {
   const double x0 = std::floor(x), y0 = std::floor(y);
   double sum = 0, weights = 0;

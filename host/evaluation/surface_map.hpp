@@ -1,6 +1,6 @@
 #pragma once
-/// \file surface_map.hpp  Ground truth of one view: how near the scene is at every pixel, and what an edge there
-/// belongs to.
+/// \file surface_map.hpp  Ground truth of one view: nearness of the scene at every pixel, and the surface to which an
+/// edge belongs.
 
 #include <optional>
 #include <vector>
@@ -10,63 +10,61 @@
 
 namespace quadedge::evaluation {
 
-/// height x width, row-major. Nearness is the disparity, or focal length x baseline / depth [px]; NaN is unknown. It is
-/// the right quantity to interpolate: along any plane it is a linear function of the pixel, which depth is not.
+/// height x width, row-major. Nearness is the disparity, or focal length x baseline / depth [px]; NaN is unknown.
+/// Unlike depth, it is linear in the pixel coordinates along any plane and can therefore be interpolated.
 struct SurfaceMap {
   int width = 0, height = 0;
   std::vector<float> nearness;
   bool empty() const { return nearness.empty(); }
-  /// Value at the pixel nearest to a position, NaN outside.
+  /// Value at the pixel nearest to a position; NaN outside the image.
   float nearest(double x, double y) const;
 };
 
-/// Disparities in `scale` px per unit; infinite, NaN, zero and negative ones are unknown.
+/// From disparities with `scale` px per unit; infinite, NaN, zero and negative values are unknown.
 SurfaceMap surface_from_disparity(const data::FloatMap& disparity, double scale);
-/// Grey-coded disparities, `scale` px per grey level; 0 is unknown.
+/// From grey-coded disparities with `scale` px per grey level; 0 is unknown.
 SurfaceMap surface_from_grey(const Image& disparity, double scale);
-/// Depths z [m]; 0 is unknown.
+/// From depths z [m]; 0 is unknown.
 SurfaceMap surface_from_depth(const data::FloatMap& depth, double focal_times_baseline);
 
-/// More than this between neighbouring pixels is a depth step, less is one surface [px of nearness].
+/// Difference between adjacent pixels above which they belong to different surfaces [px of nearness].
 inline constexpr double kDepthStep = 1.0;
-/// An edge this near to a depth step, measured across the edge, is the occluding contour itself [px]: half a pixel of
-/// the map's rounding plus the displacement by the detector's blur and by an imprecise truth. Measured: of the matched
-/// edges within 1.5 px of a step 80 to 99 % move with the nearer surface (rendered room and cables, Middlebury),
-/// whichever side they lie on.
+/// Distance from a depth step, measured across the edge, within which an edge is the occluding contour [px]: half a
+/// pixel for the rounding of the map, plus the displacement by the detector's blur and by inaccurate ground truth. Of
+/// the matched edges within 1.5 px of a step, on either side, 80 to 99 % move with the nearer surface (rendered room
+/// and cables, Middlebury).
 inline constexpr double kContourReach = 1.5;
-/// On the farther side, up to this distance, either surface may own an edge [px] (texture of the farther one, or a
-/// contour moved outwards by blur and shading): between the two reaches about half of the matched edges move with each.
+/// On the farther side, up to this distance, the edge may belong to either surface [px] (texture of the farther one, or
+/// a contour displaced by blur and shading): between the two distances, about half of the matched edges move with each.
 inline constexpr double kDoubtReach = 2.5;
 
-/// What an edge belongs to.
+/// Surface point of an edge.
 struct SurfacePoint {
-  double nearness = 0;   ///< px, sub-pixel
-  bool contour = false;  ///< the edge lies on a depth step; `nearness` is that of the nearer surface
+  double nearness = 0;   ///< [px], sub-pixel
+  bool contour = false;  ///< whether the edge lies on a depth step; `nearness` is then that of the nearer surface
 };
 
-/// The surface that an edge belongs to. The map is read at the pixels met within kContourReach to either side along the
+/// The surface to which an edge belongs. The map is sampled at the pixels within kContourReach to either side along the
 /// edge's normal.
-/// - Any of them unknown: no statement (an unseen nearer surface could own the edge).
-/// - They differ by more than kDepthStep: the edge is an occluding contour and belongs to the nearer surface, whose
-/// values
-///   within kDepthStep of the nearest one are weighted by their closeness to the edge's position and averaged.
-/// - A nearer surface begins between kContourReach and kDoubtReach to either side: no statement.
-/// - Else bilinear interpolation, over those of the four pixels around the position that lie within kDepthStep of the
-/// nearest
-///   pixel: a step that the edge ends at (along its direction) does not smear into it.
+/// - If any of them is unknown: nothing (an invisible nearer surface could own the edge).
+/// - If they differ by more than kDepthStep, the edge is an occluding contour and belongs to the nearer surface, whose
+/// values within kDepthStep of the nearest one are averaged with weights by their distance from the edge.
+/// - If a nearer surface begins between kContourReach and kDoubtReach to either side: nothing.
+/// - Otherwise: bilinear interpolation over those of the four pixels around the position that lie within kDepthStep of
+/// the nearest pixel, so that a step at the end of the edge has no influence.
 /// \param direction of the tangent [rad]
 std::optional<SurfacePoint> surface_at(const SurfaceMap& map, double x, double y, double direction);
 
-/// Whether another view shows a point.
+/// Visibility of a point in another view.
 enum class Visibility { unknown, visible, occluded };
 
-/// Compares a point's nearness with the map of a view in which it falls on (x, y). Visible: one of the pixels
-/// within 1.5 px shows that nearness to within kDepthStep. Occluded: all known ones are nearer, or the position is
-/// outside the image. Unknown: none is known, or the view shows something farther there, which contradicts the point.
+/// Compares the nearness of a point with the map of a view in which it projects to (x, y). Visible: a pixel within 1.5
+/// px has that nearness to within kDepthStep. Occluded: all known pixels are nearer, or the position is outside the
+/// image. Unknown: no pixel is known, or the view shows something farther away, which contradicts the point.
 Visibility visibility(const SurfaceMap& map, double x, double y, double nearness);
 
-/// The right view's map as far as the left one tells it (rectified pairs): every known pixel moved by its disparity,
-/// gaps between neighbours on one surface filled, the nearest surface wins.
+/// The right view's map as predicted from the left one (rectified pairs): every known pixel is moved by its disparity,
+/// gaps between neighbours on one surface are filled, and the nearest surface wins.
 SurfaceMap right_from_left(const SurfaceMap& left, int right_width);
 
 }  // namespace quadedge::evaluation

@@ -45,6 +45,6 @@ StereoCalibration pinhole_calibration(const StereoRig& rig);
 
 /// Disparity of a point 0.5 m in front of the rig [px]: the default maximum disparity if nothing is known about the
 /// scene.
-double usual_max_disparity(const StereoRig& rig);
+double default_max_disparity(const StereoRig& rig);
 
 }  // namespace quadedge

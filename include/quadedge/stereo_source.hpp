@@ -9,7 +9,7 @@
 namespace quadedge {
 
 /// Default length of the queue of a pipe, in pairs: a fifth of a second at 20 Hz.
-constexpr int kUsualPipeQueue = 4;
+constexpr int kDefaultPipeQueue = 4;
 
 /// A source of pairs. Exactly one of: `left` and `right`; `video`; `pipe`.
 struct StereoSource {
@@ -24,7 +24,7 @@ struct StereoSource {
   std::string times;  ///< file with one row per pair: seconds, or EuRoC's data.csv; empty: a file next to the images
   /// For a pipe: maximum number of waiting pairs, beyond which a new pair replaces the oldest; 0: the writer has to
   /// wait.
-  int queue = kUsualPipeQueue;
+  int queue = kDefaultPipeQueue;
   int first_frame = 0;  ///< first pair of the range, see DatasetOptions
   int last_frame = -1;
 

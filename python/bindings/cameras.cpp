@@ -116,7 +116,7 @@ void bind_rig(nb::module_& module) {
 
 Cameras cameras_of(nb::handle source) {
   if (const StereoRig* rig = nullptr; nb::try_cast(source, rig) && rig != nullptr) {
-    return {*rig, usual_max_disparity(*rig)};
+    return {*rig, default_max_disparity(*rig)};
   }
   if (const Dataset* dataset = nullptr; nb::try_cast(source, dataset) && dataset != nullptr) {
     return {dataset->rig, dataset->max_disparity};
