@@ -1,5 +1,5 @@
 #pragma once
-/// \file background_program.hpp  The quadedge program while it runs, to send signals to.
+/// \file background_program.hpp  The quadedge program as a background process that can be sent signals.
 
 #include <chrono>
 #include <csignal>
@@ -13,7 +13,7 @@
 
 #include "program.hpp"
 
-/// The program running on its own; killed with its object.
+/// The program as a background process; killed by the destructor.
 class BackgroundProgram {
  public:
   BackgroundProgram(const std::vector<std::string>& arguments, const std::string& log,
@@ -39,7 +39,7 @@ class BackgroundProgram {
     siginfo_t ended{};
     return waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
   }
-  /// Sends a signal and waits; what waitpid reports.
+  /// Sends a signal and waits for the end. \returns the status of waitpid
   int end_by(int signal) {
     kill(process_, signal);
     int status = 0;
@@ -47,7 +47,7 @@ class BackgroundProgram {
     process_ = -1;
     return status;
   }
-  /// Waits until something is so or the program has ended. Was it so?
+  /// Waits until the condition holds or the program has ended. \returns whether the condition holds
   bool wait_until(const std::function<bool()>& condition) const {
     while (running()) {
       if (condition()) return true;

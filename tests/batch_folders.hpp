@@ -6,7 +6,7 @@
 
 #include "program.hpp"
 
-/// Rendered sequences a/first, a/second and broken (without calibration.txt), made once per process. Do not change
+/// Rendered sequences a/first, a/second and broken (without calibration.txt), created once per process. Do not change
 /// them.
 inline const std::string& batch_root() {
   static const TemporaryFolder folder;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file calibration_files.hpp  The same stereo rig in every format of calibration files, written for tests.
+/// \file calibration_files.hpp  The same stereo rig in every calibration file format, written for tests.
 
 #include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
@@ -13,7 +13,7 @@ namespace calibration_files {
 
 using dataset_files::write_text;
 
-/// A rig like EuRoC's: numbers with few digits, so that every format holds them exactly, but for the pose.
+/// A rig like EuRoC's: numbers with few digits, so that every format holds them exactly, except for the pose.
 struct Rig {
   Eigen::Isometry3d body_from_left, body_from_right;
   std::string left_intrinsics = "458.654, 457.296, 367.215, 248.375",
@@ -60,7 +60,7 @@ inline std::string kalibr_matrix(const std::string& key, const Eigen::Isometry3d
   return text;
 }
 
-/// `extrinsics`: T_cn_cnm1, T_cam_imu, T_imu_cam, or both: the first two.
+/// `extrinsics`: T_cn_cnm1, T_cam_imu, T_imu_cam, or "both" for the first two.
 inline std::string kalibr_chain(const Rig& rig, const std::string& extrinsics) {
   std::string text;
   for (const bool right : {false, true}) {
@@ -104,7 +104,7 @@ inline void rotation_and_translation(const Rig& rig, cv::Mat& r, cv::Mat& t) {
   }
 }
 
-/// In one file or, with `extrinsics`, in two; the extension chooses YAML, XML or JSON.
+/// In one file or, with `extrinsics`, in two; the extension selects YAML, XML or JSON.
 inline void write_opencv(const Rig& rig, const std::string& intrinsics, const std::string& extrinsics = "") {
   cv::Mat r, t;
   rotation_and_translation(rig, r, t);
@@ -121,7 +121,7 @@ inline std::string ros_matrix(const std::string& key, const cv::Mat& matrix) {
          "\n  data: [" + numbers({matrix.begin<double>(), matrix.end<double>()}) + "]\n";
 }
 
-/// camera_info of both cameras, as stereo calibration on ROS rectifies them.
+/// camera_info of both cameras, rectified as by ROS's stereo calibration.
 inline std::pair<std::string, std::string> ros_camera_infos(const Rig& rig) {
   cv::Mat r, t, r1, r2, p1, p2, q;
   rotation_and_translation(rig, r, t);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file dataset_files.hpp  Small recorded sets made for a test, and where the shared real data are.
+/// \file dataset_files.hpp  Small made-up recordings for tests, and the path of the real data.
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -17,7 +17,7 @@ inline void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// An image with a different value in every place, so that flips and shifts would show.
+/// An image with a different value at every position, so that flips and shifts show.
 inline cv::Mat pattern(int width, int height, int type = CV_8UC1) {
   cv::Mat image(height, width, type);
   for (int y = 0; y < height; ++y) {
@@ -36,13 +36,13 @@ inline void write_image(const std::string& path, int width = 32, int height = 24
   REQUIRE(cv::imwrite(path, pattern(width, height, type)));
 }
 
-/// Cuts a file to a part of its length.
+/// Truncates a file to a fraction of its length.
 inline void truncate(const std::string& path, double part) {
   std::filesystem::resize_file(
       path, static_cast<std::uintmax_t>(part * static_cast<double>(std::filesystem::file_size(path))));
 }
 
-/// The shared real data; empty (with a warning in the report) where QUADEDGE_DATA is not set.
+/// Path of real data; empty (with a warning in the report) if QUADEDGE_DATA is not set.
 inline std::string real_data(const std::string& what) {
   const char* root = std::getenv("QUADEDGE_DATA");
   if (root == nullptr || !std::filesystem::exists(std::filesystem::path(root) / what)) {
@@ -85,8 +85,8 @@ inline std::string euroc_sensor(double offset, double k1 = -0.28) {
          std::to_string(k1) + ", 0.07, 0.0, 0.0]\n";
 }
 
-/// EuRoC with `frames` frames 50 ms apart from 1403715273312143104 ns; the ground truth is 256 ns off, the body 1 m
-/// further per frame.
+/// EuRoC with `frames` frames 50 ms apart, starting at 1403715273312143104 ns; the ground truth is 256 ns off, and the
+/// body moves 1 m per frame.
 inline std::string write_euroc(const std::string& root, int frames = 4) {
   const std::string folder = root + "/mav0";
   std::string list = "#timestamp [ns],filename\r\n", truth = "#timestamp, p_RS_R_x [m], ...\n";
@@ -105,7 +105,7 @@ inline std::string write_euroc(const std::string& root, int frames = 4) {
   return root;
 }
 
-/// ETH3D SLAM stereo as published: camera 1 (rgb/) stands 0.09 m to the right of camera 2 (rgb2/), sizes differ.
+/// ETH3D SLAM stereo as published: camera 1 (rgb/) is 0.09 m to the right of camera 2 (rgb2/), sizes differ.
 inline std::string write_eth3d_slam(const std::string& folder, int frames = 4) {
   std::string list = "# timestamp filename\n", truth;
   for (int i = 0; i < frames; ++i) {

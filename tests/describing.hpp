@@ -13,7 +13,7 @@
 #include "stages/patches.hpp"
 #include "stages/sift.hpp"
 
-/// `count` positions all over the image and up to `beyond` px outside it, with all directions.
+/// `count` positions in the image and up to `beyond` px outside it, with all directions.
 inline quadedge::EdgePositions random_edges(int width, int height, int count, unsigned seed, double beyond = 0) {
   quadedge::EdgePositions edges;
   std::mt19937_64 random(seed);
@@ -32,7 +32,7 @@ struct TestDescriptions {
   std::vector<std::uint8_t> sift;
 };
 
-/// Descriptions by every variant of `stage` ("patches" or "sift"; the other one by its default) on every device, each
+/// Descriptions by every variant of `stage` ("patches" or "sift"; the other stage by its default) on every device, each
 /// run twice on the same object: the second run must give the same bytes.
 inline std::vector<TestDescriptions> describe_everywhere(const std::string& stage, const quadedge::Image& image,
                                                          const quadedge::EdgePositions& edges) {
@@ -71,11 +71,10 @@ inline std::vector<TestDescriptions> describe_everywhere(const std::string& stag
   return all;
 }
 
-/// How far the samples of two sets of side patches are from one another. A sample that lies at the middle between two
-/// integers may be rounded up by one and down by the other, which compute in different precision or from turned
-/// coordinates.
+/// Difference between the samples of two sets of side patches. A sample halfway between two integers may be rounded up
+/// in one and down in the other if they are computed in different precision or from rotated coordinates.
 struct RoundedApart {
-  int largest = 0;  ///< difference of two samples
+  int largest = 0;  ///< difference between two samples
   std::size_t samples = 0, differing = 0;
 };
 inline RoundedApart rounded_apart(const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file devices.hpp  Every OpenCL device of this machine, for tests. A machine without one fails, it does not skip.
+/// \file devices.hpp  All OpenCL devices of this machine, for tests. Without any device, tests fail; they do not skip.
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include "opencl/context.hpp"
 #include "quadedge/device.hpp"
 
-/// Names ("0", "1", ...) of all devices. Fails the test when there is none.
+/// Names ("0", "1", ...) of all devices. Fails the test if there is none.
 inline std::vector<std::string> all_devices() {
   std::vector<std::string> names;
   for (const auto& info : quadedge::list_devices()) names.push_back(std::to_string(info.index));
@@ -17,8 +17,8 @@ inline std::vector<std::string> all_devices() {
   return names;
 }
 
-/// Built programs stay in the folder of QUADEDGE_TEST_PROGRAMS: for runtimes that keep none and build slowly.
-/// Unset, every test builds its own.
+/// Caches built programs in the folder QUADEDGE_TEST_PROGRAMS, for runtimes without a cache that build slowly. If
+/// unset, every test builds its programs.
 inline quadedge::DeviceOptions kept_programs() {
   quadedge::DeviceOptions options;
   const char* folder = std::getenv("QUADEDGE_TEST_PROGRAMS");

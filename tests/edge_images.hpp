@@ -1,5 +1,5 @@
 #pragma once
-/// \file edge_images.hpp  Test images with edges of known place: coverage of every pixel by supersampling, 8-bit.
+/// \file edge_images.hpp  8-bit test images with edges at known positions: pixel coverage by supersampling.
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "quadedge/image.hpp"
 
-/// `inside(x, y)` decides which points of the plane have grey level `bright`, all others have `dark`. 256 samples per
-/// pixel on a lattice without rows or columns, so that nearly upright edges are rendered as finely as oblique ones.
+/// Points of the plane with `inside(x, y)` have grey level `bright`, all others `dark`. 256 samples per pixel on a
+/// lattice without rows or columns, so that nearly upright edges are rendered as finely as oblique ones.
 inline quadedge::Image render_shape(int width, int height, double dark, double bright,
                                     const std::function<bool(double, double)>& inside) {
   constexpr int kSamples = 256;

@@ -11,7 +11,7 @@
 
 namespace matching {
 
-/// A few rendered frames of a small scene, with the limits of the search that belong to it.
+/// A few rendered frames of a small scene, with the search limits that fit it.
 struct RenderedScene {
   StereoRig rig;
   Config config;
@@ -44,14 +44,14 @@ struct RenderedScene {
   }
 };
 
-/// What a frontend makes of the first two frames.
+/// A frontend's results for the first two frames.
 struct FrontendResult {
   EdgeSet left_edges, right_edges;
   StereoEdges previous, current;
   TemporalMatches quads;
 };
 
-/// Edges stay where they were in both images, `radius` px around.
+/// A search within `radius` px of the edges' previous positions in both images.
 inline TemporalSearch search_around(const StereoEdges& previous, float radius, int step = 1) {
   return {{previous.left_x, previous.left_y, previous.left_direction},
           {previous.right_x, previous.right_y, previous.right_direction},

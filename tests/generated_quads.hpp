@@ -1,5 +1,5 @@
 #pragma once
-/// \file generated_quads.hpp  Quads of known motion, made from geometry alone, exact or with the noise that edges have.
+/// \file generated_quads.hpp  Quads with a known motion, generated from geometry, exact or with edge noise.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace generated {
 
 using quadedge::pose::OrientedPoint;
 
-/// Normal and uniform numbers that are the same on every platform.
+/// Normal and uniform random numbers that are the same on every platform.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -40,7 +40,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Rectified rig of a car: f 700 px, base line 0.54 m, 1241 x 376.
+/// Rectified rig of a car: f 700 px, baseline 0.54 m, 1241 x 376.
 inline quadedge::StereoRig car_rig() {
   quadedge::StereoRig rig;
   rig.left = {700, 700, 620, 188, 1241, 376};
@@ -49,8 +49,7 @@ inline quadedge::StereoRig car_rig() {
   return rig;
 }
 
-/// A rig that nothing is simple about: different cameras and sizes, a base line mostly vertical, converging by some
-/// degrees.
+/// A general rig: different cameras and image sizes, a mostly vertical baseline, converging by a few degrees.
 inline quadedge::StereoRig crooked_rig() {
   quadedge::StereoRig rig;
   rig.left = {540, 545, 371, 230, 740, 460};
@@ -74,7 +73,7 @@ inline quadedge::pose::StereoObservation observe(const quadedge::StereoRig& rig,
           direction(rig.right, in_right, rig.right_from_left.linear() * p.tangent)};
 }
 
-/// Appends an observation to the stereo edges of a rig, with the index of its place.
+/// Appends an observation to the stereo edges of a rig, with its position as index.
 inline void append(quadedge::StereoEdges& edges, const quadedge::pose::StereoObservation& observation) {
   const auto index = static_cast<std::int32_t>(edges.size());
   edges.left_index.push_back(index);
@@ -93,9 +92,8 @@ struct Noise {
   double across = 0, along = 0, direction = 0;
 };
 
-/// Adds noise as matching leaves it: the left place moves across and along the edge (unless `exact_left`), the right
-/// place follows on its epipolar line and has an error of its own along it, as large as an edge under that angle
-/// allows.
+/// Adds noise as matching does: the left position moves across and along the edge (unless `exact_left`); the right
+/// position follows on its epipolar line and has an additional error along it, which depends on the edge's angle to it.
 inline quadedge::pose::StereoObservation disturb(const quadedge::StereoRig& rig, const OrientedPoint& p,
                                                  const Noise& noise, bool exact_left, Random& random) {
   quadedge::pose::StereoObservation o = observe(rig, p);
@@ -120,7 +118,7 @@ inline quadedge::pose::StereoObservation disturb(const quadedge::StereoRig& rig,
 /// Limits of the default configuration.
 inline quadedge::pose::QuadLimits limits() { return quadedge::pose::QuadLimits(quadedge::Config{}); }
 
-/// What to make.
+/// Parameters of the generated quads.
 struct Problem {
   quadedge::StereoRig rig = car_rig();
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
@@ -128,8 +126,8 @@ struct Problem {
   double near = 5, far = 100;  ///< depths, uniform in the inverse [m]
   double outliers = 0;         ///< ratio with a wrong current edge
   Noise noise;
-  double width_ratio = 1;  ///< of the image, from its left border, that is seen at first
-  int copies = 1;  ///< quads come in rows of this many, half a pixel apart along the tangent, that share one error
+  double width_ratio = 1;  ///< fraction of the image, from its left border, with quads in the earlier frame
+  int copies = 1;          ///< number of quads in a row, half a pixel apart along the tangent, that share one error
 };
 
 struct Generated {
@@ -180,7 +178,7 @@ inline Generated generate(const Problem& problem, std::uint64_t seed) {
   return result;
 }
 
-/// Noisy quads near two rigs, and a pose off their true motion: where derivatives of residuals are checked. Calls
+/// Noisy quads of two rigs and a pose off their true motion, to check derivatives of residuals. Calls
 /// `check(quads, i, rig, pose)` for every quad.
 template <class Check>
 void for_quads_off_motion(const Check& check) {
@@ -199,7 +197,7 @@ void for_quads_off_motion(const Check& check) {
   }
 }
 
-/// A motion seen without errors, near a crooked rig.
+/// A near scene, seen by a general rig without noise.
 inline Problem near_problem() {
   Problem problem;
   problem.rig = crooked_rig();

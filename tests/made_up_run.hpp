@@ -1,5 +1,5 @@
 #pragma once
-/// \file made_up_run.hpp  Results of runs that never happened, for tests of what is made of results.
+/// \file made_up_run.hpp  Made-up results of runs, for tests of evaluation and reports.
 
 #include <cmath>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include "report/frames_csv.hpp"
 #include "report/json.hpp"
 
-/// True pose at a time of the made-up path, ten frames a second.
+/// True pose on the made-up path, ten frames per second.
 inline Eigen::Isometry3d made_up_truth(std::int64_t stamp_ns) {
   const double i = static_cast<double>(stamp_ns) * 1e-8;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -18,7 +18,7 @@ inline Eigen::Isometry3d made_up_truth(std::int64_t stamp_ns) {
   return pose;
 }
 
-/// A made-up run of `frames` frames along a bent path whose estimate drifts by `drift` metres and as many radians per
+/// A made-up run of `frames` frames along a bent path whose estimate drifts by `drift` metres and `drift` radians per
 /// frame.
 inline quadedge::report::RunRecord made_up_run(int frames, double drift) {
   quadedge::report::RunRecord run;
@@ -45,7 +45,7 @@ inline quadedge::report::RunRecord made_up_run(int frames, double drift) {
   return run;
 }
 
-/// Writes what a batch leaves behind for one sequence.
+/// Writes a batch's results of one sequence.
 inline void write_member(const std::string& output, const std::string& name, const quadedge::report::RunRecord& run) {
   const std::string folder = quadedge::report::member_folder(output, name);
   dataset_files::write_text(folder + "/report.json", quadedge::report::report_json(run));

@@ -26,7 +26,7 @@ namespace matching {
 
 using namespace quadedge;
 
-/// Uniform numbers that are the same on every platform.
+/// Uniform random numbers that are the same on every platform.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ULL + 1) {}
@@ -44,8 +44,8 @@ struct Edge {
   double x, y, direction;
 };
 
-/// Edges in the scan order of the cells of the doubled grid that are nearest to them, shifted inside `slack` px: two
-/// edges of neighbouring cells may stand in the other order than their x, as detected ones do.
+/// Edges in scan order of their nearest cells in the doubled grid, shifted by up to `slack` px: edges of neighbouring
+/// cells may not be in the order of x, like detected ones.
 inline EdgeSet make_edges(std::vector<Edge> edges, int height, double slack = 0, std::uint64_t seed = 1) {
   const auto cell = [](double v) { return std::lround(2 * v); };
   std::stable_sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) {
@@ -86,7 +86,7 @@ inline stages::DeviceImage upload(opencl::Context& context, const Image& image) 
   return device;
 }
 
-/// Candidate lists as the sweeps leave them; all alive, scores zero.
+/// Candidate lists before the filters: no candidate rejected, all scores zero.
 inline stages::DeviceCandidates upload(opencl::Context& context, const reference::Candidates& lists) {
   stages::DeviceCandidates device;
   device.rows = static_cast<int>(lists.first.size()) - 1;
@@ -100,7 +100,7 @@ inline stages::DeviceCandidates upload(opencl::Context& context, const reference
   return device;
 }
 
-/// Copies what the filters decided.
+/// Copies the filters' decisions.
 inline void upload(opencl::Context& context, const reference::CandidateScores& scores,
                    stages::DeviceCandidates& device) {
   device.ncc.write(context, scores.ncc);
@@ -108,7 +108,7 @@ inline void upload(opencl::Context& context, const reference::CandidateScores& s
   device.state.write(context, scores.state);
 }
 
-/// Scores of candidates that no filter has touched yet.
+/// Scores of candidates before any filter.
 inline reference::CandidateScores fresh_scores(std::size_t candidates) {
   return {std::vector<float>(candidates, 0.9f), std::vector<float>(candidates, 10.0f),
           std::vector<std::uint8_t>(candidates, 0)};
@@ -138,7 +138,7 @@ inline StereoRig flat_rig(int width = 64, int height = 48, double focal = 60, do
   return rig;
 }
 
-/// Different cameras and sizes, a base line mostly vertical, turned by some degrees about a skew axis.
+/// Different cameras and image sizes, a mostly vertical baseline, rotated by a few degrees about a skew axis.
 inline StereoRig crooked_rig() {
   StereoRig rig;
   rig.left = {120, 124, 70, 49, 143, 97};
@@ -166,8 +166,8 @@ inline Image image_of(int width, int height, const std::function<double(double, 
   return image;
 }
 
-/// Errors of photometric alignments on smooth_grey [px]. Rounding to 8 bits alone (0.29 grey levels in either image, 49
-/// samples, slopes of about 8 grey levels per px, less in flat spots) makes 0.41 / (7 x 8) = 0.007 px.
+/// Errors of photometric alignments on smooth_grey [px]. Rounding to 8 bits (0.29 grey levels in either image, 49
+/// samples, slopes of about 8 grey levels per px, less in flat spots) alone causes 0.41 / (7 x 8) = 0.007 px.
 inline void check_subpixel(const std::vector<double>& errors) {
   double sum = 0, squares = 0, largest = 0;
   std::size_t within = 0;

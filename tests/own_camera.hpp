@@ -1,5 +1,5 @@
 #pragma once
-/// \file own_camera.hpp  Sources of a camera of one's own for tests: pictures in folders, in a video, in a pipe.
+/// \file own_camera.hpp  Sources of a user's own camera for tests: images in folders, in a video, in a pipe.
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -29,7 +29,7 @@ inline std::string write_calibration_of_small(const std::string& file) {
   return file;
 }
 
-/// Both views side by side, or one above the other.
+/// Both views side by side or one above the other.
 inline quadedge::Image joined(const quadedge::Image& left, const quadedge::Image& right, bool beside = true) {
   quadedge::Image both(left.width * (beside ? 2 : 1), left.height * (beside ? 1 : 2), left.max_value);
   for (int y = 0; y < left.height; ++y) {
@@ -41,7 +41,7 @@ inline quadedge::Image joined(const quadedge::Image& left, const quadedge::Image
   return both;
 }
 
-/// A picture as binary PGM.
+/// An image as binary PGM.
 inline std::string pgm(const quadedge::Image& image) {
   std::string text = "P5\n# a picture\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n" +
                      std::to_string(image.max_value) + "\n";
@@ -67,7 +67,7 @@ inline void write_bytes(const std::string& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// Makes a video of pictures in a file of concatenated PGM, with ffmpeg. `options`: of the output.
+/// Encodes a video from a file of concatenated PGM images with ffmpeg. `options`: of the output.
 inline void encode(const std::string& pictures, const std::string& options, const std::string& video) {
   const std::string command =
       "ffmpeg -v error -y -f image2pipe -c:v pgm -framerate 20 -i '" + pictures + "' " + options + " '" + video + "'";

@@ -1,6 +1,6 @@
 #pragma once
-/// \file paper_scene.hpp  A rectified rig before a plane, small enough for paper: every left point (x, y) is seen at (x
-/// - 10, y).
+/// \file paper_scene.hpp  A rectified rig in front of a plane, for calculation by hand: a left point (x, y) is at
+/// (x - 10, y) in the right view.
 
 #include <cmath>
 #include <vector>
@@ -28,7 +28,7 @@ inline void add_edge(quadedge::EdgeSet& edges, float x, float y, float direction
   edges.scale_drift.push_back(0);
 }
 
-/// Every pixel of the left view has disparity 10, but column 80 and beyond is unknown.
+/// Every pixel of the left view has disparity 10, except from column 80 on, where it is unknown.
 inline quadedge::evaluation::FrameTruth plane_truth() {
   quadedge::evaluation::FrameTruth truth;
   truth.left = {100, 60, std::vector<float>(6000, 10.0F)};

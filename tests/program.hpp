@@ -1,5 +1,5 @@
 #pragma once
-/// \file program.hpp  Runs the quadedge program the way a user does.
+/// \file program.hpp  Runs the quadedge program as a user does.
 
 #include <cstdlib>
 #include <fstream>
@@ -11,9 +11,9 @@
 #include "temporary_folder.hpp"
 #include "text_files.hpp"
 
-/// What a run of the program gave.
+/// Result of a run of the program.
 struct ProgramResult {
-  int code = -1;  ///< exit code; -1 when it was killed by a signal
+  int code = -1;  ///< exit code; -1 if a signal killed it
   std::string out, err;
 };
 
@@ -24,9 +24,9 @@ inline std::vector<std::string> read_lines(const std::string& path) {
   return all;
 }
 
-/// Settings in front of a shell command: what the user has saved (device, kernel variants, rendered frames) does not
-/// reach the program, and is not changed by it; only the kernels that the driver has compiled stay where they are.
-/// Pages take a Python, which tests name that look at them.
+/// Settings in front of a shell command: the program neither reads nor changes what the user has saved (device, kernel
+/// variants, rendered frames), except for the driver's cache of compiled kernels. Reports need a Python, which tests of
+/// reports name.
 inline std::string environment_of_tests() {
   static const TemporaryFolder folder;
   return "env -u QUADEDGE_DEVICE QUADEDGE_PYTHON=no_python "
@@ -35,14 +35,14 @@ inline std::string environment_of_tests() {
          (folder / "configuration") + "' XDG_CACHE_HOME='" + (folder / "cache") + "'";
 }
 
-/// The program under test; QUADEDGE_TEST_PROGRAM names another one (run_sanitizers.sh).
+/// The program under test, or the one in QUADEDGE_TEST_PROGRAM (run_sanitizers.sh).
 inline std::string program_path() {
   const char* other = std::getenv("QUADEDGE_TEST_PROGRAM");
   return other ? other : QUADEDGE_PROGRAM;
 }
 
-/// Runs `quadedge ARGUMENTS` through the shell; `environment` is put in front, for example "QUADEDGE_DEVICE=gpu".
-/// Arguments are quoted here.
+/// Runs `quadedge ARGUMENTS` through the shell, with `environment` in front, for example "QUADEDGE_DEVICE=gpu". Quotes
+/// the arguments.
 inline ProgramResult run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
   const TemporaryFolder folder;
   std::string command =
@@ -51,14 +51,14 @@ inline ProgramResult run_program(const std::vector<std::string>& arguments, cons
   command += " >'" + (folder / "out") + "' 2>'" + (folder / "err") + "' </dev/null";
   const int status = std::system(command.c_str());
   ProgramResult result;
-  // The shell reports a signal as 128 + its number; the program itself never ends with such a code.
+  // The shell reports a signal as 128 + its number, a code that the program never returns.
   if (WIFEXITED(status) && WEXITSTATUS(status) < 128) result.code = WEXITSTATUS(status);
   result.out = read_text(folder / "out");
   result.err = read_text(folder / "err");
   return result;
 }
 
-/// A rendered sequence of 320 x 200 px, made once per process.
+/// A rendered sequence of 320 x 200 px, created once per process.
 inline const std::string& small_sequence() {
   static const TemporaryFolder folder;
   static const std::string path = [] {

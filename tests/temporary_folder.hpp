@@ -1,5 +1,5 @@
 #pragma once
-/// \file temporary_folder.hpp  A folder that lives as long as its object.
+/// \file temporary_folder.hpp  A temporary folder that its destructor removes.
 
 #include <cstdlib>
 #include <filesystem>

@@ -36,8 +36,7 @@ TEST_CASE("A hand-made scene has the recall, precision and ambiguity calculated 
   lists.target = {0, 1, 3, 2, 3, 0, 0, 2};
   observer.stereo_filter(StereoFilter::epipolar_distance, lists);
   // Edge 0 keeps one true candidate, edge 1 loses its only one, edge 2 gets a true refined position, and edge 5 one
-  // that
-  // would be true if it were visible.
+  // that would be true if it were visible.
   CandidateLists refined;
   refined.first = {0, 1, 1, 2, 2, 2, 3, 3};
   refined.target = {1, 3, 2};

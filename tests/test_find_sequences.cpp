@@ -94,7 +94,7 @@ TEST_CASE("find sequences: a list keeps its order and its invalid lines", "[data
   CHECK(found[1].path == folder / "absent/folder");
 }
 
-TEST_CASE("find sequences: an empty folder is an error that names it", "[data]") {
+TEST_CASE("find sequences: a folder or list without sequences is an error that names it", "[data]") {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "empty");
   write_text(folder / "list.txt", "# nothing\n");

@@ -131,8 +131,7 @@ TEST_CASE("evaluate matching prints all tables of a sequence and writes them as 
   REQUIRE(pooled["constraints"].size() == 7);
   CHECK(pooled["constraints"][0]["recall"] == 1.0);
   // The distributions count the same candidates as the tables: those of paired edges before a filter, after the
-  // previous
-  // one.
+  // previous one.
   const auto& cues = pooled["distributions"];
   for (const auto& cue : cues) {
     const auto total = [&](const char* kind) {

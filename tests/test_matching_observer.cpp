@@ -173,8 +173,7 @@ TEST_CASE("Two hand-made frames have the temporal recall, precision and ambiguit
 TEST_CASE("After a loss the observer evaluates only the search against the frame that the pipeline relocalised against",
           "[matching]") {
   // Frame 0 has three stereo edges, frame 1 (lost) the same in another order and one more, frame 2 those of frame 1.
-  // The
-  // rig moves by 0.05 m = 5 px per frame.
+  // The rig moves by 0.05 m = 5 px per frame.
   StereoEdges zero, one, two;
   for (const float x : {30.0F, 40.0F, 50.0F}) add_stereo(zero, x, 10 + x / 5, x - 10);
   for (const float x : {50.0F, 30.0F, 60.0F, 40.0F}) add_stereo(one, x - 5, 10 + x / 5, x - 15);

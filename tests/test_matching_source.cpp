@@ -65,8 +65,7 @@ TEST_CASE("A mask marks occluded and unknown pixels, but not the contour of a ne
   write_mask(path);
   const auto source = make_recorded_source(open_dataset(path));
   // 12: unknown; 13: next to an unknown pixel; 16: neither; 20: occluded; 29.4: the board's contour, though the pixel
-  // is
-  // marked.
+  // is marked.
   const auto found = positions(*source, {12, 13, 16, 20, 29.4F});
   CHECK(found.state == std::vector<Visibility>{Visibility::unknown, Visibility::unknown, Visibility::visible,
                                                Visibility::occluded, Visibility::visible});

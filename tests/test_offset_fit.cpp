@@ -6,7 +6,7 @@ using namespace quadedge::pose;
 
 namespace {
 
-/// Quads of a drive as a rig sees them whose right principal point lies `offset` px beside what the calibration says.
+/// Quads of a drive, seen by a rig whose right principal point is `offset` px off its calibration.
 QuadObservations quads_with_offset(const generated::Problem& problem, double offset, std::uint64_t seed) {
   quadedge::StereoRig seeing = problem.rig;
   seeing.right.cx += offset;
@@ -25,7 +25,7 @@ QuadObservations quads_with_offset(const generated::Problem& problem, double off
 
 }  // namespace
 
-TEST_CASE("An offset of all disparities makes the motion too long until it is fitted", "[pose][offset_fit]") {
+TEST_CASE("An offset of all disparities makes the motion too long unless it is fitted", "[pose][offset_fit]") {
   generated::Problem problem = generated::drive();
   problem.quads = 3000;
   quadedge::PoseConfig config;
@@ -36,9 +36,9 @@ TEST_CASE("An offset of all disparities makes the motion too long until it is fi
     const Refined fitted = generated::refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
     REQUIRE(plain.solved);
     CHECK(plain.offset == 0);
-    // Disparities that are too small by the offset make everything, and the way, look longer.
+    // Disparities that are too small by the offset enlarge all distances, the motion included.
     CHECK((plain.current_from_previous.translation().norm() - length) * offset > 0);
-    // By more than what it adds to the nearest points.
+    // By more than it adds to the nearest points.
     const double largest_disparity = problem.rig.left.fx * problem.rig.baseline() / problem.near;
     CHECK(std::abs(plain.current_from_previous.translation().norm() / length - 1) >
           std::abs(offset) / largest_disparity);
@@ -51,7 +51,7 @@ TEST_CASE("An offset of all disparities makes the motion too long until it is fi
   }
 }
 
-TEST_CASE("A standing camera says nothing about the disparities' offset", "[pose][offset_fit]") {
+TEST_CASE("A camera at rest leaves the disparity offset undetermined", "[pose][offset_fit]") {
   generated::Problem problem = generated::drive();
   problem.motion = Eigen::Isometry3d::Identity();
   quadedge::PoseConfig config;

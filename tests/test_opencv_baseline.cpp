@@ -14,7 +14,7 @@ struct Tracked {
   std::vector<bench::BaselineResult> results;
 };
 
-/// The first frames of the rendered room, small; `black`: a frame that shows nothing.
+/// The first frames of the rendered room, small; `black`: the number of a black frame.
 Tracked track_room(int frames, int black = -1) {
   SyntheticOptions options;
   options.width = 480;
@@ -43,7 +43,7 @@ TEST_CASE("OpenCV baseline: tracks the rendered room", "[baseline]") {
   const Tracked tracked = track_room(5), again = track_room(5);
   REQUIRE(tracked.estimate.size() == 5);
   CHECK(tracked.results[0].world_from_left.matrix() == Eigen::Matrix4d::Identity());
-  // Steps of 2 to 3 cm: a few per cent of them.
+  // Steps are 2 to 3 cm: a few percent of them.
   const auto errors = evaluate_trajectory(tracked.estimate, tracked.truth).origin_aligned;
   CHECK(errors.rpe_translation_m.max < 2e-3);
   CHECK(errors.rpe_rotation_deg.max < 0.05);
@@ -54,10 +54,10 @@ TEST_CASE("OpenCV baseline: tracks the rendered room", "[baseline]") {
   }
 }
 
-TEST_CASE("OpenCV baseline: what shows nothing is lost, and tracking goes on after the next frame", "[baseline]") {
+TEST_CASE("OpenCV baseline: a black frame is lost, and tracking resumes after the next frame", "[baseline]") {
   const Tracked tracked = track_room(5, 2);
   CHECK_FALSE(tracked.results[2].tracked);
-  CHECK_FALSE(tracked.results[3].tracked);  // its frame before has no points
+  CHECK_FALSE(tracked.results[3].tracked);  // the previous frame has no points
   CHECK(tracked.results[4].tracked);
   CHECK(tracked.estimate.size() == 3);
 }

@@ -6,7 +6,7 @@
 
 using namespace quadedge::pose;
 
-TEST_CASE("A point and its tangent come back from their own projections, on any rig", "[pose][oriented_point]") {
+TEST_CASE("A point and its tangent are recovered from their projections, on any rig", "[pose][oriented_point]") {
   for (const quadedge::StereoRig& rig : {generated::car_rig(), generated::crooked_rig()}) {
     generated::Random random(1);
     int used = 0;
@@ -16,8 +16,8 @@ TEST_CASE("A point and its tangent come back from their own projections, on any 
       if (!found) continue;
       ++used;
       CHECK((found->point - truth.point).norm() < 1e-9 * truth.point.norm());
-      // The direction in `observe` is a finite difference, good to some 1e-9; depth slope magnifies it by depth / base
-      // line.
+      // The direction in `observe` is a finite difference, accurate to about 1e-9; the depth slope magnifies its error
+      // by depth / baseline.
       CHECK((found->tangent - truth.tangent).norm() < 1e-5);
       CHECK(found->tangent.norm() == Approx(1.0).margin(1e-12));
     }
@@ -25,7 +25,7 @@ TEST_CASE("A point and its tangent come back from their own projections, on any 
   }
 }
 
-TEST_CASE("Turning both image directions round turns the tangent round", "[pose][oriented_point]") {
+TEST_CASE("Reversing both image directions reverses the tangent", "[pose][oriented_point]") {
   const quadedge::StereoRig rig = generated::car_rig();
   const OrientedPoint truth{{1.0, -0.5, 8.0}, Eigen::Vector3d(0.3, 0.9, 0.2).normalized()};
   auto edge = generated::observe(rig, truth);
@@ -39,7 +39,7 @@ TEST_CASE("Turning both image directions round turns the tangent round", "[pose]
   CHECK((straight->tangent - truth.tangent).norm() < 1e-6);
 }
 
-TEST_CASE("A stereo edge that shows no point in front of the rig gives nothing", "[pose][oriented_point]") {
+TEST_CASE("A stereo edge without a point in front of the rig is not reconstructed", "[pose][oriented_point]") {
   const quadedge::StereoRig rig = generated::car_rig();
   const double upright = 1.5707963267948966;
   CHECK(reconstruct(rig, {{600, 100}, {590, 100}, upright, upright}, 0.07));
@@ -50,7 +50,7 @@ TEST_CASE("A stereo edge that shows no point in front of the rig gives nothing",
   CHECK_FALSE(reconstruct(rig, {{600, 100}, {590, 100}, 0.0, 0.0}, 0.0));           // exactly along both
 }
 
-TEST_CASE("A far upright edge is not mistaken for one along its epipolar line", "[pose][oriented_point]") {
+TEST_CASE("A distant upright edge is not mistaken for one along its epipolar line", "[pose][oriented_point]") {
   const quadedge::StereoRig rig = generated::car_rig();
   const OrientedPoint truth{{2.0, 1.0, 90.0}, Eigen::Vector3d(0.1, 1.0, 0.0).normalized()};
   const auto found = reconstruct(rig, generated::observe(rig, truth), 0.07);

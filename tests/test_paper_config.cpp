@@ -1,4 +1,4 @@
-/// \file test_paper_config.cpp  config/paper.toml, the paper's plain method.
+/// \file test_paper_config.cpp  config/paper.toml, the paper's method without extensions.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -20,8 +20,8 @@ TEST_CASE("paper.toml: tracks a short rendered sequence, and each of its lines c
   REQUIRE(run.code == 0);
   const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
   CHECK(report["frames_tracked"] == 4);
-  // A single sample moves as far as the depths of its two points are off, 9 m^2 x 0.1 px / (184 px x 0.06 m) = 8 cm at
-  // 3 m; that it explains nearly all quads within 1.5 px tells it from a wrong one.
+  // A single sample's error is the depth error of its two points, 9 m^2 x 0.1 px / (184 px x 0.06 m) = 8 cm at 3 m; a
+  // correct sample explains nearly all quads within 1.5 px, a wrong one does not.
   CHECK(report["accuracy"]["origin_aligned"]["rpe_translation_m"]["mean"].get<double>() < 0.08);
   CHECK(report["counts"]["inliers"].get<double>() > 0.8 * report["counts"]["quads"].get<double>());
   CHECK(report["accuracy"]["origin_aligned"]["rpe_rotation_deg"]["mean"].get<double>() < 0.5);

@@ -36,7 +36,7 @@ std::vector<int> side_of(const std::vector<std::int8_t>& patches, int side) {
   return samples;
 }
 
-/// 1 / norm as it is stored behind the samples.
+/// 1 / norm, stored behind the samples.
 float stored_inverse(const std::vector<std::int8_t>& patches, int side) {
   float inverse;
   std::memcpy(&inverse, patches.data() + 112 + 4 * side, sizeof(float));
@@ -47,7 +47,7 @@ std::ptrdiff_t brightest(const std::vector<int>& patch) {
   return std::max_element(patch.begin(), patch.end()) - patch.begin();
 }
 
-/// The same but for one sample of an edge that rounds the other way.
+/// Equal except for one sample per edge that may round in the other direction.
 void check_same_patches(const std::vector<std::int8_t>& a, const std::vector<std::int8_t>& b) {
   REQUIRE(a.size() == b.size());
   const auto apart = rounded_apart(a, b);
@@ -55,7 +55,7 @@ void check_same_patches(const std::vector<std::int8_t>& a, const std::vector<std
   CHECK(apart.differing <= apart.samples / 98);
 }
 
-/// The largest distance of a sample from the value that it rounds, cut in double precision and scaled to a largest one
+/// The largest difference between a sample and its exact value, computed in double precision and scaled to a maximum
 /// of 127.
 double farthest_from_exact(const Image& image, const EdgePositions& edges, const std::vector<std::int8_t>& patches) {
   double farthest = 0;
@@ -112,10 +112,10 @@ TEST_CASE("patches: a linear ramp shows the sample layout", "[patches]") {
 }
 
 TEST_CASE("patches: the dark side lies 5 px along (sin, -cos) and comes first", "[patches]") {
-  // One lit pixel: where it shows up in the patches tells where each patch lies.
+  // One bright pixel: its position in the patches shows where each patch lies.
   Image image(41, 41);
   image.pixels[20 * 41 + 25] = 255;
-  // Tangent upwards (direction -90 degrees): dark side at (-1, 0), bright side at (1, 0).
+  // Upward tangent (direction -90 degrees): dark side at (-1, 0), bright side at (1, 0).
   const auto patches = cut(image, 20, 20, -kHalfTurn / 2);
   for (const int sample : side_of(patches, 0)) CHECK(sample == 0);
   CHECK(stored_inverse(patches, 0) == 0.0f);
@@ -127,7 +127,7 @@ TEST_CASE("patches: the dark side lies 5 px along (sin, -cos) and comes first", 
   CHECK(brightest(side_of(moved, 1)) == 7 * 4 + 5);
 }
 
-TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches", "[patches]") {
+TEST_CASE("patches: rotating image and edge by 90 degrees gives the same patches", "[patches]") {
   const Image image = noise_image(50, 40, 1);
   Image turned(40, 50);  // clockwise on screen: (x, y) goes to (39 - y, x)
   for (int y = 0; y < 40; ++y) {
@@ -139,7 +139,7 @@ TEST_CASE("patches: turning image and edge by 90 degrees gives the same patches"
   check_same_patches(before, after);
 }
 
-TEST_CASE("patches: the opposite direction swaps the sides and turns both patches by 180 degrees", "[patches]") {
+TEST_CASE("patches: the opposite direction swaps the sides and rotates both patches by 180 degrees", "[patches]") {
   const Image image = noise_image(50, 40, 2);
   const auto before = cut(image, 25.5f, 20.125f, 0.9f), after = cut(image, 25.5f, 20.125f, 0.9f - kHalfTurn);
   auto back = after;
@@ -149,7 +149,7 @@ TEST_CASE("patches: the opposite direction swaps the sides and turns both patche
   check_same_patches(before, back);
 }
 
-TEST_CASE("patches: largest sample 127, no mean, 1 / norm, and neither gain nor offset matter", "[patches]") {
+TEST_CASE("patches: largest sample 127, zero mean, 1 / norm, independent of gain and offset", "[patches]") {
   Image image = noise_image(50, 40, 3), darker(50, 40);
   for (auto& pixel : image.pixels) pixel = static_cast<std::uint8_t>(pixel & 0xfe);
   for (std::size_t k = 0; k < image.pixels.size(); ++k) {
@@ -165,7 +165,7 @@ TEST_CASE("patches: largest sample 127, no mean, 1 / norm, and neither gain nor 
       largest = std::max(largest, std::abs(sample));
     }
     CHECK(largest == 127);
-    CHECK(std::abs(sum) <= 0.5 * kPatchSamples);  // every sample may be rounded by half
+    CHECK(std::abs(sum) <= 0.5 * kPatchSamples);  // every sample may be rounded by up to 0.5
     CHECK(stored_inverse(a, side) == 1.0f / std::sqrt(static_cast<float>(squares)));
     CHECK(std::all_of(a.begin() + 120, a.end(), [](int byte) { return byte == 0; }));
   }
@@ -173,7 +173,7 @@ TEST_CASE("patches: largest sample 127, no mean, 1 / norm, and neither gain nor 
   CHECK(reference::patch_ncc(a.data(), a.data()) == Approx(1).margin(1e-6));
 }
 
-TEST_CASE("patches: beyond the border the outermost pixels repeat", "[patches]") {
+TEST_CASE("patches: the outermost pixels are repeated beyond the border", "[patches]") {
   Image image(20, 20), larger(40, 40);
   const Image texture = noise_image(20, 20, 4);
   image.pixels = texture.pixels;
@@ -190,8 +190,8 @@ TEST_CASE("patches: beyond the border the outermost pixels repeat", "[patches]")
   }
 }
 
-TEST_CASE("patches: the similarity is that of the best pairing of sides", "[patches]") {
-  // Four patches without anything in common: unit vectors along different axes.
+TEST_CASE("patches: the similarity is the maximum over the pairings of sides", "[patches]") {
+  // Four uncorrelated patches: unit vectors along different axes.
   const auto edge = [](int dark, int bright) {
     std::vector<std::int8_t> patches(kEdgePatchBytes, 0);
     for (const auto& [side, k] : {std::pair{0, dark}, {1, bright}}) {
@@ -212,7 +212,7 @@ TEST_CASE("patches: the similarity is that of the best pairing of sides", "[patc
 }
 
 TEST_CASE("patches: every device and variant equals the reference", "[patches][device][oclgrind]") {
-  // Sizes that no group or vector divides; edges on the border and beyond it; a count that fills no group.
+  // Sizes not divisible by any group or vector; edges on the border and beyond it; a count that fills no group.
   for (const auto& [width, height, count] : {std::tuple{1, 1, 3}, {5, 3, 7}, {17, 31, 37}, {64, 48, 101}}) {
     const Image image = noise_image(width, height, 5);
     const EdgePositions edges = random_edges(width, height, count, 6, 4);
@@ -220,11 +220,11 @@ TEST_CASE("patches: every device and variant equals the reference", "[patches][d
     CHECK(farthest_from_exact(image, edges, expected) < 0.5 + 1e-9);
     for (const auto& found : describe_everywhere("patches", image, edges)) {
       CAPTURE(found.name, width, height);
-      // Single precision: positions good to 1e-6 px, contrasts of up to 255 per px, 127 steps for a largest sample of
-      // about 100. A sample as near to the middle of a step may be rounded other than the reference's.
+      // Single precision: positions accurate to 1e-6 px, contrasts of up to 255 per px, 127 steps for a largest sample
+      // of about 100. A sample that close to the middle of a step may be rounded unlike the reference's.
       CHECK(farthest_from_exact(image, edges, found.patches) < 0.5 + 1e-3);
       for (std::size_t edge = 0; edge < expected.size(); edge += kEdgePatchBytes) {
-        // Nothing but zeros where no sample lies, and the norm of the samples that stand there.
+        // Zeros outside the samples, and the norm of the stored samples.
         std::vector<std::int8_t> again(kEdgePatchBytes, 0);
         for (const int side : {0, 1})
           reference::store_side(reference::stored_side(found.patches.data() + edge, side), side, again.data());
@@ -269,7 +269,7 @@ TEST_CASE("patches: all variants give the same bits, and none writes beyond its 
   }
 }
 
-TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", "[patches][device][oclgrind]") {
+TEST_CASE("patches: the kernels' similarity equals the reference's bit for bit", "[patches][device][oclgrind]") {
   const Image image = noise_image(90, 70, 9);
   const EdgePositions edges = random_edges(90, 70, 60, 10);
   auto patches = reference::side_patches(image.view(), edges.x, edges.y, edges.direction, PatchesConfig{});
@@ -277,7 +277,7 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit by bit", 
   for (const int side : {0, 1}) {  // a tie: both sides of edge 2 are the dark side of edge 1
     reference::store_side(reference::stored_side(patches.data() + kEdgePatchBytes, 0), side,
                           patches.data() + 2 * kEdgePatchBytes);
-    reference::PatchValues extremes;  // the largest products there are
+    reference::PatchValues extremes;  // the largest possible products
     for (std::size_t k = 0; k < extremes.size(); ++k) extremes[k] = (k < 25) == (side == 0) ? 1 : -1;
     reference::store_side(extremes, side, patches.data() + 3 * kEdgePatchBytes);
   }

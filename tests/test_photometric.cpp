@@ -15,7 +15,7 @@ namespace {
 
 constexpr reference::RefinementSettings kSettings{20, 1e-3, 3, 2};
 
-/// The texture moved so that what the first image shows at p lies at p + (dx, dy).
+/// The texture shifted: point p of the first image lies at p + (dx, dy).
 Image moved(double dx, double dy) {
   return image_of(64, 60, [=](double x, double y) { return smooth_grey(x - dx, y - dy); });
 }
@@ -30,21 +30,21 @@ std::optional<double> align(const Image& fixed, const Image& image, double x, do
 
 }  // namespace
 
-TEST_CASE("photometric: patches hold the mean-free texture where their frame says", "[photometric][matching]") {
+TEST_CASE("photometric: patches hold the mean-free texture at their frame's positions", "[photometric][matching]") {
   const Image image = image_of(64, 60, [](double x, double y) { return 3 * x + y; });  // bilinear is exact
   const double angle = 0.4, c = std::cos(angle), s = std::sin(angle);
   const auto dark = cut_patch(image.view(), patch_frame(30, 25, c, s, 1, 5), 0, 0);
   for (int i = 0; i < 7; ++i) {
-    for (int j = 0; j < 7; ++j) {  // relative to the middle sample the mean is its own value on a plane
+    for (int j = 0; j < 7; ++j) {  // on a plane the mean equals the middle sample
       const double x = (i - 3) * c - (j - 3) * s, y = (i - 3) * s + (j - 3) * c;
       CHECK(dark[static_cast<std::size_t>(7 * i + j)] == Approx(3 * x + y).margin(1e-9));
     }
   }
-  // The frame's middle: the dark side lies at (sin, -cos), the bright one opposite.
+  // The frame's centre: the dark side lies at (sin, -cos), the bright one opposite.
   const auto frame = patch_frame(30, 25, c, s, -1, 5);
   CHECK(frame.x + 3 * c - 3 * s == Approx(30 - 5 * s));
   CHECK(frame.y + 3 * s + 3 * c == Approx(25 + 5 * c));
-  // A plane's derivative is one number, which the mean takes away; that of a product is not.
+  // A plane's derivative is constant and vanishes with the mean; a product's does not.
   for (const double d : patch_derivative(image.view(), frame, 0.6, 0.8)) CHECK(d == Approx(0).margin(1e-9));
   const Image saddle = image_of(64, 60, [](double x, double y) { return 0.1 * (x - 32) * (y - 30) + 128; });
   const auto level = patch_frame(32, 30, 1, 0, 1, 5);
@@ -53,7 +53,7 @@ TEST_CASE("photometric: patches hold the mean-free texture where their frame say
   for (int j = 0; j < 7; ++j) CHECK(slope[static_cast<std::size_t>(7 * 3 + j)] == Approx(0.1 * (j - 3)).margin(1.01));
 }
 
-TEST_CASE("photometric: a known move along a line is found to 0.02 px", "[photometric][matching]") {
+TEST_CASE("photometric: a known shift along a line is found to 0.02 px", "[photometric][matching]") {
   const Image fixed = moved(0, 0);
   Random random(7);
   int tried = 0, found = 0;
@@ -61,7 +61,7 @@ TEST_CASE("photometric: a known move along a line is found to 0.02 px", "[photom
   for (int k = 0; k < 100; ++k) {
     const double heading = random(-kPi, kPi), move = random(-1.4, 1.4), ex = std::cos(heading), ey = std::sin(heading);
     const double x = random(20, 44), y = random(20, 40), angle = random(-kPi, kPi);
-    // Flat spots, where rounding to 8 bits counts more, are left out: less than 4 grey levels per px along the line.
+    // Flat spots, where 8-bit rounding has more effect, are left out: less than 4 grey levels per px along the line.
     const auto slopes =
         patch_derivative(fixed.view(), patch_frame(x, y, std::cos(angle), std::sin(angle), 0, 5), ex, ey);
     if (reference::patch_norm(slopes) / 7 < 4) continue;
@@ -76,7 +76,7 @@ TEST_CASE("photometric: a known move along a line is found to 0.02 px", "[photom
   check_subpixel(errors);
 }
 
-TEST_CASE("photometric: what is too far is rejected, and a flat patch stays", "[photometric][matching]") {
+TEST_CASE("photometric: too large a shift is rejected, and a flat patch stays in place", "[photometric][matching]") {
   const Image fixed = moved(0, 0);
   CHECK(align(fixed, moved(1, 0), 30, 30, 0.3, 1, 0));
   CHECK_FALSE(align(fixed, moved(2.6, 0), 30, 30, 0.3, 1, 0));  // beyond the clamp of 2 px
@@ -84,7 +84,7 @@ TEST_CASE("photometric: what is too far is rejected, and a flat patch stays", "[
   CHECK(align(flat, flat, 30, 30, 0.3, 1, 0) == 0.0);
 }
 
-TEST_CASE("photometric: contrast is evened out, and a prior holds the start", "[photometric][matching]") {
+TEST_CASE("photometric: contrast is normalised, and a strong prior keeps the start", "[photometric][matching]") {
   const Image fixed = moved(0, 0);
   const Image darker = image_of(64, 60, [](double x, double y) { return 25 + 0.8 * smooth_grey(x - 0.6, y); });
   CHECK(*align(fixed, darker, 30, 30, 0.3, 1, 0) == Approx(0.6).margin(0.03));
@@ -107,7 +107,7 @@ TEST_CASE("photometric: the Huber weight falls from 1 beyond its limit", "[photo
   CHECK(reference::huber_weight(-12, 3) == Approx(0.25));
 }
 
-TEST_CASE("photometric: devices cut the same patches, also across the border",
+TEST_CASE("photometric: devices sample the same patches, also across the border",
           "[photometric][matching][device][oclgrind]") {
   const std::string source =
       "kernel void probe(global const uint* corners, const int width, const int height, global const float* at, const "

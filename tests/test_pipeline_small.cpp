@@ -8,7 +8,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Two frames of the room, with so few edges that a simulator of OpenCL devices gets through them.
+/// Two frames of the room, with few enough edges for a simulator of OpenCL devices.
 std::vector<FrameResult> track_small_room(const std::string& device_name) {
   SyntheticOptions options;
   options.frames = 2;
@@ -41,7 +41,7 @@ TEST_CASE("pipeline: every device finds the reference's edges, quads and poses i
     for (std::size_t i = 0; i < expected.size(); ++i) {
       INFO("device " << name << ", frame " << i);
       CHECK(found[i].status == expected[i].status);
-      // Edges within rounding of a threshold may differ, and everything that follows from them.
+      // Edges within rounding of a threshold may differ, and so may everything that depends on them.
       const auto near = [](int count) { return Approx(count).epsilon(0.02).margin(2); };
       CHECK(found[i].counts.edges_left == near(expected[i].counts.edges_left));
       CHECK(found[i].counts.edges_right == near(expected[i].counts.edges_right));

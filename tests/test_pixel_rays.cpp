@@ -40,7 +40,7 @@ float interpolated(const std::vector<double>& grey, double x, double y) {
 
 }  // namespace
 
-TEST_CASE("pixel rays: every lens looks where its calibration says", "[synthetic][lens]") {
+TEST_CASE("pixel rays: every lens follows its calibration", "[synthetic][lens]") {
   for (const std::string& name : synthetic_lenses()) {
     INFO(name);
     const Lens lens = small_lens(name);
@@ -63,7 +63,7 @@ TEST_CASE("pixel rays: every lens looks where its calibration says", "[synthetic
   }
 }
 
-TEST_CASE("pixel rays: a rendered lens, undistorted, is the rendered pinhole view", "[synthetic][lens]") {
+TEST_CASE("pixel rays: a rendered lens image, undistorted, equals the rendered pinhole view", "[synthetic][lens]") {
   const synthetic::Scene scene = synthetic::make_scene("room", 7, kFocal);
   const Eigen::Isometry3d pose(Eigen::AngleAxisd(0.1, Eigen::Vector3d(0.2, 1, 0).normalized()));
   for (const std::string& name : synthetic_lenses()) {
@@ -75,7 +75,7 @@ TEST_CASE("pixel rays: a rendered lens, undistorted, is the rendered pinhole vie
     const StereoRig rig = make_rig(calibration);
     const auto recorded = synthetic::render(scene, calibration.left, pose, 4, 2),
                expected = synthetic::render(scene, rig.left, pose, 4, 2);
-    // How far the undistorted image has to be moved to look like the other: by least squares over its gradient.
+    // Shift between the undistorted image and the other, by least squares over its gradient.
     double moved[2] = {0, 0}, squares[2] = {0, 0}, depth_error = 0;
     int compared = 0;
     for (int y = 5; y < kRaysHeight - 5; ++y) {
@@ -105,7 +105,7 @@ TEST_CASE("pixel rays: a rendered lens, undistorted, is the rendered pinhole vie
   }
 }
 
-TEST_CASE("pixel rays: a lens and a turned camera come back from disk as they were rendered", "[synthetic][lens]") {
+TEST_CASE("pixel rays: a lens and a rotated camera are read back as they were rendered", "[synthetic][lens]") {
   const TemporaryFolder folder;
   SyntheticOptions options;
   options.frames = 2;

@@ -10,7 +10,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Random edges of which many share a cell, and some lie beyond the border of a width x height image.
+/// Random edges, many of which share a cell and some of which lie outside a width x height image.
 EdgePositions crowded_edges(int count, int width, int height, std::uint64_t seed) {
   matching::Random random(seed);
   EdgePositions edges;
@@ -39,7 +39,7 @@ void check_index(const EdgePositions& edges, int width, int height, const stages
 
 }  // namespace
 
-TEST_CASE("point index: cells of 8 x 4 px in rows, then the number; what lies outside counts to the border",
+TEST_CASE("point index: sorted by cells of 8 x 4 px in rows, then by number; points outside go to border cells",
           "[temporal][matching]") {
   //                             0     1      2      3      4    5     6
   const std::vector<float> xs = {17, 7.9f, 8.1f, 2.25f, 100, -30, 3}, ys = {2.1f, 3.9f, 4.2f, 0.2f, 9, -3, 4};
@@ -80,7 +80,7 @@ TEST_CASE("point index: a square holds every point within its radius, also beyon
   }
 }
 
-TEST_CASE("point index: devices sort the edges of both sides as the reference does",
+TEST_CASE("point index: devices sort the edges of both sides like the reference",
           "[temporal][matching][device][oclgrind]") {
   matching::for_each_variant(
       "point_index", [&](opencl::Context& context, const matching::Variants& variants, const std::string& name) {

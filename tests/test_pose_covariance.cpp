@@ -31,7 +31,7 @@ Eigen::Matrix3d turn_by(const Eigen::Vector3d& rotation) {
                              : Eigen::Matrix3d::Identity();
 }
 
-/// The pose with errors as PoseCovariance defines them.
+/// The pose with an error as PoseCovariance defines it.
 Eigen::Isometry3d erring(const Eigen::Isometry3d& pose, const Vector6& error) {
   Eigen::Isometry3d result = pose;
   result.translation() += error.head<3>();
@@ -48,7 +48,7 @@ Vector6 error_of(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& pos
 
 }  // namespace
 
-TEST_CASE("pose covariance: of a motion's inverse it is what small errors of the motion become", "[odometry]") {
+TEST_CASE("pose covariance: a motion's inverse propagates small errors of the motion", "[odometry]") {
   RelativePose motion;
   motion.transform = some_transform(0.8, {1, -2, 0.5}, {0.4, 2, -1});
   motion.covariance = some_covariance(1e-4);
@@ -67,7 +67,7 @@ TEST_CASE("pose covariance: of a motion's inverse it is what small errors of the
   CHECK((*pose.covariance - expected).norm() < 1e-5 * expected.norm());
 }
 
-TEST_CASE("pose covariance: of a chain it is what small errors of both links become", "[odometry]") {
+TEST_CASE("pose covariance: a chain propagates small errors of both links", "[odometry]") {
   const UncertainPose key{some_transform(0.4, {1, 2, 3}, {0.5, -1, 2}), some_covariance(1e-4)};
   const UncertainPose current{some_transform(-0.7, {2, -1, 1}, {1, 3, -0.4}), some_covariance(2e-4)};
   const UncertainPose chain = key * current;
@@ -85,7 +85,7 @@ TEST_CASE("pose covariance: of a chain it is what small errors of both links bec
   CHECK((*chain.covariance - expected).norm() < 1e-5 * expected.norm());
 }
 
-TEST_CASE("pose covariance: there and back it is what small errors become", "[odometry]") {
+TEST_CASE("pose covariance: a pose's inverse propagates its small errors", "[odometry]") {
   const UncertainPose there{some_transform(0.4, {1, 2, 3}, {0.5, -1, 2}), some_covariance(1e-4), {}};
   const UncertainPose back = inverse(there);
   Eigen::Matrix<double, 6, 6> jacobian;
@@ -98,7 +98,7 @@ TEST_CASE("pose covariance: there and back it is what small errors become", "[od
   CHECK((*back.covariance - expected).norm() < 1e-5 * expected.norm());
 }
 
-TEST_CASE("pose covariance: of what hangs on a predicted pose there is none", "[odometry]") {
+TEST_CASE("pose covariance: there is none for anything based on a predicted pose", "[odometry]") {
   const UncertainPose found{some_transform(0.1, {1, 0, 0}, {1, 2, 3}), some_covariance(1e-4)};
   const UncertainPose predicted{found.fixed_from_camera, std::nullopt};
   CHECK_FALSE((predicted * found).covariance);

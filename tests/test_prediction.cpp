@@ -27,12 +27,12 @@ TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std
 
 }  // namespace
 
-TEST_CASE("prediction: points moved by a known motion are expected where they project to", "[odometry][prediction]") {
+TEST_CASE("prediction: points moved by a known motion are predicted at their projections", "[odometry][prediction]") {
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
     generated::Random random(5);
     std::vector<pose::OrientedPoint> points;
     for (int k = 0; k < 60; ++k) {
-      // Upright and oblique tangents, so that neither rig sees them along its epipolar lines.
+      // Upright and oblique tangents, so that neither rig's epipolar lines run along them.
       points.push_back(
           {Vector3d(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), random.uniform(1.5, 4)), random.unit()});
     }
@@ -54,7 +54,7 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
       CHECK(search.left.y[i] == Approx(left.y()).margin(0.01));
       CHECK(search.right.x[i] == Approx(right.x()).margin(0.01));
       CHECK(search.right.y[i] == Approx(right.y()).margin(0.01));
-      // The tangent: a second point a little further along it.
+      // The tangent: a second point slightly farther along it.
       const auto ahead = rig.left.project(motion * (points[i].point + 1e-6 * points[i].tangent));
       const double direction = std::atan2(ahead.y() - left.y(), ahead.x() - left.x());
       CHECK(std::abs(std::remainder(static_cast<double>(search.left.direction[i]) - direction, 2 * kPi)) < 0.02);
@@ -63,7 +63,7 @@ TEST_CASE("prediction: points moved by a known motion are expected where they pr
   }
 }
 
-TEST_CASE("prediction: without a motion everything is expected where it was", "[odometry][prediction]") {
+TEST_CASE("prediction: without a motion everything is predicted at its previous position", "[odometry][prediction]") {
   const auto rig = generated::car_rig();
   const auto edges =
       edges_of(rig, {{Vector3d(0, 0, 5), Vector3d::UnitY()}, {Vector3d(1, 0, 9), Vector3d(0.5, 1, 0).normalized()}});
@@ -74,14 +74,14 @@ TEST_CASE("prediction: without a motion everything is expected where it was", "[
   CHECK(search.step == 8);
 }
 
-TEST_CASE("prediction: no position for what has no depth or falls behind the camera", "[odometry][prediction]") {
+TEST_CASE("prediction: edges without depth or behind the camera have no position", "[odometry][prediction]") {
   const auto rig = generated::car_rig();
   auto edges = edges_of(rig, {{Vector3d(0, 0.2, 5), Vector3d::UnitY()},
                               {Vector3d(0.5, 0.2, 3), Vector3d::UnitY()},
                               {Vector3d(0, 0.2, 5), Vector3d::UnitX()}});
   edges.right_x[0] = edges.left_x[0] + 2;  // negative disparity
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.translation() = Vector3d(0, 0, -4);  // the second point is passed
+  motion.translation() = Vector3d(0, 0, -4);  // the camera passes the second point
   const auto search = predict(rig, edges, motion, 10, 1);
   for (std::size_t i = 0; i < 3; ++i) {  // the third one lies along its epipolar line
     CHECK(std::isnan(search.left.x[i]));
@@ -89,7 +89,7 @@ TEST_CASE("prediction: no position for what has no depth or falls behind the cam
   }
 }
 
-TEST_CASE("prediction: what is in view is counted, and moves are measured where both positions hold",
+TEST_CASE("prediction: edges in view are counted, and shifts are averaged where both positions are valid",
           "[odometry][prediction]") {
   const float nowhere = std::numeric_limits<float>::quiet_NaN();
   const EdgePositions a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}},

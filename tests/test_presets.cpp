@@ -23,13 +23,13 @@ Config effective(const std::vector<std::string>& options) {
 
 }  // namespace
 
-TEST_CASE("presets: the default one says what the program does without any", "[cli]") {
+TEST_CASE("presets: the default preset equals the program's defaults", "[cli]") {
   const Config none, said = read_config(QUADEDGE_KERNELS "/../config/default.toml");
   for (const auto& constant : constants()) CHECK(constant.text(said) == constant.text(none));
   CHECK(data::preset_names() == std::vector<std::string>{"fast", "default", "accurate"});
 }
 
-TEST_CASE("presets: --preset sets what its file says; file and command line win over it", "[cli][device]") {
+TEST_CASE("presets: --preset applies its file; --config and the command line override it", "[cli][device]") {
   CHECK(effective({"--preset", "accurate"}).edges.budget == 0);
   CHECK(effective({"--preset", "fast"}).edges.budget == 8000);
   CHECK(effective({"--preset", "accurate", "--edges.budget", "9000"}).edges.budget == 9000);

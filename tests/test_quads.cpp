@@ -7,8 +7,7 @@ using namespace quadedge::pose;
 
 namespace {}  // namespace
 
-TEST_CASE("Quads take the detected positions, keep their match's row and leave out what has no depth",
-          "[pose][quads]") {
+TEST_CASE("Quads use the detected positions, keep their match's row and skip edges without depth", "[pose][quads]") {
   const quadedge::StereoRig rig = generated::car_rig();
   generated::Random random(10);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();

@@ -24,7 +24,7 @@ Consensus search(const generated::Problem& problem, const generated::Generated& 
 
 }  // namespace
 
-TEST_CASE("Consensus is found among 70 % outliers, exact and noisy, for several seeds", "[pose][ransac]") {
+TEST_CASE("Consensus is found among 70 % outliers, with exact and noisy quads, for several seeds", "[pose][ransac]") {
   quadedge::PoseConfig config;
   generated::Problem problem = drive_with_outliers();
   problem.outliers = 0.7;
@@ -43,7 +43,7 @@ TEST_CASE("Consensus is found among 70 % outliers, exact and noisy, for several 
   }
 }
 
-TEST_CASE("A moving thing counts by the area that it covers, not by its edges", "[pose][ransac]") {
+TEST_CASE("A moving object counts by its area in the image, not by its number of edges", "[pose][ransac]") {
   generated::Problem scene = drive_with_outliers(), thing = drive_with_outliers();
   scene.quads = 600;
   thing.quads = 2400;
@@ -63,7 +63,7 @@ TEST_CASE("A moving thing counts by the area that it covers, not by its edges", 
   CHECK(generated::translation_error(search(scene, g, config).current_from_previous, thing.motion) < 0.02);
 }
 
-TEST_CASE("The search ends with no, one and two quads, and with quads of which no pair passes", "[pose][ransac]") {
+TEST_CASE("The search terminates with zero, one and two quads, and when no pair of quads passes", "[pose][ransac]") {
   quadedge::PoseConfig config;
   generated::Problem problem = drive_with_outliers();
   for (int count : {0, 1, 2}) {
@@ -76,7 +76,7 @@ TEST_CASE("The search ends with no, one and two quads, and with quads of which n
       CHECK(found.draws == 0);
     }
   }
-  // Every distance doubled: constraint 1 fails for each pair.
+  // All distances are doubled: constraint 1 fails for each pair.
   problem.quads = 50;
   auto g = generated::generate(problem, 42);
   for (StereoMeasurement& after : g.quads.current) after.inverse_depth *= 0.5;
@@ -86,7 +86,7 @@ TEST_CASE("The search ends with no, one and two quads, and with quads of which n
   CHECK(found.hypotheses == 0);
 }
 
-TEST_CASE("An initial guess is one more hypothesis: it helps when right and does no harm when wrong",
+TEST_CASE("An initial guess is an additional hypothesis: it helps when right and does no harm when wrong",
           "[pose][ransac]") {
   quadedge::PoseConfig config;
   generated::Problem problem = drive_with_outliers();
@@ -119,7 +119,7 @@ TEST_CASE("The search stops early when most quads agree, and the same seed gives
   CHECK(other.draws != a.draws);
 }
 
-TEST_CASE("Without local optimisation the motion is the one of two quads as they were measured", "[pose][ransac]") {
+TEST_CASE("Without local optimisation the motion is that of two measured quads", "[pose][ransac]") {
   quadedge::PoseConfig config;
   config.local_optimisation_rounds = 0;
   config.local_optimisation_widening = 1;
@@ -129,7 +129,7 @@ TEST_CASE("Without local optimisation the motion is the one of two quads as they
   const Consensus found = search(problem, exact, config);
   REQUIRE(found.found);
   CHECK(generated::rotation_error(found.current_from_previous, problem.motion) < 1e-6);
-  // Of noisy quads it is one of the pairs' own motions, and so farther off than the locally optimised one.
+  // With noisy quads it is one pair's motion, and so less accurate than the locally optimised one.
   problem.noise = generated::Noise{0.12, 0.4, 0.02};
   const auto noisy = generated::generate(problem, 44);
   const Consensus plain = search(problem, noisy, config);

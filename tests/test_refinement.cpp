@@ -5,7 +5,7 @@
 
 using namespace quadedge::pose;
 
-TEST_CASE("Exact quads lead back to the exact motion from a start nearby", "[pose][refinement]") {
+TEST_CASE("With exact quads the refinement converges to the exact motion from a start nearby", "[pose][refinement]") {
   generated::Problem problem = generated::drive();
   problem.noise = {};
   for (const auto& rig : {generated::car_rig(), generated::crooked_rig()}) {
@@ -20,7 +20,7 @@ TEST_CASE("Exact quads lead back to the exact motion from a start nearby", "[pos
   }
 }
 
-TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covariance is consistent",
+TEST_CASE("Noisy earlier depths cause no bias along the motion, and the covariance is consistent",
           "[long][pose][refinement]") {
   generated::Problem problem = generated::drive();
   const generated::Trials trials = generated::run_trials(problem, 150);
@@ -30,23 +30,23 @@ TEST_CASE("Noisy earlier depths leave no bias along the motion, and the covarian
   CHECK(trials.nees < 1.5);
 }
 
-TEST_CASE("Far points with large disparity noise do not shorten the motion", "[long][pose][refinement]") {
+TEST_CASE("Distant points with large disparity noise do not shorten the motion", "[long][pose][refinement]") {
   generated::Problem problem = generated::drive();
   problem.noise.across = 0.3;
   problem.near = 15;
   problem.far = 150;
   problem.quads = 1000;
-  // With the earlier points taken as exact the mean is off by 0.7 mm, five standard errors.
+  // If the earlier points were assumed exact, the mean would be off by 0.7 mm, five standard errors.
   const generated::Trials trials = generated::run_trials(problem, 120);
   CHECK(trials.standard_error(5) < 1.6e-4);
   CHECK(std::abs(trials.mean(5)) < 3.5 * trials.standard_error(5));
 }
 
-TEST_CASE("Edges that are found at one scale while the scene grows do not shorten the motion", "[pose][refinement]") {
+TEST_CASE("Edges detected at a fixed scale in an approaching scene do not shorten the motion", "[pose][refinement]") {
   generated::Problem problem = generated::drive();
   const auto& camera = problem.rig.left;
   const Eigen::Vector2d middle(camera.cx, camera.cy);
-  const auto error = [&](bool told) {
+  const auto error = [&](bool with_drift) {
     generated::Random random(36);
     QuadObservations quads;
     while (quads.size() < 500) {
@@ -54,16 +54,16 @@ TEST_CASE("Edges that are found at one scale while the scene grows do not shorte
       const OrientedPoint q{problem.motion * p.point, problem.motion.linear() * p.tangent};
       if (q.point.z() < 3) continue;
       auto before = generated::observe(problem.rig, p), after = generated::observe(problem.rig, q);
-      // Every edge drifts outwards with the scale, so that it stays behind as the scene comes nearer; half of the
-      // growth is told by either time. The right edge drifts as the left one does.
+      // Every edge drifts outwards with the scale, so that it lags behind as the scene approaches; half of the growth
+      // is applied at either time. The right edge drifts like the left one.
       const double growth = std::log(p.point.z() / q.point.z());
-      const auto drift = [&](StereoObservation& o, double way) {
+      const auto drift = [&](StereoObservation& o, double share) {
         const Eigen::Vector2d normal(-std::sin(o.left_direction), std::cos(o.left_direction));
         const double outwards = normal.dot(o.left - middle) > 0 ? 1.5 : -1.5;
         const double depth = (&o == &before ? p : q).point.z();
-        o.left += way * growth * outwards * normal;
+        o.left += share * growth * outwards * normal;
         o.right = problem.rig.right.project(problem.rig.right_from_left * (depth * camera.ray(o.left)));
-        if (told) o.left_scale_drift = outwards;
+        if (with_drift) o.left_scale_drift = outwards;
       };
       drift(before, 0.5);
       drift(after, -0.5);
@@ -77,12 +77,12 @@ TEST_CASE("Edges that are found at one scale while the scene grows do not shorte
   CHECK(error(true) < 0.1 * error(false));
 }
 
-TEST_CASE("Wrong quads that pass for inliers hardly move the pose", "[pose][refinement]") {
+TEST_CASE("Wrong quads among the inliers hardly affect the pose", "[pose][refinement]") {
   generated::Problem problem = generated::drive();
   problem.quads = 1000;
   quadedge::PoseConfig robust, plain;
   plain.student_dof = 1e9;  // a normal distribution: plain least squares
-  // 15 % of the quads one pixel off to one side: inside the 1.5 px of an inlier, seven standard deviations out.
+  // 15 % of the quads are one pixel off to one side: within an inlier's 1.5 px, but seven standard deviations off.
   generated::Random random(33);
   QuadObservations quads;
   for (std::size_t i = 0; i < 1000; ++i) {
@@ -98,12 +98,12 @@ TEST_CASE("Wrong quads that pass for inliers hardly move the pose", "[pose][refi
     REQUIRE(refined.solved);
     return generated::error_of(refined.current_from_previous, problem.motion).head<3>().norm();
   };
-  // A plain mean turns by about 0.14 px / 700 px = 2e-4 rad.
+  // A plain mean would rotate by about 0.14 px / 700 px = 2e-4 rad.
   CHECK(error(plain) > 1.5e-4);
   CHECK(error(robust) < 0.6 * error(plain));
 }
 
-TEST_CASE("Quads that cannot fix a motion are reported as unsolved", "[pose][refinement]") {
+TEST_CASE("Quads that do not determine a motion are reported as unsolved", "[pose][refinement]") {
   generated::Problem problem = generated::drive();
   quadedge::PoseConfig config;
   problem.quads = 1;

@@ -17,7 +17,7 @@ Eigen::Isometry3d perturbed(const Eigen::Isometry3d& pose, const Vector6& change
   return step * pose;
 }
 
-/// The left perturbation that leads from `from` to `to`, both near one another.
+/// The left perturbation from `from` to `to`, which are close to each other.
 Vector6 change_between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   const Eigen::Isometry3d step = to * from.inverse();
   const Eigen::AngleAxisd turn(step.linear());
@@ -38,12 +38,12 @@ RelativePose some_pose(double angle, const Eigen::Vector3d& axis, const Eigen::V
 
 }  // namespace
 
-TEST_CASE("relative pose: the covariance of a product is what small errors of both factors become", "[odometry]") {
+TEST_CASE("relative pose: the covariance of a product propagates small errors of both factors", "[odometry]") {
   const RelativePose c_from_b = some_pose(0.4, {1, 2, 3}, {0.5, -1, 2}, 1e-4),
                      b_from_a = some_pose(-0.7, {2, -1, 1}, {1, 3, -0.4}, 2e-4);
   const RelativePose c_from_a = c_from_b * b_from_a;
   CHECK(c_from_a.transform.isApprox(c_from_b.transform * b_from_a.transform));
-  // Columns of both Jacobians by differences.
+  // Columns of both Jacobians by finite differences.
   Matrix6 of_first, of_second;
   const double h = 1e-6;
   for (int i = 0; i < 6; ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("relative pose: the covariance of a product is what small errors of bo
   CHECK((c_from_a.covariance - expected).norm() < 1e-5 * expected.norm());
 }
 
-TEST_CASE("relative pose: a frame seen from itself changes nothing", "[odometry]") {
+TEST_CASE("relative pose: the identity changes nothing", "[odometry]") {
   const RelativePose pose = some_pose(0.4, {1, 2, 3}, {0.5, -1, 2}, 1e-4), same = pose * RelativePose();
   CHECK(same.transform.matrix() == pose.transform.matrix());
   CHECK(same.covariance == pose.covariance);

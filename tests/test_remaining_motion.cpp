@@ -7,7 +7,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Stereo edges before a car's cameras that move by one of two motions, matched rightly.
+/// Stereo edges in front of a car's cameras that move by one of two motions, all matched correctly.
 struct TwoMotions {
   Config config;
   StereoRig rig = generated::car_rig();
@@ -17,7 +17,7 @@ struct TwoMotions {
   odometry::MotionQuery query;
   odometry::StepHandle confirmed;
 
-  /// `first` edges move by the motion that was confirmed, `others` by another one.
+  /// `first` edges move by the confirmed motion, `others` by another one.
   TwoMotions(const Eigen::Isometry3d& motion, int first, const Eigen::Isometry3d& other, int others) {
     before->start(0);
     now->start(1);
@@ -51,21 +51,21 @@ Eigen::Isometry3d sideways(double metres) { return Eigen::Isometry3d(Eigen::Tran
 
 }  // namespace
 
-TEST_CASE("remaining motion: what a confirmed motion does not explain closely moves otherwise", "[odometry]") {
-  // At 10 m 0.03 m are 2 px.
+TEST_CASE("remaining motion: edges that the confirmed motion does not explain give another motion", "[odometry]") {
+  // At a depth of 10 m, 0.03 m are 2 px.
   TwoMotions edges(sideways(0.2), 400, sideways(0.17), 300);
   const auto step = edges.propose();
   REQUIRE(step);
   REQUIRE(step->ok());
   CHECK(step->base == edges.query.base);
   CHECK((step->motion.current_from_previous.translation() - sideways(0.17).translation()).norm() < 0.003);
-  // Nothing but what was left over: hardly an edge of the first motion, and most of the others.
+  // Only the remaining edges: hardly any of the first motion, and most of the others.
   CHECK(std::count_if(step->matches.previous.begin(), step->matches.previous.end(), [](int i) { return i < 400; }) <
         40);
   CHECK(step->matches.size() > 200);
 }
 
-TEST_CASE("remaining motion: where the confirmed motion explains everything there is none", "[odometry]") {
+TEST_CASE("remaining motion: there is none if the confirmed motion explains everything", "[odometry]") {
   TwoMotions edges(sideways(0.2), 700, sideways(0.2), 0);
   const auto step = edges.propose();
   REQUIRE(step);
@@ -74,7 +74,7 @@ TEST_CASE("remaining motion: where the confirmed motion explains everything ther
   CHECK(edges.propose() == nullptr);
 }
 
-TEST_CASE("remaining motion: a motion since the key rig is told as one since the base", "[odometry]") {
+TEST_CASE("remaining motion: a motion since the key rig is converted to one since the base", "[odometry]") {
   TwoMotions edges(sideways(0.2), 400, sideways(0.17), 300);
   const auto base = std::make_shared<frontend::Rig>();
   edges.query.key = edges.query.base;

@@ -21,7 +21,7 @@ SyntheticOptions small_scene(int frames = 3) {
   return options;
 }
 
-/// Takes all frames and compares them with what the renderer gives. Returns how many had to be rendered.
+/// Reads all frames and compares them with the renderer's. \returns the number of frames that had to be rendered
 int rendered_frames(const SyntheticOptions& options, const std::string& folder,
                     std::uintmax_t bound = RenderedFrames::kBound) {
   RenderedFrames frames(options, folder, {}, bound);
@@ -53,16 +53,16 @@ int folders_in(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("rendered frames: the second start reads what the first has rendered") {
+TEST_CASE("rendered frames: a second run reads the frames that the first rendered") {
   const TemporaryFolder folder;
   CHECK(rendered_frames(small_scene(), folder / "cache") == 3);
   CHECK(files_below(folder / "cache").size() == 6);
   CHECK(rendered_frames(small_scene(), folder / "cache") == 0);
   CHECK(rendered_frames(small_scene(2), folder / "cache") == 0);  // a shorter sequence has the same images
-  CHECK(rendered_frames(small_scene(5), folder / "cache") == 2);  // of a longer one the rest is missing
+  CHECK(rendered_frames(small_scene(5), folder / "cache") == 2);  // a longer one lacks the rest
 }
 
-TEST_CASE("rendered frames: every option that decides a pixel has images of its own") {
+TEST_CASE("rendered frames: every option that affects pixels has separate images") {
   const TemporaryFolder folder;
   std::vector<SyntheticOptions> scenes(13, small_scene(1));
   scenes[1].scene = "cables";
@@ -84,10 +84,10 @@ TEST_CASE("rendered frames: every option that decides a pixel has images of its 
   CHECK(rendered_frames(threads, folder / "cache") == 0);
   auto longer_loop = small_scene(2);
   longer_loop.path = "loop";
-  CHECK(rendered_frames(longer_loop, folder / "cache") == 2);  // its first frame comes from another loop
+  CHECK(rendered_frames(longer_loop, folder / "cache") == 2);  // its first frame belongs to another loop
 }
 
-TEST_CASE("rendered frames: an entry that is damaged in any way is rendered anew, and sound again") {
+TEST_CASE("rendered frames: a damaged entry is rendered again and repaired") {
   const TemporaryFolder folder;
   REQUIRE(rendered_frames(small_scene(), folder / "cache") == 3);
   const auto file = files_below(folder / "cache")[2];  // one view of the second frame
@@ -99,11 +99,11 @@ TEST_CASE("rendered frames: an entry that is damaged in any way is rendered anew
     stream.seekp(static_cast<std::streamoff>(size) - 7);
     stream.put(pixel);
   }
-  SECTION("its head") { std::fstream(file, std::ios::binary | std::ios::in | std::ios::out) << "P6"; }
-  SECTION("cut short") { fs::resize_file(file, size / 2); }
+  SECTION("the header") { std::fstream(file, std::ios::binary | std::ios::in | std::ios::out) << "P6"; }
+  SECTION("truncated") { fs::resize_file(file, size / 2); }
   SECTION("longer") { fs::resize_file(file, size + 1); }
   SECTION("empty") { fs::resize_file(file, 0); }
-  SECTION("gone") { fs::remove(file); }
+  SECTION("missing") { fs::remove(file); }
   SECTION("a folder") {
     fs::remove(file);
     fs::create_directory(file);
@@ -114,7 +114,7 @@ TEST_CASE("rendered frames: an entry that is damaged in any way is rendered anew
   CHECK(rendered_frames(small_scene(), folder / "cache") == 0);
 }
 
-TEST_CASE("rendered frames: a folder that cannot be made costs nothing but the time to render") {
+TEST_CASE("rendered frames: if the folder cannot be created, frames are only rendered") {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
   RenderedFrames frames(small_scene(), folder / "file/cache");
@@ -125,7 +125,7 @@ TEST_CASE("rendered frames: a folder that cannot be made costs nothing but the t
   CHECK(rendered_frames(small_scene(), "") == 3);
 }
 
-TEST_CASE("rendered frames: only so much is in memory and on disk; what was used long ago goes first") {
+TEST_CASE("rendered frames: memory and disk use are limited, and the least recently used frames go first") {
   const TemporaryFolder folder;
   const std::uintmax_t frame = 2 * 64 * 40;
   CHECK(rendered_frames(small_scene(5), folder / "cache", 2 * frame) == 5);  // in three blocks
@@ -143,7 +143,7 @@ TEST_CASE("rendered frames: only so much is in memory and on disk; what was used
     for (const auto& kept : fs::directory_iterator(folder / "cache"))
       fs::last_write_time(kept, fs::last_write_time(kept) - std::chrono::hours(1));
   }
-  CHECK(rendered_frames(scenes[0], folder / "cache") == 0);  // used again: now the second is the oldest
+  CHECK(rendered_frames(scenes[0], folder / "cache") == 0);  // used again: now the second is the least recently used
   CHECK(rendered_frames(small_scene(1), folder / "cache", 3 * (frame + 200)) == 1);
   CHECK(folders_in(folder / "cache") == 3);
   CHECK(rendered_frames(scenes[0], folder / "cache") == 0);
@@ -151,7 +151,7 @@ TEST_CASE("rendered frames: only so much is in memory and on disk; what was used
   CHECK(rendered_frames(scenes[1], folder / "cache") == 1);
 }
 
-TEST_CASE("rendered frames: a second pass is read, and the watch can end a pass") {
+TEST_CASE("rendered frames: a second pass reads the frames, and the callback can end a pass") {
   const TemporaryFolder folder;
   RenderedFrames frames(small_scene(), folder / "cache");
   const auto first = frames.next();
@@ -162,14 +162,14 @@ TEST_CASE("rendered frames: a second pass is read, and the watch can end a pass"
   CHECK(again->left.pixels == first->left.pixels);
   CHECK(frames.progress().rendered == 3);
 
-  int told = 0;
+  int calls = 0;
   RenderedFrames ended(small_scene(), "", [&](const data::RenderingProgress& progress) {
     CHECK(progress.frames == 3);
     CHECK(progress.ready <= 3);
-    ++told;
+    ++calls;
     return false;
   });
   CHECK_FALSE(ended.prepare());
   CHECK_FALSE(ended.next());
-  CHECK(told > 0);
+  CHECK(calls > 0);
 }

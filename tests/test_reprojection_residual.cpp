@@ -7,7 +7,7 @@
 
 using namespace quadedge::pose;
 
-TEST_CASE("The analytic Jacobian of the reprojection residual is its derivative", "[pose][reprojection_residual]") {
+TEST_CASE("The reprojection residual's analytic Jacobian is its derivative", "[pose][reprojection_residual]") {
   const NoiseModel noise{quadedge::PoseConfig{}};
   generated::for_quads_off_motion([&](const QuadObservations& quads, std::size_t i, const quadedge::StereoRig& rig,
                                       const Eigen::Isometry3d& pose) {
@@ -42,7 +42,7 @@ TEST_CASE("The analytic Jacobian of the reprojection residual is its derivative"
   });
 }
 
-TEST_CASE("Per unit of a ray the reprojection residual is the same as per pixel", "[pose][reprojection_residual]") {
+TEST_CASE("The reprojection residual is the same per unit of a ray as per pixel", "[pose][reprojection_residual]") {
   generated::Problem problem;
   problem.rig = generated::crooked_rig();
   problem.noise = {0.3, 0.5, 0.05};
@@ -62,14 +62,14 @@ TEST_CASE("Per unit of a ray the reprojection residual is the same as per pixel"
   }
 }
 
-TEST_CASE("Reprojection residuals vanish at the true motion and count in standard deviations",
+TEST_CASE("Reprojection residuals vanish at the true motion and are measured in standard deviations",
           "[pose][reprojection_residual]") {
   quadedge::PoseConfig config;
   const NoiseModel noise(config);
   CHECK(noise.on_epipolar_line(1.0) == Approx(config.sigma_across));
   CHECK(noise.on_epipolar_line(0.0) == Approx(config.sigma_along));
-  // A piece of 3 px to both sides has a uniform distribution's deviation of 3 / sqrt(3), whatever the scale of the
-  // rest.
+  // A segment of 3 px to both sides has the standard deviation of a uniform distribution, 3 / sqrt(3), whatever the
+  // scale of the rest.
   CHECK(noise.along_in_time(0, 1) == Approx(config.sigma_along));
   CHECK(noise.along_in_time(3, 1) == Approx(std::hypot(config.sigma_along, std::sqrt(3.0))));
   CHECK(noise.along_in_time(3, 0.25) == Approx(std::hypot(config.sigma_along, 4 * std::sqrt(3.0))));
@@ -83,7 +83,7 @@ TEST_CASE("Reprojection residuals vanish at the true motion and count in standar
     CHECK(linear.value.norm() < 1e-6);
   }
 
-  // Without noise before, reprojection residuals at the truth are standard normal.
+  // Without noise in the earlier frame, reprojection residuals at the true motion are standard normal.
   problem.quads = 4000;
   problem.noise = {config.sigma_across, config.sigma_along, 2.0 * quadedge::kDegree};
   const auto noisy = generated::generate(problem, 23);

@@ -18,8 +18,8 @@ struct Expected {
   double cost = 0, depth = 0;
 };
 
-/// One quad's contribution from reprojection_jacobian(): Gauss-Newton by (pose, offset, depth) with a standard normal
-/// prior on the depth, which the Schur complement takes out.
+/// One quad's contribution from reprojection_jacobian(): Gauss-Newton over (pose, offset, depth) with a standard normal
+/// prior on the depth, which the Schur complement eliminates.
 std::optional<Expected> contribution(const ReprojectionTerm& term, const quadedge::PinholeCamera& left,
                                      const Eigen::Isometry3d& pose, double offset, double depth,
                                      const StudentWeights& weights) {
@@ -76,7 +76,7 @@ void check_close(const A& a, const B& b) {
 
 }  // namespace
 
-TEST_CASE("Sums over reprojection terms are those of the Jacobians with the depths eliminated",
+TEST_CASE("Sums over reprojection terms equal those of the Jacobians with the depths eliminated",
           "[pose][reprojection_terms]") {
   const StudentWeights weights{1.7, 5};
   const double offset = 0.2;
@@ -84,7 +84,7 @@ TEST_CASE("Sums over reprojection terms are those of the Jacobians with the dept
     ManyQuads scene(quads);
     REQUIRE(scene.terms.size() == scene.rows.size());
     std::vector<double> depth(scene.rows.size(), 0.0);
-    for (int round = 0; round < 2; ++round) {  // from the second on the depths are not zero
+    for (int round = 0; round < 2; ++round) {  // from the second round on the depths are not zero
       Expected sum;
       std::vector<double> costs;
       for (std::size_t k = 0; k < scene.rows.size(); ++k) {
@@ -121,7 +121,7 @@ TEST_CASE("Sums over reprojection terms are those of the Jacobians with the dept
   }
 }
 
-TEST_CASE("A quad behind the camera counts nothing and keeps its depth and error", "[pose][reprojection_terms]") {
+TEST_CASE("A quad behind the camera does not count and keeps its depth and error", "[pose][reprojection_terms]") {
   ManyQuads scene(9);
   normal_by_pose(scene.terms, scene.pose, 0, {});
   const auto depth = scene.terms.depth, error = scene.terms.error;
@@ -145,7 +145,7 @@ template <std::size_t... Column>
   return {columns[Column][row]...};
 }
 
-/// The first eight quads, as vectors of the width that the caller is compiled for.
+/// The first eight quads, in vectors of the width that the caller is compiled for.
 [[gnu::always_inline]] inline void evaluate_lanes(const ReprojectionTerms& terms, const Evaluation& at, Lanes& result) {
   const double* columns[ReprojectionTerms::kColumns];
   for (std::size_t k = 0; k < ReprojectionTerms::kColumns; ++k) columns[k] = terms.column(k);
@@ -190,8 +190,7 @@ std::vector<EvaluateLanes> widths_of_this_machine() { return {at_x86_64}; }
 
 }  // namespace
 
-TEST_CASE("One quad alone and eight at once, at every width of vectors, give the same bits",
-          "[pose][reprojection_terms]") {
+TEST_CASE("One quad alone and eight at once, at every vector width, give the same bits", "[pose][reprojection_terms]") {
   ManyQuads scene(2 * kLanes);
   Eigen::Isometry3d half_behind = scene.pose;  // half of the points end up behind the camera
   half_behind.translation().z() -= 5;

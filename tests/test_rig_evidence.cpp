@@ -47,7 +47,7 @@ Image rearranged(const Image& image, const From& from) {
 
 }  // namespace
 
-TEST_CASE("rig evidence: nothing speaks against the right calibration", "[odometry][rig]") {
+TEST_CASE("rig evidence: nothing contradicts the right calibration", "[odometry][rig]") {
   for (const char* name : {"room", "cables", "facade"}) {
     const RenderedScene scene(name, 320, 200, 1);
     RigEvidence evidence;
@@ -57,7 +57,7 @@ TEST_CASE("rig evidence: nothing speaks against the right calibration", "[odomet
     CHECK(findings.mismatch.empty());
     CHECK(findings.doubts.empty());
     CHECK(evidence.found_ratio > 0.5);
-    if (name != std::string("cables")) {  // along a cable a spot may lie anywhere
+    if (name != std::string("cables")) {  // along a cable a match may lie anywhere
       CHECK(evidence.on_line_ratio > 0.9);
       CHECK(evidence.searched_residual < 0.1);
     }
@@ -65,7 +65,7 @@ TEST_CASE("rig evidence: nothing speaks against the right calibration", "[odomet
   }
 }
 
-TEST_CASE("rig evidence: what does not fit is named with its likely cause", "[odometry][rig]") {
+TEST_CASE("rig evidence: a mismatch is reported with its likely cause", "[odometry][rig]") {
   const Image &left = evidence_room().left[0], &right = evidence_room().right[0];
   CHECK_THAT(mismatch(evidence_room().rig, right, left), Contains("disparities are negative") && Contains("exchanged"));
   StereoRig rig = evidence_room().rig;
@@ -87,7 +87,7 @@ TEST_CASE("rig evidence: what does not fit is named with its likely cause", "[od
   CHECK_THAT(mismatch(evidence_room().rig, left, upside_down), Contains("is the right image rotated by 180 degrees?"));
 }
 
-TEST_CASE("rig evidence: small errors are doubts, and do not stop anything", "[odometry][rig]") {
+TEST_CASE("rig evidence: small errors are warnings and stop nothing", "[odometry][rig]") {
   RigEvidence evidence;
   const RigFindings pitched =
       examine(turned_rig(0.5, Eigen::Vector3d::UnitX()), evidence_room().left[0], evidence_room().right[0], evidence);
@@ -101,18 +101,18 @@ TEST_CASE("rig evidence: small errors are doubts, and do not stop anything", "[o
   CHECK_THAT(narrow.doubts[0], Contains("stereo.max_disparity too small"));
 }
 
-TEST_CASE("rig evidence: a camera that stands still while the other one does not is found", "[odometry][rig]") {
+TEST_CASE("rig evidence: a frozen camera is detected while the other one moves", "[odometry][rig]") {
   odometry::RigWatch watch(evidence_room().rig, evidence_room().config);
   RigEvidence evidence;
   const Image &left = evidence_room().left[0], &right = evidence_room().right[0], &next = evidence_room().left[1];
   CHECK(watch.judge({0, left.view(), right.view()}, {}, 0, evidence).mismatch.empty());
-  CHECK(watch.judge({1, left.view(), right.view()}, {}, 0, evidence).mismatch.empty());  // the same frame again
+  CHECK(watch.judge({1, left.view(), right.view()}, {}, 0, evidence).mismatch.empty());  // the same pair again
   CHECK_THAT(watch.judge({2, next.view(), right.view()}, {}, 0, evidence).mismatch,
              Contains("has the right camera frozen?"));
   CHECK(watch.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0, evidence).mismatch.empty());
 }
 
-TEST_CASE("rig evidence: numbers that hardly any rig has are named", "[odometry][rig]") {
+TEST_CASE("rig evidence: implausible numbers are reported", "[odometry][rig]") {
   CHECK(odometry::implausible_numbers(evidence_room().rig).empty());
   const auto first_of = [](const StereoRig& rig) {
     const auto found = odometry::implausible_numbers(rig);
@@ -132,8 +132,7 @@ TEST_CASE("rig evidence: numbers that hardly any rig has are named", "[odometry]
   CHECK_THAT(first_of(rig), Contains("squares"));
 }
 
-TEST_CASE("rig evidence: aligned patches say how far a rig of half a degree's pitch is off",
-          "[odometry][rig][device]") {
+TEST_CASE("rig evidence: aligned patches measure a pitch error of 0.3 degrees", "[odometry][rig][device]") {
   const StereoRig rig = turned_rig(0.3, Eigen::Vector3d::UnitX());
   Device device(all_devices().front(), kept_programs());
   const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);

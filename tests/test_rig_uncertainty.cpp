@@ -28,7 +28,7 @@ const Eigen::Isometry3d kFirst = motion(0.3, {1, 2, -1}, {0.4, -0.2, 1}),
 
 }  // namespace
 
-TEST_CASE("rig uncertainty: a turned optical frame and a longer baseline do to a motion what is said", "[pose]") {
+TEST_CASE("rig uncertainty: a rotated optical frame and a longer baseline change a motion as predicted", "[pose]") {
   const RigSensitivity by_rig = pose::rig_sensitivity(kFirst, 0.2);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Isometry3d turn = motion(kTiny, Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Zero());
@@ -40,7 +40,7 @@ TEST_CASE("rig uncertainty: a turned optical frame and a longer baseline do to a
   CHECK((relative_error(longer, kFirst) / kTiny - by_rig.col(0)).norm() < 1e-4);
 }
 
-TEST_CASE("rig uncertainty: along a chain the rig's errors add up to those of the whole motion", "[pose]") {
+TEST_CASE("rig uncertainty: the rig's errors along a chain add up to those of the whole motion", "[pose]") {
   const auto chain = exact(kFirst, 0.2) * exact(kSecond, 0.2);
   const RigSensitivity whole = pose::rig_sensitivity(kFirst * kSecond, 0.2);
   CHECK((chain.by_rig.leftCols<4>() - whole.leftCols<4>()).norm() < 1e-9);
@@ -48,7 +48,7 @@ TEST_CASE("rig uncertainty: along a chain the rig's errors add up to those of th
             .norm() < 1e-9);
 }
 
-TEST_CASE("rig uncertainty: it grows with the way, not with its root, and is nothing for an exact rig", "[pose]") {
+TEST_CASE("rig uncertainty: it grows linearly with the path length and is zero for an exact rig", "[pose]") {
   PoseConfig config;
   const auto step = exact(motion(0, {0, 0, 1}, {0, 0, 1}), 0.1);
   pose::UncertainPose far = step;

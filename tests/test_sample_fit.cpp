@@ -30,7 +30,7 @@ generated::Problem drive() {
 
 }  // namespace
 
-TEST_CASE("A few exact quads lead back to the exact motion, two by their directions", "[pose][sample_fit]") {
+TEST_CASE("A few exact quads give the exact motion, two of them through their directions", "[pose][sample_fit]") {
   generated::Random random(71);
   const quadedge::PoseConfig config;
   for (int count : {2, 3, 8}) {
@@ -39,7 +39,7 @@ TEST_CASE("A few exact quads lead back to the exact motion, two by their directi
     const Sample sample(problem);
     Eigen::Isometry3d pose = random.motion(1e-4, 0.002) * problem.motion;
     SampleWorkspace workspace;
-    for (int fit = 0; fit < 4; ++fit) {  // exact quads converge slowly: their scale shrinks with each step
+    for (int fit = 0; fit < 4; ++fit) {  // exact quads converge slowly: the scale shrinks with each step
       REQUIRE(fit_sample(sample.terms, sample.rows, problem.rig, config, pose, workspace));
     }
     CHECK(generated::rotation_error(pose, problem.motion) < 1e-6);
@@ -47,7 +47,7 @@ TEST_CASE("A few exact quads lead back to the exact motion, two by their directi
   }
 }
 
-TEST_CASE("A sample of no quads has no fit and leaves the pose", "[pose][sample_fit]") {
+TEST_CASE("An empty sample has no fit and leaves the pose unchanged", "[pose][sample_fit]") {
   const generated::Problem problem = drive();
   const Sample sample(problem);
   Eigen::Isometry3d pose = problem.motion;

@@ -34,7 +34,7 @@ void check_scan(const std::vector<int>& sizes, int capacity) {
 
 }  // namespace
 
-TEST_CASE("scan: the reference sums on paper", "[scan]") {
+TEST_CASE("scan: the reference agrees with sums calculated by hand", "[scan]") {
   const reference::Scan free = reference::scan({3, 0, 2, 4}, 100), cut = reference::scan({3, 0, 2, 4}, 4);
   CHECK(free.first == std::vector<std::int32_t>{0, 3, 3, 5, 9});
   CHECK((free.fitting == 9 && free.cut_off == 0));
@@ -47,16 +47,16 @@ TEST_CASE("scan: every device and variant gives the exclusive sums of small list
   check_scan({0, 1, 2, 255, 256, 257, 1000}, 1 << 30);
 }
 
-TEST_CASE("scan: sums past the capacity are cut at it and counted", "[scan][device][oclgrind]") {
+TEST_CASE("scan: sums beyond the capacity are clamped and counted", "[scan][device][oclgrind]") {
   check_scan({1, 300, 1000}, 333);
   check_scan({300}, 0);
 }
 
-TEST_CASE("scan: a list just too long for one group is shared by two", "[scan][device][oclgrind]") {
+TEST_CASE("scan: a list just too long for one group is split between two", "[scan][device][oclgrind]") {
   check_scan({4097}, 1 << 30);
 }
 
-TEST_CASE("scan: long lists are shared by several groups", "[scan][device]") {
+TEST_CASE("scan: long lists are split between several groups", "[scan][device]") {
   check_scan({4096, 4097, 70001}, 1 << 30);
   check_scan({70001}, 50000);
 }

@@ -9,14 +9,14 @@ using namespace quadedge::pose;
 
 namespace {
 
-/// Squared distance from the piece of curve of `half_length` px to both sides of an edge at `at`.
+/// Squared distance from the segment that extends `half_length` px to both sides of an edge at `at`.
 double from_piece(const Eigen::Vector2d& point, const Eigen::Vector2d& at, const Eigen::Vector2d& direction,
                   double half_length) {
   const double along = std::clamp((point - at).dot(direction), -half_length, half_length);
   return (point - at - along * direction).squaredNorm();
 }
 
-/// Plain double-precision twin of truncated_cost, straight from the definition.
+/// Double-precision version of truncated_cost, by definition.
 double plain_cost(const generated::Generated& g, const quadedge::StereoRig& rig, const Eigen::Isometry3d& motion,
                   double threshold) {
   double sum = 0;
@@ -64,19 +64,19 @@ TEST_CASE("The score is the truncated quadratic of the worse image, at any numbe
   CHECK(truncated_cost({}, LaterCameras(problem.rig, problem.motion), 1.5) == 1.0);
 }
 
-TEST_CASE("Points that would be behind the later rig cost the most and are no inliers", "[pose][scoring]") {
+TEST_CASE("Points behind the later rig have the highest cost and are no inliers", "[pose][scoring]") {
   generated::Problem problem;
   problem.quads = 100;
   const auto g = generated::generate(problem, 13);
   Eigen::Isometry3d beyond = Eigen::Isometry3d::Identity();
-  // All points mirrored through the camera's centre project to their own pixels; only the sign of z tells.
+  // Points mirrored through the camera's centre project to the same pixels; only the sign of z differs.
   beyond.linear() = -Eigen::Matrix3d::Identity();
   std::vector<std::uint8_t> mask;
   CHECK(truncated_cost(g.quads.scoring, LaterCameras(problem.rig, beyond), 1.5) == Approx(1.0));
   CHECK(select_inliers(g.quads.scoring, LaterCameras(problem.rig, beyond), 1e6, 3.2, mask) == 0);
 }
 
-TEST_CASE("Inliers are the quads near in both images and alike in direction, modulo 180 degrees", "[pose][scoring]") {
+TEST_CASE("Inliers are quads close in both images and similar in direction, modulo 180 degrees", "[pose][scoring]") {
   generated::Problem problem;
   problem.quads = 400;
   problem.outliers = 0.5;
@@ -88,7 +88,7 @@ TEST_CASE("Inliers are the quads near in both images and alike in direction, mod
   for (bool c : g.correct) correct += c;
   const int found = select_inliers(g.quads.scoring, cameras, 1.5, 0.17, mask);
   CHECK(found >= correct);
-  CHECK(found <= correct + 4);  // a random place may be right by chance
+  CHECK(found <= correct + 4);  // a random position may be right by chance
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (g.correct[i]) CHECK(mask[i] == 1);
 

@@ -8,7 +8,7 @@ using namespace quadedge::pose;
 
 namespace {
 
-/// Quads of which `counts[c]` lie in the c-th cell of 32 px of a line.
+/// Quads, of which `counts[c]` lie in the c-th cell of 32 px in a row.
 ScoringArrays in_cells(const std::vector<int>& counts) {
   ScoringArrays quads;
   for (std::size_t c = 0; c < counts.size(); ++c)
@@ -22,7 +22,7 @@ ScoringArrays in_cells(const std::vector<int>& counts) {
 
 }  // namespace
 
-TEST_CASE("A balanced subset holds as many quads of a full cell as the median cell has", "[pose][scoring_subset]") {
+TEST_CASE("A balanced subset takes at most the median number of quads from each cell", "[pose][scoring_subset]") {
   const auto quads = in_cells({200, 10, 3, 12, 0, 150});
   std::mt19937_64 random(1);
   SubsetWorkspace workspace;
@@ -38,7 +38,7 @@ TEST_CASE("A balanced subset holds as many quads of a full cell as the median ce
   CHECK(rows.empty());
 }
 
-TEST_CASE("A random subset holds different rows, all of them where there are no more", "[pose][scoring_subset]") {
+TEST_CASE("A random subset holds distinct rows, or all rows if there are no more", "[pose][scoring_subset]") {
   std::mt19937_64 random(2);
   std::vector<std::int32_t> rows;
   random_subset(random, 1000, 100, rows);

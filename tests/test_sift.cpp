@@ -14,7 +14,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Smoothed noise: structure at the scale that a recorded image has.
+/// Smoothed noise: structure at the scale of a recorded image.
 Image textured_image(int width, int height, unsigned seed) {
   cv::Mat noise(height, width, CV_8U);
   std::mt19937_64 random(seed);
@@ -28,7 +28,7 @@ Image textured_image(int width, int height, unsigned seed) {
   return image;
 }
 
-/// Whether a key point of the edge lies so near to the middle between two pixels that rounding may choose either.
+/// Whether a key point of the edge lies so close to the middle between two pixels that rounding may choose either.
 bool on_the_fence(float x, float y, float direction) {
   const auto near_half = [](double v) { return std::abs(v - std::floor(v) - 0.5) < 1e-4; };
   const double dx = 8 * std::sin(direction), dy = -8 * std::cos(direction);
@@ -54,9 +54,9 @@ TEST_CASE("sift: descriptors equal OpenCV's at the same key points", "[sift]") {
   REQUIRE(expected.rows == count);
   REQUIRE(expected.cols == kSiftBytes);
 
-  // OpenCV's arc tangent is good to 0.3 degrees. That moves up to 0.3 / 45 of a sample between neighbouring bins, at
-  // most sqrt(2) * 0.3 / 45 * 512 = 4.8 of the descriptor's norm; rounding to bytes on both sides adds at most 1 per
-  // byte and 128 * (1 / 6) in the mean of the square, 4.6 of the norm.
+  // OpenCV's arc tangent is accurate to 0.3 degrees. This moves up to 0.3 / 45 of a sample between neighbouring bins,
+  // at most sqrt(2) * 0.3 / 45 * 512 = 4.8 of the descriptor's norm; rounding to bytes on both sides adds at most 1 per
+  // byte and 128 * (1 / 6) to the mean square, 4.6 of the norm.
   double sum = 0, largest = 0;
   for (int k = 0; k < count; ++k) {
     std::uint8_t descriptor[kSiftBytes];
@@ -78,8 +78,8 @@ TEST_CASE("sift: a constant image gives zeros", "[sift]") {
   for (std::uint8_t value : both) CHECK(value == 0);
 }
 
-TEST_CASE("sift: a ramp fills the angle bin of its gradient only", "[sift]") {
-  // I = 3 x: the gradient points along x. Seen from direction t it lies at angle t, counted in bins of 45 degrees.
+TEST_CASE("sift: a ramp fills only the angle bin of its gradient", "[sift]") {
+  // I = 3 x: the gradient points along x. Relative to direction t it has the angle t, in bins of 45 degrees.
   Image image(80, 60);
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 80; ++x) image.pixels[static_cast<std::size_t>(y * 80 + x)] = static_cast<std::uint8_t>(3 * x);
@@ -90,13 +90,13 @@ TEST_CASE("sift: a ramp fills the angle bin of its gradient only", "[sift]") {
     reference::sift_descriptor(map, 40, 30, static_cast<float>(bin * kPi / 4), descriptor);
     for (int k = 0; k < kSiftBytes; ++k) {
       CAPTURE(bin, k, int{descriptor[k]});
-      // All weight is in 16 equal-angle bins: none can reach the clip, so the norm stays 512.
+      // All weight is in 16 bins of equal angle: none reaches the clipping limit, so the norm stays 512.
       CHECK((k % 8 == bin ? descriptor[k] >= 40 : descriptor[k] <= 1));
     }
   }
 }
 
-TEST_CASE("sift: turning image and edge by 90 degrees gives the same descriptors", "[sift]") {
+TEST_CASE("sift: rotating image and edge by 90 degrees gives the same descriptors", "[sift]") {
   const Image image = textured_image(70, 60, 3);
   Image turned(60, 70);  // clockwise on screen: (x, y) goes to (59 - y, x)
   for (int y = 0; y < 60; ++y) {
@@ -138,8 +138,8 @@ TEST_CASE("sift: the distance of two edges is the smallest of the four pairings"
   CHECK(distance2(edge(3, 5), edge(6, 7)) == 2 * 200 * 200);
 }
 
-TEST_CASE("sift: every device and variant equals the reference to the last unit", "[sift][device][oclgrind]") {
-  // Sizes that no group or vector divides; key points on the border and beyond it; a count that fills no group.
+TEST_CASE("sift: every device and variant equals the reference exactly", "[sift][device][oclgrind]") {
+  // Sizes not divisible by any group or vector; key points on the border and beyond it; a count that fills no group.
   for (const auto& [width, height, count] : {std::tuple{1, 1, 3}, {5, 3, 7}, {17, 31, 37}, {64, 48, 61}}) {
     const Image image = textured_image(width, height, 5);
     const EdgePositions edges = random_edges(width, height, count, 6, 12);

@@ -5,7 +5,7 @@
 
 using namespace quadedge::pose;
 
-TEST_CASE("Every member of a quad's family takes point to point and tangent to tangent", "[pose][single_quad]") {
+TEST_CASE("Every member of a quad's family maps point to point and tangent to tangent", "[pose][single_quad]") {
   generated::Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
     const OrientedPoint p{random.uniform(1, 20) * random.unit(), random.unit()},

@@ -18,7 +18,7 @@ TEST_CASE("Rank correlation", "[report]") {
   CHECK(std::isnan(rank_correlation({1, 2}, {1, 2})));
 }
 
-TEST_CASE("Precision and accuracy that go together have a rank correlation of minus one", "[report]") {
+TEST_CASE("A precision that rises as the error falls has a rank correlation of minus one", "[report]") {
   evaluation::MatchingResult result;
   result.frames.resize(6);
   for (int f = 1; f < 6; ++f) {
@@ -35,7 +35,7 @@ TEST_CASE("Precision and accuracy that go together have a rank correlation of mi
   CHECK(motion_correlation({}).points == 0);
 }
 
-TEST_CASE("number text: four digits, shares", "[report]") {
+TEST_CASE("number text: four digits, percentages", "[report]") {
   CHECK(significant(0.012345678) == "0.01235");
   CHECK(significant(1234.5) == "1234");
   CHECK(significant(-2) == "-2.000");

@@ -8,7 +8,7 @@ using evaluation::judge_steps;
 
 namespace {
 
-/// Frames 50 ms apart that go 1 m along x each.
+/// Frames 50 ms apart, each 1 m farther along x.
 struct Walk {
   Trajectory truth;
   std::vector<std::int64_t> frames;
@@ -22,9 +22,9 @@ struct Walk {
 
 }  // namespace
 
-TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, whatever happened before", "[evaluation]") {
+TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, independent of earlier errors", "[evaluation]") {
   const Walk walk(4);
-  // Another world, and the second step too long by `excess` and turned by `degrees`; the third is right again.
+  // Another world frame; the second step is too long by `excess` and rotated by `degrees`, the third is right again.
   const auto judge = [&](double excess, double degrees) {
     Trajectory estimate = walk.truth;
     const Eigen::Isometry3d error =
@@ -49,7 +49,7 @@ TEST_CASE("steps: right up to 5 cm + 10 % of the motion and 2 degrees, whatever 
   }
 }
 
-TEST_CASE("steps: both steps at a frame without a pose are lost, and those without truth do not count",
+TEST_CASE("steps: both steps at a frame without a pose are lost, and those without ground truth do not count",
           "[evaluation]") {
   const Walk walk(6);
   Trajectory estimate = walk.truth;

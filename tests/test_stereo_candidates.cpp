@@ -19,8 +19,8 @@ Vector2d at_infinity(const StereoRig& rig, const Vector2d& pixel) {
   return rig.right.project(rig.right_from_left.linear() * rig.left.ray(pixel));
 }
 
-/// Sine between a tangent and the left epipolar line: the image of the right ray through the counterpart, in double
-/// precision.
+/// Sine of the angle between a tangent and the left epipolar line: the image of the right ray through the counterpart,
+/// in double precision.
 double epipolar_sine(const StereoRig& rig, const Vector2d& pixel, double direction) {
   const Vector3d t = rig.right_from_left.linear().transpose() * rig.right_from_left.translation();
   const Vector3d normal =
@@ -29,8 +29,8 @@ double epipolar_sine(const StereoRig& rig, const Vector2d& pixel, double directi
   return std::abs(std::cos(direction) * along.y() - std::sin(direction) * along.x());
 }
 
-/// Filters 1 to 3 of doc/method.md section 3 from the definition, double precision. Positive: inside by that much, in
-/// units of what single precision may get wrong (2e-3 px, 1e-5 rad).
+/// Filters 1 to 3 of doc/method.md section 3 by definition, in double precision. Positive: distance inside the limits
+/// in units of single-precision error (2e-3 px, 1e-5 rad).
 double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, std::size_t i,
               const EdgeSet& right, std::size_t j) {
   constexpr double kPixels = 2e-3, kRadians = 1e-5, kTolerance = 1.0;
@@ -53,7 +53,7 @@ double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& l
                    (epipolar_sine(rig, p, left.direction[i]) - std::sin(config.min_epipolar_angle_rad())) / kRadians});
 }
 
-/// Counts the certain members; every list is ascending, holds all certain ones and nothing that is certainly outside.
+/// Counts the certain members; checks that every list is ascending, holds all certain members and no certain outsider.
 std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
                         const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, const EdgeSet& right) {
   REQUIRE(first.size() == left.size() + 1);
@@ -76,7 +76,7 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
   return certain;
 }
 
-/// The reference and every device and variant against the definition.
+/// Compares the reference and every device and variant with the definition.
 std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left,
                              const EdgeSet& right) {
   const auto geometry = make_epipolar_geometry(rig, config);
@@ -95,7 +95,7 @@ std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, c
   return certain;
 }
 
-/// Left edges all over, and right edges half near a counterpart of one, half anywhere.
+/// Left edges anywhere; half of the right edges near a counterpart of one, the other half anywhere.
 std::pair<EdgeSet, EdgeSet> random_scene(const StereoRig& rig, int count, double min_depth, std::uint64_t seed) {
   Random random(seed);
   std::vector<Edge> left, right;
@@ -115,7 +115,7 @@ std::pair<EdgeSet, EdgeSet> random_scene(const StereoRig& rig, int count, double
 
 }  // namespace
 
-TEST_CASE("epipolar line: a rectified rig measures disparity", "[stereo][matching]") {
+TEST_CASE("epipolar line: on a rectified rig the position is the disparity", "[stereo][matching]") {
   const StereoRig rig = flat_rig(640, 480, 500, 0.2);
   StereoConfig config;
   config.min_depth = 2;  // 500 * 0.2 / 2 = 50 px
@@ -155,25 +155,25 @@ TEST_CASE("epipolar line: passes through the projections of every depth in a gen
   }
 }
 
-TEST_CASE("epipolar geometry: refuses a search that nothing limits", "[stereo][matching]") {
+TEST_CASE("epipolar geometry: refuses an unlimited search", "[stereo][matching]") {
   CHECK_THROWS_AS(make_epipolar_geometry(flat_rig(), StereoConfig{}), UsageError);
 }
 
-TEST_CASE("stereo candidates: the lists hold what the definition says", "[stereo][matching][device]") {
+TEST_CASE("stereo candidates: the lists match the definition", "[stereo][matching][device]") {
   StereoConfig config;
   config.min_depth = 0.7;
   for (const auto& rig : {flat_rig(131, 77, 120, 0.12), crooked_rig()}) {
     const auto [left, right] = random_scene(rig, 400, config.min_depth, 17);
     CHECK(check_everywhere(rig, config, left, right) > 80);
   }
-  config.max_disparity = 7;  // wins over min_depth
+  config.max_disparity = 7;  // takes precedence over min_depth
   config.epipolar_distance = 3;
   config.orientation = 60;
   const auto [left, right] = random_scene(crooked_rig(), 400, 0.7, 23);
   CHECK(check_everywhere(crooked_rig(), config, left, right) > 200);
 }
 
-TEST_CASE("stereo candidates: small lists, also empty ones and lines beside the image",
+TEST_CASE("stereo candidates: small and empty lists, and lines outside the image",
           "[stereo][matching][device][oclgrind]") {
   StereoConfig config;
   config.min_depth = 0.7;
@@ -184,14 +184,14 @@ TEST_CASE("stereo candidates: small lists, also empty ones and lines beside the 
   CHECK(check_everywhere(rig, config, none_left, right) == 0);
   CHECK(check_everywhere(rig, config, left, none_right) == 0);
   CHECK(check_everywhere(rig, config, none_left, none_right) == 0);
-  for (const double angle : {1.0, 3.1}) {  // the right camera looks aside, then away
+  for (const double angle : {1.0, 3.1}) {  // the right camera points sideways, then away
     StereoRig aside = rig;
     aside.right_from_left.linear() = Eigen::AngleAxisd(angle, Vector3d::UnitX()).toRotationMatrix();
     check_everywhere(aside, config, left, right);
   }
 }
 
-TEST_CASE("stereo candidates: lists longer than the first capacity lose nothing", "[stereo][matching][device]") {
+TEST_CASE("stereo candidates: lists longer than the initial capacity are complete", "[stereo][matching][device]") {
   const StereoRig rig = flat_rig(161, 21, 100, 0.1);
   StereoConfig config;
   config.max_disparity = 200;

@@ -8,7 +8,8 @@ using namespace matching;
 
 namespace {
 
-/// Candidates of left edges on a rectified rig: position on the line [px], direction [degrees] and similarity of each.
+/// Candidates of left edges on a rectified rig, each with position on the line [px], direction [degrees] and
+/// similarity.
 struct ClusterLists {
   reference::Candidates candidates;
   reference::CandidateScores scores;
@@ -35,8 +36,8 @@ struct ClusterLists {
     return reference::stereo_clusters(candidates, scores, refined, right, config);
   }
 
-  /// Every device and variant finds the same clusters. Single precision may turn a decision that lies within 1e-5 of a
-  /// limit or of a tie: in `band` rows at most.
+  /// Checks that every device and variant finds the same clusters. Single precision may change a decision within 1e-5
+  /// of a limit or a tie, in at most `band` rows.
   void compare_devices(std::size_t band) const {
     const auto truth = clusters();
     const std::size_t rows = candidates.first.size() - 1;
@@ -80,22 +81,22 @@ struct ClusterLists {
 
 }  // namespace
 
-TEST_CASE("stereo clusters: cut at gaps, represented by the most alike member", "[stereo][matching]") {
+TEST_CASE("stereo clusters: split at gaps, represented by the most similar member", "[stereo][matching]") {
   const ClusterLists lists(
       {{{5.5, 10, 0.8}, {3, 10, 0.7}, {3.9, 12, 0.9}, {4.5, 8, 0.85}}, {}, {{7, 0, 0.9}, {8, 0, 0.95}}});
   const auto clusters = lists.clusters();
-  // 3, 3.9, 4.5 chain up (gaps 0.9, 0.6), 5.5 is a gap of exactly 1 away; 7 and 8 as well.
+  // 3, 3.9, 4.5 form a chain (gaps 0.9, 0.6); 5.5 follows a gap of exactly 1, and so does 8 after 7.
   CHECK(clusters.first == std::vector<std::int32_t>{0, 2, 2, 4});
   CHECK(clusters.position == std::vector<double>{3.9, 5.5, 7, 8});
   CHECK(clusters.anchor == std::vector<std::int32_t>{2, 0, 4, 5});
   CHECK(clusters.similarity == std::vector<double>{0.9, 0.8, 0.9, 0.95});
-  // Weights exp(-d^2 / 8) of 10, 12, 8 degrees at distances 0.9, 0, 0.6.
+  // 10, 12, 8 degrees at distances d = 0.9, 0, 0.6 with weights exp(-d^2 / 8).
   const double a = std::exp(-0.81 / 8), c = std::exp(-0.36 / 8);
   CHECK(clusters.direction[0] / kDegree == Approx((10 * a + 12 + 8 * c) / (a + 1 + c)).margin(1e-3));
 }
 
 TEST_CASE("stereo clusters: directions are compared and averaged around the full turn", "[stereo][matching]") {
-  // 178 and -179 degrees are 3 apart; 30 and 55 are 25 apart, over the limit of 20; 10 and -170 are opposite.
+  // 178 and -179 degrees differ by 3; 30 and 55 by 25, above the limit of 20; 10 and -170 are opposite.
   const auto clusters =
       ClusterLists(
           {{{1, 178, 0.9}, {1.5, -179, 0.9}}, {{1, 30, 0.9}, {1.5, 55, 0.9}}, {{1, 10, 0.9}, {1.5, -170, 0.9}}})
@@ -107,7 +108,7 @@ TEST_CASE("stereo clusters: directions are compared and averaged around the full
   CHECK(clusters.direction[2] == Approx(55 * kDegree));
 }
 
-TEST_CASE("stereo clusters: of equally alike members the first by number stands for the cluster",
+TEST_CASE("stereo clusters: among equally similar members the first by number represents the cluster",
           "[stereo][matching]") {
   const auto clusters = ClusterLists({{{1.5, 20, 0.9}, {1, 20, 0.9}},
                                       {{4.3, 20, 0.90003}, {4.1, 20, 0.90001}, {4, 20, 0.89}},
@@ -116,7 +117,7 @@ TEST_CASE("stereo clusters: of equally alike members the first by number stands 
   CHECK(clusters.anchor == std::vector<std::int32_t>{0, 2, 6});
 }
 
-TEST_CASE("stereo clusters: no more members than allowed, and none that a filter rejected", "[stereo][matching]") {
+TEST_CASE("stereo clusters: limited in size, without rejected members", "[stereo][matching]") {
   std::vector<ClusterLists::Member> row;
   for (int k = 0; k < 12; ++k) row.push_back({0.5 * k, 20, 0.8 + 0.01 * k});
   ClusterLists lists({row});

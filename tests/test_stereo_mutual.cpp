@@ -10,7 +10,7 @@ using namespace matching;
 
 namespace {
 
-/// Two images of the smooth texture 6.3 px apart, with left edges at chosen positions and what each has chosen.
+/// Two images of the smooth texture, shifted by 6.3 px, with left edges at given positions and the choice of each.
 struct MutualScene {
   StereoRig rig = flat_rig(97, 71);
   StereoConfig config;
@@ -26,7 +26,7 @@ struct MutualScene {
     geometry = make_epipolar_geometry(rig, config);
     clusters.first = {0};
   }
-  /// The next left edge has one cluster, at a right edge and a position on the line, and has chosen it.
+  /// The next left edge has chosen its only cluster, at a right edge and a position on the line.
   void add(int target, double position, double score, double similarity) {
     relaxation.chosen.push_back(static_cast<std::int32_t>(clusters.position.size()));
     relaxation.score.push_back(score);
@@ -36,7 +36,7 @@ struct MutualScene {
     clusters.similarity.push_back(similarity);
     clusters.first.push_back(static_cast<std::int32_t>(clusters.position.size()));
   }
-  /// The next left edge has chosen none.
+  /// The next left edge has no choice.
   void add_none() {
     relaxation.chosen.push_back(-1);
     relaxation.score.push_back(0);
@@ -79,7 +79,7 @@ struct MutualScene {
         CHECK(found.right_x[i] == Approx(truth.right_x[i]).margin(1e-3));
         CHECK(found.right_y[i] == Approx(truth.right_y[i]).margin(1e-3));
       }
-      // The right patches are cut at the refined positions.
+      // The right patches are sampled at the refined positions.
       const auto recut =
           reference::side_patches(right_image.view(), found.right_x, found.right_y, found.right_direction, all.patches);
       const auto apart = rounded_apart(result.right_patches.read(recut.size()), recut);
@@ -91,7 +91,7 @@ struct MutualScene {
 
 }  // namespace
 
-TEST_CASE("stereo mutual: what an edge has chosen is placed on its line", "[stereo][matching][device]") {
+TEST_CASE("stereo mutual: an edge's choice lies on its epipolar line", "[stereo][matching][device]") {
   MutualScene scene;
   scene.left = make_edges({{40, 30, 1.2}, {60, 30, -1.0}, {50, 40, 1.6}, {70, 40, 1.6}}, 71);
   scene.right = make_edges({{33.7, 30, 1.2}, {53.7, 30, -1.0}, {43.7, 40, 1.6}}, 71);
@@ -115,20 +115,20 @@ TEST_CASE("stereo mutual: one right edge serves only neighbours of its best left
   scene.right = make_edges({{33.7, 30, 1.2}}, 71);
   scene.config.mutual_radius = 1.5;
   scene.add(0, 6.3, 1.1, 0.9);    // the best: its neighbours agree with it
-  scene.add(0, 6.8, 0.9, 0.9);    // 1 px beside the best one, within mutual_radius
-  scene.add(0, 6.8, 1.05, 0.99);  // 3 px beside: more similar, but worse supported
+  scene.add(0, 6.8, 0.9, 0.9);    // 1 px from the best one, within mutual_radius
+  scene.add(0, 6.8, 1.05, 0.99);  // 3 px away: more similar, but with less support
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1});
   scene.compare_devices();
   scene.config.mutual_radius = 0;  // strictly one-to-one
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0});
   scene.compare_devices();
-  // A tie: the same left edge three times. The first one owns the right edge; all are at its position.
+  // A tie: the same left edge three times. The first owns the right edge; the others are at its position.
   scene.left.x = {40, 40, 40};
   scene.left.y = {30, 30, 30};
   scene.relaxation.score = {0.9, 0.9, 0.9};
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0, 1, 2});
   scene.compare_devices();
-  scene.left.x = {44, 40, 40};  // and here the others are too far from it
+  scene.left.x = {44, 40, 40};  // now the others are too far from it
   CHECK(scene.match().left_index == std::vector<std::int32_t>{0});
   scene.compare_devices();
 }
@@ -146,7 +146,7 @@ TEST_CASE("stereo mutual: devices agree with the reference on random choices, on
     for (int i = 0; i < count; ++i) {
       if (i % 7 == 3) {
         scene.add_none();
-      } else {  // scores in steps: some right edges are offered the same by several
+      } else {  // rounded scores, so that several left edges tie for a right edge
         scene.add(static_cast<int>(random(0, count / 3 + 1)), random(4, 9), 0.05 * std::round(20 * random(0.8, 1.3)),
                   random(0.5, 1));
       }

@@ -15,8 +15,8 @@ namespace {
 const PatchesConfig patches;
 const double kOffset = patches.offset;
 
-/// A right image that shows the left one's texture at a disparity of 6.3 px everywhere, with edges all over it, and one
-/// candidate per left edge that lies up to 1.2 px beside the truth along the line and up to 0.4 px across it.
+/// A right image that shows the left one's texture at a disparity of 6.3 px, with edges everywhere and one candidate
+/// per left edge, up to 1.2 px from the true position along the line and up to 0.4 px across it.
 struct RefinementScene {
   StereoRig rig = flat_rig(97, 71);
   StereoConfig config;
@@ -28,7 +28,7 @@ struct RefinementScene {
 
   explicit RefinementScene(int count, std::uint64_t seed = 2) {
     config.max_disparity = 20;
-    // The candidates lie farther off than edges do: the images alone decide, and need more steps, down to the end.
+    // The candidates lie farther off than real edges: only the images decide, with more steps until convergence.
     config.refine_prior_sigma = 100;
     config.refine_steps = 20;
     config.refine_tolerance = 1e-3;
@@ -43,7 +43,7 @@ struct RefinementScene {
     right = left;
     lists.first = {0};
     for (std::size_t i = 0; i < left.size(); ++i) {
-      // Off the line by d: the edge's point moves along its tangent, so that the shift brings it back.
+      // Off the line by d: the edge's point moves along its tangent, and the epipolar shift moves it back.
       const double d = random(-0.4, 0.4), wrong = random(-1.2, 1.2);
       right.x[i] += static_cast<float>(-kDisparity + wrong + d / std::tan(static_cast<double>(left.direction[i])));
       right.y[i] += static_cast<float>(d);
@@ -54,7 +54,7 @@ struct RefinementScene {
   }
   static constexpr double kDisparity = 6.3;
 
-  /// Rows of none to six candidates instead: the edge's own and copies of it along the line, some of them at one
+  /// Changes to rows of zero to six candidates: the edge's own one and copies along the line, some at the same
   /// position.
   void crowd() {
     const float offsets[] = {0.0f, 0.2f, 3.0f, 3.3f, -2.0f, 6.0f};
@@ -82,8 +82,8 @@ struct RefinementScene {
     return reference::stereo_refinement(left_image.view(), right_image.view(), left_patches(), left, right, geometry,
                                         lists, config, kOffset, result);
   }
-  /// Every variant and device: living candidates within 1e-2 px and 5e-3 of similarity of the reference. The same may
-  /// be rejected on one side only where a move lies within rounding of its limit: at most 1 % of them.
+  /// Checks every variant and device: surviving candidates within 1e-2 px and a similarity of 5e-3 of the reference.
+  /// Decisions may differ only where a shift is within rounding of its limit: at most 1 % of them.
   void compare_devices() const {
     auto truth = scores;
     const auto [positions, similarity] = refine(truth);
@@ -119,8 +119,8 @@ struct RefinementScene {
   }
 };
 
-/// Candidates end at the true disparity, as exactly as 8 bits allow. Flat spots, where rounding counts more, are left
-/// out: less than 4 grey levels per px along the line.
+/// Checks that candidates end at the true disparity, as accurately as 8 bits allow. Flat spots, where rounding has more
+/// effect, are left out: less than 4 grey levels per px along the line.
 void check_disparity(const RefinementScene& scene) {
   auto result = scene.scores;
   const auto [positions, similarity] = scene.refine(result);
@@ -141,7 +141,7 @@ void check_disparity(const RefinementScene& scene) {
 
 }  // namespace
 
-TEST_CASE("epipolar shift: along the tangent where it crosses the line, else straight", "[stereo][matching]") {
+TEST_CASE("epipolar shift: along the tangent if it crosses the line, else perpendicular", "[stereo][matching]") {
   // The line through (50, 20) towards -x.
   const EpipolarLine line{50, 20, -1, 0, 30, true};
   const auto shift = [&](double x, double y, double degrees) {
@@ -153,8 +153,8 @@ TEST_CASE("epipolar shift: along the tangent where it crosses the line, else str
   CHECK(shift(40, 20.5, 45) == Approx(10.5));
   CHECK(shift(40, 20.5, -135) == Approx(10.5));
   CHECK(shift(40, 20.5, -45) == Approx(9.5));
-  // 10 degrees are less than 12: projected straight. 13 degrees and 0.8 px: a move of 0.8 / sin 13 = 3.56 px is too
-  // long.
+  // 10 degrees are less than 12: projected perpendicularly. 13 degrees and 0.8 px: a shift of 0.8 / sin 13 = 3.56 px is
+  // too long.
   CHECK(shift(40, 20.5, 10) == Approx(10));
   CHECK(shift(40, 20.8, 13) == Approx(10));
   CHECK(shift(40, 20.5, 13) == Approx(10 + 0.5 / std::tan(13 * kDegree)));
@@ -164,7 +164,7 @@ TEST_CASE("stereo refinement: finds a disparity of 6.3 px to 0.02 px", "[stereo]
   check_disparity(RefinementScene(150));
 }
 
-TEST_CASE("stereo refinement: another exposure of the right camera does no harm", "[stereo][matching][device]") {
+TEST_CASE("stereo refinement: a different exposure of the right camera does no harm", "[stereo][matching][device]") {
   RefinementScene scene(150);
   scene.right_image =
       image_of(97, 71, [](double x, double y) { return 20 + 0.9 * smooth_grey(x + RefinementScene::kDisparity, y); });
@@ -172,7 +172,7 @@ TEST_CASE("stereo refinement: another exposure of the right camera does no harm"
   scene.compare_devices();
 }
 
-TEST_CASE("stereo refinement: a strong prior holds the shifted position, the default one weighs it against the images",
+TEST_CASE("stereo refinement: a strong prior keeps the shifted position, the default one weighs it against the images",
           "[stereo][matching][device]") {
   RefinementScene scene(60);
   auto result = scene.scores;
@@ -199,7 +199,7 @@ TEST_CASE("stereo refinement: a strong prior holds the shifted position, the def
   scene.compare_devices();
 }
 
-TEST_CASE("stereo refinement: rejects what leaves the clamp, finds unlike what is, and leaves the dead alone",
+TEST_CASE("stereo refinement: rejects shifts beyond the limit and dissimilar candidates, ignores rejected ones",
           "[stereo][matching]") {
   RefinementScene scene(60);
   for (std::size_t i = 0; i < scene.right.size(); ++i) scene.right.x[i] -= i % 3 == 0 ? 4.5f : 0.0f;

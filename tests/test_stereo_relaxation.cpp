@@ -8,7 +8,7 @@ using namespace matching;
 
 namespace {
 
-/// Left edges with clusters that the test makes up.
+/// Left edges with made-up clusters.
 struct RelaxationScene {
   StereoRig rig;
   StereoConfig config;
@@ -24,7 +24,7 @@ struct RelaxationScene {
   struct Member {
     double position, direction, similarity;  // px, rad
   };
-  /// The next left edge; its clusters in the order of their positions.
+  /// Adds a left edge; its clusters are in the order of their positions.
   void add(const Edge& edge, std::vector<Member> members) {
     left.x.push_back(static_cast<float>(edge.x));
     left.y.push_back(static_cast<float>(edge.y));
@@ -40,14 +40,14 @@ struct RelaxationScene {
   reference::StereoRelaxation relax() const {
     return reference::stereo_relaxation(clusters, left, geometry, rig.left.width, rig.left.height, config);
   }
-  /// Position of what edge i has chosen; NaN: nothing.
+  /// Position of edge i's choice; NaN: none.
   double chosen(const reference::StereoRelaxation& relaxation, std::size_t i) const {
     const auto k = relaxation.chosen[i];
     return k < 0 ? std::nan("") : clusters.position[static_cast<std::size_t>(k)];
   }
 
-  /// Every device and variant comes to the same beliefs, choices and scores within 1e-3, and to the same bytes when it
-  /// runs again. Single precision may turn a choice between two that are believed alike: `band` edges at most.
+  /// Checks that every device and variant gives the same beliefs, choices and scores within 1e-3, and the same bytes
+  /// when it runs again. Single precision may change a choice between two equal beliefs, for at most `band` edges.
   void compare_devices(std::size_t band) const {
     const auto truth = relax();
     const std::size_t rows = left.size();
@@ -92,8 +92,8 @@ struct RelaxationScene {
 
 constexpr double kUpright = -0.5 * kPi;  // vertical, bright on the right
 
-/// A wall of upright edges every 4 px at `position`, edge by edge with `wrong` in addition: its distance from the right
-/// position, and its lead in similarity.
+/// A wall of upright edges every 4 px at `position`. With `wrong` > 0 each edge also has a wrong cluster, at that
+/// distance from the right position and more similar by `lead`.
 RelaxationScene wall(double position, double wrong, double lead) {
   RelaxationScene scene(flat_rig(97, 71));
   for (int y = 12; y < 60; y += 4) {
@@ -108,8 +108,8 @@ RelaxationScene wall(double position, double wrong, double lead) {
   return scene;
 }
 
-/// Edges of a slanted plane that a rig sees, each with its true candidate and a wrong one somewhere before it, which is
-/// a little more similar for every other edge. \returns the true positions; NaN for edges that have no candidate.
+/// Edges of a slanted plane, each with its true candidate and a wrong one at a smaller position, which is slightly more
+/// similar for every other edge. \returns the true positions; NaN for edges without candidates.
 std::vector<double> see_plane(RelaxationScene& scene) {
   Random random(5);
   const Eigen::Vector3d normal = Eigen::Vector3d(0.5, -0.3, -1).normalized(), point(0, 0, 2.2);
@@ -149,7 +149,7 @@ std::size_t right_choices(const RelaxationScene& scene, const std::vector<double
 
 }  // namespace
 
-TEST_CASE("stereo relaxation: neighbours decide where similarity hardly does", "[stereo][matching]") {
+TEST_CASE("stereo relaxation: neighbours decide where similarities are close", "[stereo][matching]") {
   RelaxationScene scene = wall(10, 0, 0);
   const auto some = scene.left.size() / 2;
   const Edge edge = {46.5, 35.5, kUpright};
@@ -169,10 +169,10 @@ TEST_CASE("stereo relaxation: neighbours do not overrule a clear lead", "[stereo
   }
 }
 
-TEST_CASE("stereo relaxation: what a few edges know spreads through a repeated texture", "[stereo][matching]") {
-  RelaxationScene scene = wall(10, 8, 0.003);  // a period of 8 px: the wrong one is the more similar everywhere
+TEST_CASE("stereo relaxation: a few unambiguous edges resolve a repeated texture", "[stereo][matching]") {
+  RelaxationScene scene = wall(10, 8, 0.003);  // a period of 8 px: the wrong cluster is more similar everywhere
   CHECK(scene.chosen(scene.relax(), 100) == 18);
-  // One edge in seven shows something that does not repeat.
+  // One edge in seven is not repeated.
   for (std::size_t i = 0; i < scene.left.size(); i += 7) scene.clusters.similarity[2 * i + 1] = 0.1;
   const auto relaxation = scene.relax();
   std::size_t right = 0;
@@ -180,12 +180,12 @@ TEST_CASE("stereo relaxation: what a few edges know spreads through a repeated t
   CHECK(right == scene.left.size());
 }
 
-TEST_CASE("stereo relaxation: what neighbours agree with needs less similarity", "[stereo][matching]") {
+TEST_CASE("stereo relaxation: candidates that neighbours support need less similarity", "[stereo][matching]") {
   RelaxationScene scene = wall(10, 0, 0);
   const auto wall_size = scene.left.size();
-  scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}});    // agrees
-  scene.add({50.5, 35.5, kUpright}, {{17, kUpright, 0.84}});   // does not
-  scene.add({54.5, 35.5, kUpright}, {{17, kUpright, 0.86}});   // but is similar enough
+  scene.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.6}});    // supported
+  scene.add({50.5, 35.5, kUpright}, {{17, kUpright, 0.84}});   // not supported
+  scene.add({54.5, 35.5, kUpright}, {{17, kUpright, 0.86}});   // not supported, but similar enough
   scene.add({58.5, 35.5, kUpright}, {{10, kUpright, 0.449}});  // filter 9
   const auto relaxation = scene.relax();
   CHECK(scene.chosen(relaxation, wall_size) == 10);
@@ -193,15 +193,14 @@ TEST_CASE("stereo relaxation: what neighbours agree with needs less similarity",
   CHECK(scene.chosen(relaxation, wall_size + 2) == 17);
   CHECK(std::isnan(scene.chosen(relaxation, wall_size + 3)));
   CHECK(relaxation.score[wall_size] == Approx(0.6 + 0.4));
-  CHECK(relaxation.score[wall_size + 2] == Approx(0.86 + 0.4 * 0.7));  // not asked: needs no support
+  CHECK(relaxation.score[wall_size + 2] == Approx(0.86 + 0.4 * 0.7));  // needs no support
   RelaxationScene alone(flat_rig(97, 71));
   alone.add({46.5, 35.5, kUpright}, {{10, kUpright, 0.84}, {14, kUpright, 0.5}});
   alone.add({90.5, 64.5, kUpright}, {{10, kUpright, 0.86}, {14, kUpright, 0.5}});
   CHECK(alone.relax().chosen == std::vector<std::int32_t>{-1, 2});
 }
 
-TEST_CASE("stereo relaxation: of candidates that are believed alike the first is chosen",
-          "[stereo][matching][device]") {
+TEST_CASE("stereo relaxation: among equal beliefs the first candidate is chosen", "[stereo][matching][device]") {
   RelaxationScene scene(flat_rig(97, 71));
   scene.add({46.5, 35.5, kUpright}, {{8, kUpright, 0.9}, {12, kUpright, 0.9}});
   scene.add({52.5, 35.5, kUpright}, {{10, kUpright, 0.9}});
@@ -211,7 +210,7 @@ TEST_CASE("stereo relaxation: of candidates that are believed alike the first is
   scene.compare_devices(0);
 }
 
-TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one of two different cameras",
+TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one with two different cameras",
           "[stereo][matching][device]") {
   StereoRig flat = flat_rig(143, 97, 120, 0.25);
   for (const StereoRig& rig : {flat, crooked_rig()}) {
@@ -221,7 +220,7 @@ TEST_CASE("stereo relaxation: a slanted plane, on a rectified rig and on one of 
     scene.compare_devices(4);
     RelaxationScene alone = scene;
     alone.config.relaxation_rounds = 0;
-    CHECK(right_choices(alone, truth) == 360);  // of the odd ones those that have candidates
+    CHECK(right_choices(alone, truth) == 360);  // the odd ones that have candidates
     alone.compare_devices(0);
   }
 }

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The small sequence as two folders, whose names are numbers that need natural order, and as videos.
+/// The small sequence as two folders with file names that need natural sorting, and as videos.
 class OwnRecording {
  public:
   OwnRecording() {
@@ -84,7 +84,7 @@ std::string complaint(const StereoSource& source) {
 
 }  // namespace
 
-TEST_CASE("own camera: folders, one video and two give the same pairs", "[data]") {
+TEST_CASE("own camera: folders, one video and two videos give the same pairs", "[data]") {
   for (const auto& source : {recording().folders(), recording().one_video(), recording().two_videos()}) {
     const Dataset dataset = open_stereo_source(source);
     INFO(dataset.format);
@@ -106,7 +106,7 @@ TEST_CASE("own camera: folders, one video and two give the same pairs", "[data]"
   }
 }
 
-TEST_CASE("own camera: a range of pairs, and stamps of a file", "[data]") {
+TEST_CASE("own camera: a range of pairs, and timestamps from a file", "[data]") {
   own_camera::write_bytes(recording().file("stamps.txt"), "1.5\n1.75\n2\n3\n");
   for (StereoSource source : {recording().folders(), recording().one_video()}) {
     source.fps = 0;
@@ -128,7 +128,7 @@ TEST_CASE("own camera: a range of pairs, and stamps of a file", "[data]") {
   }
 }
 
-TEST_CASE("own camera: streams of different length are named", "[data]") {
+TEST_CASE("own camera: streams of different lengths are reported", "[data]") {
   const TemporaryFolder folder;
   StereoSource source = recording().folders();
   fs::copy(source.right, folder / "right");
@@ -146,7 +146,7 @@ TEST_CASE("own camera: streams of different length are named", "[data]") {
   own_camera::encode(folder / "pictures.pgm", "-c:v ffv1 -pix_fmt gray", folder / "short.mkv");
   videos.right = folder / "short.mkv";
   CHECK_THAT(complaint(videos), Contains(folder / "short.mkv") && Contains("2 pictures"));
-  // A raw stream does not say how long it is.
+  // A raw stream does not state its length.
   own_camera::encode(folder / "pictures.pgm", "-c:v mjpeg -q:v 2", folder / "short.mjpeg");
   videos.right = folder / "short.mjpeg";
   videos.fps = 20;
@@ -159,7 +159,7 @@ TEST_CASE("own camera: streams of different length are named", "[data]") {
   }
 }
 
-TEST_CASE("own camera: partners by order have stamps of the same time", "[data]") {
+TEST_CASE("own camera: images paired by order must have matching timestamps", "[data]") {
   const TemporaryFolder folder;
   const auto& frames = own_camera::small_dataset().frames;
   const auto fill = [&](const char* side, const std::vector<const char*>& names) {
@@ -179,7 +179,7 @@ TEST_CASE("own camera: partners by order have stamps of the same time", "[data]"
   CHECK_THAT(complaint(source), Contains("late/1.10.png") && Contains("left/1.05.png"));
 }
 
-TEST_CASE("own camera: what is missing or contradictory is said", "[data]") {
+TEST_CASE("own camera: missing and contradictory options are reported", "[data]") {
   StereoSource source = recording().folders();
   source.fps = 0;
   CHECK_THAT(complaint(source), Contains("9.png") && Contains("--fps"));
@@ -200,7 +200,7 @@ TEST_CASE("own camera: what is missing or contradictory is said", "[data]") {
   CHECK_THAT(complaint(source), Contains("--split left-right"));
   source.split = "sideways";
   CHECK_THAT(complaint(source), Contains("sideways"));
-  source.split = "top-bottom";  // 640 x 100 views, which is not what the calibration says
+  source.split = "top-bottom";  // 640 x 100 views, unlike the calibration
   CHECK_THAT(complaint(source), Contains("640 x 100") && Contains("320 x 200"));
   StereoSource pipe;
   pipe.pipe = true;
@@ -208,7 +208,7 @@ TEST_CASE("own camera: what is missing or contradictory is said", "[data]") {
   CHECK_THAT(complaint(pipe), Contains("--fps"));
 }
 
-TEST_CASE("own camera: checking reads everything and says what is wrong", "[data]") {
+TEST_CASE("own camera: check reads everything and reports errors", "[data]") {
   int seen = 0;
   const auto count = [&](const Dataset&, const StereoPair&) { ++seen; };
   for (const auto& source : {recording().folders(), recording().one_video()}) {
@@ -228,7 +228,7 @@ TEST_CASE("own camera: checking reads everything and says what is wrong", "[data
   CHECK_THAT(check.errors[0], Contains("cut.mkv") && Contains("the 4 announced by its header"));
 }
 
-TEST_CASE("own camera: a line of a list is read and turned into words again", "[data]") {
+TEST_CASE("own camera: a line of a list is parsed and converted back to arguments", "[data]") {
   const std::string line =
       "--left \"my recording/left\" --right r --calibration a.yaml,b.yaml --fps 12.5 --fov 90 --mask m.png --times "
       "t.txt";
@@ -257,7 +257,7 @@ TEST_CASE("own camera: a line of a list is read and turned into words again", "[
   }
 }
 
-TEST_CASE("own camera: lists name them beside folders, each by a name of its own", "[data]") {
+TEST_CASE("own camera: lists may mix them with folders, each with a unique name", "[data]") {
   const TemporaryFolder folder;
   own_camera::write_bytes(folder / "list.txt", small_sequence() + "\n--left " + recording().file("left") + " --right " +
                                                    recording().file("right") + " --calibration " +

@@ -5,7 +5,7 @@
 
 using namespace quadedge;
 
-TEST_CASE("still camera: that nothing moved since the base is always proposed, whatever was found", "[odometry]") {
+TEST_CASE("still camera: zero motion since the base is always proposed", "[odometry]") {
   const Config config;
   const StereoRig rig = generated::car_rig();
   const odometry::DisparityOffset offset{rig, config.pose};
@@ -16,7 +16,7 @@ TEST_CASE("still camera: that nothing moved since the base is always proposed, w
   query.current = std::make_shared<frontend::Rig>();
   query.prediction = Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3));
 
-  // A step of the pool that another hypothesis has used is as new.
+  // A reused step from the pool is reset.
   steps.take(query.base)->motion.current_from_previous = *query.prediction;
   const auto used = steps.take(query.base);
   used->motion.current_from_previous = *query.prediction;
@@ -30,7 +30,7 @@ TEST_CASE("still camera: that nothing moved since the base is always proposed, w
     CHECK(step->motion.current_from_previous.matrix() == Eigen::Matrix4d::Identity());
     CHECK(step->matches.size() == 0);
   }
-  // It competes with motions a pixel apart, and costs nothing.
+  // It competes with motions a pixel apart and is cheap.
   CHECK(hypothesis.asks_for_close_agreement());
   CHECK_FALSE(hypothesis.is_costly());
   CHECK_FALSE(hypothesis.trusts_prediction());

@@ -22,14 +22,14 @@ SurfaceMap make_map(int width, int height, const Value& value) {
   return map;
 }
 
-/// A nearer board (20 px) left of column 15.5 before a wall (5 px).
+/// A board (20 px) left of column 15.5 in front of a wall (5 px).
 SurfaceMap board() {
   return make_map(40, 30, [](int x, int) { return x <= 15 ? 20.0 : 5.0; });
 }
 
 }  // namespace
 
-TEST_CASE("A slanted surface is read between its pixels exactly", "[matching]") {
+TEST_CASE("A slanted surface is interpolated exactly", "[matching]") {
   const auto map = make_map(40, 30, [](int x, int y) { return 10 + 0.3 * x - 0.2 * y; });
   const auto point = surface_at(map, 12.37, 17.81, 0.4);
   REQUIRE(point);
@@ -37,7 +37,7 @@ TEST_CASE("A slanted surface is read between its pixels exactly", "[matching]") 
   CHECK_FALSE(point->contour);
 }
 
-TEST_CASE("An edge on a depth step belongs to the nearer surface, on whichever side of the step it was detected",
+TEST_CASE("An edge on a depth step belongs to the nearer surface, whichever side of the step it was detected on",
           "[matching]") {
   for (const double x : {14.6, 15.4, 16.0, 16.8}) {
     const auto point = surface_at(board(), x, 12.3, kVerticalLine);
@@ -47,14 +47,14 @@ TEST_CASE("An edge on a depth step belongs to the nearer surface, on whichever s
   }
 }
 
-TEST_CASE("Away from a depth step an edge belongs to its own side, and just beside it nothing is said", "[matching]") {
+TEST_CASE("Away from a depth step an edge belongs to its side, just beside the step it has no depth", "[matching]") {
   CHECK(surface_at(board(), 13.2, 12, kVerticalLine)->nearness == Approx(20));
   CHECK_FALSE(surface_at(board(), 13.2, 12, kVerticalLine)->contour);
   CHECK_FALSE(surface_at(board(), 17.7, 12, kVerticalLine));
   CHECK(surface_at(board(), 19.0, 12, kVerticalLine)->nearness == Approx(5));
 }
 
-TEST_CASE("A depth step that an edge runs into does not smear into it", "[matching]") {
+TEST_CASE("A depth step at the end of an edge does not affect its depth", "[matching]") {
   const auto near_side = surface_at(board(), 15.3, 12.5, kHorizontal),
              far_side = surface_at(board(), 15.8, 12.5, kHorizontal);
   REQUIRE(near_side);
@@ -64,7 +64,7 @@ TEST_CASE("A depth step that an edge runs into does not smear into it", "[matchi
   CHECK_FALSE(far_side->contour);
 }
 
-TEST_CASE("Nothing is said about an edge with an unknown pixel beside it", "[matching]") {
+TEST_CASE("An edge next to an unknown pixel has no depth", "[matching]") {
   const auto map = make_map(40, 30, [](int x, int) { return x == 20 ? static_cast<double>(kNan) : 5.0; });
   CHECK_FALSE(surface_at(map, 20.2, 12, kVerticalLine));
   CHECK_FALSE(surface_at(map, 21.2, 12, kVerticalLine));
@@ -72,7 +72,7 @@ TEST_CASE("Nothing is said about an edge with an unknown pixel beside it", "[mat
   CHECK(surface_at(map, 21.2, 12, kHorizontal));
 }
 
-TEST_CASE("Infinite and missing values of disparity and depth files are unknown", "[matching]") {
+TEST_CASE("Infinite and missing values in disparity and depth files are unknown", "[matching]") {
   const float infinite = std::numeric_limits<float>::infinity();
   const auto disparity = surface_from_disparity({4, 1, {2.5F, infinite, 0.0F, -1.0F}}, 2);
   CHECK(disparity.nearness[0] == 5.0F);
@@ -86,7 +86,7 @@ TEST_CASE("Infinite and missing values of disparity and depth files are unknown"
   CHECK(depth.nearness[1] == 7.5F);
 }
 
-TEST_CASE("A point is visible, occluded by something nearer, or contradicted", "[matching]") {
+TEST_CASE("A point is visible, occluded by a nearer surface, or contradicted", "[matching]") {
   const auto map = board();
   CHECK(visibility(map, 10, 10, 20.6) == Visibility::visible);
   CHECK(visibility(map, 10, 10, 5) == Visibility::occluded);
@@ -95,7 +95,7 @@ TEST_CASE("A point is visible, occluded by something nearer, or contradicted", "
   CHECK(visibility(make_map(9, 9, [](int, int) { return static_cast<double>(kNan); }), 4, 4, 5) == Visibility::unknown);
 }
 
-TEST_CASE("Seen from the right, a board hides the part of the wall beside it", "[matching]") {
+TEST_CASE("In the right view a board occludes the part of the wall beside it", "[matching]") {
   // Columns 20 to 29 of the left view show a board of 8 px, the rest a wall of 2 px: the board covers columns 12 to 21.
   const auto left = make_map(60, 9, [](int x, int) { return x >= 20 && x < 30 ? 8.0 : 2.0; });
   const auto right = right_from_left(left, 60);
@@ -105,12 +105,12 @@ TEST_CASE("Seen from the right, a board hides the part of the wall beside it", "
     if (x >= 12 && x <= 21) {
       CHECK(value == 8.0F);
     } else if (x >= 22 && x < 28) {
-      CHECK(std::isnan(value));  // the wall that only the right camera sees
+      CHECK(std::isnan(value));  // the part of the wall that only the right camera sees
     } else {
       CHECK(value == 2.0F);
     }
   }
-  // The wall's column 16 falls on column 14, behind the board; column 10 on 8, beside it.
+  // The wall's column 16 maps to column 14, behind the board; column 10 to 8, beside it.
   FrameTruth truth;
   truth.left = left;
   truth.right = right;
@@ -122,7 +122,7 @@ TEST_CASE("Seen from the right, a board hides the part of the wall beside it", "
   CHECK(positions.x[1] == 8.0F);
 }
 
-TEST_CASE("A point of known depth is found again after a known motion", "[matching]") {
+TEST_CASE("A point of known depth is located after a known motion", "[matching]") {
   StereoRig rig;
   rig.left = rig.right = {200, 200, 49.5, 39.5, 100, 80};
   rig.right_from_left.translation().x() = -0.1;
@@ -133,7 +133,7 @@ TEST_CASE("A point of known depth is found again after a known motion", "[matchi
   before.world_from_left = now.world_from_left = Eigen::Isometry3d::Identity();
   now.world_from_left->translation() = Eigen::Vector3d(0.1, 0, 0.4);  // the wall is 1.6 m away now
   now.left = now.right =
-      make_map(100, 80, [&](int x, int) { return x < 20 ? 2 * scale / 1.6 : scale / 1.6; });  // something nearer
+      make_map(100, 80, [&](int x, int) { return x < 20 ? 2 * scale / 1.6 : scale / 1.6; });  // a nearer obstacle
   const std::vector<float> x = {59.5F, 36.5F}, y = {49.5F, 39.5F}, direction = {1.5F, 1.5F};
   // Offsets from the principal point: X = 10 px * 2 m / 200 px = 0.1 m, minus 0.1 m; Y = 0.1 m; then the right camera
   // 0.1 m further.

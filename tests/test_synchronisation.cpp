@@ -7,8 +7,8 @@ using quadedge::odometry::Synchronisation;
 
 namespace {
 
-/// Frames whose image rolls and nods by up to 4 px, seen by a right camera that is `late` frames late, with a rig whose
-/// calibration is off by up to 0.6 px.
+/// Frames whose images shift by up to 4 px as the rig rolls and pitches, with a right camera that is `late` frames late
+/// and a calibration that is off by up to 0.6 px.
 Synchronisation watched(double late, double calibration) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 0.1);
@@ -26,17 +26,17 @@ Synchronisation watched(double late, double calibration) {
 
 }  // namespace
 
-TEST_CASE("synchronisation: a late camera is told by how much, early ones too", "[odometry][rig]") {
+TEST_CASE("synchronisation: the time offset of a late or early camera is measured", "[odometry][rig]") {
   CHECK(watched(1, 0).time_offset_frames() == Approx(1).margin(0.02));
   CHECK(watched(1, 2).time_offset_frames() == Approx(1).margin(0.02));
   CHECK(watched(-0.5, 0).time_offset_frames() == Approx(-0.5).margin(0.02));
 }
 
-TEST_CASE("synchronisation: errors of the calibration and few samples say nothing", "[odometry][rig]") {
+TEST_CASE("synchronisation: calibration errors and too few samples give no time offset", "[odometry][rig]") {
   CHECK(watched(0, 0).time_offset_frames() == 0);
   CHECK(watched(0, 2).time_offset_frames() == 0);
-  CHECK(watched(0.05, 0).time_offset_frames() == 0);  // within what one does not warn about
-  Synchronisation still;                              // nothing moves: late or not cannot be told
+  CHECK(watched(0.05, 0).time_offset_frames() == 0);  // below the warning threshold
+  Synchronisation still;                              // no motion: the time offset cannot be measured
   for (int i = 0; i < 1000; ++i) still.add(0.001 * (i % 100), 0.01 * (i % 7), 0.5, 0);
   CHECK(still.time_offset_frames() == 0);
 }

@@ -32,7 +32,7 @@ float depth_at(const RenderedView& view, int x, int y) {
       .depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(view.image.width) + static_cast<std::size_t>(x)];
 }
 
-/// Bilinear depth, or nothing where the four neighbours do not belong to one smooth surface or lie outside.
+/// Bilinear depth; none where the four neighbours lie outside or do not belong to one smooth surface.
 double smooth_depth(const RenderedView& view, const Vector2d& p) {
   const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
   if (x < 0 || y < 0 || x + 1 >= view.image.width || y + 1 >= view.image.height) return 0.0;
@@ -45,8 +45,8 @@ double smooth_depth(const RenderedView& view, const Vector2d& p) {
   return 1.0 / inverse;
 }
 
-/// Whether 1 / depth is linear, as on a plane, over the 4 x 4 pixels around a place. Frames and slats stand so little
-/// before their walls that the depths alone do not tell.
+/// Whether 1 / depth is linear, as on a plane, over the 4 x 4 pixels around a position. Frames and slats protrude so
+/// little from their walls that a difference in depth alone does not reveal them.
 bool is_on_one_plane(const RenderedView& view, const Vector2d& p) {
   const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
   if (x < 1 || y < 1 || x + 2 >= view.image.width || y + 2 >= view.image.height) return false;
@@ -61,13 +61,13 @@ bool is_on_one_plane(const RenderedView& view, const Vector2d& p) {
 }
 
 struct Agreement {
-  int visible = 0;     // pixels that land inside the other view and on a smooth part of it
+  int visible = 0;     // pixels that map into the other view and to a smooth part of it
   int agreeing = 0;    // ... on the same surface
   int occluded = 0;    // ... behind something nearer
   int impossible = 0;  // ... in front of what the other view sees
 };
 
-/// Carries every pixel of one view with its depth into the other view.
+/// Maps every pixel of one view with its depth into the other view.
 Agreement compare(const RenderedView& from, const RenderedView& to, const PinholeCamera& camera,
                   const Isometry3d& to_from_from, bool on_planes_alone) {
   Agreement result;
@@ -89,7 +89,7 @@ Agreement compare(const RenderedView& from, const RenderedView& to, const Pinhol
   return result;
 }
 
-/// Shift [px] of `to` against `from` carried over with its exact depth, by least squares over smooth positions (one
+/// Shift [px] of `to` against `from` warped with its exact depth, by least squares over smooth positions (one
 /// Lucas-Kanade step), and the median absolute grey difference there.
 struct Photometry {
   Vector2d shift = Vector2d::Zero();
@@ -107,7 +107,7 @@ Photometry photometry(const RenderedView& from, const RenderedView& to, const Pi
     return (1 - fy) * ((1 - fx) * v.at(x, y) + fx * v.at(x + 1, y)) +
            fy * ((1 - fx) * v.at(x, y + 1) + fx * v.at(x + 1, y + 1));
   };
-  const auto is_smooth = [](const RenderedView& view, const Vector2d& p) {  // no step of depth within two pixels
+  const auto is_smooth = [](const RenderedView& view, const Vector2d& p) {  // no depth step within two pixels
     for (int dy = -2; dy <= 2; ++dy)
       for (int dx = -2; dx <= 2; ++dx)
         if (smooth_depth(view, p + Vector2d(dx, dy)) == 0.0) return false;
@@ -137,14 +137,14 @@ Photometry photometry(const RenderedView& from, const RenderedView& to, const Pi
 
 }  // namespace
 
-TEST_CASE("a synthetic sequence gives the same bytes again, on any number of threads", "[synthetic]") {
+TEST_CASE("a synthetic sequence has the same bytes every time, on any number of threads", "[synthetic]") {
   for (const std::string& scene : synthetic_scenes()) {
     SyntheticOptions options = small_options(scene);
     options.threads = 1;
     const RenderedView one = SyntheticSequence(options).render(3, Side::right);
     options.threads = 5;
     const SyntheticSequence again(options);
-    again.render(0, Side::left);  // paints texture tiles in another order
+    again.render(0, Side::left);  // creates texture tiles in another order
     const RenderedView five = again.render(3, Side::right);
     CHECK(one.image.pixels == five.image.pixels);
     CHECK(one.depth == five.depth);
@@ -183,7 +183,7 @@ TEST_CASE("the synthetic camera starts at the identity and moves smoothly", "[sy
   CHECK(travel.minCoeff() > 0.05);
 }
 
-TEST_CASE("the synthetic rig is rectified with the asked baseline and focal length", "[synthetic]") {
+TEST_CASE("the synthetic rig is rectified, with the requested baseline and focal length", "[synthetic]") {
   const SyntheticOptions options;
   const StereoRig rig = SyntheticSequence(options).rig();
   CHECK(rig.left.width == 942);
@@ -201,7 +201,7 @@ TEST_CASE("the synthetic rig is rectified with the asked baseline and focal leng
 TEST_CASE("synthetic depth agrees between the views wherever it is visible in both", "[synthetic]") {
   struct Case {
     const char *scene, *path;
-    double least_visible;  // ratio of pixels; few are on one plane with their neighbours among pickets and leaves
+    double least_visible;  // fraction of pixels; among pickets and leaves few share a plane with their neighbours
   };
   for (const Case& c : {Case{"room", "ellipse", 0.75}, Case{"facade", "ellipse", 0.2}, Case{"facade", "handheld", 0.2},
                         Case{"facade", "drive", 0.2}}) {
@@ -230,8 +230,8 @@ TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]
   for (int y = 0; y < rig.left.height; ++y)
     for (int x = 0; x + 1 < rig.left.width; ++x)
       steps += std::abs(depth_at(left, x + 1, y) / depth_at(left, x, y) - 1.0) > 0.2;
-  CHECK(steps > rig.left.height);  // objects stand in front of one another
-  // The right view shows the same grey f b / Z further left, to a small part of a pixel.
+  CHECK(steps > rig.left.height);  // objects occlude one another
+  // The right view shows the same grey level f b / Z farther left, to a fraction of a pixel.
   for (const char* scene : {"room", "facade"}) {
     SyntheticOptions clean = small_options(scene);
     clean.noise = 0.0;
@@ -254,7 +254,7 @@ TEST_CASE("synthetic depth obeys disparity = f b / Z and occludes", "[synthetic]
   }
 }
 
-TEST_CASE("nothing in view is nearer than the synthetic sequence's largest disparity says", "[synthetic]") {
+TEST_CASE("no visible surface exceeds the synthetic sequence's largest disparity", "[synthetic]") {
   for (const std::string& scene : synthetic_scenes()) {
     SyntheticOptions options = small_options(scene);
     options.frames = 1000;
@@ -282,7 +282,7 @@ TEST_CASE("the facade is textured nearly everywhere, repeats, and differs betwee
     options.seed = seed;
     views.push_back(SyntheticSequence(options).render(0, Side::left));
     const ImageView image = views.back().image.view();
-    // Ratio of the squares of 16 px whose grey levels scatter by more than twice what the usual noise does.
+    // Fraction of 16 px squares whose grey levels vary by more than twice the default noise.
     constexpr int kSide = 16;
     int squares = 0, textured = 0, light = 0, dark = 0;
     for (int y = 0; y + kSide <= options.height; y += kSide) {
@@ -303,7 +303,7 @@ TEST_CASE("the facade is textured nearly everywhere, repeats, and differs betwee
     CAPTURE(seed, squares, textured, light, dark);
     CHECK(textured > 0.95 * squares);
     CHECK(light + dark < 0.001 * options.width * options.height);
-    // Some row of the wall correlates with itself one board or brick further.
+    // Some row of the wall correlates with itself one board or brick farther.
     double highest = 0.0;
     for (int y = 10; y < options.height / 3; ++y) {
       for (int period = 4; period < 40; ++period) {
@@ -323,11 +323,11 @@ TEST_CASE("the facade is textured nearly everywhere, repeats, and differs betwee
     int moved = 0;
     for (std::size_t i = 0; i < views[0].depth.size(); ++i)
       moved += std::abs(views[other].depth[i] / views[0].depth[i] - 1.0F) > 0.02F;
-    CHECK(moved > 0.1 * static_cast<double>(views[0].depth.size()));  // fence, houses and shrubs, not paint alone
+    CHECK(moved > 0.1 * static_cast<double>(views[0].depth.size()));  // fence, houses and shrubs, not only colours
   }
 }
 
-TEST_CASE("synthetic camera noise has the asked standard deviation and is independent", "[synthetic]") {
+TEST_CASE("synthetic camera noise has the requested standard deviation and is independent", "[synthetic]") {
   SyntheticOptions options = small_options("room");
   options.supersampling = 1;
   options.noise = 0.0;
@@ -353,7 +353,7 @@ TEST_CASE("synthetic camera noise has the asked standard deviation and is indepe
   }
 }
 
-TEST_CASE("synthetic options that make no sense are refused", "[synthetic]") {
+TEST_CASE("invalid synthetic options are refused", "[synthetic]") {
   const auto refuses = [](const std::function<void(SyntheticOptions&)>& change) {
     SyntheticOptions options = small_options("room");
     change(options);

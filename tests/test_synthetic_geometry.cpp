@@ -1,4 +1,4 @@
-// The renderer's geometry: silhouettes and textures lie where analytic projection puts them.
+// The renderer's geometry: silhouettes and textures agree with analytic projection.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Row of the only edge in a column between a surface of grey `above` and one of grey `below`: the column's integral,
-/// which is exact for pixels that are means over their squares.
+/// Row of the only edge in a column between a surface of grey `above` and one of grey `below`, from the column's
+/// integral, which is exact for pixels that are means over their area.
 double edge_row(const synthetic::Radiance& view, const PinholeCamera& camera, int x, double above, double below) {
   double sum = 0.0;
   for (int y = 0; y < camera.height; ++y) sum += view.grey[static_cast<std::size_t>(y * camera.width + x)];
@@ -36,7 +36,7 @@ std::pair<double, double> edge_error(const synthetic::Radiance& view, const Pinh
   return {largest, sum / (last - first)};
 }
 
-/// Root of a function that changes its sign between low and high.
+/// Root of a function that changes sign between low and high.
 double bisect(double low, double high, const std::function<double(double)>& function) {
   const bool low_sign = function(low) > 0.0;
   for (int i = 0; i < 60; ++i) {
@@ -62,15 +62,15 @@ Isometry3d at(const Vector3d& position, double yaw = 0.0, double pitch = 0.0, do
   return pose;
 }
 
-/// Grey of a plain surface with this outward normal under the scenes' light.
+/// Grey level of a plain surface with this outward normal in the scenes' light.
 double shaded(double grey, const Vector3d& normal) {
   return grey * synthetic::shade(normal, synthetic::light_direction(), 0.72);
 }
 
 }  // namespace
 
-// LONG: four kinds of silhouette in one scene, one after the other.
-TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
+// LONG: four kinds of silhouettes in one scene.
+TEST_CASE("rendered silhouettes agree with analytic geometry", "[long][synthetic]") {
   const PinholeCamera camera{400.0, 400.0, 101.3, 58.7, 200, 120};
   const Isometry3d camera_from_world = at({0.02, -0.03, 0.05}, 0.02, -0.03, 0.015);
   const auto scene_with = [&](std::unique_ptr<synthetic::Surface> front) {
@@ -99,8 +99,7 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
     const double radius = 0.02;
     const auto view = render(scene_with(std::make_unique<synthetic::TubeSurface>(control, radius, 0.0, 1e-5)), camera,
                              camera_from_world, 8, 2);
-    // The curve by repeated averaging of the control polygon (Lane-Riesenfeld), so finely that its points are 0.1 mm
-    // apart.
+    // The curve by repeated averaging of the control polygon (Lane-Riesenfeld), with points 0.1 mm apart.
     std::vector<Vector3d> curve = control;
     for (int level = 0; level < 12; ++level) {
       std::vector<Vector3d> finer;
@@ -152,7 +151,7 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
         if (std::abs(margin) > 0.001) wrong += (margin > 0.0) != (depth < 3.0);
       }
     CHECK(wrong == 0);
-    // The front of the ball is exactly one radius nearer than its centre.
+    // The ball's front is exactly one radius nearer than its centre.
     const Vector2d middle = camera.project(seen);
     const PinholeCamera centred{400.0, 400.0, camera.cx - middle.x() + 100.0, camera.cy - middle.y() + 60.0, 200, 120};
     const auto moved = render(scene_with(std::make_unique<synthetic::SphereSurface>(at(centre), radius, plain(60.0))),
@@ -161,7 +160,7 @@ TEST_CASE("rendered silhouettes lie where geometry says", "[long][synthetic]") {
   }
 }
 
-TEST_CASE("a texture lies on its plane where geometry says", "[long][synthetic]") {
+TEST_CASE("a texture on its plane agrees with analytic geometry", "[long][synthetic]") {
   synthetic::TextureStyle style;
   style.feature = 0.2;
   const auto texture = std::make_shared<synthetic::Texture>(synthetic::dead_leaves(style, 5), 1.0, 1.0, 0.002);
@@ -174,7 +173,7 @@ TEST_CASE("a texture lies on its plane where geometry says", "[long][synthetic]"
   double worst = 0.0, low = 255.0, high = 0.0;
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
-      double sum = 0.0;  // by a much finer plain grid
+      double sum = 0.0;  // over a much finer regular grid
       for (int j = 0; j < 24; ++j)
         for (int i = 0; i < 24; ++i) {
           const Vector3d ray = camera.ray(Vector2d(x + (i + 0.5) / 24 - 0.5, y + (j + 0.5) / 24 - 0.5));
@@ -207,7 +206,7 @@ TEST_CASE("a texture has no seams between its tiles and never repeats", "[synthe
     }
   }
   CHECK(jump < 0.01);
-  // Correlation of a patch of 0.4 x 0.4 m with all others beside it stays low.
+  // A patch of 0.4 x 0.4 m has a low correlation with all others nearby.
   const auto patch = [&](double u, double v) {
     Eigen::ArrayXd greys(400);
     for (int i = 0; i < 400; ++i) greys[i] = texture.sample(u + i % 20 * 0.02, v + i / 20 * 0.02);
@@ -219,10 +218,10 @@ TEST_CASE("a texture has no seams between its tiles and never repeats", "[synthe
   for (double v = -0.75; v < 0.35; v += 0.02)
     for (double u = -0.35; u < 0.35; u += 0.02) highest = std::max(highest, (here * patch(u, v)).sum());
   CHECK(highest < 0.6);
-  CHECK((here * patch(-0.745, -0.755)).sum() > 0.75);  // and it would notice a copy half a step off
+  CHECK((here * patch(-0.745, -0.755)).sum() > 0.75);  // and the check would detect a copy half a step off
 }
 
-TEST_CASE("cladding repeats with its pitch, and a texture's coarser levels are its means", "[synthetic]") {
+TEST_CASE("cladding repeats with its pitch, and a texture's coarser levels are means", "[synthetic]") {
   synthetic::CladdingStyle style;
   style.unit_width = 0.24;
   style.unit_height = 0.08;
@@ -233,7 +232,7 @@ TEST_CASE("cladding repeats with its pitch, and a texture's coarser levels are i
   style.joint_grey = 200.0;
   const double texel = 0.002, half = 1.0;
   const synthetic::Texture texture(synthetic::cladding(style, 3), half, half, texel, 7);
-  // A brick's middle, the joints beside and below it, and the next course, half a brick further.
+  // A brick's centre, the joints beside and below it, and the next course, half a brick farther.
   CHECK(texture.sample(0.12, 0.04) == Approx(130.0).margin(0.01));
   CHECK(texture.sample(0.24, 0.04) == Approx(200.0).margin(0.01));
   CHECK(texture.sample(0.12, 0.08) == Approx(200.0).margin(0.01));
@@ -248,7 +247,7 @@ TEST_CASE("cladding repeats with its pitch, and a texture's coarser levels are i
   for (double u = -0.6; u < 0.6; u += 0.05)
     worst = std::max(worst, std::abs(texture.sample(u, 0.3 * u, 64 * texel) - mean));
   CAPTURE(worst);
-  CHECK(worst < 4.0);  // texels of 13 cm, means over 19 cm: hardly a brick is left
+  CHECK(worst < 4.0);  // texels of 13 cm, means over 19 cm: hardly any brick pattern remains
   for (const double footprint : {texel, 1.5 * texel, 4.0 * texel, 6.0 * texel})
-    CHECK(texture.sample(0.12, 0.04, footprint) == Approx(130.0).margin(0.01));  // inside the brick nothing is mixed in
+    CHECK(texture.sample(0.12, 0.04, footprint) == Approx(130.0).margin(0.01));  // one grey level inside a brick
 }

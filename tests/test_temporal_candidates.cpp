@@ -19,7 +19,7 @@ EdgePositions positions_of(const std::vector<Edge>& edges) {
   return positions;
 }
 
-/// In units of what single precision may get wrong (1e-4 px, 1e-6 rad); positive: inside.
+/// Distance inside the limits in units of single-precision error (1e-4 px, 1e-6 rad); positive: inside.
 double margin(const EdgePositions& predicted, std::size_t i, const EdgePositions& current, std::size_t j, double radius,
               double orientation) {
   if (!std::isfinite(predicted.x[i]) || !std::isfinite(predicted.y[i]) || !std::isfinite(predicted.direction[i]))
@@ -31,7 +31,7 @@ double margin(const EdgePositions& predicted, std::size_t i, const EdgePositions
   return std::min((radius - distance) / 1e-4, (orientation - turn) / 1e-6);
 }
 
-/// Lists against the definition over all pairs.
+/// Compares the lists with the definition over all pairs.
 std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
                         const EdgePositions& predicted, const EdgePositions& current, double radius, double orientation,
                         int step) {
@@ -95,8 +95,8 @@ TEST_CASE("temporal candidates: a circle around the predicted position and a ful
           "[temporal][matching][device][oclgrind]") {
   const double nan = std::nan("");
   const std::vector<Edge> predicted = {{20, 15, 3.1}, {nan, 15, 0}, {20, 15, 3.1 - kPi}};
-  // At 5 px, beside the corner of the square, at the right position with the other contrast, across the wrap of the
-  // direction.
+  // At 5 px, near the corner of the square, at the right position with opposite contrast, across the direction's
+  // wrap-around.
   const std::vector<Edge> current = {
       {24.99, 15, 3.1}, {24, 19, 3.1}, {20, 15, 3.1 - kPi}, {20, 15.5, -3.1}, {20, 9.9, 3.1}};
   const auto positions = positions_of(current);
@@ -108,17 +108,17 @@ TEST_CASE("temporal candidates: a circle around the predicted position and a ful
   CHECK(check_everywhere(predicted, current, 30, 5, 0.15, 1) == 3);
 }
 
-TEST_CASE("temporal candidates: the lists hold what the definition says", "[temporal][matching][device]") {
+TEST_CASE("temporal candidates: the lists match the definition", "[temporal][matching][device]") {
   const auto current = random_edges(700, 90, 61, 3);
   CHECK(check_everywhere(random_edges(300, 90, 61, 4, 15), current, 61, 10, 0.6, 1) > 500);
   CHECK(check_everywhere(random_edges(301, 90, 61, 5, 15), current, 61, 7.3, 1.5, 8) > 50);
 }
 
-TEST_CASE("temporal candidates: a search wider than the first capacity loses nothing", "[temporal][matching][device]") {
+TEST_CASE("temporal candidates: lists longer than the initial capacity are complete", "[temporal][matching][device]") {
   CHECK(check_everywhere(random_edges(20, 50, 40, 6), random_edges(400, 50, 40, 7), 40, 200, 4, 1) == 20 * 400);
 }
 
-TEST_CASE("temporal candidates: nothing to look for, or nothing there", "[temporal][matching][device][oclgrind]") {
+TEST_CASE("temporal candidates: empty queries and empty targets", "[temporal][matching][device][oclgrind]") {
   CHECK(check_everywhere({}, random_edges(9, 50, 40, 7), 40, 10, 4, 1) == 0);
   CHECK(check_everywhere(random_edges(9, 50, 40, 7), {}, 40, 10, 4, 8) == 0);
   CHECK(check_everywhere({}, {}, 40, 10, 4, 1) == 0);

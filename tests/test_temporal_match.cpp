@@ -11,7 +11,7 @@ using namespace matching;
 
 namespace {
 
-/// What the matching in time left, with the rows that kept a candidate in each image before the agreement.
+/// Result of the temporal matching, with the rows that kept a candidate in each image before the agreement filter.
 struct MatchedRows {
   TemporalMatches quads;
   int left_alive = 0, right_alive = 0;
@@ -20,7 +20,7 @@ struct MatchedRows {
 
 constexpr int kImageWidth = 97, kImageHeight = 61;
 
-/// A patch pair near one of a few prototypes, so that many edges look alike.
+/// A pair of patches close to one of a few prototypes, so that many edges look similar.
 void add_patches(Random& random, std::vector<std::int8_t>& patches) {
   const int kind = static_cast<int>(random(0, 2.99));
   const std::size_t first = patches.size();
@@ -34,7 +34,7 @@ void add_patches(Random& random, std::vector<std::int8_t>& patches) {
   }
 }
 
-/// A base rig and a current one whose edges lie about the predicted positions; `shuffled` numbers of the left edges.
+/// A base rig and a current one whose edges lie near the predicted positions; left edges are in shuffled order.
 struct TemporalScene {
   StereoEdges base, current;
   std::vector<std::int8_t> base_left, base_right, left,
@@ -46,7 +46,7 @@ struct TemporalScene {
   TemporalScene(int base_edges, int current_edges, std::uint64_t seed, int step = 1) {
     Random random(seed);
     search.radius = 3;
-    config.ncc_nearly_best = 0.97;  // so near that this filter too has something to do
+    config.ncc_nearly_best = 0.97;  // so high that this filter rejects some too
     search.step = step;
     fill(random, base_edges, base, base_left, base_right);
     fill(random, current_edges, current, left, right);
@@ -58,7 +58,7 @@ struct TemporalScene {
     for (std::size_t i = 0; i < base.size(); ++i) {
       const bool known = random(0, 1) < 0.9;
       const float nan = std::nanf("");
-      // Edges of the base are expected where they are, 6 px higher in x.
+      // Edges of the base are predicted 6 px farther in x.
       search.left.x.push_back(known ? base.left_x[i] + 6 : nan);
       search.left.y.push_back(known ? base.left_y[i] : nan);
       search.left.direction.push_back(base.left_direction[i]);
@@ -70,7 +70,7 @@ struct TemporalScene {
   static void fill(Random& random, int count, StereoEdges& edges, std::vector<std::int8_t>& of_left,
                    std::vector<std::int8_t>& of_right) {
     for (int i = 0; i < count; ++i) {
-      // 7 shares no factor with the numbers of edges used: every left edge once.
+      // 7 is coprime to the numbers of edges used: every left edge once.
       edges.left_index.push_back(count == 0 ? 0 : 7 * i % count);
       edges.right_index.push_back(i);
       const float x = static_cast<float>(random(-4, kImageWidth + 3)),
@@ -87,7 +87,7 @@ struct TemporalScene {
     }
   }
 
-  /// Descriptions by stereo edge, as the reference wants them.
+  /// Descriptions by stereo edge, as the reference expects them.
   static reference::EdgeDescriptions described(const std::vector<std::int8_t>& patches,
                                                const std::vector<std::int32_t>& numbers,
                                                const std::vector<std::uint8_t>& sift) {
@@ -107,7 +107,7 @@ struct TemporalScene {
     return reference::temporal_match(search, current, {of_base_left, of_left, kImageWidth, kImageHeight},
                                      {of_base_right, of_right, kImageWidth, kImageHeight}, config);
   }
-  /// Edges within the radius alone, as the reference finds them.
+  /// Edges within the radius, as the reference finds them.
   reference::Candidates displaced(Side side) const {
     const EdgePositionsView edges = current.positions(side);
     reference::PointIndex index;
@@ -129,7 +129,7 @@ struct TemporalScene {
     rig.left_sift.write(context, sift_left);
     rig.right_sift.write(context, sift_right);
   }
-  /// What both forms of every variant but the lists find on every device: the production one, and that of a tap.
+  /// Runs both forms, production and tap, of every variant except the lists on every device.
   void on_devices(const std::function<void(const std::optional<MatchedRows>&, bool tapped)>& check) const {
     for_each_variant(
         "temporal_match", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
@@ -158,12 +158,12 @@ struct TemporalScene {
           }
         });
   }
-  /// A tap sees the candidates within the radius, and of each what the reference's filters say.
+  /// Checks that a tap receives the candidates within the radius, each with the reference's filter decisions.
   void check_tapped(const stages::JudgedCandidates& seen, Side side, const reference::TemporalMatchLists& lists) const {
     const auto all = displaced(side);
     CHECK(seen.first == all.first);
     CHECK(seen.target == all.target);
-    stages::JudgedCandidates near;  // without those that the orientation rejects
+    stages::JudgedCandidates near;  // without those rejected by orientation
     near.first.assign(1, 0);
     for (std::size_t row = 0; row + 1 < seen.first.size(); ++row) {
       for (auto c = static_cast<std::size_t>(seen.first[row]); c < static_cast<std::size_t>(seen.first[row + 1]); ++c) {
@@ -205,14 +205,14 @@ struct TemporalScene {
 
 }  // namespace
 
-TEST_CASE("temporal match: one kernel finds what the reference's cascade finds, and a tap sees why, to the last bit",
+TEST_CASE("temporal match: the single kernel and its tap equal the reference's cascade bit for bit",
           "[temporal][matching][device]") {
   for (const std::uint64_t seed : {3, 13, 23}) CHECK(TemporalScene(600, 2400, seed).compare_devices() > 100);
   CHECK(TemporalScene(601, 2399, 4, 3).compare_devices() > 30);
 }
 
 TEST_CASE("temporal match: every filter of the tap form rejects something in these scenes", "[temporal][matching]") {
-  // Without this the comparison above would say nothing of a filter.
+  // Otherwise the comparison above would not test the filter.
   const TemporalScene scene(600, 2400, 3);
   const auto truth = scene.expected();
   CHECK(scene.displaced(Side::left).target.size() > truth.left.candidates.target.size() + 100);
@@ -223,7 +223,7 @@ TEST_CASE("temporal match: every filter of the tap form rejects something in the
   }
 }
 
-TEST_CASE("temporal match: SIFT distances of a tap decide nothing", "[temporal][matching][device]") {
+TEST_CASE("temporal match: a tap's SIFT distances affect no decision", "[temporal][matching][device]") {
   TemporalScene scene(101, 500, 9);
   const auto before = scene.expected().matches;
   for (auto& value : scene.base_left_sift) value = static_cast<std::uint8_t>(255 - value);
@@ -243,8 +243,7 @@ TEST_CASE("temporal match: few edges, and none", "[temporal][matching][device][o
   TemporalScene(0, 4, 7).compare_devices();
 }
 
-TEST_CASE("temporal match: a row with more candidates than there is room for says so",
-          "[temporal][matching][device][oclgrind]") {
+TEST_CASE("temporal match: a row with too many candidates is reported", "[temporal][matching][device][oclgrind]") {
   TemporalScene scene(3, 170, 8);
   for (std::size_t j = 0; j < 170; ++j) {
     scene.current.left_x[j] = scene.base.left_x[2] + 6;

@@ -19,7 +19,7 @@ void add(StereoEdges& edges, double x, double y, double degrees) {
   edges.ncc.push_back(0.9f);
 }
 
-/// Rows of candidates in left and right lists, with what the filters said.
+/// Rows of candidates in left and right lists, with the filters' decisions.
 struct QuadScene {
   StereoEdges current;
   TemporalSearch search;
@@ -62,7 +62,7 @@ struct QuadScene {
     const auto agreement = reference::temporal_agreement(left, scores, right, right_scores);
     return reference::temporal_best(left, scores, agreement, current, config, search);
   }
-  /// Every device and variant finds the same quads, to the last bit.
+  /// Checks that every device and variant finds the same quads bit for bit.
   void compare_devices() const {
     const auto truth = match();
     for_each_variant("temporal_quads",
@@ -96,9 +96,9 @@ struct QuadScene {
 
 }  // namespace
 
-TEST_CASE("temporal agreement: a candidate needs its counterpart alive in the other list", "[temporal][matching]") {
-  // Row 0: targets 4, 7, 9 left; 9, 4, 7 right, where 7 is dead. Row 1: target 4 left, which only row 0 has on the
-  // right.
+TEST_CASE("temporal agreement: a candidate needs a surviving counterpart in the other list", "[temporal][matching]") {
+  // Row 0: targets 4, 7, 9 on the left; 9, 4, 7 on the right, of which 7 is rejected. Row 1: target 4 on the left,
+  // which only row 0 has on the right.
   const reference::Candidates left{{0, 3, 4}, {4, 7, 9, 4}}, right{{0, 3, 4}, {9, 4, 7, 5}};
   auto scores = fresh_scores(4), other = fresh_scores(4);
   scores.state[2] = 5;
@@ -110,7 +110,7 @@ TEST_CASE("temporal agreement: a candidate needs its counterpart alive in the ot
   CHECK(agreement[0] == Approx(0.8));
 }
 
-TEST_CASE("temporal best: chained positions are one group, others compete, ties go to the first",
+TEST_CASE("temporal best: chained positions form one group, others compete, ties go to the first",
           "[temporal][matching]") {
   StereoEdges current;
   add(current, 5, 5, 10);
@@ -125,7 +125,7 @@ TEST_CASE("temporal best: chained positions are one group, others compete, ties 
   TemporalConfig config;
   config.distance_weight = 0;
   auto matches = reference::temporal_best(lists, scores, agreement, current, config, search);
-  // 0, 2, 1 chain up; 3 is near them but turned by 25 degrees or more; 4 is far.
+  // 0, 2, 1 form a chain; 3 is near them but rotated by at least 25 degrees; 4 is far away.
   REQUIRE(matches.size() == 1);
   CHECK(matches.previous[0] == 0);
   CHECK(matches.current[0] == 0);
@@ -133,18 +133,18 @@ TEST_CASE("temporal best: chained positions are one group, others compete, ties 
   CHECK(matches.left_x[0] == 5.0f);
   CHECK(matches.right_x[0] == 1.0f);
   CHECK(matches.ncc[0] == 0.9f);
-  scores.state[2] = 7;  // the link is gone: four groups
+  scores.state[2] = 7;  // without the link: four groups
   CHECK(reference::temporal_best(lists, scores, agreement, current, config, search).competing_clusters[0] == 3);
 }
 
-TEST_CASE("temporal best: among equals the predicted position decides, as far as its weight goes",
+TEST_CASE("temporal best: the predicted position decides between similar candidates, up to its weight",
           "[temporal][matching]") {
   StereoEdges current;
   add(current, 20, 20, 0);
   add(current, 21.5, 20, 0);
   const reference::Candidates lists{{0, 2}, {0, 1}};
   const auto scores = fresh_scores(2);
-  // The second is at the prediction, the first 1.5 px = half the radius away: it has to be better by 0.2 / 4.
+  // The second is at the prediction, the first 1.5 px = half the radius away: the first must be better by 0.2 / 4.
   const TemporalSearch search{{{21.5f}, {20}, {0}}, {}, 3, 1};
   TemporalConfig config;
   config.distance_weight = 0.2;

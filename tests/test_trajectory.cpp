@@ -28,8 +28,7 @@ Trajectory winding(int count) {
 
 }  // namespace
 
-TEST_CASE("trajectory: a TUM file gives back every stamp to the nanosecond and every pose to rounding",
-          "[trajectory]") {
+TEST_CASE("trajectory: a TUM file keeps timestamps to the nanosecond and poses up to rounding", "[trajectory]") {
   const TemporaryFolder folder;
   const Trajectory written = winding(12);
   write_tum(folder / "t.txt", written);
@@ -43,7 +42,7 @@ TEST_CASE("trajectory: a TUM file gives back every stamp to the nanosecond and e
   }
 }
 
-TEST_CASE("trajectory: a KITTI file gives back the same matrices", "[trajectory]") {
+TEST_CASE("trajectory: a KITTI file keeps the matrices", "[trajectory]") {
   const TemporaryFolder folder;
   const Trajectory written = winding(5);
   write_kitti(folder / "k.txt", written);
@@ -56,7 +55,7 @@ TEST_CASE("trajectory: a KITTI file gives back the same matrices", "[trajectory]
   CHECK_THROWS_WITH(read_kitti(folder / "k.txt", {5, 6}), Contains("5 poses") && Contains("2"));
 }
 
-TEST_CASE("trajectory: stamps are decimal numbers, not doubles", "[trajectory]") {
+TEST_CASE("trajectory: timestamps are decimal numbers, not doubles", "[trajectory]") {
   const TemporaryFolder folder;
   write_text(folder / "t.txt",
              "# comment\r\n-1.5 0 0 0 0 0 0 1\r\n0.0000000014 0 0 0 0 0 0 1\n0.0000000015 0 0 0 0 0 0 1\n"
@@ -73,7 +72,7 @@ TEST_CASE("trajectory: stamps are decimal numbers, not doubles", "[trajectory]")
   CHECK_THAT(read_text(folder / "n.txt"), Contains("\n-0.000000001 0"));
 }
 
-TEST_CASE("trajectory: the kind of file is known by its columns", "[trajectory]") {
+TEST_CASE("trajectory: the file format follows from the number of columns", "[trajectory]") {
   const TemporaryFolder folder;
   write_tum(folder / "t.txt", winding(3));
   write_kitti(folder / "k.txt", winding(3));
@@ -86,7 +85,7 @@ TEST_CASE("trajectory: the kind of file is known by its columns", "[trajectory]"
   CHECK_THROWS_WITH(read_trajectory(folder / "b.txt"), Contains("no pose"));
 }
 
-TEST_CASE("trajectory: bad rows are named with file and line", "[trajectory]") {
+TEST_CASE("trajectory: errors about bad rows name the file and the line", "[trajectory]") {
   const TemporaryFolder folder;
   const std::string good = "1 0 0 0 0 0 0 1\n", file = folder / "t.txt";
   const auto fault = [&](const std::string& row, const std::string& found) {
@@ -104,7 +103,7 @@ TEST_CASE("trajectory: bad rows are named with file and line", "[trajectory]") {
   CHECK_THROWS_WITH(read_kitti(file), StartsWith(file + ":2") && Contains("not a rotation"));
 }
 
-TEST_CASE("trajectory: a file that cannot be written is an error and leaves the old one alone", "[trajectory]") {
+TEST_CASE("trajectory: a failed write is an error and leaves the old file unchanged", "[trajectory]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(write_tum(folder / "absent/t.txt", winding(2)),
                     Contains("absent/t.txt") && Contains("No such file"));

@@ -31,7 +31,7 @@ TEST_CASE("Two exact quads give the exact motion", "[pose][two_quads]") {
   CHECK(solved > 150);
 }
 
-TEST_CASE("Coplanar vectors are no hindrance", "[pose][two_quads]") {
+TEST_CASE("Coplanar vectors give the exact motion too", "[pose][two_quads]") {
   generated::Random random(8);
   const OrientedPair pair{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{1, 0, 4}, Eigen::Vector3d::UnitY()}};
   const Eigen::Isometry3d truth = random.motion(1.0, 1.0);
@@ -40,7 +40,7 @@ TEST_CASE("Coplanar vectors are no hindrance", "[pose][two_quads]") {
   CHECK((found->matrix() - truth.matrix()).norm() < 1e-12);
 }
 
-TEST_CASE("A chord along the first tangent, or none, is recognised as degenerate", "[pose][two_quads]") {
+TEST_CASE("A chord parallel to the first tangent, or of zero length, is degenerate", "[pose][two_quads]") {
   const OrientedPair good{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{1, 0, 4}, Eigen::Vector3d::UnitZ()}};
   const OrientedPair along{{{0, 0, 4}, Eigen::Vector3d::UnitX()}, {{1, 0, 4}, Eigen::Vector3d::UnitZ()}};
   const OrientedPair one_spot{{{0, 0, 4}, Eigen::Vector3d::UnitY()}, {{0, 0, 4}, Eigen::Vector3d::UnitZ()}};
@@ -51,7 +51,7 @@ TEST_CASE("A chord along the first tangent, or none, is recognised as degenerate
   CHECK_FALSE(solve_two_quads(good, one_spot, kMaxCosine));
 }
 
-TEST_CASE("A noisy pair gives a rotation all the same, with the midpoint in its place", "[pose][two_quads]") {
+TEST_CASE("A noisy pair still gives a valid rotation and maps the midpoint exactly", "[pose][two_quads]") {
   generated::Random random(9);
   for (int trial = 0; trial < 50; ++trial) {
     const OrientedPair before{{random.uniform(1, 9) * random.unit(), random.unit()},

@@ -19,7 +19,7 @@ Image pattern(int width, int height, int max_value = kMaxValue8) {
   return image;
 }
 
-/// A table that shifts by (dx, dy) and reaches beyond the border.
+/// A table that shifts by (dx, dy) and extends beyond the border.
 UndistortionTable shift_table(int width, int height, float dx, float dy) {
   UndistortionTable table{width, height, {}, {}};
   for (int y = 0; y < height; ++y) {

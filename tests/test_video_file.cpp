@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Pictures that differ from one another in every pixel, of every depth.
+/// Images that differ from one another in every pixel, at any bit depth.
 Image picture(int number, int width = 48, int height = 32, int max_value = 255) {
   Image image(width, height, max_value);
   for (int y = 0; y < height; ++y)
@@ -32,7 +32,7 @@ std::string video(const TemporaryFolder& folder, const std::string& pictures, co
   return folder / name;
 }
 
-/// Reads to the end; the complaint, if there is one.
+/// Reads to the end. \returns the error message, if any
 std::string read_all(const std::string& file, int& pictures) {
   pictures = 0;
   try {
@@ -46,7 +46,7 @@ std::string read_all(const std::string& file, int& pictures) {
 
 }  // namespace
 
-TEST_CASE("video: lossless grey pictures come back byte for byte, at their depth", "[data]") {
+TEST_CASE("video: lossless grey images are read byte for byte, at their bit depth", "[data]") {
   const TemporaryFolder folder;
   for (const auto& [max_value, format] : {std::pair<int, const char*>{255, "gray"}, {65535, "gray16le"}}) {
     const std::string file = video(folder, stream(0, 5, 48, 32, max_value), std::string("-c:v ffv1 -pix_fmt ") + format,
@@ -65,7 +65,7 @@ TEST_CASE("video: lossless grey pictures come back byte for byte, at their depth
   }
 }
 
-TEST_CASE("video: of colour the luma counts, in full range, and RGB is grey as an image file's", "[data]") {
+TEST_CASE("video: colour becomes full-range luma, and RGB becomes grey as in image files", "[data]") {
   const TemporaryFolder folder;
   const std::string pictures = stream(0, 2);
   for (const char* options : {"-c:v ffv1 -pix_fmt yuv420p", "-c:v ffv1 -pix_fmt yuvj420p", "-c:v ffv1 -pix_fmt bgr0",
@@ -80,11 +80,11 @@ TEST_CASE("video: of colour the luma counts, in full range, and RGB is grey as a
       for (int x = 0; x < 48; ++x)
         largest = std::max(largest, std::abs(static_cast<double>(next->image.view().at(x, y)) -
                                              static_cast<double>(expected.view().at(x, y))));
-    CHECK(largest <= 1.0);  // 220 values of the broadcast range stand for 256
+    CHECK(largest <= 1.0);  // 220 values of the limited range represent 256
   }
 }
 
-TEST_CASE("video: an end before the promised one is named, after all pictures that are there", "[data]") {
+TEST_CASE("video: an early end is reported after all existing images", "[data]") {
   const TemporaryFolder folder;
   const std::string file = video(folder, stream(0, 40, 160, 120), "-c:v ffv1 -pix_fmt gray -g 1", "whole.mkv");
   int pictures = 0;
@@ -95,7 +95,7 @@ TEST_CASE("video: an end before the promised one is named, after all pictures th
   CHECK((pictures > 10 && pictures < 30));
 }
 
-TEST_CASE("video: a picture of another size and a damaged one are named by their number", "[data]") {
+TEST_CASE("video: an image of another size and a damaged one are reported by number", "[data]") {
   const TemporaryFolder folder;
   const std::string small = read_text(video(folder, stream(0, 1, 32, 32), "-c:v mjpeg", "small.mjpeg"));
   const std::string usual = read_text(video(folder, stream(0, 3), "-c:v mjpeg", "usual.mjpeg"));
@@ -114,7 +114,7 @@ TEST_CASE("video: a picture of another size and a damaged one are named by their
   CHECK((pictures > 5 && pictures < 15));
 }
 
-TEST_CASE("video: what is none is refused", "[data]") {
+TEST_CASE("video: other files are refused", "[data]") {
   const TemporaryFolder folder;
   int pictures = 0;
   own_camera::write_bytes(folder / "text.mkv", "this is no video");

@@ -11,7 +11,7 @@ using namespace matching;
 
 namespace {
 
-/// Waves of many lengths and directions: structure everywhere, at the descriptor's scale too.
+/// Waves of many lengths and directions: structure everywhere, including the descriptor's scale.
 Image waves(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -39,13 +39,13 @@ std::vector<std::uint8_t> describe_one(const Image& image, float x, float y, flo
 
 }  // namespace
 
-TEST_CASE("wide description: blocks of three pixels are averaged, the rest is left out", "[wide]") {
+TEST_CASE("wide description: blocks of three pixels are averaged, the remainder is dropped", "[wide]") {
   Image image(8, 4);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(i);
   const auto small = reference::shrink(image.view());
   CHECK(small.width == 2);
   CHECK(small.height == 1);
-  CHECK(small.pixels == std::vector<float>{9, 12});  // the middles of the two blocks
+  CHECK(small.pixels == std::vector<float>{9, 12});  // the centres of the two blocks
 }
 
 TEST_CASE("wide description: a constant image gives zeros", "[wide]") {
@@ -54,9 +54,9 @@ TEST_CASE("wide description: a constant image gives zeros", "[wide]") {
   for (std::uint8_t value : describe_one(image, 44.3f, 40.2f, 0.5f)) CHECK(value == 0);
 }
 
-TEST_CASE("wide description: a ramp counts in the directions next to its gradient, with the cube of the cosine",
+TEST_CASE("wide description: a ramp contributes to the bins next to its gradient with the cube of the cosine",
           "[wide]") {
-  Image image(120, 120);  // I = 2 x: seen from direction t the gradient lies at angle -t
+  Image image(120, 120);  // I = 2 x: relative to direction t the gradient has the angle -t
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 120; ++x)
       image.pixels[static_cast<std::size_t>(y * 120 + x)] = static_cast<std::uint8_t>(2 * x);
@@ -64,11 +64,11 @@ TEST_CASE("wide description: a ramp counts in the directions next to its gradien
   for (int turn = 0; turn < 8; ++turn) {
     const auto descriptor = describe_one(image, 60, 60, static_cast<float>(turn * kPi / 4));
     for (int k = 0; k < kWideBytes; ++k) {
-      const int away = std::abs((k + turn + 4) % 8 - 4);  // bins between this one and the gradient's
+      const int away = std::abs((k + turn + 4) % 8 - 4);  // distance in bins from the gradient's
       const int middle = descriptor[static_cast<std::size_t>(k / 8 * 8 + (8 - turn) % 8)];
       CAPTURE(turn, k, middle, int{descriptor[static_cast<std::size_t>(k)]});
       if (away == 0) CHECK(middle > 60);
-      // A clipped middle is too small by comparison.
+      // A clipped middle bin is relatively too small.
       if (away == 1 && middle < 100)
         CHECK(std::abs(descriptor[static_cast<std::size_t>(k)] - middle * std::pow(0.5, 1.5)) < 2);
       if (away == 1) CHECK(descriptor[static_cast<std::size_t>(k)] > middle * std::pow(0.5, 1.5) - 2);
@@ -77,7 +77,7 @@ TEST_CASE("wide description: a ramp counts in the directions next to its gradien
   }
 }
 
-TEST_CASE("wide description: turning image and edge by 90 degrees gives the same descriptor", "[wide]") {
+TEST_CASE("wide description: rotating image and edge by 90 degrees gives the same descriptor", "[wide]") {
   const Image image = waves(120, 90);
   Image turned(90, 120);  // clockwise on screen: (x, y) goes to (89 - y, x)
   for (int y = 0; y < 90; ++y) {
@@ -90,9 +90,8 @@ TEST_CASE("wide description: turning image and edge by 90 degrees gives the same
   for (std::size_t k = 0; k < kWideBytes; ++k) CHECK(std::abs(before[k] - after[k]) <= 1);
 }
 
-TEST_CASE("wide description: every device and variant equals the reference to the last unit",
-          "[wide][device][oclgrind]") {
-  // Sizes that no group or block divides; edges on the border and beyond it; every edge, or every third.
+TEST_CASE("wide description: every device and variant equals the reference exactly", "[wide][device][oclgrind]") {
+  // Sizes not divisible by any group or block; edges on the border and beyond it; every edge, or every third.
   for (const auto& [width, height, count, step] : {std::tuple{3, 4, 3, 1}, {17, 31, 20, 3}, {64, 47, 37, 1}}) {
     const Image image = waves(width, height);
     const auto edges = stereo_edges(random_edges(width, height, count, 6, 12));

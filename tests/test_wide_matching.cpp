@@ -21,10 +21,10 @@ StereoEdges edges_at(const std::vector<std::pair<float, float>>& positions) {
   return edges;
 }
 
-/// Descriptors that point along axis `first`, turned by `degrees` towards axis `second`.
+/// Descriptors that point along axis `first`, rotated by `degrees` towards axis `second`.
 void add_descriptor(std::vector<std::uint8_t>& bytes, int first, int second, double degrees) {
   std::vector<std::uint8_t> one(kWideBytes, 0);
-  // Norm 512 takes more than one byte of 255 at most: five equal ones each.
+  // A norm of 512 needs more than one byte of at most 255: five equal bytes each.
   for (int k = 0; k < 5; ++k) {
     one[static_cast<std::size_t>(5 * first + k)] =
         static_cast<std::uint8_t>(std::lround(229 * std::cos(degrees * kDegree)));
@@ -52,7 +52,7 @@ stages::DeviceStereoEdges on_device(opencl::Context& context, const StereoEdges&
   return result;
 }
 
-/// The reference's matches, after checking that every device and variant finds the very same.
+/// The reference's matches, after checking that every device and variant finds the same.
 TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config) {
   const auto expected = reference::wide_matches(earlier, current, config);
   for_each_variant("wide_matching", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
@@ -77,17 +77,17 @@ TemporalMatches match_everywhere(const WideEdges& earlier, const WideEdges& curr
 
 }  // namespace
 
-TEST_CASE("wide matching: about as many edges take part as wanted", "[wide]") {
+TEST_CASE("wide matching: the step selects about the wanted number of edges", "[wide]") {
   CHECK(wide_step(0, 3000) == 1);
   CHECK(wide_step(5999, 3000) == 1);
   CHECK(wide_step(6000, 3000) == 2);
   CHECK(wide_step(30000, 3000) == 10);
 }
 
-TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a neighbour does not",
+TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a good neighbour does not",
           "[wide][device][oclgrind]") {
-  // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 see competing matches at a distance: angles
-  // of 20 and 24 degrees have distances of ratio 0.84, 20 and 40 degrees of 0.51.
+  // Row 0 finds column 0 in spite of its neighbour, column 1. Rows 1 and 2 have competing matches at a distance: the
+  // descriptor distances at 20 and 24 degrees have a ratio of 0.84, at 20 and 40 degrees of 0.51.
   std::vector<std::uint8_t> rows, columns;
   for (int axis : {0, 2, 4}) add_descriptor(rows, axis, axis + 1, 0);
   add_descriptor(columns, 0, 1, 20);
@@ -106,20 +106,20 @@ TEST_CASE("wide matching: a good match elsewhere makes a match ambiguous, a neig
   CHECK(std::abs(matches.ncc[0] - static_cast<float>(std::cos(20 * kDegree))) < 0.01f);
 }
 
-TEST_CASE("wide matching: an edge that another one elsewhere fits as well is nobody's", "[wide][device][oclgrind]") {
+TEST_CASE("wide matching: an edge with equally good matches in different places has none", "[wide][device][oclgrind]") {
   std::vector<std::uint8_t> rows, columns;
   for (double degrees : {10.0, 8.0, 8.0}) add_descriptor(rows, 0, 1, degrees);
   add_descriptor(columns, 0, 1, 0);
   const StereoEdges current = edges_at({{30, 30}});
-  // The first row is worse than the others. The last two are as good as one another: neighbours share the column,
-  // others lose it.
+  // The first row is worse than the others. The last two are equally good: neighbours share the column, distant rows
+  // lose it.
   CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {54, 10}}), 1, rows}, {current, 1, columns}, {}).previous ==
         std::vector<std::int32_t>{1, 2});
   CHECK(match_everywhere({edges_at({{10, 10}, {50, 10}, {90, 10}}), 1, rows}, {current, 1, columns}, {})
             .previous.empty());
 }
 
-TEST_CASE("wide matching: random descriptors, odd counts and steps, on every device as in the reference",
+TEST_CASE("wide matching: devices agree with the reference on random descriptors, odd counts and steps",
           "[wide][device][oclgrind]") {
   Random random(5);
   const auto positions = [&](int count) {
@@ -130,7 +130,7 @@ TEST_CASE("wide matching: random descriptors, odd counts and steps, on every dev
   };
   const StereoEdges earlier = positions(61), current = positions(100);
   auto rows = random_descriptors(21, 6), columns = random_descriptors(50, 7);
-  // A third of the rows come again among the columns.
+  // A third of the rows are repeated among the columns.
   for (std::size_t k = 0; k < 21; k += 3)
     std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(k * kWideBytes), kWideBytes,
                 columns.begin() + static_cast<std::ptrdiff_t>(2 * k * kWideBytes));
