@@ -108,16 +108,16 @@ TEST_CASE("pipe: what is wrong is named with the picture's number", "[data]") {
   const std::string one = own_camera::pgm(piped_picture(0)), whole = pairs(2);
   CHECK(pipe_complaint(whole).empty());
   CHECK(pipe_complaint("").empty());
-  CHECK_THAT(pipe_complaint(whole + one), Contains("the pipe") && Contains("after a left picture"));
+  CHECK_THAT(pipe_complaint(whole + one), Contains("the pipe") && Contains("after a left image"));
   CHECK_THAT(pipe_complaint(whole.substr(0, whole.size() - 5)),
-             Contains("picture 3 that ends after") && Contains("84 bytes"));
+             Contains("image 3 that ends after") && Contains("84 bytes"));
   CHECK_THAT(pipe_complaint(one + own_camera::pgm(piped_picture(1, kPipeWidth + 2))),
-             Contains("picture 1 of 14 x 7") && Contains("12 x 7"));
+             Contains("image 1 of 14 x 7") && Contains("12 x 7"));
   CHECK_THAT(pipe_complaint(one + own_camera::pgm(piped_picture(1, kPipeWidth, 65535))), Contains("values to 65535"));
   for (const char* head :
        {"hello", "P5 x 7 255\n", "P5 0 7 255\n", "P5 12 7 70000\n", "P5 12", "P4 12 7\n", "P5 99999999999 7 255\n"}) {
     INFO(head);
-    CHECK_THAT(pipe_complaint(head), Contains("picture 0 without a valid header"));
+    CHECK_THAT(pipe_complaint(head), Contains("image 0 without a valid header"));
   }
   CHECK_THAT(pipe_complaint(own_camera::pgm(piped_picture(0, 11)), Split::left_right),
              Contains("11 x 7") && Contains("even width"));

@@ -49,7 +49,7 @@ TEST_CASE("pixel rays: every lens follows its calibration", "[synthetic][lens]")
     int seen = 0;
     for (int y = 0; y < kRaysHeight; y += 7) {
       for (int x = 0; x < kRaysWidth; x += 5) {
-        if (!rays.is_seen(x, y)) continue;
+        if (!rays.is_visible(x, y)) continue;
         ++seen;
         CHECK((*mapping.project(rays.centre(x, y)) - Eigen::Vector2d(x, y)).norm() < 1e-9);
         CHECK((*mapping.project(rays.corner(x, y)) - Eigen::Vector2d(x - 0.5, y - 0.5)).norm() < 1e-9);

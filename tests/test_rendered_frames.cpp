@@ -121,7 +121,7 @@ TEST_CASE("rendered frames: if the folder cannot be created, frames are only ren
   for (int i = 0; i < 3; ++i) CHECK(frames.next());
   CHECK(frames.progress().rendered == 3);
   CHECK(frames.kept() == 0);
-  CHECK_THAT(frames.why_not_kept(), Catch::Matchers::Contains(folder / "file/cache"));
+  CHECK_THAT(frames.cache_error(), Catch::Matchers::Contains(folder / "file/cache"));
   CHECK(rendered_frames(small_scene(), "") == 3);
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("rig evidence: a mismatch is reported with its likely cause", "[odomet
   rig = evidence_room().rig;
   rig.left.fx *= 1.2;
   rig.left.fy *= 1.2;
-  CHECK_THAT(mismatch(rig, left, right), Contains("focal lengths"));
+  CHECK_THAT(mismatch(rig, left, right), Contains("focal length in the calibration"));
   Image negative = right;
   for (auto& value : negative.pixels) value = static_cast<std::uint8_t>(255 - value);
   CHECK_THAT(mismatch(evidence_room().rig, left, negative), Contains("as their negative"));
@@ -123,7 +123,7 @@ TEST_CASE("rig evidence: implausible numbers are reported", "[odometry][rig]") {
   CHECK_THAT(first_of(rig), Contains("millimetres"));
   rig = evidence_room().rig;
   rig.left.fx = rig.left.fy = 0.004;
-  CHECK_THAT(first_of(rig), Contains("is it in pixels?"));
+  CHECK_THAT(first_of(rig), Contains("is it given in pixels?"));
   rig = evidence_room().rig;
   rig.right.cx = -3;
   CHECK_THAT(first_of(rig), Contains("right camera's principal point") && Contains("outside"));

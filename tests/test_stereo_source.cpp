@@ -145,12 +145,12 @@ TEST_CASE("own camera: streams of different lengths are reported", "[data]") {
   own_camera::write_bytes(folder / "pictures.pgm", pictures);
   own_camera::encode(folder / "pictures.pgm", "-c:v ffv1 -pix_fmt gray", folder / "short.mkv");
   videos.right = folder / "short.mkv";
-  CHECK_THAT(complaint(videos), Contains(folder / "short.mkv") && Contains("2 pictures"));
+  CHECK_THAT(complaint(videos), Contains(folder / "short.mkv") && Contains("2 frames"));
   // A raw stream does not state its length.
   own_camera::encode(folder / "pictures.pgm", "-c:v mjpeg -q:v 2", folder / "short.mjpeg");
   videos.right = folder / "short.mjpeg";
   videos.fps = 20;
-  CHECK_THAT(complaint(videos), Contains(folder / "short.mjpeg") && Contains("the end after 2 pictures"));
+  CHECK_THAT(complaint(videos), Contains(folder / "short.mjpeg") && Contains("the end after 2 frames"));
   own_camera::write_bytes(folder / "stamps.txt", "1\n2\n3\n");
   for (StereoSource timed : {recording().folders(), recording().one_video()}) {
     timed.fps = 0;

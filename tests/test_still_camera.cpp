@@ -31,7 +31,7 @@ TEST_CASE("still camera: zero motion since the base is always proposed", "[odome
     CHECK(step->matches.size() == 0);
   }
   // It competes with motions a pixel apart and is cheap.
-  CHECK(hypothesis.asks_for_close_agreement());
+  CHECK(hypothesis.requires_close_agreement());
   CHECK_FALSE(hypothesis.is_costly());
   CHECK_FALSE(hypothesis.trusts_prediction());
 }

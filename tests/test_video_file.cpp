@@ -102,7 +102,7 @@ TEST_CASE("video: an image of another size and a damaged one are reported by num
   own_camera::write_bytes(folder / "odd.mjpeg", usual + small + usual);
   int pictures = 0;
   CHECK_THAT(read_all(folder / "odd.mjpeg", pictures),
-             Contains("odd.mjpeg") && Contains("picture 3 of 32 x 32") && Contains("48 x 32"));
+             Contains("odd.mjpeg") && Contains("frame 3 of 32 x 32") && Contains("48 x 32"));
   CHECK(pictures == 3);
 
   const std::string file =
@@ -110,7 +110,7 @@ TEST_CASE("video: an image of another size and a damaged one are reported by num
   std::string bytes = read_text(file);
   for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x55);
   own_camera::write_bytes(file, bytes);
-  CHECK_THAT(read_all(file, pictures), Contains(file) && Contains("damaged picture"));
+  CHECK_THAT(read_all(file, pictures), Contains(file) && Contains("damaged frame"));
   CHECK((pictures > 5 && pictures < 15));
 }
 

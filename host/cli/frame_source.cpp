@@ -47,7 +47,7 @@ class SyntheticSource : public FrameSource {
   double max_disparity() const override { return frames_.sequence().max_disparity(); }
   std::string prepare() override {
     frames_.prepare();
-    return frames_.why_not_kept().empty() ? "" : "rendered frames are not kept: " + frames_.why_not_kept();
+    return frames_.cache_error().empty() ? "" : "rendered frames are not kept: " + frames_.cache_error();
   }
   std::optional<FramePrefetcher::Frame> next() override { return frames_.next(); }
   void rewind() override { frames_.rewind(); }

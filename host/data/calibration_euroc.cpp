@@ -12,8 +12,8 @@ StereoCalibration read_euroc_calibration(const std::string& left, const std::str
 
 StereoCalibration read_euroc_sensors(const YamlMap& left, const YamlMap& right) {
   StereoCalibration calibration;
-  calibration.left = read_worded_lens(left, "distortion_coefficients");
-  calibration.right = read_worded_lens(right, "distortion_coefficients");
+  calibration.left = read_named_lens(left, "distortion_coefficients");
+  calibration.right = read_named_lens(right, "distortion_coefficients");
   const Eigen::Isometry3d body_from_left = left.map("T_BS").transform("data"),
                           body_from_right = right.map("T_BS").transform("data");
   calibration.right_from_left = body_from_right.inverse() * body_from_left;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kFormats =
     "a Kalibr camera chain (cam0, cam1), an OpenCV stereo file (M1 D1 M2 D2 R T), two ROS camera_info files, two EuRoC "
-    "sensor.yaml, or what `quadedge check --write-calibration` writes (left_model ...)";
+    "sensor.yaml, or a file written by `quadedge check --write-calibration` (left_model ...)";
 
 std::string first_keys(const YamlMap& map) {
   constexpr std::size_t kShown = 6;

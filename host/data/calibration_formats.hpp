@@ -35,7 +35,7 @@ StereoCalibration finished(StereoCalibration calibration, const std::string& for
 
 /// Reads a lens in Kalibr's and EuRoC's notation: entries camera_model, distortion_model, intrinsics, `coefficients`
 /// (key of the distortion coefficients) and resolution. \throws DataError
-Lens read_worded_lens(const YamlMap& camera, const std::string& coefficients);
+Lens read_named_lens(const YamlMap& camera, const std::string& coefficients);
 
 /// Rotation of a rotation vector (axis times radians). \throws DataError that names `where`, for more than a half turn,
 /// which suggests degrees

@@ -33,8 +33,8 @@ void check_agreement(const Eigen::Isometry3d& chain, const Eigen::Isometry3d& ov
 StereoCalibration read_kalibr_chain(const YamlMap& chain) {
   const YamlMap left = chain.map("cam0"), right = chain.map("cam1");
   StereoCalibration calibration;
-  calibration.left = read_worded_lens(left, "distortion_coeffs");
-  calibration.right = read_worded_lens(right, "distortion_coeffs");
+  calibration.left = read_named_lens(left, "distortion_coeffs");
+  calibration.right = read_named_lens(right, "distortion_coeffs");
   const auto left_from_imu = camera_from_imu(left), right_from_imu = camera_from_imu(right);
   if (left_from_imu) calibration.body_from_left = left_from_imu->inverse();
   if (right.has("T_cn_cnm1")) {

@@ -27,7 +27,7 @@ LensModel distortion_of(const std::string& word, const YamlMap& camera) {
 
 }  // namespace
 
-Lens read_worded_lens(const YamlMap& camera, const std::string& coefficients) {
+Lens read_named_lens(const YamlMap& camera, const std::string& coefficients) {
   const std::string model = camera.word("camera_model");
   const std::size_t leading = leading_numbers(model, camera);
   const std::string word = camera.word("distortion_model");

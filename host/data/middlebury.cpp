@@ -23,7 +23,7 @@ constexpr double kLargestGrey = 255;
 
 /// ndisp over the width is 0.09 to 0.12 in all published scenes of 2014 except Jadeplant and Vintage; used for copies
 /// without ndisp.
-constexpr double kUsualRange2014 = 0.12;
+constexpr double kDefaultRange2014 = 0.12;
 
 constexpr const char* kScenes2006[] = {"Aloe",       "Baby1",  "Baby2",  "Baby3",    "Bowling1",   "Bowling2",
                                        "Cloth1",     "Cloth2", "Cloth3", "Cloth4",   "Flowerpots", "Lampshade1",
@@ -118,7 +118,7 @@ Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions&, Find
     dataset.rig = calibration.rig;
     double disparities = calibration.disparities;
     if (!(disparities > 0)) {
-      disparities = kUsualRange2014 * calibration.rig.left.width;
+      disparities = kDefaultRange2014 * calibration.rig.left.width;
       dataset.notes.push_back("calib.txt has no ndisp: disparities up to 12 % of the width are expected");
     }
     dataset.max_disparity = disparities + calibration.disparity_offset;

@@ -49,7 +49,7 @@ class PipeReader : public PairReader {
     pair.stamp_ns = std::llround(number_ / options_.fps * 1e9);
     if (options_.split == Split::none) {
       auto second = read_picture();
-      if (!second) fail(kName, "its end after a left picture", "the right one after it");
+      if (!second) fail(kName, "the end after a left image", "a right image");
       pair.left = std::move(*first);
       pair.right = std::move(*second);
     } else {
@@ -74,7 +74,7 @@ class PipeReader : public PairReader {
       if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
       const ssize_t count = read(descriptor_, buffer_.data(), buffer_.size());
       if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-      if (count < 0) fail(kName, std::string("that it cannot be read: ") + std::strerror(errno), "pictures");
+      if (count < 0) fail(kName, std::string("a read error: ") + std::strerror(errno), "images");
       at_ = 0;
       filled_ = static_cast<std::size_t>(count);
       return count > 0;
@@ -82,9 +82,9 @@ class PipeReader : public PairReader {
   }
 
   [[noreturn]] void refuse_header() const {
-    fail(kName, picture() + " without a valid header", "binary PGM (P5) or PPM (P6) pictures, one after the other");
+    fail(kName, picture() + " without a valid header", "binary PGM (P5) or PPM (P6) images in succession");
   }
-  std::string picture() const { return "picture " + std::to_string(pictures_); }
+  std::string picture() const { return "image " + std::to_string(pictures_); }
 
   int header_number() {
     int letter = next_byte();
@@ -130,7 +130,7 @@ class PipeReader : public PairReader {
     for (std::size_t have = 0; have < needed;) {
       if (at_ == filled_ && !fill())
         fail(kName, picture() + " that ends after " + std::to_string(have) + " of " + std::to_string(needed) + " bytes",
-             "a whole one");
+             "a complete one");
       const std::size_t part = std::min(needed - have, filled_ - at_);
       std::memcpy(samples.data + have, buffer_.data() + at_, part);
       have += part;

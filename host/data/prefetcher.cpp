@@ -31,7 +31,7 @@ void check_image(const Image& image, const std::string& source, const PinholeCam
 
 namespace {
 
-constexpr std::chrono::milliseconds kAskEvery{50};  // between two calls of `stop`
+constexpr std::chrono::milliseconds kStopPollInterval{50};  // between two calls of `stop`
 
 /// Reads the image files of a dataset.
 class FileReader : public PairReader {
@@ -83,7 +83,7 @@ class FramePrefetcher::Implementation {
   std::optional<Frame> next() {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto is_ready = [this] { return !queue_.empty() || finished_; };
-    while (!changed_.wait_for(lock, kAskEvery, is_ready)) {
+    while (!changed_.wait_for(lock, kStopPollInterval, is_ready)) {
       if (asked_to_stop_ && asked_to_stop_()) return std::nullopt;
     }
     if (queue_.empty()) return std::nullopt;

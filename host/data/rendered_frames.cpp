@@ -144,7 +144,7 @@ void RenderedFrames::make_folder() {
   fs::create_directories(folder_, error);
   if (error) {
     keeps_ = false;
-    why_not_kept_ = folder_ + ": cannot be made: " + error.message();
+    cache_error_ = folder_ + ": cannot be made: " + error.message();
     return;
   }
   fs::last_write_time(folder_, fs::file_time_type::clock::now(),
@@ -162,7 +162,7 @@ bool RenderedFrames::make_view(int frame, Side side, Image& image) {
   try {
     write_atomically(file, pgm(image));
   } catch (const DataError& error) {
-    if (keeps_.exchange(false)) why_not_kept_ = error.what();  // read only when no other thread is running
+    if (keeps_.exchange(false)) cache_error_ = error.what();  // read only when no other thread is running
   }
   return true;
 }

@@ -52,7 +52,7 @@ class RenderedFrames {
   /// Number of available frames that another run will find in folder().
   int kept() const;
   /// Reason why rendered views are not cached; empty if they are.
-  const std::string& why_not_kept() const { return why_not_kept_; }
+  const std::string& cache_error() const { return cache_error_; }
 
  private:
   bool make_view(int frame, Side side, Image& image);
@@ -70,7 +70,7 @@ class RenderedFrames {
   int first_ = 0, next_ = 0;  ///< index of the first frame of the block and of the next frame
   bool ended_ = false;
   std::atomic<bool> keeps_;
-  std::string why_not_kept_;
+  std::string cache_error_;
 };
 
 /// Version of everything that determines the pixels: changes with the renderer's sources.

@@ -47,7 +47,7 @@ class PartOfStream : public PairStream {
   StereoPair look(const std::string& name) {
     begun_ = whole_->open();
     first_pair_ = begun_->next();
-    if (!first_pair_) fail(name, "no picture", "stereo pairs");
+    if (!first_pair_) fail(name, "no image", "stereo pairs");
     return *first_pair_;
   }
 
@@ -158,7 +158,7 @@ int promised_pairs(const VideoPair& videos) {
   if (left == 0 || right == 0) return 0;
   const bool right_is_short = right < left;
   if (std::abs(left - right) > 1) {  // the duration may refer to the start or the end of the last frame
-    fail(right_is_short ? videos.right : videos.left, std::to_string(std::min(left, right)) + " pictures",
+    fail(right_is_short ? videos.right : videos.left, std::to_string(std::min(left, right)) + " frames",
          "the " + std::to_string(std::max(left, right)) + " of " + (right_is_short ? videos.left : videos.right));
   }
   return std::min(left, right);
@@ -196,7 +196,7 @@ void check_source(const StereoSource& source) {
   if (source.calibration.empty()) throw UsageError("--calibration FILE is missing: the cameras' calibration");
   parse_split(source.split);
   if (one && source.split.empty()) throw UsageError("--video needs --split left-right or --split top-bottom");
-  if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose pictures hold both views");
+  if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose images contain both views");
   if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected frames per second, above 0");
   if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
   if (source.pipe && source.fps == 0) throw UsageError("images in a pipe have no timestamps: give --fps N");

@@ -90,7 +90,7 @@ class VideoFile::Implementation {
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
     fail(path_, found, expected);
   }
-  std::string picture() const { return "picture " + std::to_string(decoded_); }
+  std::string picture() const { return "frame " + std::to_string(decoded_); }
 
   std::string path_;
   Owned<AVFormatContext> file_;
@@ -114,7 +114,8 @@ VideoFile::Implementation::Implementation(const std::string& path) : path_(path)
   complaint.clear();
   AVFormatContext* file = nullptr;
   int error = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, nullptr);
-  if (error < 0) refuse(error == AVERROR(ENOENT) ? "no such file" : "what is no video (" + reason(error) + ")", kVideo);
+  if (error < 0)
+    refuse(error == AVERROR(ENOENT) ? "no such file" : "a file that is not a video (" + reason(error) + ")", kVideo);
   file_.reset(file);
   error = avformat_find_stream_info(file, nullptr);
   const AVCodec* codec = nullptr;
@@ -177,7 +178,7 @@ Image VideoFile::Implementation::by_colour(AVPixelFormat format, bool deep) {
   cv::Mat bgr(frame_->height, frame_->width, deep ? CV_16UC3 : CV_8UC3), result;
   to_bgr_.reset(sws_getCachedContext(to_bgr_.release(), frame_->width, frame_->height, format, frame_->width,
                                      frame_->height, target, SWS_POINT | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
-  if (!to_bgr_) refuse("pictures of the kind " + std::string(av_get_pix_fmt_name(format)), "grey or colour");
+  if (!to_bgr_) refuse("frames of the format " + std::string(av_get_pix_fmt_name(format)), "grey or colour");
   std::uint8_t* const rows[] = {bgr.data};
   const int strides[] = {static_cast<int>(bgr.step)};
   sws_scale(to_bgr_.get(), frame_->data, frame_->linesize, 0, frame_->height, rows, strides);
@@ -205,7 +206,7 @@ std::optional<VideoFile::Picture> VideoFile::Implementation::next() {
   if (!decode()) {
     // The duration may refer to the start or the end of the last frame.
     if (decoded_ + 1 < promised_)
-      refuse("the end after " + std::to_string(decoded_) + " pictures",
+      refuse("the end after " + std::to_string(decoded_) + " frames",
              "the " + std::to_string(promised_) + " announced by its header");
     return std::nullopt;
   }

@@ -37,7 +37,7 @@ class VideoReader : public PairReader {
 
  private:
   [[noreturn]] void end_early(const std::string& file, const std::string& other) const {
-    fail(file, "the end after " + std::to_string(number_) + " pictures", "as many as in " + other);
+    fail(file, "the end after " + std::to_string(number_) + " frames", "as many as in " + other);
   }
   /// Checks that the frames of a pair differ by less than half a period in time.
   void check_times(std::int64_t left, std::int64_t right) const {
@@ -45,7 +45,7 @@ class VideoReader : public PairReader {
     if (videos_.fps > 0 || !(fps > 0)) return;
     const double apart = static_cast<double>(right - left) / 1e9;
     if (std::abs(apart) * fps < 0.5) return;
-    fail(videos_.right, "picture " + std::to_string(number_) + " at " + format_seconds(right) + " s",
+    fail(videos_.right, "frame " + std::to_string(number_) + " at " + format_seconds(right) + " s",
          format_seconds(left) + " s as in " + videos_.left);
   }
 

@@ -116,7 +116,7 @@ Eigen::Isometry3d YamlMap::transform(const std::string& key) const {
   if (!list.IsSequence()) complain(key, "no list", expected);
   if (list.size() > 0 && list[0].IsSequence()) {
     for (const YAML::Node& row : list) {
-      if (!row.IsSequence() || row.size() != 4) complain(key, "a row that has not four numbers", expected);
+      if (!row.IsSequence() || row.size() != 4) complain(key, "a row without four numbers", expected);
       add_numbers(row, expected, values);
     }
   } else {

@@ -7,7 +7,7 @@
 namespace quadedge::odometry {
 namespace {
 
-constexpr std::size_t kMinSpots = 12;
+constexpr std::size_t kMinFitCorners = 12;
 constexpr int kRounds = 8;
 constexpr double kMinScale = 0.02;  // px
 
@@ -19,33 +19,33 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-EpipolarFit fit_across(const std::vector<CornerMatch>& spots, int width, int height) {
+EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height) {
   EpipolarFit fit;
-  if (spots.size() < kMinSpots) return fit;
-  fit.samples = static_cast<int>(spots.size());
+  if (matches.size() < kMinFitCorners) return fit;
+  fit.samples = static_cast<int>(matches.size());
   std::vector<double> distances;
-  for (const auto& spot : spots) distances.push_back(std::abs(spot.across));
+  for (const auto& match : matches) distances.push_back(std::abs(match.across));
   fit.residual = median(distances);
   distances.clear();
-  for (const auto& spot : spots) distances.push_back(spot.across);
+  for (const auto& match : matches) distances.push_back(match.across);
   Eigen::Vector3d terms(median(distances), 0, 0);
-  const auto row = [&](const CornerMatch& spot) {
-    return Eigen::Vector3d(1, spot.left.x() / width - 0.5, spot.left.y() / height - 0.5);
+  const auto row = [&](const CornerMatch& match) {
+    return Eigen::Vector3d(1, match.left.x() / width - 0.5, match.left.y() / height - 0.5);
   };
   for (int round = 0; round <= kRounds; ++round) {
     distances.clear();
-    for (const auto& spot : spots) distances.push_back(std::abs(spot.across - row(spot).dot(terms)));
+    for (const auto& match : matches) distances.push_back(std::abs(match.across - row(match).dot(terms)));
     fit.scatter = median(distances);
     if (round == kRounds) break;
     const double scale = std::max(2 * fit.scatter, kMinScale);
     Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
-    for (const auto& spot : spots) {
-      const Eigen::Vector3d along = row(spot);
-      const double distance = (spot.across - along.dot(terms)) / scale;
+    for (const auto& match : matches) {
+      const Eigen::Vector3d along = row(match);
+      const double distance = (match.across - along.dot(terms)) / scale;
       const double weight = 1 / (1 + distance * distance);
       normal += weight * along * along.transpose();
-      right_side += weight * along * spot.across;
+      right_side += weight * along * match.across;
     }
     terms = normal.ldlt().solve(right_side);
   }

@@ -17,6 +17,6 @@ struct EpipolarFit {
 };
 
 /// Robust fit (iteratively reweighted least squares with Cauchy weights); all zero for fewer than 12 corners.
-EpipolarFit fit_across(const std::vector<CornerMatch>& spots, int width, int height);
+EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height);
 
 }  // namespace quadedge::odometry

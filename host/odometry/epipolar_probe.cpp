@@ -72,7 +72,7 @@ Alignment compare(const Samples& wanted, const Level& wanted_level, const Sample
 }
 
 /// Result of searching for one corner.
-struct Sought {
+struct CornerSearch {
   bool has_line = false, is_negative = false;
   std::optional<CornerMatch> found;
 };
@@ -114,14 +114,14 @@ std::optional<EpipolarProbe::Line> EpipolarProbe::line(const Eigen::Vector2d& le
 }
 
 std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const PinholeView& right,
-                                                 const Eigen::Vector2d& spot, Eigen::Vector2d place) const {
-  const auto its_line = line(spot);
-  const auto here = at_infinity(spot), beside = at_infinity(spot + Eigen::Vector2d::UnitX()),
-             below = at_infinity(spot + Eigen::Vector2d::UnitY());
-  if (!its_line || !here || !beside || !below || !left.holds(spot, kProbeHalf + 1)) return std::nullopt;
+                                                 const Eigen::Vector2d& corner_at, Eigen::Vector2d place) const {
+  const auto its_line = line(corner_at);
+  const auto here = at_infinity(corner_at), beside = at_infinity(corner_at + Eigen::Vector2d::UnitX()),
+             below = at_infinity(corner_at + Eigen::Vector2d::UnitY());
+  if (!its_line || !here || !beside || !below || !left.holds(corner_at, kProbeHalf + 1)) return std::nullopt;
   Eigen::Matrix2d steps;  // axes of the left patch in the right image
   steps << *beside - *here, *below - *here;
-  const Samples wanted = cut(left, spot, Eigen::Matrix2d::Identity());
+  const Samples wanted = cut(left, corner_at, Eigen::Matrix2d::Identity());
   const Level wanted_level = level_of(wanted);
   const double reach = (kProbeHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
   const Eigen::Vector2d start = place;
@@ -143,24 +143,28 @@ std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const 
   const double sigma = std::sqrt(its_line->normal.dot(covariance * its_line->normal));
   if (1 - sums.cost / 2 < kMinProbeCorrelation || sigma > kMaxSigma) return std::nullopt;
   const Eigen::Vector2d from_infinity = place - its_line->infinity;
-  return CornerMatch{
-      spot, from_infinity.dot(its_line->direction), from_infinity.dot(its_line->normal), sigma, true, its_line->normal,
-      -1};
+  return CornerMatch{corner_at,
+                     from_infinity.dot(its_line->direction),
+                     from_infinity.dot(its_line->normal),
+                     sigma,
+                     true,
+                     its_line->normal,
+                     -1};
 }
 
-void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& spots) const {
+void EpipolarProbe::align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& matches) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
   const std::size_t step = std::max<std::size_t>(edges.size() / kAlignedSpots, 1), first = step / 2;
-  spots.resize(edges.size() > first ? (edges.size() - first + step - 1) / step : 0);
-  tbb::parallel_for(std::size_t{0}, spots.size(), [&](std::size_t k) {
+  matches.resize(edges.size() > first ? (edges.size() - first + step - 1) / step : 0);
+  tbb::parallel_for(std::size_t{0}, matches.size(), [&](std::size_t k) {
     const std::size_t i = first + k * step;
-    const auto spot = refine(left, right, {edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]});
-    spots[k] = spot.value_or(CornerMatch());
-    spots[k].edge = spot ? static_cast<int>(i) : -1;
+    const auto match = refine(left, right, {edges.left_x[i], edges.left_y[i]}, {edges.right_x[i], edges.right_y[i]});
+    matches[k] = match.value_or(CornerMatch());
+    matches[k].edge = match ? static_cast<int>(i) : -1;
   });
-  spots.erase(std::remove_if(spots.begin(), spots.end(), [](const CornerMatch& spot) { return spot.edge < 0; }),
-              spots.end());
+  matches.erase(std::remove_if(matches.begin(), matches.end(), [](const CornerMatch& match) { return match.edge < 0; }),
+                matches.end());
 }
 
 /// Reduced images as the left camera would see a scene at infinity, so that only disparity remains.
@@ -203,43 +207,43 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
   const double along = std::min(0.5 * rig_.left.width, std::max(kAlong * rig_.left.width, 1.25 * max_disparity_)),
                across = kAcross * rig_.left.height;
   const auto seek = [&](const Eigen::Vector2i& corner) {
-    Sought sought;
-    const Eigen::Vector2d spot = views.in_left(corner.cast<double>());
-    const auto its_line = line(spot);
-    if (!its_line) return sought;
+    CornerSearch outcome;
+    const Eigen::Vector2d corner_at = views.in_left(corner.cast<double>());
+    const auto its_line = line(corner_at);
+    if (!its_line) return outcome;
     // Direction of the line in the coarse images.
     const Eigen::Vector3d ahead = h_.inverse() * (its_line->infinity + its_line->direction).homogeneous();
-    const Eigen::Vector2d direction = (ahead.hnormalized() - spot).normalized();
+    const Eigen::Vector2d direction = (ahead.hnormalized() - corner_at).normalized();
     const SearchBox box{static_cast<int>((std::abs(direction.x()) * along + std::abs(direction.y()) * across) / scale),
                         static_cast<int>((std::abs(direction.y()) * along + std::abs(direction.x()) * across) / scale)};
-    sought.has_line = true;
+    outcome.has_line = true;
     const auto there = best_match(views.left, views.right, corner, box);
-    if (!there) return sought;
+    if (!there) return outcome;
     const Eigen::Vector2i landed = there->at.array().round().cast<int>().matrix();
     const auto back = best_match(views.right, views.left, landed, box);
-    if (!back || (back->at - corner.cast<double>()).norm() > 1.5) return sought;
-    sought.is_negative = there->correlation < 0;
+    if (!back || (back->at - corner.cast<double>()).norm() > 1.5) return outcome;
+    outcome.is_negative = there->correlation < 0;
     const auto place = at_infinity(views.in_left(there->at));
-    if (sought.is_negative || !place) return sought;
-    sought.found = turn == ImageTurn::none ? refine(left, right, spot, *place) : std::nullopt;
+    if (outcome.is_negative || !place) return outcome;
+    outcome.found = turn == ImageTurn::none ? refine(left, right, corner_at, *place) : std::nullopt;
     const Eigen::Vector2d from_infinity = *place - its_line->infinity;
-    if (!sought.found)
-      sought.found = CornerMatch{spot,
-                                 from_infinity.dot(its_line->direction),
-                                 from_infinity.dot(its_line->normal),
-                                 0.3 * scale,
-                                 false,
-                                 its_line->normal,
-                                 -1};
-    return sought;
+    if (!outcome.found)
+      outcome.found = CornerMatch{corner_at,
+                                  from_infinity.dot(its_line->direction),
+                                  from_infinity.dot(its_line->normal),
+                                  0.3 * scale,
+                                  false,
+                                  its_line->normal,
+                                  -1};
+    return outcome;
   };
   const auto corners = find_corners(views.left);
-  std::vector<Sought> all(corners.size());
+  std::vector<CornerSearch> all(corners.size());
   tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t i) { all[i] = seek(corners[i]); });
-  for (const Sought& sought : all) {
-    result.sought += sought.has_line ? 1 : 0;
-    result.negative += sought.is_negative ? 1 : 0;
-    if (sought.found) result.found.push_back(*sought.found);
+  for (const CornerSearch& outcome : all) {
+    result.searched += outcome.has_line ? 1 : 0;
+    result.negative += outcome.is_negative ? 1 : 0;
+    if (outcome.found) result.found.push_back(*outcome.found);
   }
   return result;
 }

@@ -30,7 +30,7 @@ enum class ImageTurn { none, mirrored, half, quarter, three_quarters };
 
 /// Result of a search.
 struct ProbeSearch {
-  int sought = 0;                  ///< corners searched for
+  int searched = 0;                ///< corners searched for
   std::vector<CornerMatch> found;  ///< found in the right image and, from there, again in the left one
   int negative = 0;                ///< matches whose right patch is the negative of the left one
   double max_disparity = 0;        ///< maximum disparity in the middle of the image [px]
@@ -44,7 +44,7 @@ class EpipolarProbe {
 
   /// Aligns patches of about 240 stereo edges in both image directions, starting from the cascade's match. Detects
   /// deviations of a few pixels. Allocates nothing in steady state.
-  void align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& spots) const;
+  void align(const StereoFrame& frame, const StereoEdges& edges, std::vector<CornerMatch>& matches) const;
 
   /// Searches for corners of the left image in the right one by normalised correlation, over a quarter of the image
   /// width to both sides along the line and a tenth of the image height across it. Uses images reduced to a width of
@@ -60,7 +60,7 @@ class EpipolarProbe {
   std::optional<Eigen::Vector2d> at_infinity(const Eigen::Vector2d& left) const;
   struct CoarseViews;
   CoarseViews coarse_views(const PinholeView& left, const PinholeView& right, ImageTurn turn) const;
-  std::optional<CornerMatch> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& spot,
+  std::optional<CornerMatch> refine(const PinholeView& left, const PinholeView& right, const Eigen::Vector2d& corner_at,
                                     Eigen::Vector2d at) const;
 
   StereoRig rig_;

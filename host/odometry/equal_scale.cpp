@@ -7,7 +7,7 @@
 namespace quadedge::odometry {
 namespace {
 
-constexpr double kMuchFiner = 1.5;
+constexpr double kMinScaleRatio = 1.5;
 
 /// Reduces a mask by `factor`; a pixel is hidden if any of its source pixels is.
 void shrink(int factor, const PinholeCamera& camera, PixelMask& mask) {
@@ -53,7 +53,7 @@ double focal_length(const PinholeCamera& camera) { return std::sqrt(camera.fx * 
 StereoRig with_equal_scales(StereoRig rig) {
   const double ratio = focal_length(rig.left) / focal_length(rig.right);
   const auto shrink_camera = [](double times, PinholeCamera& camera, UndistortionTable& table, PixelMask& mask) {
-    if (times < kMuchFiner) return;
+    if (times < kMinScaleRatio) return;
     const int factor = static_cast<int>(std::lround(times));
     shrink(factor, camera, mask);
     shrink(factor, camera, table);

@@ -25,7 +25,7 @@ class MotionHypothesis {
 
   /// Whether it competes with a motion that differs by a pixel or two. With the usual inlier distance, a fit would
   /// include the edges of both motions and end between them.
-  virtual bool asks_for_close_agreement() const { return false; }
+  virtual bool requires_close_agreement() const { return false; }
   /// Whether it takes as long as the rest of a frame. Such hypotheses are tried only if the others leave doubt.
   virtual bool is_costly() const { return false; }
 };

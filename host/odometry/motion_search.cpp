@@ -84,7 +84,7 @@ MotionSearch::Trial MotionSearch::try_out(MotionHypothesis& hypothesis, const Mo
   trial.proposed = hypothesis.propose(query, evidence);
   if (trial.proposed && trial.proposed->ok())
     trial.confirmed = confirmation_.confirm(query, trial.proposed->motion.current_from_previous,
-                                            hypothesis.asks_for_close_agreement());
+                                            hypothesis.requires_close_agreement());
   return trial;
 }
 
@@ -101,10 +101,10 @@ Eigen::Isometry3d MotionSearch::base_from_base(const MotionStep& found, const Mo
 MotionSearch::Trial& MotionSearch::with_all_inliers(Trial& chosen, std::vector<Trial>& trials,
                                                     const MotionQuery& query) {
   const MotionStep& found = *chosen.outcome();
-  if (!chosen.hypothesis->asks_for_close_agreement() || !found.ok()) return chosen;
+  if (!chosen.hypothesis->requires_close_agreement() || !found.ok()) return chosen;
   for (Trial& trial : trials) {
     const MotionStep& other = *trial.outcome();
-    if (trial.hypothesis->asks_for_close_agreement() || !trial.confirmed || !other.ok()) continue;
+    if (trial.hypothesis->requires_close_agreement() || !trial.confirmed || !other.ok()) continue;
     if (acceptance_.are_same_motion(found, other, base_from_base(found, other, query))) return trial;
   }
   return chosen;

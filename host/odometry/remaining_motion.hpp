@@ -14,7 +14,7 @@ class RemainingMotion : public MotionHypothesis {
  public:
   RemainingMotion(StepBuilder& steps, const Config& config);
   StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
-  bool asks_for_close_agreement() const override { return true; }
+  bool requires_close_agreement() const override { return true; }
 
  private:
   StepBuilder& steps_;

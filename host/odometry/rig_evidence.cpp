@@ -13,10 +13,10 @@
 namespace quadedge::odometry {
 namespace {
 
-constexpr int kSearchPeriod = 50;      // frames
-constexpr double kFewerMatched = 0.7;  // of the ratio of matched edges at the last search
-constexpr double kMoreResidual = 0.2;  // px above the residual at the last search
-constexpr double kTurnedFound = 0.4;   // fraction of the corners found in a transformed right image
+constexpr int kSearchPeriod = 50;               // frames
+constexpr double kMatchedDecrease = 0.7;        // of the ratio of matched edges at the last search
+constexpr double kResidualIncrease = 0.2;       // px above the residual at the last search
+constexpr double kTransformedFoundRatio = 0.4;  // fraction of the corners found in a transformed right image
 
 double largest_disparity(const StereoRig& rig, const Config& config) {
   const EpipolarLine line = epipolar_line(make_epipolar_geometry(rig, config.stereo), static_cast<float>(rig.left.cx),
@@ -48,7 +48,7 @@ std::string find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
                                                      {ImageTurn::three_quarters, "rotated by -90 degrees"}};
   for (const auto& [turn, name] : turns) {
     const ProbeSearch search = probe.search(frame, turn);
-    if (static_cast<double>(search.found.size()) > kTurnedFound * search.sought) return name;
+    if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return name;
   }
   return {};
 }
@@ -59,14 +59,14 @@ RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, c
   // On thin curves, coarse positions do not determine the distance from the line.
   std::vector<CornerMatch> aligned;
   std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
-               [](const CornerMatch& spot) { return spot.is_aligned; });
+               [](const CornerMatch& match) { return match.is_aligned; });
   EpipolarFit fit = fit_across(aligned, rig.left.width, rig.left.height);
   if (fit.samples == 0) {
     fit = fit_across(search.found, rig.left.width, rig.left.height);
     fit.is_coarse = true;
   }
-  take_search(search, fit, evidence);
-  return judge_search(search, fit, evidence, finds_little(search, evidence) ? find_turn(probe, frame) : "");
+  add_search_results(search, fit, evidence);
+  return judge_search(search, fit, evidence, finds_few_corners(search, evidence) ? find_turn(probe, frame) : "");
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, c
 RigWatch::RigWatch(const StereoRig& rig, const Config& config)
     : rig_(rig), probe_(rig, largest_disparity(rig, config)) {}
 
-std::string RigWatch::find_frozen(const StereoFrame& frame) {
+std::string RigWatch::find_frozen_camera(const StereoFrame& frame) {
   const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
   const bool same_left = last_left_ == left, same_right = last_right_ == right;
   last_left_ = left;
@@ -85,16 +85,16 @@ std::string RigWatch::find_frozen(const StereoFrame& frame) {
          " one is not: has the " + (same_left ? "left" : "right") + " camera frozen?";
 }
 
-bool RigWatch::has_reason_to_search(const RigEvidence& evidence) const {
+bool RigWatch::needs_search(const RigEvidence& evidence) const {
   if (!searched_ || !fits_ || frames_since_search_ >= kSearchPeriod) return true;
-  return evidence.matched_ratio < kFewerMatched * searched_->matched_ratio ||
-         evidence.epipolar_residual > searched_->epipolar_residual + kMoreResidual;
+  return evidence.matched_ratio < kMatchedDecrease * searched_->matched_ratio ||
+         evidence.epipolar_residual > searched_->epipolar_residual + kResidualIncrease;
 }
 
 RigFindings RigWatch::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, RigEvidence& evidence) {
   if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
-  probe_.align(frame, edges, spots_);
-  if (const EpipolarFit fit = fit_across(spots_, rig_.left.width, rig_.left.height); fit.samples > 0) {
+  probe_.align(frame, edges, corner_matches_);
+  if (const EpipolarFit fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height); fit.samples > 0) {
     evidence.epipolar_residual = fit.residual;
     evidence.epipolar_offset = fit.offset;
     evidence.epipolar_slope_x = fit.slope_x;
@@ -102,9 +102,9 @@ RigFindings RigWatch::judge(const StereoFrame& frame, const StereoEdges& edges, 
     evidence.epipolar_samples = fit.samples;
   }
   RigFindings findings;
-  findings.mismatch = find_frozen(frame);
+  findings.mismatch = find_frozen_camera(frame);
   ++frames_since_search_;
-  if (!findings.mismatch.empty() || left_edges == 0 || !has_reason_to_search(evidence)) return findings;
+  if (!findings.mismatch.empty() || left_edges == 0 || !needs_search(evidence)) return findings;
   findings = search_and_judge(probe_, rig_, frame, evidence);
   frames_since_search_ = 0;
   searched_ = evidence;
@@ -125,8 +125,8 @@ std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, co
   base_frame_ = base_frame;
   last_frame_ = frame;
   sampled_.assign(now.size(), -1);
-  for (std::size_t i = 0; i < spots_.size(); ++i)
-    sampled_[static_cast<std::size_t>(spots_[i].edge)] = static_cast<int>(i);
+  for (std::size_t i = 0; i < corner_matches_.size(); ++i)
+    sampled_[static_cast<std::size_t>(corner_matches_[i].edge)] = static_cast<int>(i);
   next_x_.assign(base.size(), kNowhere);
   next_y_.assign(base.size(), kNowhere);
   for (std::size_t m = 0; m < matches.size(); ++m) {
@@ -135,10 +135,10 @@ std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, co
     next_y_[before] = matches.left_y[m];
     const int at = sampled_[static_cast<std::size_t>(matches.current[m])];
     if (at < 0 || std::isnan(last_x_[before])) continue;
-    const CornerMatch& spot = spots_[static_cast<std::size_t>(at)];
-    const Eigen::Vector2d motion = spot.left - Eigen::Vector2d(last_x_[before], last_y_[before]);
-    synchronisation_.add(spot.left.x() / rig_.left.width - 0.5, spot.left.y() / rig_.left.height - 0.5, spot.across,
-                         motion.dot(spot.normal));
+    const CornerMatch& match = corner_matches_[static_cast<std::size_t>(at)];
+    const Eigen::Vector2d motion = match.left - Eigen::Vector2d(last_x_[before], last_y_[before]);
+    synchronisation_.add(match.left.x() / rig_.left.width - 0.5, match.left.y() / rig_.left.height - 0.5, match.across,
+                         motion.dot(match.normal));
   }
   last_x_.swap(next_x_);
   last_y_.swap(next_y_);

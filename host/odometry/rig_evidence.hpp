@@ -35,14 +35,14 @@ class RigWatch {
  private:
   /// Reports a camera whose image is identical to the previous one while the other camera's is not; empty if there is
   /// none.
-  std::string find_frozen(const StereoFrame& frame);
-  bool has_reason_to_search(const RigEvidence& evidence) const;
+  std::string find_frozen_camera(const StereoFrame& frame);
+  bool needs_search(const RigEvidence& evidence) const;
 
   StereoRig rig_;
   EpipolarProbe probe_;
   Synchronisation synchronisation_;
-  std::vector<CornerMatch> spots_;  ///< of the last frame checked
-  std::vector<int> sampled_;        ///< index in spots_ of every stereo edge, or -1; kept between calls
+  std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
+  std::vector<int> sampled_;  ///< index in corner_matches_ of every stereo edge, or -1; kept between calls
   // Positions of the base's edges in the previous frame:
   int base_frame_ = -1, last_frame_ = -1;
   std::vector<float> last_x_, last_y_, next_x_, next_y_;

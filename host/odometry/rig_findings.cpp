@@ -7,13 +7,13 @@
 namespace quadedge::odometry {
 namespace {
 
-constexpr int kMinSought = 20, kMinFound = 12;
-constexpr double kNothingFound =
-    0.2;  // fraction of the corners; valid recordings have 0.7 to 0.95, with strong noise 0.25
-constexpr double kHardlyMatched =
-    0.1;  // fraction of the left edges; valid recordings have more than 0.4, with strong noise 0.13
-constexpr double kMost = 0.5;
-constexpr double kSome = 0.1;  // valid recordings have up to 0.03 beyond either end
+constexpr int kMinCorners = 20, kMinMatches = 12;
+/// Fraction of the corners; valid recordings have 0.7 to 0.95, with strong noise 0.25.
+constexpr double kLostFoundRatio = 0.2;
+/// Fraction of the left edges; valid recordings have more than 0.4, with strong noise 0.13.
+constexpr double kLostMatchedRatio = 0.1;
+constexpr double kMajority = 0.5;
+constexpr double kWarningRatio = 0.1;  // valid recordings have up to 0.03 beyond either end
 /// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
 /// [px]
 constexpr double kLostResidual = 3;
@@ -21,7 +21,7 @@ constexpr double kLostResidual = 3;
 constexpr double kDoubtfulResidual = 0.5;
 /// If more of the edges than this have a match on their epipolar lines, corners off their lines are mostly on thin
 /// structures. Doubtful rigs reach 0.51, valid ones 0.72 and more.
-constexpr double kWellMatched = 0.65;
+constexpr double kReliableMatchedRatio = 0.65;
 
 std::string number(double value, int decimals) {
   char text[32];
@@ -45,7 +45,7 @@ std::string seen_across(const EpipolarFit& fit) {
 /// Likely cause of the distances from the lines.
 std::string cause_across(const EpipolarFit& fit) {
   const double x = std::abs(fit.slope_x) / 2, y = std::abs(fit.slope_y) / 2, middle = std::abs(fit.offset);
-  if (fit.scatter > kMost * fit.residual) {
+  if (fit.scatter > kMajority * fit.residual) {
     return "is the direction of the baseline or the right camera's yaw wrong, or are distorted images used with a "
            "pinhole calibration?";
   }
@@ -77,17 +77,17 @@ std::vector<std::string> implausible_numbers(const StereoRig& rig) {
   return found;
 }
 
-void take_search(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence& evidence) {
-  if (search.sought == 0) return;
-  evidence.found_ratio = static_cast<double>(search.found.size()) / search.sought;
+void add_search_results(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence& evidence) {
+  if (search.searched == 0) return;
+  evidence.found_ratio = static_cast<double>(search.found.size()) / search.searched;
   evidence.searched_residual = fit.samples > 0 ? fit.residual : RigEvidence::kUnknown;
   if (search.found.empty()) return;
   int aligned = 0, on_line = 0, negative = 0, beyond = 0;
-  for (const CornerMatch& spot : search.found) {
-    negative += spot.along < -1 - 2 * spot.sigma ? 1 : 0;
-    beyond += spot.along > search.max_disparity + 1 + 2 * spot.sigma ? 1 : 0;
-    aligned += spot.is_aligned ? 1 : 0;
-    on_line += spot.is_aligned && std::abs(spot.across) < 1 ? 1 : 0;
+  for (const CornerMatch& match : search.found) {
+    negative += match.along < -1 - 2 * match.sigma ? 1 : 0;
+    beyond += match.along > search.max_disparity + 1 + 2 * match.sigma ? 1 : 0;
+    aligned += match.is_aligned ? 1 : 0;
+    on_line += match.is_aligned && std::abs(match.across) < 1 ? 1 : 0;
   }
   const auto found = static_cast<double>(search.found.size());
   if (aligned > 0) evidence.on_line_ratio = static_cast<double>(on_line) / aligned;
@@ -95,9 +95,9 @@ void take_search(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence&
   evidence.beyond_ratio = beyond / found;
 }
 
-bool finds_little(const ProbeSearch& search, const RigEvidence& evidence) {
-  return search.sought >= kMinSought && evidence.found_ratio < kNothingFound &&
-         !(evidence.matched_ratio > kHardlyMatched);
+bool finds_few_corners(const ProbeSearch& search, const RigEvidence& evidence) {
+  return search.searched >= kMinCorners && evidence.found_ratio < kLostFoundRatio &&
+         !(evidence.matched_ratio > kLostMatchedRatio);
 }
 
 RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, const RigEvidence& evidence,
@@ -106,12 +106,12 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
   const auto does_not_fit = [&](const std::string& seen, const std::string& cause) {
     findings.mismatch = "the images do not fit the calibration: " + matched(evidence) + seen + "; " + cause;
   };
-  if (finds_little(search, evidence)) {
-    const std::string seen = percent(evidence.found_ratio) + " of " + std::to_string(search.sought) +
+  if (finds_few_corners(search, evidence)) {
+    const std::string seen = percent(evidence.found_ratio) + " of " + std::to_string(search.searched) +
                              " corners of the left image are found in the right one";
-    if (search.negative > kMost * search.sought) {
+    if (search.negative > kMajority * search.searched) {
       does_not_fit(
-          seen + ", and " + percent(static_cast<double>(search.negative) / search.sought) + " as their negative",
+          seen + ", and " + percent(static_cast<double>(search.negative) / search.searched) + " as their negative",
           "is one image a negative?");
     } else if (!turned.empty()) {
       does_not_fit(seen + ", but most are found if it is " + turned, "is the right image " + turned + "?");
@@ -120,25 +120,25 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
     }
     return findings;
   }
-  if (search.found.size() < static_cast<std::size_t>(kMinFound)) return findings;
-  if (evidence.negative_ratio > kMost) {
+  if (search.found.size() < static_cast<std::size_t>(kMinMatches)) return findings;
+  if (evidence.negative_ratio > kMajority) {
     does_not_fit(
         percent(evidence.negative_ratio) + " of the disparities are negative",
         "are left and right exchanged, are the images mirrored, is the sign of the baseline wrong, or the right "
         "camera's yaw?");
   } else if (fit.residual > kLostResidual) {
     does_not_fit(seen_across(fit), cause_across(fit));
-  } else if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !(evidence.matched_ratio > kWellMatched)) {
+  } else if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !(evidence.matched_ratio > kReliableMatchedRatio)) {
     findings.doubts.push_back("the calibration is doubtful: " + matched(evidence) + seen_across(fit) + "; " +
                               cause_across(fit));
   }
   if (!findings.mismatch.empty()) return findings;
-  if (evidence.beyond_ratio > kSome) {
+  if (evidence.beyond_ratio > kWarningRatio) {
     findings.doubts.push_back(percent(evidence.beyond_ratio) + " of the corners exceed the maximum disparity, " +
                               number(search.max_disparity, 1) +
                               " px: is stereo.max_disparity too small, or stereo.min_depth too large?");
   }
-  if (evidence.negative_ratio > kSome) {
+  if (evidence.negative_ratio > kWarningRatio) {
     findings.doubts.push_back(percent(evidence.negative_ratio) +
                               " of the disparities are negative: is the right camera's yaw or principal point wrong?");
   }

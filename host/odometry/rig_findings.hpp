@@ -22,7 +22,7 @@ struct RigFindings {
 std::vector<std::string> implausible_numbers(const StereoRig& rig);
 
 /// Adds the results of a search to the evidence.
-void take_search(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence& evidence);
+void add_search_results(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence& evidence);
 
 /// Judges the rig by the results of a search.
 /// \param turned description of the transformation of the right image with which a search finds most corners; or empty
@@ -30,6 +30,6 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
                          const std::string& turned);
 
 /// Whether so few corners are found that transformed images should be tried.
-bool finds_little(const ProbeSearch& search, const RigEvidence& evidence);
+bool finds_few_corners(const ProbeSearch& search, const RigEvidence& evidence);
 
 }  // namespace quadedge::odometry

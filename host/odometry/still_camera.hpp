@@ -11,7 +11,7 @@ class StillCamera : public MotionHypothesis {
  public:
   explicit StillCamera(StepBuilder& steps) : steps_(steps) {}
   StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
-  bool asks_for_close_agreement() const override { return true; }
+  bool requires_close_agreement() const override { return true; }
 
  private:
   StepBuilder& steps_;

@@ -78,7 +78,7 @@ PixelBox PixelRays::footprint(const PixelBox& pixels) const {
   Eigen::Array2d low(1e9, 1e9), high = -low;
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     for (int x = pixels.x0; x < pixels.x1; ++x) {
-      if (!is_seen(x, y)) continue;
+      if (!is_visible(x, y)) continue;
       for (const Eigen::Vector3d& ray : {corner(x, y), corner(x + 1, y), corner(x, y + 1), corner(x + 1, y + 1)}) {
         const Eigen::Array2d place = pinhole_.project(ray).array();
         low = low.min(place);

@@ -18,7 +18,7 @@ class PixelRays {
 
   int width() const { return camera_.width; }
   int height() const { return camera_.height; }
-  bool is_seen(int x, int y) const { return table_.empty() || table_[index(x, y)].seen; }
+  bool is_visible(int x, int y) const { return table_.empty() || table_[index(x, y)].seen; }
   Eigen::Vector3d centre(int x, int y) const;
   /// Ray of the top left corner of a pixel; x and y may equal width and height, for the image's right and lower border.
   Eigen::Vector3d corner(int x, int y) const;

@@ -120,7 +120,7 @@ class TileRenderer {
         const int x = left + static_cast<int>(i), y = top + static_cast<int>(j);
         const auto pixel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.width()) + static_cast<std::size_t>(x);
-        if (!rays_.is_seen(x, y)) continue;
+        if (!rays_.is_visible(x, y)) continue;
         const Hit centre = cast(nearby, rays_.centre(x, y));
         const void* object = centre.object();
         bool mixed = corner[j][i] != object || corner[j][i + 1] != object || corner[j + 1][i] != object ||
