@@ -25,7 +25,7 @@ def main() -> int:
         print(f"quadedge: {problem}", file=sys.stderr)
         return DATA_ERROR
     except OSError as problem:
-        print(f"quadedge: {problem.filename or ''}: {problem.strerror}; expected a place that can be written",
+        print(f"quadedge: {problem.filename or ''}: {problem.strerror}; expected a writable location",
               file=sys.stderr)
         return DATA_ERROR
     if not quiet:
