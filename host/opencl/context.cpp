@@ -121,7 +121,7 @@ std::vector<std::string> Context::programs() const {
 
 void Context::finish() {
   try {
-    queue_.finish();
+    queue().finish();
   } catch (const cl::Error& error) {
     throw_device_error("waiting for the device", error.err(), name_);
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "opencl/fork_guard.hpp"
 #include "opencl/program_cache.hpp"
 #include "quadedge/device.hpp"
 
@@ -44,7 +45,11 @@ class Context {
 
   const cl::Context& context() const { return context_; }
   const cl::Device& device() const { return device_; }
-  const cl::CommandQueue& queue() const { return queue_; }
+  /// \throws DeviceError in a child process, where the queue's threads do not exist.
+  const cl::CommandQueue& queue() const {
+    require_not_forked();
+    return queue_;
+  }
   const std::string& name() const { return name_; }
   /// Whether kernels are chosen as for a CPU.
   bool is_cpu() const { return is_cpu_; }

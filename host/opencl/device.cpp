@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <mutex>
 #include <optional>
 
 #include "opencl/context.hpp"
 #include "opencl/error.hpp"
+#include "opencl/fork_guard.hpp"
 
 namespace quadedge {
 namespace {
@@ -22,7 +24,13 @@ std::string type_name(cl_device_type type) {
   return "accelerator";
 }
 
+/// Serialised: while one thread initialises PoCL (pocl_init_devices), clGetDeviceIDs returns at once in other threads,
+/// with no devices or with half-initialised ones.
 std::vector<FoundDevice> find_devices() {
+  opencl::require_not_forked();
+  static std::mutex discovery;
+  const std::lock_guard<std::mutex> lock(discovery);
+  opencl::watch_for_forks();
   std::vector<FoundDevice> found;
   std::vector<cl::Platform> platforms;
   try {

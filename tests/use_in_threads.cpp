@@ -1,0 +1,180 @@
+/// \file use_in_threads.cpp  First use of OpenCL by several threads at once, and use in forked processes. Each trial
+/// needs a process that has not used OpenCL yet, so this is a program, not a test case: it forks one per trial.
+///   use_in_threads TRIALS
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "quadedge/error.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/synthetic.hpp"
+
+namespace {
+
+using namespace quadedge;
+
+constexpr int kThreads = 4;
+constexpr unsigned kSeconds = 200;  // after which a process counts as hanging
+
+/// A rendered room of small images; rendered once per process.
+struct Room {
+  Room() : sequence(options()) {
+    for (int i = 0; i < sequence.frames(); ++i) {
+      left.push_back(sequence.render(i, Side::left).image);
+      right.push_back(sequence.render(i, Side::right).image);
+    }
+  }
+  static SyntheticOptions options() {
+    SyntheticOptions small;
+    small.frames = 3;
+    small.width = 320, small.height = 200;
+    small.focal = 184;
+    return small;
+  }
+  StereoFrame frame(int i) const {
+    const auto at = static_cast<std::size_t>(i);
+    return {sequence.stamp_ns(i), left[at].view(), right[at].view()};
+  }
+  SyntheticSequence sequence;
+  std::vector<Image> left, right;
+};
+
+struct Tracker {
+  Tracker(const Room& room, const std::string& choice)
+      : device(choice), odometry(room.sequence.rig(), device, configuration(room)) {}
+  static Config configuration(const Room& room) {
+    Config config;
+    config.stereo.max_disparity = room.sequence.max_disparity();
+    return config;
+  }
+  Device device;
+  StereoOdometry odometry;
+};
+
+/// The last pose's elements.
+std::vector<double> track(Tracker& tracker, const Room& room) {
+  FrameResult last;
+  for (int i = 0; i < room.sequence.frames(); ++i) last = tracker.odometry.track(room.frame(i));
+  if (!is_tracked(last.status)) throw Error(ExitCode::internal, "the last frame is lost");
+  const auto& pose = last.world_from_left.matrix();
+  return {pose.data(), pose.data() + pose.size()};
+}
+
+/// Runs work(number) in all threads, which begin together. \throws what any of them throws.
+void in_threads(const std::function<void(std::size_t)>& work) {
+  std::atomic<int> ready{0};
+  std::vector<std::string> errors(kThreads);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < kThreads; ++i) {
+    threads.emplace_back([&, i] {
+      ++ready;
+      while (ready < kThreads) std::this_thread::yield();
+      try {
+        work(i);
+      } catch (const std::exception& error) {
+        errors[i] = error.what();
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  for (const auto& error : errors)
+    if (!error.empty()) throw Error(ExitCode::internal, error);
+}
+
+void require_equal(const std::vector<std::vector<double>>& poses) {
+  for (const auto& pose : poses)
+    if (pose != poses.front()) throw Error(ExitCode::internal, "the threads' poses differ");
+}
+
+void build_and_track_in_threads() {
+  const Room room;
+  std::vector<std::vector<double>> poses(kThreads);
+  in_threads([&](std::size_t i) {
+    Tracker tracker(room, "auto");
+    poses[i] = track(tracker, room);
+  });
+  require_equal(poses);
+}
+
+void build_in_turn_and_track_in_threads() {
+  const Room room;
+  std::vector<std::unique_ptr<Tracker>> trackers;
+  for (int i = 0; i < kThreads; ++i) trackers.push_back(std::make_unique<Tracker>(room, "auto"));
+  std::vector<std::vector<double>> poses(kThreads);
+  in_threads([&](std::size_t i) { poses[i] = track(*trackers[i], room); });
+  require_equal(poses);
+}
+
+/// Runs work in a forked process; 0 when it returned and the process ended by itself.
+int status_of_fork(const std::function<void()>& work) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(kSeconds);
+    try {
+      work();
+    } catch (const std::exception& error) {
+      std::printf("  %s\n", error.what());
+      std::fflush(stdout);
+      _exit(1);
+    }
+    std::exit(0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+void require_device_error(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const DeviceError& error) {
+    if (std::string(error.what()).find("forked") != std::string::npos) return;
+    throw;
+  }
+  throw Error(ExitCode::internal, "no error was thrown in the forked process");
+}
+
+/// A process that has tracked forks: its device is refused in the child, the plain C++ reference works there.
+void fork_after_tracking() {
+  const Room room;
+  Tracker tracker(room, "auto");
+  track(tracker, room);
+  const int status = status_of_fork([&] {
+    require_device_error([&] { tracker.odometry.track(room.frame(2)); });
+    require_device_error([] { Device("auto"); });
+    Tracker reference(room, "reference");
+    track(reference, room);
+  });
+  if (status != 0) throw Error(ExitCode::internal, "the child ended with status " + std::to_string(status));
+  tracker.odometry.track(room.frame(2));  // the parent goes on
+}
+
+int failures_of(const char* name, int trials, const std::function<void()>& work) {
+  int failures = 0;
+  for (int i = 0; i < trials; ++i) failures += status_of_fork(work) != 0 ? 1 : 0;
+  std::printf("%s: %d of %d trials failed\n", name, failures, trials);
+  return failures;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const int trials = count == 2 ? std::atoi(arguments[1]) : 0;
+  if (trials < 1) {
+    std::fprintf(stderr, "usage: %s TRIALS\n", arguments[0]);
+    return 2;
+  }
+  const int failures = failures_of("built and tracked in 4 threads", trials, build_and_track_in_threads) +
+                       failures_of("built in turn, tracked in 4 threads", trials, build_in_turn_and_track_in_threads) +
+                       failures_of("used in a fork of a process that has tracked", 1, fork_after_tracking);
+  return failures == 0 ? 0 : 1;
+}
