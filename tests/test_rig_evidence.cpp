@@ -137,10 +137,10 @@ TEST_CASE("rig evidence: aligned patches measure a pitch error of 0.3 degrees", 
   Device device(all_devices().front(), kept_programs());
   const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);
   const auto seen = frontend->process(evidence_room().frame(0));
-  std::vector<odometry::CornerMatch> spots;
+  std::vector<odometry::CornerMatch> matches;
   odometry::EpipolarProbe(rig, evidence_room().config.stereo.max_disparity)
-      .align(evidence_room().frame(0), seen->edges, spots);
-  const odometry::EpipolarFit fit = odometry::fit_across(spots, rig.left.width, rig.left.height);
+      .align(evidence_room().frame(0), seen->edges, matches);
+  const odometry::EpipolarFit fit = odometry::fit_across(matches, rig.left.width, rig.left.height);
   REQUIRE(fit.samples > 30);
   CHECK(fit.offset == Approx(rig.left.fy * 0.3 * kDegree).epsilon(0.2));
 }

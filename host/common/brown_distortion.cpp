@@ -58,8 +58,8 @@ double BrownDistortion::find_limit() const {
   return kWidestRadius;
 }
 
-Eigen::Vector2d BrownDistortion::distort(const Eigen::Vector2d& place) const {
-  const double x = place.x(), y = place.y(), square = place.squaredNorm(), scale = radial(square);
+Eigen::Vector2d BrownDistortion::distort(const Eigen::Vector2d& position) const {
+  const double x = position.x(), y = position.y(), square = position.squaredNorm(), scale = radial(square);
   const double cross = 2 * x * y, along_x = square + 2 * x * x, along_y = square + 2 * y * y;
   const double prism_x = square * (k_[8] + square * k_[9]), prism_y = square * (k_[10] + square * k_[11]);
   const Eigen::Vector2d flat(x * scale + k_[2] * cross + k_[3] * along_x + prism_x,
@@ -68,21 +68,21 @@ Eigen::Vector2d BrownDistortion::distort(const Eigen::Vector2d& place) const {
 }
 
 /// Solution for the radial part alone, by bisection, because the radius increases up to the limit.
-Eigen::Vector2d BrownDistortion::start_of_search(const Eigen::Vector2d& place) const {
-  const double wanted = place.norm();
-  if (wanted == 0) return place;
+Eigen::Vector2d BrownDistortion::start_of_search(const Eigen::Vector2d& position) const {
+  const double target = position.norm();
+  if (target == 0) return position;
   double low = 0, high = limit_;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
-    (middle * radial(middle * middle) < wanted ? low : high) = middle;
+    (middle * radial(middle * middle) < target ? low : high) = middle;
   }
-  return place * (low / wanted);
+  return position * (low / target);
 }
 
 std::optional<Eigen::Vector2d> BrownDistortion::undistort(const Eigen::Vector2d& seen) const {
-  const Eigen::Vector2d place =
+  const Eigen::Vector2d position =
       k_[12] == 0 && k_[13] == 0 ? seen : Eigen::Vector2d((untilt_ * seen.homogeneous()).hnormalized());
-  Eigen::Vector2d found = start_of_search(place);
+  Eigen::Vector2d found = start_of_search(position);
   constexpr int kSteps = 20;
   constexpr double kDifference = 1e-6, kSettled = 1e-15, kWrong = 1e-11;
   for (int step = 0; step < kSteps; ++step) {

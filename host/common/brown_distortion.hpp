@@ -15,9 +15,9 @@ class BrownDistortion {
   BrownDistortion(const double* coefficients, std::size_t count);
 
   /// Distorted position of a point, regardless of radius_limit().
-  Eigen::Vector2d distort(const Eigen::Vector2d& place) const;
-  /// The point within radius_limit() whose distorted position is `place`, or nothing if there is none.
-  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& place) const;
+  Eigen::Vector2d distort(const Eigen::Vector2d& position) const;
+  /// The point within radius_limit() whose distorted position is `position`, or nothing if there is none.
+  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& position) const;
   /// Largest radius up to which the distorted radius increases; beyond it, the polynomial folds the image.
   double radius_limit() const { return limit_; }
 
@@ -25,7 +25,7 @@ class BrownDistortion {
   double radial(double square) const;
   bool grows(double square) const;
   double find_limit() const;
-  Eigen::Vector2d start_of_search(const Eigen::Vector2d& place) const;
+  Eigen::Vector2d start_of_search(const Eigen::Vector2d& position) const;
 
   std::array<double, 14> k_{};
   Eigen::Matrix3d tilt_, untilt_;

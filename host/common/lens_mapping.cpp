@@ -112,40 +112,40 @@ std::optional<Vector2d> LensMapping::to_plane(const Vector3d& unit) const {
   return std::nullopt;
 }
 
-std::optional<Vector3d> LensMapping::from_double_sphere(double square, const Vector2d& place) const {
+std::optional<Vector3d> LensMapping::from_double_sphere(double square, const Vector2d& position) const {
   const double xi = lens_.parameters[0], alpha = lens_.parameters[1];
   if (alpha > 0.5 && square * (2 * alpha - 1) > 1) return std::nullopt;
   const double z = (1 - alpha * alpha * square) / (alpha * std::sqrt(1 - (2 * alpha - 1) * square) + 1 - alpha);
   const double root = z * z + (1 - xi * xi) * square;
   if (root < 0) return std::nullopt;
-  return Vector3d((z * xi + std::sqrt(root)) / (z * z + square) * Vector3d(place.x(), place.y(), z) -
+  return Vector3d((z * xi + std::sqrt(root)) / (z * z + square) * Vector3d(position.x(), position.y(), z) -
                   Vector3d(0, 0, xi));
 }
 
-std::optional<Vector3d> LensMapping::from_plane(const Vector2d& place) const {
-  const double radius = place.norm();
+std::optional<Vector3d> LensMapping::from_plane(const Vector2d& position) const {
+  const double radius = position.norm();
   switch (lens_.model) {
     case LensModel::radial_tangential: {
-      const auto found = brown_.undistort(place);
+      const auto found = brown_.undistort(position);
       return found ? std::optional(Vector3d(found->homogeneous())) : std::nullopt;
     }
     case LensModel::equidistant: {
       if (radius > equidistant_radius(widest_angle_)) return std::nullopt;
       if (radius == 0) return Vector3d(0, 0, 1);
       const double angle = equidistant_angle(radius);
-      const Vector2d side = place * (std::sin(angle) / radius);
+      const Vector2d side = position * (std::sin(angle) / radius);
       return Vector3d(side.x(), side.y(), std::cos(angle));
     }
     case LensModel::field_of_view: {
       const double w = lens_.parameters[0];
       if (radius * w >= 0.5 * kPi) return std::nullopt;
       if (radius == 0) return Vector3d(0, 0, 1);
-      const Vector2d side = place * (std::tan(radius * w) / (2 * std::tan(0.5 * w) * radius));
+      const Vector2d side = position * (std::tan(radius * w) / (2 * std::tan(0.5 * w) * radius));
       return Vector3d(side.homogeneous());
     }
-    case LensModel::double_sphere: return from_double_sphere(radius * radius, place);
+    case LensModel::double_sphere: return from_double_sphere(radius * radius, position);
     case LensModel::omnidirectional: {
-      const auto found = brown_.undistort(place);
+      const auto found = brown_.undistort(position);
       if (!found) return std::nullopt;
       const double xi = lens_.parameters[0], square = found->squaredNorm(), root = 1 + (1 - xi * xi) * square;
       if (root < 0) return std::nullopt;
@@ -157,10 +157,10 @@ std::optional<Vector3d> LensMapping::from_plane(const Vector2d& place) const {
 }
 
 std::optional<Vector2d> LensMapping::project(const Vector3d& ray) const {
-  const auto place = to_plane(ray.normalized());
-  if (!place) return std::nullopt;
+  const auto position = to_plane(ray.normalized());
+  if (!position) return std::nullopt;
   const PinholeCamera& camera = lens_.camera;
-  return Vector2d(camera.fx * place->x() + camera.cx, camera.fy * place->y() + camera.cy);
+  return Vector2d(camera.fx * position->x() + camera.cx, camera.fy * position->y() + camera.cy);
 }
 
 std::optional<Vector3d> LensMapping::ray(const Vector2d& pixel) const {

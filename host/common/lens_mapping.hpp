@@ -27,10 +27,10 @@ class LensMapping {
 
  private:
   std::optional<Eigen::Vector2d> to_plane(const Eigen::Vector3d& unit) const;
-  std::optional<Eigen::Vector3d> from_plane(const Eigen::Vector2d& place) const;
+  std::optional<Eigen::Vector3d> from_plane(const Eigen::Vector2d& position) const;
   double equidistant_radius(double angle) const;
   double equidistant_angle(double radius) const;
-  std::optional<Eigen::Vector3d> from_double_sphere(double square, const Eigen::Vector2d& place) const;
+  std::optional<Eigen::Vector3d> from_double_sphere(double square, const Eigen::Vector2d& position) const;
 
   Lens lens_;
   BrownDistortion brown_;    ///< for radial_tangential and omnidirectional

@@ -191,9 +191,10 @@ void EdgeMap::Implementation::merge(const map::MeasuredPoint& measured, std::int
   Point& point = points_[static_cast<std::size_t>(index)];
   const Eigen::Isometry3d& world_from_left = views_.back().world_from_left;
   const Eigen::Matrix3d rotation = world_from_left.linear();
-  const Eigen::Vector3d tangent = rotation * measured.tangent, place = world_from_left * measured.position;
+  const Eigen::Vector3d tangent = rotation * measured.tangent, measured_position = world_from_left * measured.position;
   const double longest = kMaxSlide * measured.metres_per_pixel;
-  const Eigen::Vector3d slid = place + std::clamp(tangent.dot(point.position - place), -longest, longest) * tangent;
+  const Eigen::Vector3d slid =
+      measured_position + std::clamp(tangent.dot(point.position - measured_position), -longest, longest) * tangent;
   const Eigen::Matrix3d known = point.information_matrix();
   const Eigen::Matrix3d added = rotation * measured.information * rotation.transpose();
   const Eigen::Matrix3d sum = known + added;

@@ -114,41 +114,41 @@ std::optional<EpipolarProbe::Line> EpipolarProbe::line(const Eigen::Vector2d& le
 }
 
 std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const PinholeView& right,
-                                                 const Eigen::Vector2d& corner_at, Eigen::Vector2d place) const {
-  const auto its_line = line(corner_at);
+                                                 const Eigen::Vector2d& corner_at, Eigen::Vector2d position) const {
+  const auto epipolar = line(corner_at);
   const auto here = at_infinity(corner_at), beside = at_infinity(corner_at + Eigen::Vector2d::UnitX()),
              below = at_infinity(corner_at + Eigen::Vector2d::UnitY());
-  if (!its_line || !here || !beside || !below || !left.holds(corner_at, kProbeHalf + 1)) return std::nullopt;
+  if (!epipolar || !here || !beside || !below || !left.holds(corner_at, kProbeHalf + 1)) return std::nullopt;
   Eigen::Matrix2d steps;  // axes of the left patch in the right image
   steps << *beside - *here, *below - *here;
   const Samples wanted = cut(left, corner_at, Eigen::Matrix2d::Identity());
   const Level wanted_level = level_of(wanted);
   const double reach = (kProbeHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
-  const Eigen::Vector2d start = place;
+  const Eigen::Vector2d start = position;
   Alignment sums;
   for (int step = 0; step < kSteps; ++step) {
-    if (!right.holds(place, reach) || (place - start).norm() > kMaxShift) return std::nullopt;
-    const Samples found = cut(right, place, steps);
+    if (!right.holds(position, reach) || (position - start).norm() > kMaxShift) return std::nullopt;
+    const Samples found = cut(right, position, steps);
     const Level found_level = level_of(found);
     if (!(wanted_level.norm > 0 && found_level.norm > 0)) return std::nullopt;
     sums = compare(wanted, wanted_level, found, found_level);
     const double determinant = sums.normal.determinant(), trace = sums.normal.trace();
     if (!(determinant > kMinRoundness * trace * trace)) return std::nullopt;  // an edge, not a corner
     const Eigen::Vector2d move = steps * sums.normal.inverse() * sums.right_side;
-    place += move;
+    position += move;
     if (move.norm() < kSettledShift) break;
   }
   const Eigen::Matrix2d covariance =
       sums.cost / (kProbeSide * kProbeSide - 2) * steps * sums.normal.inverse() * steps.transpose();
-  const double sigma = std::sqrt(its_line->normal.dot(covariance * its_line->normal));
+  const double sigma = std::sqrt(epipolar->normal.dot(covariance * epipolar->normal));
   if (1 - sums.cost / 2 < kMinProbeCorrelation || sigma > kMaxSigma) return std::nullopt;
-  const Eigen::Vector2d from_infinity = place - its_line->infinity;
+  const Eigen::Vector2d from_infinity = position - epipolar->infinity;
   return CornerMatch{corner_at,
-                     from_infinity.dot(its_line->direction),
-                     from_infinity.dot(its_line->normal),
+                     from_infinity.dot(epipolar->direction),
+                     from_infinity.dot(epipolar->normal),
                      sigma,
                      true,
-                     its_line->normal,
+                     epipolar->normal,
                      -1};
 }
 
@@ -186,13 +186,13 @@ EpipolarProbe::CoarseViews EpipolarProbe::coarse_views(const PinholeView& left, 
   return {scale,
           sample_plane(width, height,
                        [&](double x, double y) {
-                         const Eigen::Vector2d place = CoarseViews::in_left(x, y, scale);
-                         return left.at(place.x(), place.y());
+                         const Eigen::Vector2d position = CoarseViews::in_left(x, y, scale);
+                         return left.at(position.x(), position.y());
                        }),
           sample_plane(width, height, [&](double x, double y) {
-            const auto place = at_infinity(CoarseViews::in_left(x, y, scale));
-            if (!place) return 0.0F;
-            const Eigen::Vector2d given = turned(*place, turn, rig_.right);
+            const auto position = at_infinity(CoarseViews::in_left(x, y, scale));
+            if (!position) return 0.0F;
+            const Eigen::Vector2d given = turned(*position, turn, rig_.right);
             return right.at(given.x(), given.y());
           })};
 }
@@ -209,10 +209,10 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
   const auto seek = [&](const Eigen::Vector2i& corner) {
     CornerSearch outcome;
     const Eigen::Vector2d corner_at = views.in_left(corner.cast<double>());
-    const auto its_line = line(corner_at);
-    if (!its_line) return outcome;
+    const auto epipolar = line(corner_at);
+    if (!epipolar) return outcome;
     // Direction of the line in the coarse images.
-    const Eigen::Vector3d ahead = h_.inverse() * (its_line->infinity + its_line->direction).homogeneous();
+    const Eigen::Vector3d ahead = h_.inverse() * (epipolar->infinity + epipolar->direction).homogeneous();
     const Eigen::Vector2d direction = (ahead.hnormalized() - corner_at).normalized();
     const SearchBox box{static_cast<int>((std::abs(direction.x()) * along + std::abs(direction.y()) * across) / scale),
                         static_cast<int>((std::abs(direction.y()) * along + std::abs(direction.x()) * across) / scale)};
@@ -223,17 +223,17 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
     const auto back = best_match(views.right, views.left, landed, box);
     if (!back || (back->at - corner.cast<double>()).norm() > 1.5) return outcome;
     outcome.is_negative = there->correlation < 0;
-    const auto place = at_infinity(views.in_left(there->at));
-    if (outcome.is_negative || !place) return outcome;
-    outcome.found = turn == ImageTurn::none ? refine(left, right, corner_at, *place) : std::nullopt;
-    const Eigen::Vector2d from_infinity = *place - its_line->infinity;
+    const auto position = at_infinity(views.in_left(there->at));
+    if (outcome.is_negative || !position) return outcome;
+    outcome.found = turn == ImageTurn::none ? refine(left, right, corner_at, *position) : std::nullopt;
+    const Eigen::Vector2d from_infinity = *position - epipolar->infinity;
     if (!outcome.found)
       outcome.found = CornerMatch{corner_at,
-                                  from_infinity.dot(its_line->direction),
-                                  from_infinity.dot(its_line->normal),
+                                  from_infinity.dot(epipolar->direction),
+                                  from_infinity.dot(epipolar->normal),
                                   0.3 * scale,
                                   false,
-                                  its_line->normal,
+                                  epipolar->normal,
                                   -1};
     return outcome;
   };

@@ -100,7 +100,7 @@ std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane) {
   for (int top = kPatchHalf; top < height - kPatchHalf; top += kCell) {
     for (int left = kPatchHalf; left < width - kPatchHalf; left += kCell) {
       double strongest = kLimit;
-      Eigen::Vector2i place(-1, -1);
+      Eigen::Vector2i position(-1, -1);
       for (int y = top; y < std::min(top + kCell, height - kPatchHalf); ++y) {
         for (int x = left; x < std::min(left + kCell, width - kPatchHalf); ++x) {
           const auto i = plane.index(x, y);
@@ -108,10 +108,10 @@ std::vector<Eigen::Vector2i> find_corners(const GreyPlane& plane) {
           const double smaller = half - std::sqrt(std::max(0.0, half * half - (xx[i] * yy[i] - xy[i] * xy[i])));
           if (smaller <= strongest || !(plane.norm[i] > 0)) continue;
           strongest = smaller;
-          place = {x, y};
+          position = {x, y};
         }
       }
-      if (place.x() >= 0) corners.push_back(place);
+      if (position.x() >= 0) corners.push_back(position);
     }
   }
   return corners;
@@ -139,8 +139,8 @@ std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to,
   const auto best = std::max_element(correlation.begin(), correlation.end(),
                                      [](float a, float b) { return std::fabs(a) < std::fabs(b); });
   if (std::fabs(*best) < static_cast<float>(kMinCorrelation)) return std::nullopt;
-  const auto place = static_cast<int>(best - correlation.begin());
-  const int x = place % columns, y = place / columns;
+  const auto position = static_cast<int>(best - correlation.begin());
+  const int x = position % columns, y = position / columns;
   const auto value = [&](int column, int row) {
     column = std::clamp(column, 0, columns - 1);
     row = std::clamp(row, 0, rows - 1);

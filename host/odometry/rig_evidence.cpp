@@ -142,13 +142,13 @@ std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, co
   }
   last_x_.swap(next_x_);
   last_y_.swap(next_y_);
-  const double late = synchronisation_.time_offset_frames();
-  if (late == 0) return {};
+  const double time_offset = synchronisation_.time_offset_frames();
+  if (time_offset == 0) return {};
   char text[200];
   std::snprintf(text, sizeof text,
                 "distances from the epipolar lines are proportional to the image motion: are the cameras out of sync, "
                 "by about %.1f frames?",
-                std::abs(late));
+                std::abs(time_offset));
   return text;
 }
 

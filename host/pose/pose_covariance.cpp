@@ -26,9 +26,9 @@ UncertainPose operator*(const UncertainPose& world_from_key, const UncertainPose
   UncertainPose result{world_from_key.fixed_from_camera * key_from_current.fixed_from_camera, std::nullopt};
   // A rotation error of the key rig also displaces the current camera, by its distance from the key rig.
   const Eigen::Matrix3d turn = world_from_key.fixed_from_camera.linear();
-  const Eigen::Vector3d way = turn * key_from_current.fixed_from_camera.translation();
+  const Eigen::Vector3d offset = turn * key_from_current.fixed_from_camera.translation();
   PoseCovariance carried = PoseCovariance::Identity(), turned = PoseCovariance::Zero();
-  carried.topRightCorner<3, 3>() = -cross_matrix(way);
+  carried.topRightCorner<3, 3>() = -cross_matrix(offset);
   turned.topLeftCorner<3, 3>() = turn;
   turned.bottomRightCorner<3, 3>() = turn;
   result.by_rig = carried * world_from_key.by_rig + turned * key_from_current.by_rig;

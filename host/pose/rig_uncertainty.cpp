@@ -3,17 +3,17 @@
 namespace quadedge::pose {
 
 RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, double inverse_depth) {
-  const Eigen::Vector3d way = fixed_from_camera.translation();
+  const Eigen::Vector3d translation = fixed_from_camera.translation();
   const Eigen::Matrix3d turn = fixed_from_camera.linear();
   const Eigen::AngleAxisd rotation(turn);
   RigSensitivity result = RigSensitivity::Zero();
-  result.col(0).head<3>() = way;
+  result.col(0).head<3>() = translation;
   for (int axis = 0; axis < 3; ++axis) {
     // The motion in a frame that is rotated by w: exp(w) T exp(-w).
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
-    result.col(1 + axis).head<3>() = unit.cross(way);
+    result.col(1 + axis).head<3>() = unit.cross(translation);
     result.col(1 + axis).tail<3>() = unit - turn * unit;
-    result.col(5 + axis).tail<3>() = way.norm() * inverse_depth * unit;
+    result.col(5 + axis).tail<3>() = translation.norm() * inverse_depth * unit;
   }
   result.col(4).tail<3>() = rotation.angle() * rotation.axis();
   return result;

@@ -54,8 +54,8 @@ Radiance expose(const Exposure& exposure, int frame, Side side) {
   if (!(exposure.duration > 0.0)) return at(frame, exposure.supersampling);
   // An odd number, so that the middle moment is the time of the frame; the rays are spread over the moments, so that
   // each moment needs fewer.
-  const double way = exposure.path.image_motion(exposure.rig.left, frame, exposure.duration);
-  const int moments = 2 * static_cast<int>(std::ceil(0.5 * kMomentsPerPixel * way)) + 1;
+  const double motion = exposure.path.image_motion(exposure.rig.left, frame, exposure.duration);
+  const int moments = 2 * static_cast<int>(std::ceil(0.5 * kMomentsPerPixel * motion)) + 1;
   const int rays = std::max(2, exposure.supersampling / 2);
   Radiance mean = at(frame, rays);
   for (int i = 0; i < moments; ++i) {

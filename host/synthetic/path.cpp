@@ -88,12 +88,12 @@ std::function<Isometry3d(double)> drive(std::uint64_t seed, const Lane& lane) {
   const Sway bounce({{0.006, 0.35}, {0.003, 0.74}}, random);
   const Sway pitch({{0.35 * kDegree, 0.31}, {0.15 * kDegree, 0.67}}, random);
   const Sway roll({{0.3 * kDegree, 0.22}}, random);
-  const double rhythm = 2.0 * kPi / lane.length, start = random(0.0, 2.0 * kPi), beside = 0.02 * lane.length;
+  const double rhythm = 2.0 * kPi / lane.length, start = random(0.0, 2.0 * kPi), lateral = 0.02 * lane.length;
   return [=](double phase) {
-    const double way = lane.step * (phase + speed_change(phase) - speed_change(0.0));
-    const double track = rhythm * way + start;
-    return lane.world_from_start * turned({beside * (std::sin(track) - std::sin(start)), bounce(phase), way},
-                                          std::atan(beside * rhythm * std::cos(track)), pitch(phase), roll(phase));
+    const double distance = lane.step * (phase + speed_change(phase) - speed_change(0.0));
+    const double track = rhythm * distance + start;
+    return lane.world_from_start * turned({lateral * (std::sin(track) - std::sin(start)), bounce(phase), distance},
+                                          std::atan(lateral * rhythm * std::cos(track)), pitch(phase), roll(phase));
   };
 }
 

@@ -80,9 +80,9 @@ PixelBox PixelRays::footprint(const PixelBox& pixels) const {
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       if (!is_visible(x, y)) continue;
       for (const Eigen::Vector3d& ray : {corner(x, y), corner(x + 1, y), corner(x, y + 1), corner(x + 1, y + 1)}) {
-        const Eigen::Array2d place = pinhole_.project(ray).array();
-        low = low.min(place);
-        high = high.max(place);
+        const Eigen::Array2d position = pinhole_.project(ray).array();
+        low = low.min(position);
+        high = high.max(position);
       }
     }
   }
