@@ -114,8 +114,7 @@ VideoFile::Implementation::Implementation(const std::string& path) : path_(path)
   complaint.clear();
   AVFormatContext* file = nullptr;
   int error = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, nullptr);
-  if (error < 0)
-    refuse(error == AVERROR(ENOENT) ? "no such file" : "a file that is not a video (" + reason(error) + ")", kVideo);
+  if (error < 0) refuse(error == AVERROR(ENOENT) ? "no such file" : "no video (" + reason(error) + ")", kVideo);
   file_.reset(file);
   error = avformat_find_stream_info(file, nullptr);
   const AVCodec* codec = nullptr;

@@ -115,7 +115,7 @@ def test_images_of_16_bits(frames):
     deep = quadedge.synthetic(frames=2, width=320, height=200, bits=16)
     assert deep.rig.max_value == 65535 and deep[0].left.dtype == numpy.uint16
     assert [result.status for result in track_all(deep)] == ["first", "tracked"]
-    with quadedge.Odometry(deep) as odometry, pytest.raises(quadedge.DataError, match="values up to 255, the rig expects"):
+    with quadedge.Odometry(deep) as odometry, pytest.raises(quadedge.DataError, match="up to 255, the rig expects"):
         odometry.track(0, frames[0].left, frames[0].right)
 
 
