@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Two runs of the same frames agree: every frame has the same status and the same counts of edges, stereo edges,
-temporal matches, quads and inliers; no quaternion's component differs by more than 1e-9, and no position by more than
-1e-9 of its distance from the first frame, or 1e-9 m within the first metre.
+"""Checks that two runs of the same frames agree: every frame has the same status and the same counts of edges, stereo
+edges, temporal matches, quads and inliers; no quaternion component differs by more than 1e-9, and no position by more
+than 1e-9 of its distance from the first frame, or 1e-9 m within the first metre.
 
-    compare_poses.py ONE OTHER        folders that `quadedge run` or `quadedge demo` has left
+    compare_poses.py ONE OTHER        output folders of `quadedge run` or `quadedge demo`
 """
 
 import csv

@@ -3,11 +3,11 @@
 
     compare_with_evo.py ESTIMATE TRUTH ERRORS.json [--from-frame N] [--sequence NAME] [--tolerance 1e-6]
 
-ESTIMATE and TRUTH are TUM files, or both KITTI files with one pose per frame. ERRORS.json is what
-`quadedge evaluate trajectory ... --json` wrote, a report.json with the same figures under "accuracy", or with
---sequence the summary.json of a batch.
-All four errors are compared in mean, std, rmse and max, origin-aligned and SE(3)-aligned.
-Exit code: 0 they agree, 1 a difference above the tolerance, 2 the input cannot be compared.
+ESTIMATE and TRUTH are both TUM files, or both KITTI files with one pose per frame. ERRORS.json is the output of
+`quadedge evaluate trajectory ... --json`, a report.json with the same figures under "accuracy", or with --sequence the
+summary.json of a batch.
+Compares mean, std, rmse and max of all four errors, origin-aligned and SE(3)-aligned.
+Exit code: 0 if they agree, 1 for a difference above the tolerance, 2 if the input cannot be compared.
 """
 
 import argparse
@@ -91,7 +91,7 @@ def main():
     for alignment, choice in ALIGNMENTS.items():
         for error, (compute, relation) in ERRORS.items():
             if open_rotation and (alignment, error) == ("se3_aligned", "ape_rotation_deg"):
-                continue  # evo takes the turn that happens to fit the errors
+                continue  # evo takes a rotation that happens to fit the errors
             theirs = evo_statistics(compute, relation, truth, estimate, choice)
             for name in ("mean", "std", "rmse", "max"):
                 mine = ours[alignment, error][name]

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-format leaves every tracked C++ file and kernel as it is. `scripts/lint.sh --fix` applies it.
+# Checks that clang-format changes no C++ file or kernel. `scripts/lint.sh --fix` applies it.
 #   lint_format.sh REPOSITORY
 set -euo pipefail
 cd "$1"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# clang checks every program that the stages build, with the options of every variant: the files that stand in front of
-# every program, and its own.
-# A kernel file that no program holds is an error too.
+# Checks with clang every program that the stages build, with the options of every variant: the common files and its
+# own. A kernel file that no program contains is an error too.
 #   lint_kernels.sh REPOSITORY LIST_PROGRAMS
 set -euo pipefail
 list_programs="$(realpath "$2")"
@@ -31,7 +30,7 @@ export front
 
 status=0
 echo "$programs"
-# The words of a line are arguments: options and files have no spaces.
+# Each line holds the arguments of one program: options and files have no spaces.
 xargs -P "$(nproc)" -d '\n' -n 1 bash -c 'set -f; check $1' _ <<<"$programs" || status=1
 for file in kernels/*.cl; do
   case " $front " in

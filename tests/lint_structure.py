@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Holds what doc/design.md says of the tree: who includes whom, lengths, names, and references that lead somewhere.
+"""Checks that the tree follows doc/design.md: includes between folders, lengths, names and references.
 
     lint_structure.py REPOSITORY [--program PROGRAM] [CHECK...]
 
 CHECK is any of: includes lines functions twins references constants; without one, all of them. `functions` needs lizard
-(tests/requirements.txt), `constants` the program. Ends with 1 and one line per finding when something is wrong.
+(tests/requirements.txt), `constants` the program. Prints one line per finding; exit code 1 if there is any.
 """
 
 import argparse
@@ -20,7 +20,7 @@ LAYERS = ("include/quadedge", "host", "bench", "tests", "examples", "python")
 
 
 class Tree:
-    """The tracked and the new files of a repository, and their texts."""
+    """The tracked and new files of a repository, and their texts."""
 
     def __init__(self, root: Path):
         self.root = root
@@ -51,7 +51,7 @@ def folder_of(name: str) -> str:
 
 
 def check_includes(tree: Tree) -> list[str]:
-    """Arrows between folders run as the table says; the public interface includes nothing but itself."""
+    """Includes between folders follow the table; the public interface includes only itself."""
     allowed = {row[0]: row[1] for row in tree.table("includes")}
     findings = []
     for name in tree.with_suffix(".cpp", ".hpp"):
@@ -72,7 +72,7 @@ def check_includes(tree: Tree) -> list[str]:
 
 
 def check_lines(tree: Tree) -> list[str]:
-    """No line of code beyond LONGEST_LINE columns, no tab, no space at an end."""
+    """No line of code beyond LONGEST_LINE columns, no tab, no trailing space."""
     findings = []
     for name in tree.files:
         if Path(name).suffix not in CODE and Path(name).name != "Snakefile":
@@ -81,19 +81,19 @@ def check_lines(tree: Tree) -> list[str]:
             if len(line) > LONGEST_LINE:
                 findings.append(f"{name}:{number}: {len(line)} columns, at most {LONGEST_LINE}")
             if line != line.rstrip() or "\t" in line:
-                findings.append(f"{name}:{number}: a tab, or space at the end of the line")
+                findings.append(f"{name}:{number}: a tab or a trailing space")
     return findings
 
 
 def check_functions(tree: Tree) -> list[str]:
-    """No function beyond LONGEST_FUNCTION lines, unless a comment "LONG: reason" stands before it or in it."""
+    """No function beyond LONGEST_FUNCTION lines, unless a comment "LONG: reason" is before it or in it."""
     import lizard
 
     findings = []
     for name in tree.with_suffix(".cpp", ".hpp", ".cl", ".py"):
         text = tree.text(name)
         lines = text.split("\n")
-        # lizard knows OpenCL C by the name of C++.
+        # lizard parses OpenCL C as C++.
         shown = name[: -len(".cl")] + ".cpp" if name.endswith(".cl") else name
         for function in lizard.analyze_file.analyze_source_code(shown, text).function_list:
             length = function.end_line - function.start_line + 1
@@ -105,13 +105,13 @@ def check_functions(tree: Tree) -> list[str]:
 
 
 def stages(tree: Tree) -> list[str]:
-    """The stages of the table of variants, in its order."""
+    """The stages in the table of variants, in its order."""
     names = re.findall(r'^\s*\{"([a-z_0-9]+)",', tree.text("host/opencl/variants.cpp"), re.MULTILINE)
     return list(dict.fromkeys(names))
 
 
 def check_twins(tree: Tree, show: bool = True) -> list[str]:
-    """Kernel, stage, reference and test of a stage have its name, but for what the table says."""
+    """Kernel, stage, reference and test of a stage have its name, except for those in the table."""
     excused = {(row[0].strip("`"), what.strip()) for row in tree.table("twins") for what in row[1].split(",")}
     places = {"kernel": "kernels/{}.cl", "stage": "host/stages/{}.hpp", "reference": "host/reference/{}.hpp",
               "test": "tests/test_{}.cpp"}
@@ -136,7 +136,7 @@ def check_twins(tree: Tree, show: bool = True) -> list[str]:
 
 
 def slug(heading: str) -> str:
-    """The anchor that a Markdown heading gets."""
+    """The anchor of a Markdown heading."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower().replace("`", "")).replace(" ", "-")
 
 
@@ -147,7 +147,7 @@ def anchors(text: str) -> set[str]:
 
 
 def check_references(tree: Tree) -> list[str]:
-    """Sections, files and links that comments and pages name exist."""
+    """Sections, files and links in comments and pages exist."""
     findings = []
     sections = {page: set(re.findall(r"^## (\d+)\.", tree.text(f"doc/{page}.md"), re.MULTILINE))
                 for page in ("method", "design")}
@@ -165,7 +165,7 @@ def check_references(tree: Tree) -> list[str]:
                 continue
             for found in path.findall(comment[0]):
                 if Path(found).suffix in (".toml", ".md", ".py", ".sh") and not found.startswith(rooted):
-                    continue  # a user's file, or one beside a page
+                    continue  # a user's file, or one next to a page
                 if found.startswith(rooted):
                     known = found in tree.files or Path(found).name in written
                 elif name.endswith((".md", ".py", ".sh", ".txt", ".cmake")):
@@ -194,7 +194,7 @@ def broken_links(tree: Tree, name: str, text: str) -> list[str]:
 
 
 def check_constants(tree: Tree, program: str) -> list[str]:
-    """Constants that doc/method.md names exist, with the defaults that it gives."""
+    """Constants in doc/method.md exist and have the stated defaults."""
     text = subprocess.run([program, "run", "--help-all"], check=True, capture_output=True, text=True).stdout
     defaults = dict(re.findall(r"--((?:[a-z]+)\.(?:[a-z_0-9]+)) [A-Za-z|]+(?:=([^\s]+))?", text))
     page = tree.text("doc/method.md")

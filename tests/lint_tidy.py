@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over the code, one translation unit per folder: most of its time goes into what files include.
+"""Runs clang-tidy over the code, one translation unit per folder, since most of the time goes into included files.
 
     lint_tidy.py REPOSITORY BUILD [--fix] [--jobs N] [--syntax] [FOLDER...]
 
-BUILD holds compile_commands.json. FOLDER is such as host/pose; without one, all of host/. Files of a folder that define
-the same name for themselves cannot stand in one translation unit; they are spread over as few as that takes. clang-tidy
-is the one beside the Python that runs this (tests/requirements.txt): newer than Debian's, it passes over what system
-headers define and takes a quarter of the time.
+BUILD holds compile_commands.json. FOLDER is, for example, host/pose; without one, all of host/ is checked. Files of a
+folder that define the same local name go into different translation units, as few as possible. clang-tidy is the one
+next to the running Python (tests/requirements.txt): newer than Debian's, it skips system headers and takes a quarter
+of the time.
 """
 
 import argparse
@@ -24,7 +24,7 @@ FOLDERS = ("common", "opencl", "reference", "stages", "frontend", "pose", "odome
 
 
 def own_names(text: str) -> set[str]:
-    """What a formatted source defines for itself: in unnamed namespaces, and as macros."""
+    """Local names of a formatted source: those in unnamed namespaces, and macros."""
     names = set(re.findall(r"^#define (\w+)", text, re.MULTILINE))
     for body in re.findall(r"^namespace \{$(.*?)^\}  // namespace$", text, re.MULTILINE | re.DOTALL):
         names |= set(re.findall(r"\b(k[A-Z]\w*)(?:\[\w*\])*\s*(?:=|\{)", body))
@@ -40,14 +40,14 @@ def own_names(text: str) -> set[str]:
 
 
 def shared_names(folder: Path) -> set[str]:
-    """Types and constants that a folder's headers define."""
+    """Types and constants in a folder's headers."""
     return {name for header in folder.glob("*.hpp")
             for name in re.findall(r"^(?:class|struct|enum class|(?:inline )?constexpr [\w:<>]+) (\w+)",
                                    header.read_text(), re.MULTILINE)}
 
 
 def units(files: list[Path], taken: set[str]) -> list[list[Path]]:
-    """Spreads files over translation units in which no name is defined twice."""
+    """Distributes files over translation units in which no name is defined twice."""
     result: list[tuple[set[str], list[Path]]] = []
     for file in files:
         names = own_names(file.read_text())
@@ -64,7 +64,7 @@ def units(files: list[Path], taken: set[str]) -> list[list[Path]]:
 
 
 def flags_of(file: Path, commands: dict[str, str]) -> list[str]:
-    """What of a file's compiler call decides its meaning."""
+    """The flags of a file's compiler call that affect its meaning."""
     words = shlex.split(commands[str(file)])
     kept = [word for word in words if word.startswith(("-D", "-I", "-std"))]
     for i, word in enumerate(words):
@@ -74,7 +74,7 @@ def flags_of(file: Path, commands: dict[str, str]) -> list[str]:
 
 
 def compiler_calls(build: Path) -> dict[str, str]:
-    """Source -> its compiler call; where several are compiled together, the call for all of them."""
+    """Source -> its compiler call; for sources compiled together, their common call."""
     commands = {}
     for row in json.loads((build / "compile_commands.json").read_text()):
         commands[row["file"]] = row["command"]

@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Builds the container of the Dockerfile and runs the program in it; skipped (exit code 77) where nothing runs
-# containers.
+# Builds the container of the Dockerfile and runs the program in it; skipped (exit code 77) without a container engine.
 #   run_docker.sh REPOSITORY
 set -euo pipefail
 repository="$1"

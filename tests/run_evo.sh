@@ -4,7 +4,7 @@
 set -euo pipefail
 quadedge="$1" python="$2" compare="$3"
 if [ ! -x "$python" ]; then
-  echo "$python is not there; scripts/test.sh makes the virtual environment with evo"
+  echo "$python is missing; scripts/test.sh creates the virtual environment with evo"
   exit 1
 fi
 folder="$(mktemp -d)"
@@ -13,14 +13,14 @@ trap 'rm -rf "$folder"' EXIT
 "$quadedge" run "$folder/room" -o "$folder/run" --quiet >/dev/null
 truth="$folder/room/groundtruth.txt"
 compare() { echo "evo against $3"; "$python" "$compare" "$@"; }
-# What `run` reports, and what `evaluate trajectory` finds in the files, also from a later frame on.
+# The errors in `run`'s report, and those of `evaluate trajectory`, also from a later frame on.
 compare "$folder/run/trajectory.txt" "$truth" "$folder/run/report.json"
 for from in 0 3; do
   "$quadedge" evaluate trajectory "$folder/run/trajectory.txt" "$truth" --from-frame $from \
     --json "$folder/from$from.json" >/dev/null
   compare "$folder/run/trajectory.txt" "$truth" "$folder/from$from.json" --from-frame $from
 done
-# What the summary of a batch says of each of its sequences; the ground truth is the one that the run left behind.
+# The errors of each sequence in a batch summary; the ground truth is the run's copy.
 "$quadedge" synth "$folder/batch/cables" --scene cables --frames 6 --size 320x200 --quiet
 "$quadedge" synth "$folder/batch/facade" --scene facade --path handheld --frames 6 --size 320x200 --quiet
 mv "$folder/room" "$folder/batch/room"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs everything, builds the examples, which know the installed copy alone, and runs them.
+# Installs everything, builds the examples against the installed copy, and runs them.
 #   run_examples.sh BUILD_FOLDER EXAMPLES
 set -euo pipefail
 build="$(cd "$1" && pwd)" source="$2"
@@ -30,7 +30,7 @@ image="$(find "$work/room/rgb" -name '*.png' | sort | head -n 1)"
 "$work/02_detect_edges" "$image" >"$work/edges.csv"
 "$quadedge" edges "$image" --device reference --edges.threshold 4 --csv "$work/expected.csv" --quiet
 edges="$(wc -l <"$work/edges.csv")"
-echo "$edges rows of edges"
+echo "$edges rows in edges.csv"
 [ "$edges" -gt 1000 ] && [ "$edges" -eq "$(wc -l <"$work/expected.csv")" ]
 
 "$work/03_own_images"

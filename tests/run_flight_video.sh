@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A recorded flight as one FFV1 video with both views gives the trajectory of its folders, byte for byte.
+# Checks that a recorded flight as one FFV1 video with both views gives the trajectory of its folders, byte for byte.
 #   run_flight_video.sh PROGRAM
-# Skipped (77) where QUADEDGE_DATA has no euroc_mh_01_easy.
+# Skipped (exit code 77) if QUADEDGE_DATA has no euroc_mh_01_easy.
 set -euo pipefail
 program=$1
 flight=${QUADEDGE_DATA:-/nowhere}/euroc_mh_01_easy/mav0

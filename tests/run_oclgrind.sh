@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the kernel tests of small size on oclgrind's simulator, which sees every memory access. Fails when a test fails,
-# when oclgrind reports anything (a wrong address, a data race, a wrong call), or when a kernel was never run.
+# Runs the small kernel tests on oclgrind's simulator, which checks every memory access. Fails if a test fails, if
+# oclgrind reports anything (an invalid address, a data race, an invalid call), or if a kernel was never run.
 #   run_oclgrind.sh QUADEDGE_TESTS KERNEL_FOLDER
 set -euo pipefail
 tests="$1" kernels="$2"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Intel's OpenCL for CPUs, a second implementation beside PoCL: the C++ tests of kernels, pipeline and recorded data on
-# it, then the same frames on both, whose poses agree (compare_poses.py). Recorded data is found through QUADEDGE_DATA.
-# What the runtime has built stays in BUILD/other_runtime for the next call.
+# Tests with Intel's OpenCL for CPUs, a second implementation beside PoCL: runs the C++ tests of kernels, pipeline and
+# recorded data on it, then the same frames on both, and compares their poses (compare_poses.py). Recorded data is found
+# through QUADEDGE_DATA. Built kernels stay in BUILD/other_runtime for the next call.
 #   run_other_runtime.sh BUILD
 set -euo pipefail
 build="$(realpath "$1")"
@@ -16,8 +16,8 @@ if ! cmp -s "$requirements" "$venv/requirements_intel.txt"; then
   cp "$requirements" "$venv/requirements_intel.txt"
 fi
 
-# Nothing is installed in the system: a folder with this runtime alone, and one with those that are installed too. The
-# program's own TBB (Debian's) is older than what the runtime needs, and the first one that is loaded serves both.
+# Nothing is installed in the system: one folder has only this runtime, another the installed ones too. The program's
+# TBB (Debian's) is older than the runtime needs, and the one loaded first serves both.
 rm -rf "$kept"/{alone,both}
 mkdir -p "$kept"/{alone,both,lib}
 echo "$venv/lib/libintelocl.so" | tee "$kept/alone/intel.icd" >"$kept/both/intel.icd"
@@ -28,7 +28,7 @@ export XDG_CACHE_HOME="$kept/cache" OCL_ICD_VENDORS="$kept/both"
 devices="$("$build/quadedge" devices)"
 for device in 'Intel(R) OpenCL' 'Portable Computing Language'; do
   grep -qF "$device" <<<"$devices" || {
-    echo -e "--all-runtimes: no device of $device among\n$devices" >&2
+    echo -e "--all-runtimes: no $device device among\n$devices" >&2
     exit 1
   }
 done
@@ -38,7 +38,7 @@ OCL_ICD_VENDORS="$kept/alone" QUADEDGE_TEST_PROGRAMS="$XDG_CACHE_HOME/quadedge/p
   "$build/tests/quadedge_tests" "[device]~[cli],[real],[selftest]~[cli],[opencl]"
 echo "Tests on Intel's runtime: $((SECONDS - start)) s"
 
-# both NAME ARGUMENT...: `quadedge ARGUMENT...` on both runtimes.
+# both NAME ARGUMENT...: runs `quadedge ARGUMENT...` on both runtimes and compares the poses.
 both() {
   local name=$1
   shift

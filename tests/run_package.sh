@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the Debian packages, looks into them, unpacks the program's one into an empty root and runs it from there.
+# Builds and inspects the Debian packages, unpacks the program's package into an empty root and runs it from there.
 #   run_package.sh BUILD_FOLDER
 set -euo pipefail
 build="$(cd "$1" && pwd)"
@@ -7,7 +7,7 @@ work="$build/package"
 rm -rf "$work"
 cpack --config "$build/CPackConfig.cmake" -B "$work" >"$build/cpack.log" 2>&1 || { cat "$build/cpack.log"; exit 1; }
 
-# expect PACKAGE FIELD PATTERN...: every pattern occurs in the field of the control file.
+# expect PACKAGE FIELD PATTERN...: checks that every pattern occurs in the field of the control file.
 expect() {
   local package="$1" field="$2" value pattern
   value="$(dpkg-deb --field "$package" "$field")"
@@ -16,7 +16,7 @@ expect() {
     grep -qE "$pattern" <<<"$value" || { echo "$package: $field is '$value', expected $pattern" >&2; exit 1; }
   done
 }
-# holds PACKAGE PATH...: the files are in it.
+# holds PACKAGE PATH...: checks that the package has the files.
 holds() {
   local package="$1" content path
   content="$(dpkg-deb --contents "$package" | awk '{print $6}')"
@@ -51,7 +51,7 @@ holds "$development" usr/include/quadedge/odometry.hpp 'usr/lib/.*libquadedge.a'
 
 root="$work/root"
 dpkg-deb --extract "$program" "$root"
-cd "$work"  # so that nothing of the source is found by a relative path
+cd "$work"  # so that no source file is found by a relative path
 "$root/usr/bin/quadedge" --version
 "$root/usr/bin/quadedge" demo --size 320x200 --frames 2 --config "$root/usr/share/quadedge/paper.toml" \
   --output "$work/demo" --quiet

@@ -1,22 +1,22 @@
 #!/usr/bin/env bash
-# Runs scripts/Snakefile on two sequences, one of them broken: on this machine, then on a Slurm cluster of one node that
-# is started here, and compares the results.
+# Runs scripts/Snakefile on two sequences, one of them broken, first locally and then on a one-node Slurm cluster that
+# this script starts, and compares the results.
 #   run_snakemake.sh QUADEDGE PYTHON SNAKEFILE
 set -euo pipefail
 quadedge="$1" python="$2" snakefile="$3"
 for tool in munged slurmctld slurmd sbatch srun squeue sinfo; do
   PATH="$PATH:/usr/sbin" command -v "$tool" >/dev/null ||
-    { echo "$tool is not there; scripts/test.sh installs Slurm"; exit 1; }
+    { echo "$tool is missing; scripts/test.sh installs Slurm"; exit 1; }
 done
 folder="$(mktemp -d)"
-chmod 711 "$folder"  # munge wants everybody to reach its socket
+chmod 711 "$folder"  # munge requires that everybody can reach its socket
 stop() {
   local status=$? pid_file
   if [ $status -ne 0 ]; then tail -n 20 "$folder"/slurm/*.log 2>/dev/null || true; fi
   for pid_file in "$folder"/slurm/{slurmd,slurmctld,munged}.pid; do
     if [ -f "$pid_file" ]; then kill "$(cat "$pid_file")" || true; fi
   done
-  sleep 0.5  # they write their state while they end
+  sleep 0.5  # they write their state while they exit
   rm -rf "$folder"
 }
 trap stop EXIT
@@ -25,7 +25,7 @@ fail() { echo "$1"; exit 1; }
 "$quadedge" synth "$folder/data/good" --frames 4 --size 240x150 --quiet
 cp -r "$folder/data/good" "$folder/data/broken"
 rm "$folder/data/broken/calibration2.txt"
-snakemake() {  # OUT OPTION...: the workflow must end with an error that names the broken sequence
+snakemake() {  # OUT OPTION...: checks that the workflow ends with an error that names the broken sequence
   local out="$1"
   shift
   if "$python" -m snakemake --snakefile "$snakefile" --directory "$folder" "$@" \
@@ -35,14 +35,14 @@ snakemake() {  # OUT OPTION...: the workflow must end with an error that names t
     fail "Snakemake did not report the broken sequence"
   fi
   grep -q "broken (failed): .*calibration2.txt" "$folder/$out.log" ||
-    { cat "$folder/$out.log"; fail "the broken sequence is not named"; }
+    { cat "$folder/$out.log"; fail "the error does not name the broken sequence"; }
   for file in summary.csv summary.json summary.md report.html \
     sequences/good/trajectory.txt sequences/broken/member.json; do
     [ -s "$folder/$out/$file" ] || { cat "$folder/$out.log"; fail "$out/$file is missing"; }
   done
 }
 
-echo "on this machine"
+echo "locally"
 snakemake local --cores 1
 
 echo "on Slurm"
@@ -78,7 +78,7 @@ ReturnToService=2
 NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) RealMemory=2000 State=UNKNOWN
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 CONFIGURATION
-# Snakemake's jobs drop SLURM_CONF before they call srun, which then looks into /etc; that is not ours to write to.
+# Snakemake's jobs unset SLURM_CONF before they call srun, which would then read /etc, where tests do not write.
 printf '#!/bin/sh\nSLURM_CONF=%s exec %s "$@"\n' "$folder/slurm/slurm.conf" "$(command -v srun)" \
   >"$folder/slurm/bin/srun"
 chmod +x "$folder/slurm/bin/srun"
@@ -91,7 +91,7 @@ for _ in $(seq 100); do
   if sinfo --noheader --format=%T 2>/dev/null | grep -q idle; then break; fi
   sleep 0.2
 done
-sinfo --noheader --format=%T | grep -q idle || fail "the node does not come up: $(sinfo 2>&1)"
+sinfo --noheader --format=%T | grep -q idle || fail "the node does not start: $(sinfo 2>&1)"
 snakemake cluster --executor slurm --jobs 2 --default-resources slurm_partition=main runtime=5 mem_mb=900 --keep-going \
   --slurm-no-account --slurm-status-command squeue --slurm-init-seconds-before-status-checks 1 \
   --seconds-between-status-checks 1
@@ -101,4 +101,4 @@ for file in trajectory.txt trajectory_kitti.txt errors.csv config.toml member.js
   cmp "$folder/local/sequences/good/$file" "$folder/cluster/sequences/good/$file"
 done
 cmp "$folder/local/sequences/broken/member.json" "$folder/cluster/sequences/broken/member.json"
-echo "two jobs on Slurm, the same results as on this machine"
+echo "two jobs on Slurm, the same results as locally"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes an animated picture of a small run with scripts/animate.py.
+"""Makes an animation of a small run with scripts/animate.py.
 
     test_animate.py SCRIPT QUADEDGE
 """
@@ -28,7 +28,7 @@ with tempfile.TemporaryDirectory() as folder:
     done = animate(run, picture, "--width", 160)
     assert done.returncode == 0, done.stderr
     with Image.open(picture) as animation:
-        # The view keeps its shape; the path has a square of three quarters of its height.
+        # The view keeps its aspect ratio; the path is drawn in a square of three quarters of the height.
         assert (animation.n_frames, animation.size) == (3, (160 + 75, 100)), (animation.n_frames, animation.size)
         frames = []
         for index in range(3):

@@ -26,7 +26,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert [float(row["rpe_rotation_deg"]) for row in table] == [row["rpe_rotation_deg"] for row in rows], table
     assert "<svg" in (out / "disturbances.svg").read_text()
 
-    # Chosen values and seeds; blur that cannot be rendered ends the sweep with the program's own words.
+    # Given values and seeds; blur that cannot be rendered ends the sweep with the program's message.
     subprocess.run([sys.executable, script, out, *small, "--scenes", "facade", "--kinds", "blur", "--values", "2",
                     "--scene-seed", "11"], check=True, stdout=subprocess.DEVNULL)
     (row,) = json.loads((out / "disturbances.json").read_text())

@@ -39,7 +39,7 @@ def seven_zipped(folder):
 
 
 class Server(http.server.ThreadingHTTPServer):
-    """Serves bytes by path; `faults[path]` is a list of what goes wrong with the next requests of that path."""
+    """Serves bytes by path; `faults[path]` lists the faults of the next requests for that path."""
 
     daemon_threads = True
 
@@ -54,7 +54,7 @@ class Server(http.server.ThreadingHTTPServer):
         return f"http://127.0.0.1:{self.server_port}/data"
 
     def handle_error(self, request, client_address):
-        pass  # a client that is killed breaks its connection
+        pass  # a killed client breaks its connection
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
@@ -158,7 +158,7 @@ class Download(unittest.TestCase):
         return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
     def published(self, name):
-        """What the archives of a sequence hold."""
+        """The files in a sequence's archives."""
         content = {}
         for part in ("mono", "stereo"):
             with zipfile.ZipFile(io.BytesIO(self.files[f"slam/datasets/{name}_{part}.zip"])) as file:
@@ -168,7 +168,7 @@ class Download(unittest.TestCase):
     def requests(self, path):
         return [asked for requested, asked in self.server.requests if requested == path]
 
-    def test_everything_is_loaded_once_and_check_finds_it_sound(self):
+    def test_everything_is_downloaded_once_and_passes_the_check(self):
         result = self.load()
         self.assertEqual(result.returncode, 0, result.stderr)
         for name in ("cables_1", "room_2"):
@@ -188,7 +188,7 @@ class Download(unittest.TestCase):
         self.assertIn("there    two_view_training/terrace_2s: eth3d-two-view, 1 frame", check.stdout)
         self.assertIn("4 there, 0 of them damaged, 0 published ones missing", check.stdout)
 
-    def test_check_says_what_is_missing_or_damaged(self):
+    def test_check_reports_missing_and_damaged_sequences(self):
         self.assertEqual(self.load("cables_1").returncode, 0)
         check = subprocess.run([QUADEDGE, "check", self.target], capture_output=True, text=True)
         self.assertEqual(check.returncode, 0, check.stderr)
@@ -203,7 +203,7 @@ class Download(unittest.TestCase):
         self.assertEqual(check.returncode, 3)
         self.assertIn("DAMAGED  slam/training/cables_1", check.stdout)
 
-    def test_a_broken_transfer_goes_on_where_it_stopped(self):
+    def test_a_broken_transfer_resumes_where_it_stopped(self):
         path = "slam/datasets/room_2_mono.zip"
         self.server.faults[path] = ["break", "unavailable", "break"]
         result = self.load("room_2")
@@ -214,9 +214,9 @@ class Download(unittest.TestCase):
         first = size // 2
         second = first + (size - first) // 2
         self.assertEqual(self.requests(path), [None, f"bytes={first}-", f"bytes={first}-", f"bytes={second}-"])
-        self.assertEqual(self.server.sent[path], size)  # not a byte twice
+        self.assertEqual(self.server.sent[path], size)  # no byte twice
 
-    def test_a_killed_download_goes_on_when_started_again(self):
+    def test_a_killed_download_resumes_when_started_again(self):
         path = "slam/datasets/room_2_stereo.zip"
         self.server.faults[path] = ["stall"]
         part = self.target / "archives" / "room_2_stereo.zip.part"
@@ -233,7 +233,7 @@ class Download(unittest.TestCase):
         result = self.load("room_2")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.requests(path)[-1], f"bytes={len(self.files[path]) // 2}-")
-        self.assertEqual(len(self.requests("slam/datasets/room_2_mono.zip")), 1)  # that one was whole
+        self.assertEqual(len(self.requests("slam/datasets/room_2_mono.zip")), 1)  # that one was complete
         self.assertEqual(self.loaded("room_2"), self.published("room_2"))
 
     def test_versions_of_a_file_are_never_mixed(self):
@@ -246,7 +246,7 @@ class Download(unittest.TestCase):
         self.assertRegex(result.stderr, "room_2_mono.zip: (wrong checksum|damaged)")
         self.assertNotIn("groundtruth.txt", self.loaded("room_2"))
 
-    def test_a_part_that_is_longer_than_the_file_is_thrown_away(self):
+    def test_a_partial_file_longer_than_the_file_is_discarded(self):
         part = self.target / "archives" / "room_2_mono.zip.part"
         part.parent.mkdir(parents=True)
         part.write_bytes(b"x" * (len(self.files["slam/datasets/room_2_mono.zip"]) + 1))
@@ -254,7 +254,7 @@ class Download(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.loaded("room_2"), self.published("room_2"))
 
-    def test_a_part_that_is_whole_is_not_loaded_again(self):
+    def test_a_complete_partial_file_is_not_downloaded_again(self):
         path = "slam/datasets/room_2_mono.zip"
         part = self.target / "archives" / "room_2_mono.zip.part"
         part.parent.mkdir(parents=True)
@@ -264,7 +264,7 @@ class Download(unittest.TestCase):
         self.assertEqual(self.server.sent.get(path, 0), 0)
         self.assertEqual(self.loaded("room_2"), self.published("room_2"))
 
-    def test_a_server_without_ranges_sends_all_again(self):
+    def test_a_server_without_ranges_sends_everything_again(self):
         path = "slam/datasets/cables_1_mono.zip"
         self.server.ranges = False
         self.server.faults[path] = ["break"]
@@ -272,7 +272,7 @@ class Download(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.loaded("cables_1"), self.published("cables_1"))
 
-    def test_a_wrong_byte_is_found_and_the_archive_loaded_again(self):
+    def test_a_wrong_byte_is_found_and_the_archive_downloaded_again(self):
         for path in ("slam/datasets/cables_1_mono.zip", "two_view_training.7z"):
             self.server.faults[path] = ["corrupt"]
         result = self.load()
@@ -281,7 +281,7 @@ class Download(unittest.TestCase):
         self.assertRegex(result.stderr, "two_view_training.7z: damaged")
         self.assertEqual(self.loaded("cables_1"), self.published("cables_1"))
 
-    def test_a_wrong_checksum_is_refused_and_the_others_go_on(self):
+    def test_a_wrong_checksum_is_refused_and_the_others_continue(self):
         sums = self.target.parent / "sums"
         good = hashlib.sha256(self.files["slam/datasets/room_2_mono.zip"]).hexdigest()
         sums.write_text(f"{'0' * 64}  cables_1_mono.zip\n{good} *room_2_mono.zip\n")
@@ -292,7 +292,7 @@ class Download(unittest.TestCase):
         self.assertFalse((self.target / "slam/training/cables_1").exists())
         self.assertEqual(self.loaded("room_2"), self.published("room_2"))
 
-    def test_an_archive_that_changed_since_the_first_download_is_noticed(self):
+    def test_an_archive_that_changed_since_the_first_download_is_detected(self):
         self.assertEqual(self.load("room_2").returncode, 0)
         shutil.rmtree(self.target / "slam/training/room_2")
         self.server.files["slam/datasets/room_2_mono.zip"] = zipped(self.source / "room_2", ["rgb/*"], "room_2")
@@ -300,7 +300,7 @@ class Download(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("room_2_mono.zip: wrong checksum", result.stderr)
 
-    def test_a_missing_file_is_named_and_the_others_go_on(self):
+    def test_a_missing_file_is_reported_and_the_others_continue(self):
         del self.server.files["slam/datasets/cables_1_stereo.zip"]
         result = self.load("--slam")
         self.assertEqual(result.returncode, 1)
@@ -335,14 +335,14 @@ class Download(unittest.TestCase):
         self.assertFalse((self.target / "slam/training/room_2").exists())
         self.assertFalse((self.target / "slam/training/.room_2.part").exists())
 
-    def test_archives_without_a_folder_of_their_own_are_unpacked_as_well(self):
+    def test_archives_without_a_top_folder_are_unpacked_too(self):
         for part, names in (("mono", ["rgb/*", "rgb.txt"]), ("stereo", ["rgb2/*"])):
             self.server.files[f"slam/datasets/room_2_{part}.zip"] = zipped(self.source / "room_2", names, ".")
         result = self.load("room_2")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("rgb.txt", self.loaded("room_2"))
 
-    def test_lists_that_are_no_text_are_refused(self):
+    def test_lists_that_are_not_text_are_refused(self):
         self.server.files["slam/dataset_list_training.txt"] = b"room_2\n\xff\xfe\n"
         self.assert_refused(self.load("room_2"), "dataset_list_training.txt: not a text file")
         self.server.files["slam/dataset_list_training.txt"] = b"<html><a href='/login'></html>"
@@ -356,12 +356,12 @@ class Download(unittest.TestCase):
             self.assert_refused(self.load("room_2", "--checksums", str(sums)), message)
         self.assert_refused(self.load("room_2", "--checksums", str(self.target)), "No such file")
 
-    def test_a_place_that_is_no_address_is_refused(self):
+    def test_an_invalid_address_is_refused(self):
         for address in ("hello", "file:///etc", ""):
             self.assert_refused(self.load("--address", address), "expected http://", 2)
         self.assert_refused(self.load("--address", "http://127.0.0.1:1/data"), "127.0.0.1:1/data.*curl's exit code 7")
 
-    def test_wrong_names_and_places_are_refused(self):
+    def test_wrong_names_and_folders_are_refused(self):
         self.assertEqual(self.load("no_such_sequence").returncode, 2)
         self.assertEqual(self.load("room_2", "--two-view").returncode, 2)
         self.target = Path(os.devnull) / "eth3d"

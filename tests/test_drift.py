@@ -22,7 +22,7 @@ with tempfile.TemporaryDirectory() as folder:
     (row,) = result["rows"]
     (run,) = row["runs"]
     assert row["scene"] == "cables" and run["frames"] == 4, row
-    assert row["before"]["runs"] == row["runs"], row  # the same folder stands for the other program
+    assert row["before"]["runs"] == row["runs"], row  # the same folder serves as the other program's
 
     work = out / "cables_4"
     judged = [quadedge, "evaluate", "trajectory", work / "trajectory.txt", work / "groundtruth.txt", "--json",
@@ -34,7 +34,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert abs(run["end_mm"] - parts) < 1e-9 and run["end_mm"] <= 1e3 * errors["max"] + 1e-6, (run, errors)
     assert abs(row["end_percent"] - run["end_mm"] / run["path_m"] / 10) < 1e-9, row
 
-    # A run that is complete serves again; a program that fails is named.
+    # A complete run is reused; a failing program is reported.
     before = (work / "trajectory.txt").stat().st_mtime_ns
     assert subprocess.run(call, capture_output=True, check=False).returncode == 0
     assert (work / "trajectory.txt").stat().st_mtime_ns == before

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests scripts/long_run.py: what it reads of a process, and when it calls a run level.
+"""Tests scripts/long_run.py: its measurements of a process, and when it finds a run level.
 
 test_long_run.py SCRIPTS [UNITTEST OPTION...]
 """
@@ -17,7 +17,7 @@ import long_run  # noqa: E402
 
 
 def judged(frames=1100, memory=lambda frame: 200, cost=lambda frame: 0.05):
-    """Whether a run is called level whose memory [MB] and processor time [s] follow the frames so."""
+    """The verdict on a run with this memory [MB] and processor time [s] by frame."""
     time, samples = 3, []
     for frame in range(frames + 1):
         time += cost(frame)
@@ -34,31 +34,31 @@ class LongRun(unittest.TestCase):
         self.assertIn("memory +4.0 MB", text)
         self.assertRegex(text, r"time per frame [+-]0\.0 %")
 
-    def test_growth_of_memory_is_seen(self):
+    def test_growth_of_memory_is_detected(self):
         self.assertFalse(judged(memory=lambda frame: 200 + 6 * frame / 1000)[0])
         self.assertFalse(judged(memory=lambda frame: 206 if frame == 700 else 200)[0])
 
-    def test_growth_of_the_time_per_frame_is_seen(self):
+    def test_growth_of_the_time_per_frame_is_detected(self):
         self.assertFalse(judged(cost=lambda frame: 0.05 * (1 + 0.3 * frame / 1000))[0])
         self.assertTrue(judged(cost=lambda frame: 0.05 * (1 + 0.1 * frame / 1000))[0])
 
-    def test_few_frames_say_nothing(self):
+    def test_too_few_frames_give_no_verdict(self):
         with self.assertRaises(SystemExit):
             judged(frames=250)
 
-    def test_a_process_is_read_and_its_end_noticed(self):
+    def test_a_process_is_measured_and_its_end_detected(self):
         memory, seconds = long_run.memory_and_time(os.getpid())
         self.assertGreater(memory, 1)
         self.assertGreaterEqual(seconds, 0)
         self.assertIsNone(long_run.memory_and_time(2**30))
 
-    def test_rows_are_counted_although_a_new_column_begins_the_file_anew(self):
+    def test_rows_are_counted_when_a_new_column_restarts_the_file(self):
         with tempfile.TemporaryDirectory() as folder:
             frames = Path(folder) / "frames.csv"
             texts = ["frame,latency_ms,message\n0,5,\n", "frame,latency_ms,pose_ms,message\n0,5,,\n1,5,1,\n", None]
 
             class Program:
-                """A program that writes the next text whenever it is asked whether it has ended."""
+                """A program that writes the next text at each poll."""
 
                 pid, returncode = os.getpid(), None
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Other libraries open the map of a run: plyfile the PLY file, pycolmap the COLMAP model.
+"""Reads the map of a run with other libraries: the PLY file with plyfile, the COLMAP model with pycolmap.
 
     test_map_files.py QUADEDGE
 """
@@ -24,9 +24,9 @@ def check_ply(file: Path) -> int:
         assert numpy.isfinite(vertices[name]).all(), name
     tangents = numpy.stack([vertices[f"tangent_{axis}"] for axis in "xyz"])
     assert numpy.allclose(numpy.linalg.norm(tangents, axis=0), 1, atol=1e-5)
-    assert vertices["views"].min() >= 2, "seen by fewer key rigs than asked for"
+    assert vertices["views"].min() >= 2, "seen by fewer key rigs than required"
     assert (numpy.rint(vertices["grey"]) == vertices["red"]).all()
-    # What the room's first view shows lies 1.3 to 5 m before it; few points may be wrong.
+    # The room's first view shows depths of 1.3 to 5 m; few points may be wrong.
     low, high = numpy.percentile(vertices["z"], [1, 99])
     assert 1.2 < low and high < 7, (low, high)
     return len(vertices)
@@ -49,7 +49,7 @@ def check_colmap(folder: Path, points: int) -> None:
             assert projected is not None, "a point behind a camera that saw it"
             errors.append(numpy.linalg.norm(projected - place.xy))
     assert numpy.median(errors) < 1, numpy.median(errors)
-    # Both cameras look at the same points: the right one through the calibration.
+    # Both cameras see the same points, the right one through the calibration.
     left = next(image for image in model.images.values() if image.name.startswith("left"))
     right = next(image for image in model.images.values() if image.name == left.name.replace("left", "right"))
     point = next(iter(model.points3D.values())).xyz

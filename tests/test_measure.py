@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures a little with scripts/measure.py, and holds that the documentation shows what doc/results holds.
+"""Makes a small measurement with scripts/measure.py and checks that the documentation matches doc/results.
 
 test_measure.py SCRIPTS QUADEDGE
 """
@@ -25,12 +25,12 @@ def run(script, *options):
     )
 
 
-# Every block of the documentation, and the pages of doc/results, are what the JSON says.
+# Every generated block of the documentation and the pages of doc/results match the JSON files.
 stale = result_tables.differing(result_tables.RESULTS)
 assert not stale, [str(file) for file, _ in stale]
 
 with tempfile.TemporaryDirectory() as folder:
-    # A measurement holds what the programs say, in full precision, with commit and command.
+    # A measurement holds the programs' figures in full precision, with commit and command.
     out, work = Path(folder) / "results", Path(folder) / "work"
     small = (
         "--quadedge",
@@ -62,18 +62,18 @@ with tempfile.TemporaryDirectory() as folder:
     assert row["commands"][1] in page, page
     assert "<svg" in (out / "cables.svg").read_text()
 
-    # What is complete serves again; a changed page is seen.
+    # Complete runs are reused; a changed page is detected.
     stamp = (work / "default/cables/report.json").stat().st_mtime_ns
     assert run("measure.py", *small, "--only", "accuracy", "--keep").returncode == 0
     assert (work / "default/cables/report.json").stat().st_mtime_ns == stamp
     assert run("result_tables.py", "--check", "--results", out).returncode == 0
     (out / "accuracy.md").write_text(page.replace("3 / 3", "2 / 3"))
-    told = run("result_tables.py", "--check", "--results", out)
-    assert told.returncode == 1 and "accuracy.md" in told.stderr, told
+    stale = run("result_tables.py", "--check", "--results", out)
+    assert stale.returncode == 1 and "accuracy.md" in stale.stderr, stale
     assert run("result_tables.py", "--results", out).returncode == 0
     assert (out / "accuracy.md").read_text() == page
 
-    # Blocks of a document: filled, filled anew, and a table without a measurement says so.
+    # Blocks of a document: filled, refilled, and a note for a table without a measurement.
     results = {"accuracy": result}
     end = "<!-- end of table -->\n"
     text = f"before\n<!-- table: accuracy -->\nold\n{end}after\n<!-- table: speed -->\n{end}"
@@ -82,7 +82,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert "Not measured yet" in filled, filled
     assert filled.startswith("before\n") and "<!-- end of table -->\nafter\n" in filled, filled
 
-    # Other paths have a table of their own; of a disturbance every value has its column, with what was lost.
+    # Other paths have a separate table; each value of a disturbance has a column, with the lost frames.
     handheld = {**row, "title": "rendered cables, handheld", "sequence": "cables-handheld"}
     results["accuracy"] = {**result, "rows": [row, handheld]}
     assert "handheld" not in result_tables.render("systems", results)
@@ -100,7 +100,7 @@ with tempfile.TemporaryDirectory() as folder:
     shown = result_tables.render("disturbances", results)
     assert "|  | facade | 1.23 |  | -, 3 lost |  |" in shown and "5 frames each" in shown, shown
 
-    # A program that fails is said, with its complaint; figures of a few frames do not get into the documentation.
+    # A failing program is reported with its message; figures of a few frames do not get into the documentation.
     failed = run(
         "measure.py",
         "--quadedge",

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Gives scripts/truth_consistency.py a ground truth with known faults: it has to find them, and nothing where there are
-none.
+"""Gives scripts/truth_consistency.py a ground truth with known errors, which it must find, and one without any.
 
 test_truth_consistency.py SCRIPT
 """
@@ -19,7 +18,7 @@ LATE, ARM, SCALE = 0.006, np.array([0.02, -0.01, 0.03]), 0.002  # s, m in the bo
 
 
 def poses(time):
-    """A smooth flight: positions, and quaternions x, y, z, w of turns about a moving axis."""
+    """A smooth flight: positions, and quaternions x, y, z, w of rotations about a moving axis."""
     position = np.stack([np.sin(1.1 * time), 0.7 * np.cos(1.7 * time), 0.3 * np.sin(2.3 * time)], 1)
     turn = 0.4 * np.stack([np.sin(1.3 * time), np.cos(0.9 * time), np.sin(2.1 * time + 1)], 1)
     angle = np.linalg.norm(turn, axis=1, keepdims=True)
@@ -35,7 +34,7 @@ def matrices(quaternion):
 
 
 def examine(folder, late, arm, scale):
-    """Writes a truth that says positions `late`, of a point `arm` beside the body and `scale` too long."""
+    """Writes a ground truth with positions that are `late`, of a point `arm` off the body, and too long by `scale`."""
     truth, results = folder / "mav0" / "state_groundtruth_estimate0", folder / "results"
     for made in (truth, folder / "mav0" / "cam0", results):
         made.mkdir(parents=True, exist_ok=True)
@@ -67,9 +66,9 @@ with tempfile.TemporaryDirectory() as folder:
     assert [row["promised_mm"] for row in right["rows"]] == [row["frames"] for row in right["rows"]], right
 
     faulty = examine(Path(folder) / "faulty", LATE, ARM, SCALE)
-    assert abs(faulty["rotation_offset_ms"]) < 0.2, faulty  # the orientations have the images' time
+    assert abs(faulty["rotation_offset_ms"]) < 0.2, faulty  # the orientations' timestamps are those of the images
     found = faulty["constants"]
-    # Positions are late by the constant; scale and arm are what the estimate lacks of the truth.
+    # Positions are late by the constant; scale and arm are negative, from the ground truth to the estimate.
     assert abs(found["position time"] - LATE) < 5e-4, found
     assert abs(found["scale"] + SCALE) < 5e-4, found
     for axis, part in zip("xyz", ARM):

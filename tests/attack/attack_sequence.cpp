@@ -15,9 +15,9 @@ using namespace quadedge;
 namespace {
 
 constexpr int kWidth = 480, kHeight = 249;
-constexpr double kFocal = 276;  // px; the field of view of the scenes' own size
+constexpr double kFocal = 276;  // px; gives the field of view of full-size scenes
 
-/// 0 to 1, the same for the same cell of a grid.
+/// A value from 0 to 1 that depends only on the grid cell.
 double cell_value(int x, int y, unsigned salt) {
   unsigned hash = static_cast<unsigned>(x) * 374761393U + static_cast<unsigned>(y) * 668265263U + salt * 2246822519U;
   hash = (hash ^ (hash >> 13U)) * 1274126177U;
@@ -33,7 +33,7 @@ double smooth_noise(double x, double y, double period, unsigned salt) {
          b * ((1 - a) * cell_value(i, j + 1, salt) + a * cell_value(i + 1, j + 1, salt));
 }
 
-/// A mosaic of squares whose borders are a pixel wide.
+/// A mosaic of squares with borders one pixel wide.
 double mosaic(double x, double y) {
   constexpr double kPeriod = 9;
   const double u = x / kPeriod, v = y / kPeriod;
@@ -123,9 +123,9 @@ const Sequence& recorded(const std::string& path, int frames) {
 void add_board(Sequence& sequence, const Board& board) {
   std::mt19937 random(11);
   const double height = std::min(0.9, std::sqrt(board.area)) * kHeight, width = board.area * kWidth * kHeight / height;
-  const double way = board.speed * static_cast<double>(sequence.size() - 1);
+  const double path = board.speed * static_cast<double>(sequence.size() - 1);
   const Image first_left = sequence.left.front(), first_right = sequence.right.front();
-  const auto noise = [&] {  // nearly normal, deviation 1.5
+  const auto noise = [&] {  // nearly normal, standard deviation 1.5
     double sum = 0;
     for (int k = 0; k < 4; ++k) sum += static_cast<double>(random() & 0xffffU) / 65535.0 - 0.5;
     return 1.5 * sum * std::sqrt(3.0);
@@ -138,7 +138,7 @@ void add_board(Sequence& sequence, const Board& board) {
     }
     for (const bool is_left : {true, false}) {
       Image& image = is_left ? sequence.left[i] : sequence.right[i];
-      const double x0 = 0.5 * (kWidth - width) - 0.5 * way + board.speed * static_cast<double>(i) -
+      const double x0 = 0.5 * (kWidth - width) - 0.5 * path + board.speed * static_cast<double>(i) -
                         (is_left ? 0 : board.disparity),
                    y0 = 0.5 * (kHeight - height);
       for (int y = 0; y < image.height; ++y) {
@@ -165,7 +165,7 @@ void show_checkerboard(Sequence& sequence, double cell, double speed, double dis
       const double shift = at + (is_left ? 0 : disparity);
       for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-          // The mean over the pixel: borders are a pixel wide.
+          // The mean over the pixel: borders are one pixel wide.
           const auto stripe = [&](double u) {
             const double place = u / cell - 2 * std::floor(u / (2 * cell));
             const double from_border = std::min({place, std::abs(place - 1), 2 - place}) * cell;

@@ -1,6 +1,5 @@
 #pragma once
-/// \file attack_sequence.hpp  Sequences that attacks are made of: rendered or recorded frames in memory, and what can
-/// be done to them.
+/// \file attack_sequence.hpp  Sequences for attacks: rendered or recorded frames in memory, and alterations of them.
 
 #include <functional>
 #include <string>
@@ -12,7 +11,7 @@
 
 namespace attack {
 
-/// A sequence with its calibration, as the odometry is told it, and its true poses.
+/// A sequence with its true poses and the calibration that the odometry gets.
 struct Sequence {
   quadedge::StereoRig rig;
   quadedge::Config config;
@@ -25,32 +24,32 @@ struct Sequence {
   }
 };
 
-/// What is done to a sequence.
+/// A change to a sequence.
 using Alteration = std::function<void(Sequence&)>;
 
 /// Frames of a built-in scene, 480 x 249 px, every `step`-th; rendered once per process.
 const Sequence& rendered(const std::string& scene, int frames, int step = 1, double blur = 0, double light = 1,
                          double noise = 1.5);
 
-/// The first frames of a recording below the folder QUADEDGE_DATA; empty where there is none.
+/// The first frames of a recording below the folder QUADEDGE_DATA; empty if there is none.
 const Sequence& recorded(const std::string& path, int frames);
 
 /// An image whose pixel (x, y) is that of `image` at from(x, y), bilinear; black outside.
 quadedge::Image warp(const quadedge::Image& image, int width, int height,
                      const std::function<Eigen::Vector2d(double, double)>& from);
 
-/// A still camera before which a board moves.
+/// A board that moves in front of the camera.
 struct Board {
-  double area = 0.3;         ///< of the left image that it covers, in the middle of its way
+  double area = 0.3;         ///< fraction of the left image that it covers, halfway along its path
   double speed = 4;          ///< [px per frame]
   double disparity = 11;     ///< nearer than the scene [px]
-  bool fine = false;         ///< texture: a mosaic of squares, or else blobs
-  bool still_camera = true;  ///< the scene is that of the first frame, with camera noise of its own
+  bool fine = false;         ///< texture: a mosaic of squares instead of blobs
+  bool still_camera = true;  ///< all frames show the scene of the first one, each with new camera noise
 };
 void add_board(Sequence& sequence, const Board& board);
 
-/// Every image becomes that of a checkerboard across the whole view, which the camera passes sideways by `speed` px per
-/// frame. \param cell side of a field [px] \param disparity [px]
+/// Every image shows a checkerboard across the whole view, which the camera passes sideways by `speed` px per frame.
+/// \param cell side of a square [px] \param disparity [px]
 void show_checkerboard(Sequence& sequence, double cell, double speed, double disparity);
 
 }  // namespace attack

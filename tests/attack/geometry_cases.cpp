@@ -28,7 +28,7 @@ Alteration right_image(std::function<Eigen::Vector2d(const Sequence&, double, do
   };
 }
 
-/// The calibration says that the right camera is turned by so many degrees; it is not.
+/// The calibration rotates the right camera by this angle, but the camera is not rotated.
 Alteration right_turned(double degrees, const Eigen::Vector3d& axis) {
   return [=](Sequence& s) {
     s.rig.right_from_left.linear() =
@@ -45,7 +45,7 @@ Eigen::Vector2d turned_by(const Sequence& s, double x, double y, int quarters) {
 
 Eigen::Vector2d barrel(const PinholeCamera& camera, double x, double y) {
   const double u = (x - camera.cx) / camera.fx, v = (y - camera.cy) / camera.fy, r2 = u * u + v * v;
-  const double factor = 1 + 0.25 * r2;  // what a lens with k1 of about -0.25 does
+  const double factor = 1 + 0.25 * r2;  // like a lens with k1 of about -0.25
   return {camera.cx + camera.fx * u * factor, camera.cy + camera.fy * v * factor};
 }
 
@@ -96,7 +96,7 @@ Alteration boards_before_a_moving_camera(double area, bool fine) {
   return [=](Sequence& s) { add_board(s, {area, 4, 11, fine, false}); };
 }
 
-/// What is done to the pixels of every image, by the number of its frame.
+/// Changes the pixels of every image, depending on the frame number.
 Alteration every_pixel(std::function<double(double grey, int x, int y, int frame)> change) {
   return [change](Sequence& s) {
     for (auto* images : {&s.left, &s.right})
@@ -111,12 +111,12 @@ Alteration every_pixel(std::function<double(double grey, int x, int y, int frame
   };
 }
 
-/// A bar over 15 % of the height whose light is another, rolling by 20 px per frame.
+/// A darker bar over 15 % of the height, rolling by 20 px per frame.
 double rolling_bar(double grey, int, int y, int frame) { return (y + 20 * frame) % 249 < 37 ? 0.6 * grey : grey; }
 
 double exposure_ramp(double grey, int, int, int frame) { return grey * (0.6 + 0.1 * frame); }
 
-/// Every fifth frame is one of another scene.
+/// Every fifth frame comes from another scene.
 void foreign_frames(Sequence& s) {
   const Sequence& other = rendered("facade", 10);
   for (std::size_t i = 4; i < s.size(); i += 5) s.left[i] = other.left[i], s.right[i] = other.right[i];
@@ -135,61 +135,63 @@ std::vector<GeometryCase> make_cases() {
   const auto add = [&](const char* name, Demand demand, Sequence (*source)(), const Alteration& alteration) {
     cases.push_back({name, demand, source, alteration});
   };
-  // The rig does not fit.
-  add("left and right exchanged", Demand::told, room, exchange);
-  add("left and right exchanged, cables", Demand::told, cables, exchange);
-  add("left and right exchanged, facade", Demand::told, facade, exchange);
-  add("left and right exchanged, EuRoC", Demand::told, flight, exchange);
-  add("left and right exchanged, KITTI", Demand::told, drive, exchange);
-  add("sign of the baseline", Demand::told, room,
+  // The rig does not fit the images.
+  add("left and right exchanged", Demand::reported, room, exchange);
+  add("left and right exchanged, cables", Demand::reported, cables, exchange);
+  add("left and right exchanged, facade", Demand::reported, facade, exchange);
+  add("left and right exchanged, EuRoC", Demand::reported, flight, exchange);
+  add("left and right exchanged, KITTI", Demand::reported, drive, exchange);
+  add("sign of the baseline", Demand::reported, room,
       [](Sequence& s) { s.rig.right_from_left.translation() = -s.rig.right_from_left.translation(); });
-  add("both images mirrored", Demand::told, room, [](Sequence& s) { mirror(s.left), mirror(s.right); });
-  add("right image mirrored", Demand::told, room, [](Sequence& s) { mirror(s.right); });
-  add("right image a negative", Demand::told, room,
+  add("both images mirrored", Demand::reported, room, [](Sequence& s) { mirror(s.left), mirror(s.right); });
+  add("right image mirrored", Demand::reported, room, [](Sequence& s) { mirror(s.right); });
+  add("right image a negative", Demand::reported, room,
       [](Sequence& s) { std::for_each(s.right.begin(), s.right.end(), negate); });
-  add("right image turned by 90 degrees", Demand::told, room,
+  add("right image turned by 90 degrees", Demand::reported, room,
       right_image([](const Sequence& s, double u, double v) { return turned_by(s, u, v, 1); }));
-  add("right image turned by 180 degrees", Demand::told, room,
+  add("right image turned by 180 degrees", Demand::reported, room,
       right_image([](const Sequence& s, double u, double v) { return turned_by(s, u, v, 2); }));
-  add("left focal length 20 % up", Demand::told, room, [](Sequence& s) { s.rig.left.fx *= 1.2, s.rig.left.fy *= 1.2; });
-  add("left focal length 20 % up, cables", Demand::told, cables,
+  add("left focal length 20 % up", Demand::reported, room,
       [](Sequence& s) { s.rig.left.fx *= 1.2, s.rig.left.fy *= 1.2; });
-  add("right pitch 1 degree", Demand::told, room, right_turned(1, x));
-  add("right pitch 1 degree, cables", Demand::told, cables, right_turned(1, x));
-  add("right pitch 1 degree, EuRoC", Demand::told, flight, right_turned(1, x));
-  add("right pitch 3 degrees", Demand::told, room, right_turned(3, x));
-  add("right pitch 3 degrees, KITTI", Demand::told, drive, right_turned(3, x));
-  add("right yaw 2 degrees", Demand::told, room, right_turned(2, y));
-  add("right yaw -2 degrees", Demand::told, room, right_turned(-2, y));
-  add("right yaw 2 degrees, EuRoC", Demand::told, flight, right_turned(2, y));
-  add("right yaw -2 degrees, EuRoC", Demand::told, flight, right_turned(-2, y));
-  add("right roll 2 degrees", Demand::told, room, right_turned(2, z));
-  add("fy halved", Demand::told, room, [](Sequence& s) { s.rig.left.fy /= 2, s.rig.right.fy /= 2; });
-  add("right camera frozen", Demand::told, room,
+  add("left focal length 20 % up, cables", Demand::reported, cables,
+      [](Sequence& s) { s.rig.left.fx *= 1.2, s.rig.left.fy *= 1.2; });
+  add("right pitch 1 degree", Demand::reported, room, right_turned(1, x));
+  add("right pitch 1 degree, cables", Demand::reported, cables, right_turned(1, x));
+  add("right pitch 1 degree, EuRoC", Demand::reported, flight, right_turned(1, x));
+  add("right pitch 3 degrees", Demand::reported, room, right_turned(3, x));
+  add("right pitch 3 degrees, KITTI", Demand::reported, drive, right_turned(3, x));
+  add("right yaw 2 degrees", Demand::reported, room, right_turned(2, y));
+  add("right yaw -2 degrees", Demand::reported, room, right_turned(-2, y));
+  add("right yaw 2 degrees, EuRoC", Demand::reported, flight, right_turned(2, y));
+  add("right yaw -2 degrees, EuRoC", Demand::reported, flight, right_turned(-2, y));
+  add("right roll 2 degrees", Demand::reported, room, right_turned(2, z));
+  add("fy halved", Demand::reported, room, [](Sequence& s) { s.rig.left.fy /= 2, s.rig.right.fy /= 2; });
+  add("right camera frozen", Demand::reported, room,
       [](Sequence& s) { std::fill(s.right.begin(), s.right.end(), Image(s.right.front())); });
-  add("left camera frozen", Demand::told, room,
+  add("left camera frozen", Demand::reported, room,
       [](Sequence& s) { std::fill(s.left.begin(), s.left.end(), Image(s.left.front())); });
-  add("right camera frozen, EuRoC", Demand::told, flight,
+  add("right camera frozen, EuRoC", Demand::reported, flight,
       [](Sequence& s) { std::fill(s.right.begin(), s.right.end(), Image(s.right.front())); });
   const auto late = [](Sequence& s) {
     s.right.pop_back();
     s.left.erase(s.left.begin());
     s.world_from_left.erase(s.world_from_left.begin());
   };
-  add("right camera a frame late", Demand::told, room, late);
-  add("right camera a frame late, cables", Demand::told, cables, late);
-  add("right camera a frame late, EuRoC", Demand::told, flight, late);
-  add("distorted images as pinhole", Demand::told, room, distort);
-  add("distorted images as pinhole, facade", Demand::told, facade, distort);
-  add("distorted images as pinhole, EuRoC", Demand::told, flight,
+  add("right camera a frame late", Demand::reported, room, late);
+  add("right camera a frame late, cables", Demand::reported, cables, late);
+  add("right camera a frame late, EuRoC", Demand::reported, flight, late);
+  add("distorted images as pinhole", Demand::reported, room, distort);
+  add("distorted images as pinhole, facade", Demand::reported, facade, distort);
+  add("distorted images as pinhole, EuRoC", Demand::reported, flight,
       [](Sequence& s) { s.rig.left_undistortion = s.rig.right_undistortion = {}; });
-  add("max_disparity a third", Demand::told, room, [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
-  add("max_disparity a third, EuRoC", Demand::told, flight, [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
-  add("max_disparity 2 px", Demand::told, room, [](Sequence& s) { s.config.stereo.max_disparity = 2; });
-  add("min_depth 20 m", Demand::told, room,
+  add("max_disparity a third", Demand::reported, room, [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
+  add("max_disparity a third, EuRoC", Demand::reported, flight,
+      [](Sequence& s) { s.config.stereo.max_disparity /= 3; });
+  add("max_disparity 2 px", Demand::reported, room, [](Sequence& s) { s.config.stereo.max_disparity = 2; });
+  add("min_depth 20 m", Demand::reported, room,
       [](Sequence& s) { s.config.stereo.max_disparity = 0, s.config.stereo.min_depth = 20; });
   add("baseline three times", Demand::scale, room, [](Sequence& s) { s.rig.right_from_left.translation() *= 3; });
-  // What must go on working.
+  // Cases that must keep working.
   add("right camera of half the resolution", Demand::right, room, halve_right);
   add("right camera of half the resolution, cables", Demand::right, cables, halve_right);
   add("both focal lengths 20 % up", Demand::right, room, [](Sequence& s) {
@@ -208,7 +210,7 @@ std::vector<GeometryCase> make_cases() {
           if ((state >> 8U) % 1000 < 50) value = (state & 0x80000000U) != 0 ? 255 : 0;
         }
   });
-  add("shuffled frames", Demand::told, room, [](Sequence& s) {
+  add("shuffled frames", Demand::reported, room, [](Sequence& s) {
     const Sequence ordered = s;
     for (std::size_t i = 0; i < s.size(); ++i) {
       const std::size_t j = i * 7 % s.size();
@@ -218,24 +220,24 @@ std::vector<GeometryCase> make_cases() {
   add("exposure ramp", Demand::right, room, every_pixel(exposure_ramp));
   add("rolling bar", Demand::right, room, every_pixel(rolling_bar));
   add("rolling bar, cables", Demand::right, cables, every_pixel(rolling_bar));
-  add("foreign frames", Demand::told, room, foreign_frames);
+  add("foreign frames", Demand::reported, room, foreign_frames);
   add(
-      "every 8th frame, cables", Demand::told, [] { return rendered("cables", 8, 8); }, nothing);
+      "every 8th frame, cables", Demand::reported, [] { return rendered("cables", 8, 8); }, nothing);
   add(
-      "every 8th frame, room", Demand::told, [] { return rendered("room", 8, 8); }, nothing);
+      "every 8th frame, room", Demand::reported, [] { return rendered("room", 8, 8); }, nothing);
   add(
-      "every 16th frame, cables", Demand::told, [] { return rendered("cables", 6, 16); }, nothing);
+      "every 16th frame, cables", Demand::reported, [] { return rendered("cables", 6, 16); }, nothing);
   add(
-      "light x0.3 and noise 8, room", Demand::told, [] { return rendered("room", 10, 1, 0, 0.3, 8); }, nothing);
+      "light x0.3 and noise 8, room", Demand::reported, [] { return rendered("room", 10, 1, 0, 0.3, 8); }, nothing);
   add(
-      "light x0.3 and noise 8, cables", Demand::told, [] { return rendered("cables", 10, 1, 0, 0.3, 8); }, nothing);
+      "light x0.3 and noise 8, cables", Demand::reported, [] { return rendered("cables", 10, 1, 0, 0.3, 8); }, nothing);
   add(
-      "blur over the whole time, room", Demand::told, [] { return rendered("room", 10, 1, 0.85); }, nothing);
+      "blur over the whole time, room", Demand::reported, [] { return rendered("room", 10, 1, 0.85); }, nothing);
   add(
-      "blur over the whole time, cables", Demand::told, [] { return rendered("cables", 10, 1, 0.85); }, nothing);
-  add("checkerboard, 6 px per frame", Demand::told, room, [](Sequence& s) { show_checkerboard(s, 40, 6, 12); });
-  add("checkerboard, 37 px per frame", Demand::told, room, [](Sequence& s) { show_checkerboard(s, 40, 37, 12); });
-  // What moves is not the world.
+      "blur over the whole time, cables", Demand::reported, [] { return rendered("cables", 10, 1, 0.85); }, nothing);
+  add("checkerboard, 6 px per frame", Demand::reported, room, [](Sequence& s) { show_checkerboard(s, 40, 6, 12); });
+  add("checkerboard, 37 px per frame", Demand::reported, room, [](Sequence& s) { show_checkerboard(s, 40, 37, 12); });
+  // Moving boards.
   for (const double area : {0.1, 0.3, 0.45})
     for (const bool fine : {false, true})
       for (const auto source : {room, cables})
@@ -248,9 +250,8 @@ std::vector<GeometryCase> make_cases() {
       for (const bool fine : {false, true})
         cases.push_back({"still camera, board over " + std::to_string(static_cast<int>(100 * area)) + " %, " +
                              std::to_string(static_cast<int>(speed)) + " px" + (fine ? ", mosaic" : ""),
-                         area < 0.5 ? Demand::right : Demand::told, room, boards(area, speed, fine)});
-  // What is not solved. The counts are what was measured when the row was made; a change that mends a fault lowers
-  // them.
+                         area < 0.5 ? Demand::right : Demand::reported, room, boards(area, speed, fine)});
+  // Unsolved cases. The counts were measured when the row was added; a change that fixes a fault lowers them.
   const std::pair<const char*, int> open[] = {
       {"right camera a frame late", 3},
       {"right camera a frame late, cables", 5},
@@ -328,7 +329,7 @@ bool is_met(Demand demand, const Verdict& verdict) {
   switch (demand) {
     case Demand::sound: return verdict.right == steps && !verdict.has_warning;
     case Demand::right: return verdict.wrong + verdict.warned == 0 && 2 * verdict.right > steps;
-    case Demand::told: return verdict.wrong == 0;
+    case Demand::reported: return verdict.wrong == 0;
     case Demand::scale: return true;
   }
   return false;

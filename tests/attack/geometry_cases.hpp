@@ -1,5 +1,5 @@
 #pragma once
-/// \file geometry_cases.hpp  The table of attacks on the geometry. A new one is a row in geometry_cases.cpp.
+/// \file geometry_cases.hpp  The table of attacks on the geometry. To add one, add a row in geometry_cases.cpp.
 
 #include <string>
 #include <vector>
@@ -8,44 +8,45 @@
 
 namespace attack {
 
-/// What a case asks for.
+/// What a case requires.
 enum class Demand {
-  sound,  ///< all steps are right, and nothing is said
-  right,  ///< no step is wrong, and most are right; a warning does no harm
-  told,   ///< no step is wrong unless the run says so
-  scale,  ///< wrong by a scale that no image can tell; counted apart
+  sound,     ///< all steps are right, without a warning
+  right,     ///< no step is wrong, and most are right; warnings are allowed
+  reported,  ///< no step is wrong without a warning
+  scale,     ///< wrong by a scale that images cannot reveal; counted separately
 };
 
 constexpr int kSolved = -1;
-/// Steps by which an open row may differ on another processor: which of two motions wins hangs on little there.
+/// Steps by which an open row may differ on another processor, since a small difference decides between two motions.
 constexpr int kChance = 2;
 
 /// One attack.
 struct GeometryCase {
   std::string name;
   Demand demand;
-  Sequence (*source)();  ///< empty where the data is not there
+  Sequence (*source)();  ///< empty if the data is missing
   Alteration alteration;
-  /// Of an open fault, whose demand is not met: so many steps are wrong without a word. More of them fail the test.
+  /// For a known fault whose demand is not met: the number of steps that are wrong without a warning. More fail the
+  /// test.
   int open = kSolved;
 };
 
 const std::vector<GeometryCase>& geometry_cases();
 
-/// What became of the steps between consecutive frames of a run.
+/// The outcome of the steps between consecutive frames of a run.
 struct Verdict {
   int right = 0;
-  int wrong = 0;   ///< without a word
-  int warned = 0;  ///< wrong in a run that says that something is doubtful, or in a frame that says so
+  int wrong = 0;   ///< without a warning
+  int warned = 0;  ///< wrong in a run with a warning, or in a flagged frame
   int lost = 0;
   bool has_warning = false;
-  std::string words;  ///< the first thing that was said
+  std::string words;  ///< the first message or warning
 };
 
 /// A step is right within 5 mm + 20 % of the true motion and 0.3 degrees + 20 % of the true rotation.
 Verdict judge(const Sequence& sequence, const std::string& device, bool print_evidence = false);
 
-/// Does the verdict meet the demand?
+/// Whether the verdict meets the demand.
 bool is_met(Demand demand, const Verdict& verdict);
 
 }  // namespace attack

@@ -1,6 +1,6 @@
-/// \file main.cpp  Runs the attacks on the geometry and prints what became of them:
+/// \file main.cpp  Runs the attacks on the geometry and prints the outcomes:
 ///   quadedge_attack [--device NAME] [--evidence] [PART OF A NAME]
-/// Exit code 1 where a demand is not met that is not known to be open.
+/// Exit code 1 if a demand is not met and not a known open one.
 #include <cstdio>
 #include <cstring>
 
@@ -17,9 +17,9 @@ int main(int argc, char** argv) {
     else
       part = argv[i];
   }
-  const char* const demands[] = {"sound", "right", "told", "scale"};
+  const char* const demands[] = {"sound", "right", "reported", "scale"};
   int right = 0, wrong = 0, warned = 0, lost = 0, runs = 0, failed = 0, open = 0, skipped = 0, scaled = 0;
-  std::printf("%-50s %-6s %6s %6s %6s %6s  says\n", "case", "demand", "right", "wrong", "warned", "lost");
+  std::printf("%-50s %-8s %6s %6s %6s %6s  message\n", "case", "demand", "right", "wrong", "warned", "lost");
   for (const auto& row : attack::geometry_cases()) {
     if (row.name.find(part) == std::string::npos) continue;
     attack::Sequence sequence = row.source();
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     (row.demand == attack::Demand::scale ? scaled : wrong) += verdict.wrong;
     warned += verdict.warned;
     lost += verdict.lost;
-    std::printf("%-50s %-6s %6d %6d %6d %6d  %s%s\n", row.name.c_str(), demands[static_cast<int>(row.demand)],
+    std::printf("%-50s %-8s %6d %6d %6d %6d  %s%s\n", row.name.c_str(), demands[static_cast<int>(row.demand)],
                 verdict.right, verdict.wrong, verdict.warned, verdict.lost,
                 met       ? ""
                 : is_open ? "open: "
@@ -48,8 +48,8 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   std::printf(
-      "%d runs: %d steps right, %d wrong without a word, %d wrong and warned about, %d lost; %d wrong by the "
-      "baseline alone; %d demands are open, %d others not met, %d runs without their data\n",
+      "runs: %d; steps: %d right, %d wrong without a warning, %d wrong with a warning, %d lost, %d wrong only by the "
+      "length of the baseline; demands: %d open, %d others not met; runs without data: %d\n",
       runs, right, wrong, warned, lost, scaled, open, failed, skipped);
   return failed == 0 ? 0 : 1;
 }
