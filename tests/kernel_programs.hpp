@@ -15,6 +15,6 @@ inline cl::Program build_program(quadedge::opencl::Context& context, const std::
   std::string text = kernels.at("common.cl") + "\n" + kernels.at("layouts.cl") + "\n";
   for (const auto& file : files) text += kernels.at(file) + "\n";
   cl::Program program(context.context(), text + source);
-  program.build({context.device()}, "-cl-std=CL1.2 -cl-kernel-arg-info");
+  program.build({context.device()}, context.build_options().c_str());
   return program;
 }

@@ -24,27 +24,6 @@ TEST_CASE("devices: a choice that matches nothing lists what there is", "[device
   CHECK_THROWS_AS(Device("99"), DeviceError);
 }
 
-TEST_CASE("kernels: a wrong host signature is refused with the argument's name", "[device]") {
-  for (const auto& index : all_devices()) {
-    Device device(index);  // a kept program may have no names of arguments
-    auto& context = *device.context();
-    const auto program = context.program({"undistortion.cl"}, {});
-    using Right = opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
-                                 opencl::Out<cl_uchar>, cl_int>;
-    using FloatForInt = opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
-                                       opencl::Out<cl_uchar>, cl_float>;
-    using Writable = opencl::Kernel<opencl::Out<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
-                                    opencl::Out<cl_uchar>, cl_int>;
-    using TooFew = opencl::Kernel<opencl::In<cl_uchar>>;
-    CHECK_NOTHROW(Right(context, program, "undistort"));
-    CHECK_THROWS_WITH(FloatForInt(context, program, "undistort"),
-                      Contains("count") && Contains("float") && Contains("int"));
-    CHECK_THROWS_WITH(Writable(context, program, "undistort"), Contains("recorded") && Contains("const"));
-    CHECK_THROWS_WITH(TooFew(context, program, "undistort"), Contains("7 arguments"));
-    CHECK_THROWS_AS(Right(context, program, "no_such_kernel"), DeviceError);
-  }
-}
-
 TEST_CASE("kernels: a build error names file, line, device and options", "[device]") {
   const TemporaryFolder folder;
   for (const char* first : {"common.cl", "layouts.cl"}) std::ofstream(folder / first) << "// nothing\n";

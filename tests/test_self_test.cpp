@@ -112,3 +112,51 @@ TEST_CASE("self-test: the verdict is kept, shown by `devices`, and one that is d
     std::ofstream(entry.path()) << "{";
   CHECK_THAT(devices(), Contains("self-test: not yet"));
 }
+
+TEST_CASE("self-test: `auto` goes on to the next device with a warning, a device named by hand ends the run",
+          "[selftest][cli]") {
+  const TemporaryFolder folder;
+  // PoCL offers two devices, and the verdict on the first one is changed to a failure.
+  const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "' POCL_DEVICES='pthread basic'";
+  std::ofstream(folder / "image.pgm") << "P5 40 40 255\n" + std::string(1600, '2');
+  const auto edges = [&](const std::vector<std::string>& device) {
+    std::vector<std::string> arguments = {"edges", folder / "image.pgm"};
+    arguments.insert(arguments.end(), device.begin(), device.end());
+    return run_program(arguments, environment);
+  };
+  if (edges({"--device", "1"}).code != 0) {
+    WARN("there is no second device");
+    return;
+  }
+  std::filesystem::remove_all(folder / "cache/quadedge/self_tests");
+  REQUIRE(edges({"--device", "0"}).code == 0);
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "cache/quadedge/self_tests")) {
+    std::string text = read_text(entry.path());
+    const std::string passed = "\"stage\": \"\"";
+    REQUIRE(text.find(passed) != std::string::npos);
+    std::ofstream(entry.path()) << text.replace(text.find(passed), passed.size(), "\"stage\": \"patches\"");
+  }
+  const auto automatic = edges({});
+  CHECK(automatic.code == 0);
+  CHECK_THAT(automatic.err, Contains("warning: device 0 is skipped: ") && Contains("computes wrongly, stage patches") &&
+                                Contains("trying device 1"));
+  const auto by_hand = edges({"--device", "0"});
+  CHECK(by_hand.code == 4);
+  CHECK_THAT(by_hand.err, Contains("computes wrongly, stage patches") && !Contains("skipped"));
+  CHECK(edges({"--device", "0", "--trust"}).code == 0);
+}
+
+TEST_CASE("self-test: where division is not rounded correctly, programs are built without it and the tolerance decides",
+          "[selftest]") {
+  constexpr const char* kOption = "-cl-fp32-correctly-rounded-divide-sqrt";
+  DeviceOptions options;
+  options.limits.exact_divide_sqrt = GENERATE(true, false);
+  const bool offered = list_devices().front().single_precision.exact_divide_sqrt;
+  if (*options.limits.exact_divide_sqrt && !offered) return;  // the driver would refuse the option
+  Device device("0", options);
+  CHECK(device.info().single_precision.exact_divide_sqrt == *options.limits.exact_divide_sqrt);
+  CHECK(self_test(device).passed());
+  REQUIRE_FALSE(device.context()->programs().empty());
+  for (const auto& program : device.context()->programs())
+    CHECK((program.find(kOption) != std::string::npos) == *options.limits.exact_divide_sqrt);
+}

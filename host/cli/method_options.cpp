@@ -1,5 +1,6 @@
 #include "cli/method_options.hpp"
 
+#include "cli/console.hpp"
 #include "cli/self_test_verdict.hpp"
 #include "data/user_folder.hpp"
 #include "opencl/variants.hpp"
@@ -19,6 +20,8 @@ std::string heading(const std::string& section) {
   }
   return kShared;
 }
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// The verdict on a device. With kernels from a folder it is found anew: they are being worked on.
 SelfTestResult verdict(Device& device, const std::map<std::string, std::string>& variants, bool own_kernels) {
@@ -61,12 +64,16 @@ Config MethodOptions::config() const {
   return config;
 }
 
-Device MethodOptions::open_device(bool profiling, SelfTestResult* test) const {
-  DeviceOptions options;
-  options.kernel_folder = kernels_;
-  options.profiling = profiling;
-  if (!data::cache_folder().empty()) options.program_folder = data::cache_folder() + "/programs";
-  Device device(device_, options);
+std::vector<std::string> MethodOptions::choices() const {
+  if (device_ != "auto") return {device_};
+  std::vector<std::string> numbers;
+  for (const auto& device : by_preference(list_devices())) numbers.push_back(std::to_string(device.index));
+  if (numbers.empty()) numbers.push_back(device_);  // fails, and says what to install
+  return numbers;
+}
+
+Device MethodOptions::open_device(const std::string& choice, const DeviceOptions& options, SelfTestResult* test) const {
+  Device device(choice, options);
   const SelfTestResult result = verdict(device, config().variants, kernels_.empty());
   if (test != nullptr) *test = result;
   if (!result.passed() && !trusts_) {
@@ -75,6 +82,23 @@ Device MethodOptions::open_device(bool profiling, SelfTestResult* test) const {
                       ". Expected another device or driver (`quadedge devices`), or --trust to go on with this one");
   }
   return device;
+}
+
+Device MethodOptions::open_device(bool profiling, SelfTestResult* test) const {
+  DeviceOptions options;
+  options.kernel_folder = kernels_;
+  options.profiling = profiling;
+  if (!data::cache_folder().empty()) options.program_folder = data::cache_folder() + "/programs";
+  const std::vector<std::string> all = choices();
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    try {
+      return open_device(all[i], options, test);
+    } catch (const DeviceError& error) {
+      note(false, "warning: device " + all[i] + " is skipped: " + first_line(error.what()) + "; trying device " +
+                      all[i + 1] + " (--device " + all[i] + " would end here)");
+    }
+  }
+  return open_device(all.back(), options, test);
 }
 
 }  // namespace quadedge::cli

@@ -20,8 +20,9 @@ class MethodOptions {
   void assume_exact_rig();
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;
-  /// Opens the device and, the first time that this program meets it with this driver, tests it. \param test receives
-  /// the verdict \throws DeviceError for one that computes wrongly, unless --trust is given.
+  /// Opens the device and runs its self-test, unless this program has a verdict on it with this driver. With `auto` a
+  /// device that fails is skipped with a warning as long as there is another. \param test receives the verdict
+  /// \throws DeviceError for a device that computes wrongly, unless --trust is given.
   Device open_device(bool profiling = false, SelfTestResult* test = nullptr) const;
   /// What --device says.
   const std::string& device_choice() const { return device_; }
@@ -31,6 +32,10 @@ class MethodOptions {
   const std::string& kernel_folder() const { return kernels_; }
 
  private:
+  /// What to open, in this order until a device passes.
+  std::vector<std::string> choices() const;
+  Device open_device(const std::string& choice, const DeviceOptions& options, SelfTestResult* test) const;
+
   Config config_;
   std::string device_ = "auto";
   bool trusts_ = false;

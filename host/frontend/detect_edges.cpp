@@ -29,6 +29,7 @@ EdgeSet detect_edges(const ImageView& image, Device& device, const Config& confi
     stages::EdgeDetection detection(context, image.width, image.height, config.edges, config.variants);
     opencl::Buffer<cl_uchar> pixels;
     stages::DeviceEdges device_edges;
+    const opencl::CopyGuard guard(context);  // of the image
     upload.run(image, pixels);
     plane.prepare(pixels);
     threshold.run(plane, nullptr);

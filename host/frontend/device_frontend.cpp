@@ -60,6 +60,7 @@ void DeviceFrontend::detect(DeviceRig& current) {
   threshold_.run(left_.plane, &right_.plane);
   left_.detection.find_maxima(left_.plane, threshold_.values());
   right_.detection.find_maxima(right_.plane, threshold_.values());
+  context_.flush();
   left_.mask.run(left_.detection.maxima());
   right_.mask.run(right_.detection.maxima());
   selection_.run(left_.detection.maxima(), right_.detection.maxima());
@@ -79,6 +80,7 @@ void DeviceFrontend::detect(DeviceRig& current) {
 }
 
 RigHandle DeviceFrontend::process(const StereoFrame& frame) {
+  const opencl::CopyGuard guard(context_);  // of the images, which belong to the caller
   DeviceRig& current = rigs_.next(calibration_);
   stages::DeviceStereoEdges& rig = current.on_device;
   left_.undistortion.run(frame.left, rig.left_image.pixels);
@@ -103,10 +105,12 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges, rig.left_patches,
                   epipolar_, candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
+  context_.flush();
   relaxation_.run(left_.edges, epipolar_, candidates_, clusters_, relaxed_);
   mutual_.run(left_.edges, right_.edges, right_.patches, epipolar_, clusters_, relaxed_, owners_, rig, current.edges);
   rig.has_sift = false;
   indexed_ = false;
+  context_.flush();  // the right patches, while the host goes on
   if (tap_ != nullptr) tap_stereo();
   return rigs_.current_handle();
 }
@@ -175,6 +179,7 @@ bool DeviceFrontend::match_fused(DeviceRig& base, const TemporalSearch& search, 
 
 void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, TemporalMatches& matches) {
   DeviceRig& base = rigs_.own(base_rig);
+  const opencl::CopyGuard guard(context_);  // of the predictions
   index_current();
   predicted_.write(context_, {search.left, search.right});
   if (tap_ != nullptr) {

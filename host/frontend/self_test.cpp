@@ -1,22 +1,51 @@
 #include "quadedge/self_test.hpp"
 
 #include "frontend/self_test_record.hpp"
+#include "opencl/context.hpp"
 #include "stages/long_loop.hpp"
 
 namespace quadedge {
+namespace {
+
+/// Compares kernels with their host signatures while it exists.
+class KernelCheck {
+ public:
+  explicit KernelCheck(opencl::Context* context) : context_(context) {
+    if (context_ != nullptr) context_->check_kernels(true);
+  }
+  ~KernelCheck() {
+    if (context_ != nullptr) context_->check_kernels(false);
+  }
+  KernelCheck(const KernelCheck&) = delete;
+  KernelCheck& operator=(const KernelCheck&) = delete;
+
+  /// The faults found so far, to follow a sentence.
+  std::string text() const {
+    std::string text;
+    if (context_ == nullptr) return text;
+    for (const auto& fault : context_->kernel_faults()) text += "; " + fault;
+    return text;
+  }
+
+ private:
+  opencl::Context* context_;
+};
+
+}  // namespace
 
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants) {
   constexpr double kAllowed = 0.02;  // fraction of the rows: different rounding changes decisions near a limit
+  const KernelCheck kernels(device.context());
   if (device.context() != nullptr) {
     // Checked first, because the recorded frames are small, so that no stage has long loops.
     const std::string difference = stages::long_loop_difference(*device.context());
-    if (!difference.empty()) return {"long_loop", difference};
+    if (!difference.empty()) return {"long_loop", difference + kernels.text()};
   }
   const frontend::SelfTestRecord stored = frontend::parse_self_test(frontend::stored_self_test());
   const auto found = frontend::observe_stages(stored.sequence, device, variants);
   for (std::size_t i = 0; i < stored.stages.size(); ++i) {
     const std::string difference = frontend::difference(found.at(i), stored.stages[i], kAllowed);
-    if (!difference.empty()) return {stored.stages[i].stage, difference};
+    if (!difference.empty()) return {stored.stages[i].stage, difference + kernels.text()};
   }
   return {};
 }

@@ -40,9 +40,25 @@ class Buffer {
     }
     context_ = &context;
     capacity_ = wanted;
-    context.account(static_cast<std::ptrdiff_t>(wanted * sizeof(T)));
+    own_bytes_ = static_cast<std::ptrdiff_t>(wanted * sizeof(T));
+    context.account(own_bytes_);
   }
 
+  /// Becomes `count` elements of `block`, from byte `offset` on, a multiple of Context::region_alignment(): several
+  /// arrays that are read together stand in one piece of memory.
+  void place(Context& context, const Buffer<cl_uchar>& block, std::size_t offset, std::size_t count) {
+    release();
+    const cl_buffer_region region{offset, count * sizeof(T)};
+    cl_int status = CL_SUCCESS;
+    memory_ = cl::Buffer(
+        clCreateSubBuffer(block.memory()(), CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region, &status), false);
+    if (status != CL_SUCCESS) throw_device_error("placing an array in a block", status, context.name());
+    context_ = &context;
+    capacity_ = count;
+  }
+
+  /// Null without memory.
+  Context* context() const { return context_; }
   std::size_t capacity() const { return capacity_; }
   const cl::Buffer& memory() const { return memory_; }
 
@@ -51,10 +67,13 @@ class Buffer {
     if (count == 0) return;
     context_->count_wait();
     enqueue_write(values, count, CL_TRUE);
+    context_->copies_done();
   }
   /// The same without waiting: `values` must stay as they are until the next read() of any buffer of the context.
   void write_later(const T* values, std::size_t count) {
-    if (count > 0) enqueue_write(values, count, CL_FALSE);
+    if (count == 0) return;
+    enqueue_write(values, count, CL_FALSE);
+    context_->copy_started();
   }
   void write(Context& context, const std::vector<T>& values) {
     ensure(context, values.size());
@@ -65,11 +84,14 @@ class Buffer {
     if (count == 0) return;
     context_->count_wait();
     enqueue_read(values, count, offset, CL_TRUE);
+    context_->copies_done();
   }
   /// The same without waiting: `values` are there after the next read() of any buffer of the context, and must live
   /// until then.
   void read_later(T* values, std::size_t count, std::size_t offset = 0) const {
-    if (count > 0) enqueue_read(values, count, offset, CL_FALSE);
+    if (count == 0) return;
+    enqueue_read(values, count, offset, CL_FALSE);
+    context_->copy_started();
   }
   std::vector<T> read(std::size_t count, std::size_t offset = 0) const {
     std::vector<T> values(count);
@@ -95,14 +117,19 @@ class Buffer {
     std::swap(context_, other.context_);
     std::swap(memory_, other.memory_);
     std::swap(capacity_, other.capacity_);
+    std::swap(own_bytes_, other.own_bytes_);
   }
 
  private:
   void release() noexcept {
-    if (context_ != nullptr) context_->account(-static_cast<std::ptrdiff_t>(capacity_ * sizeof(T)));
+    if (context_ != nullptr) {
+      context_->finish_copies();  // they may use host memory that is freed together with this
+      context_->account(-own_bytes_);
+    }
     memory_ = cl::Buffer();
     context_ = nullptr;
     capacity_ = 0;
+    own_bytes_ = 0;
   }
   cl::Event* watch() const { return context_->watch(Context::Command::transfer); }
   void enqueue_write(const T* values, std::size_t count, cl_bool blocking) {
@@ -130,6 +157,7 @@ class Buffer {
   Context* context_ = nullptr;
   cl::Buffer memory_;
   std::size_t capacity_ = 0;
+  std::ptrdiff_t own_bytes_ = 0;  ///< none where the memory belongs to a block
 };
 
 }  // namespace quadedge::opencl

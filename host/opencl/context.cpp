@@ -43,6 +43,13 @@ void Context::take_limits(const DeviceLimits& wished) {
   limits_.group_items = wished.group_items.value_or(device_.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>());
   limits_.local_bytes = wished.local_bytes.value_or(has_local ? device_.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() : 0);
   limits_.memory_bytes = wished.memory_bytes.value_or(device_.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>());
+  limits_.compute_units = device_.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  limits_.region_alignment = std::max<std::size_t>(device_.getInfo<CL_DEVICE_MEM_BASE_ADDR_ALIGN>() / 8, 1);
+  limits_.launches = wished.launches;
+  const auto single = device_.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
+  limits_.exact_divide_sqrt = wished.exact_divide_sqrt.value_or((single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0);
+  build_options_ = "-cl-std=CL1.2 -cl-kernel-arg-info";
+  if (limits_.exact_divide_sqrt) build_options_ += " -cl-fp32-correctly-rounded-divide-sqrt";
 }
 
 std::string Context::kernel_text(const std::string& file) const {
@@ -91,7 +98,7 @@ std::optional<cl::Program> Context::find_kept(const std::string& key, const std:
 }
 
 cl::Program Context::program(const std::vector<std::string>& files, const Defines& defines) {
-  std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
+  std::string options = build_options_;
   for (const auto& [key, value] : defines) options += " -D" + key + "=" + value;
   std::string key = options;
   for (const auto& file : files) key += " " + file;
@@ -125,6 +132,21 @@ void Context::finish() {
   } catch (const cl::Error& error) {
     throw_device_error("waiting for the device", error.err(), name_);
   }
+  copies_done();
+}
+
+void Context::flush() {
+  try {
+    queue_.flush();
+  } catch (const cl::Error& error) {
+    throw_device_error("submitting commands", error.err(), name_);
+  }
+}
+
+void Context::finish_copies() noexcept {
+  if (!copies_in_flight_) return;
+  copies_done();
+  clFinish(queue_());
 }
 
 void Context::account(std::ptrdiff_t bytes) {

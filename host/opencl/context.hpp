@@ -30,9 +30,12 @@ struct StageProfile {
   double wall_ms() const { return kernel_ms + transfer_ms + queue_ms; }
 };
 
-/// What the kernels' launches and arrays have to keep to.
+/// Limits of the device that launches, arrays and build options respect.
 struct Limits {
   std::size_t group_items = 0, local_bytes = 0, memory_bytes = 0;
+  std::size_t compute_units = 1, region_alignment = 1;
+  bool exact_divide_sqrt = false;  ///< kernels are built with correctly rounded division and square root
+  std::optional<std::size_t> launches;
 };
 
 /// Owns context, queue and programs. Not copyable; everything made from it must die before it.
@@ -40,6 +43,7 @@ class Context {
  public:
   /// \throws DeviceError for a device that cannot store bytes.
   Context(cl::Device device, const DeviceOptions& options);
+  ~Context() { finish_copies(); }
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
@@ -51,6 +55,8 @@ class Context {
     return queue_;
   }
   const std::string& name() const { return name_; }
+  /// Bytes that the start of a region within a buffer is a multiple of.
+  std::size_t region_alignment() const { return limits_.region_alignment; }
   /// Whether kernels are chosen as for a CPU.
   bool is_cpu() const { return is_cpu_; }
   const Limits& limits() const { return limits_; }
@@ -67,8 +73,31 @@ class Context {
   /// Time spent on building and loading programs so far [ms].
   double build_ms() const { return build_ms_; }
 
+  /// Options that every program is built with, before its defines.
+  const std::string& build_options() const { return build_options_; }
+
+  /// From now on kernels are compared with their host signatures when they are created. For tests and the self-test:
+  /// drivers may spell types in ways that nobody foresaw, so that a difference alone does not end a run.
+  void check_kernels(bool checks) { checks_kernels_ = checks; }
+  bool checks_kernels() const { return checks_kernels_; }
+  /// What check_kernels() has found, one sentence per fault.
+  const std::vector<std::string>& kernel_faults() const { return kernel_faults_; }
+  void add_kernel_faults(const std::vector<std::string>& faults) {
+    kernel_faults_.insert(kernel_faults_.end(), faults.begin(), faults.end());
+  }
+
   /// Waits until everything enqueued is done.
   void finish();
+  /// Submits everything enqueued so far, so that the device starts while the host goes on.
+  void flush();
+
+  /// A copy that uses host memory was enqueued without waiting for it.
+  void copy_started() { copies_in_flight_ = true; }
+  /// The host has waited for everything enqueued before.
+  void copies_done() { copies_in_flight_ = false; }
+  /// Waits for copies that still use host memory. Destructors of that memory's owners call it; a device that fails by
+  /// then has reported its fault already.
+  void finish_copies() noexcept;
 
   /// Bytes held by buffers now and at most.
   std::size_t bytes() const { return bytes_; }
@@ -81,7 +110,11 @@ class Context {
     std::size_t launches = 0, writes = 0, to_device = 0, to_host = 0, waits = 0;
   };
   const Traffic& traffic() const { return traffic_; }
-  void count_launch() { ++traffic_.launches; }
+  /// \throws cl::Error where DeviceLimits::launches is used up.
+  void count_launch() {
+    if (limits_.launches && traffic_.launches >= *limits_.launches) throw cl::Error(CL_OUT_OF_RESOURCES);
+    ++traffic_.launches;
+  }
   void count_to_device(std::size_t bytes) {
     ++traffic_.writes;
     traffic_.to_device += bytes;
@@ -117,6 +150,10 @@ class Context {
   std::string kernel_folder_;
   ProgramCache cache_;
   Limits limits_;
+  std::string build_options_;
+  bool checks_kernels_ = false;
+  std::vector<std::string> kernel_faults_;
+  bool copies_in_flight_ = false;
   bool profiling_ = false;
   bool is_cpu_ = false;
   double build_ms_ = 0;
@@ -131,6 +168,19 @@ class Context {
   };
   std::deque<Watched> watched_;  ///< in the order of the queue; events stay where they are
   std::vector<StageProfile> last_profile_;
+};
+
+/// Waits at the end of a block for copies that still use host memory, as they do when an exception is thrown before the
+/// block's own wait. Declare it after the memory that it protects.
+class CopyGuard {
+ public:
+  explicit CopyGuard(Context& context) : context_(context) {}
+  ~CopyGuard() { context_.finish_copies(); }
+  CopyGuard(const CopyGuard&) = delete;
+  CopyGuard& operator=(const CopyGuard&) = delete;
+
+ private:
+  Context& context_;
 };
 
 }  // namespace quadedge::opencl

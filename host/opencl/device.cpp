@@ -24,6 +24,18 @@ std::string type_name(cl_device_type type) {
   return "accelerator";
 }
 
+FloatSupport float_support(const cl::Device& device) {
+  const cl_device_fp_config config = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
+  FloatSupport support;
+  support.fma = (config & CL_FP_FMA) != 0;
+  support.denormals = (config & CL_FP_DENORM) != 0;
+  support.rounds_to_nearest = (config & CL_FP_ROUND_TO_NEAREST) != 0;
+  support.rounds_to_zero = (config & CL_FP_ROUND_TO_ZERO) != 0;
+  support.rounds_to_infinity = (config & CL_FP_ROUND_TO_INF) != 0;
+  support.exact_divide_sqrt = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+  return support;
+}
+
 /// Serialised: while one thread initialises PoCL (pocl_init_devices), clGetDeviceIDs returns at once in other threads,
 /// with no devices or with half-initialised ones.
 std::vector<FoundDevice> find_devices() {
@@ -56,6 +68,7 @@ std::vector<FoundDevice> find_devices() {
         info.type = type_name(device.getInfo<CL_DEVICE_TYPE>());
         info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
         info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+        info.single_precision = float_support(device);
         found.push_back({info, device});
       } catch (const cl::Error&) {
         continue;  // a device that cannot even describe itself cannot be used
@@ -81,9 +94,9 @@ std::optional<std::size_t> first_of_type(const std::vector<FoundDevice>& devices
 std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const std::string& choice) {
   if (devices.empty()) return std::nullopt;
   if (choice == "auto") {
-    if (const auto gpu = first_of_type(devices, "gpu")) return gpu;
-    if (const auto cpu = first_of_type(devices, "cpu")) return cpu;
-    return 0;
+    std::vector<DeviceInfo> infos;
+    for (const auto& device : devices) infos.push_back(device.info);
+    return static_cast<std::size_t>(by_preference(infos).front().index);
   }
   if (choice == "cpu" || choice == "gpu") return first_of_type(devices, choice);
   if (!choice.empty() && std::all_of(choice.begin(), choice.end(), [](unsigned char c) { return std::isdigit(c); })) {
@@ -119,6 +132,13 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
+std::vector<DeviceInfo> by_preference(std::vector<DeviceInfo> devices) {
+  const auto rank = [](const DeviceInfo& device) { return device.type == "gpu" ? 0 : device.type == "cpu" ? 1 : 2; };
+  std::stable_sort(devices.begin(), devices.end(),
+                   [&](const DeviceInfo& a, const DeviceInfo& b) { return rank(a) < rank(b); });
+  return devices;
+}
+
 Device::Device(const std::string& choice, const DeviceOptions& options) {
   if (choice == "reference") {
     info_.index = -1;
@@ -128,6 +148,7 @@ Device::Device(const std::string& choice, const DeviceOptions& options) {
     info_.opencl = "-";
     info_.type = "reference";
     info_.compute_units = 1;
+    info_.single_precision = {true, true, true, false, false, true};
     return;
   }
   const auto devices = find_devices();
@@ -137,6 +158,7 @@ Device::Device(const std::string& choice, const DeviceOptions& options) {
   context_ = std::make_unique<opencl::Context>(devices[*chosen].device, options);
   if (options.limits.type) info_.type = *options.limits.type;
   info_.memory_bytes = context_->limits().memory_bytes;
+  info_.single_precision.exact_divide_sqrt = context_->limits().exact_divide_sqrt;
 }
 
 Device::~Device() = default;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file kernel.hpp  Kernels whose C++ signature is checked once against the built program.
+/// \file kernel.hpp  Kernels with a C++ signature, which tests and the self-test compare with the built program.
 
 #include <string>
 #include <utility>
@@ -51,7 +51,7 @@ struct TypeName<cl_ushort> {
   static constexpr const char* value = "ushort";
 };
 
-/// What a kernel argument has to look like in the built program.
+/// The type that a kernel argument is expected to have in the built program.
 struct ArgumentType {
   std::string type;
   bool global = false;
@@ -70,10 +70,36 @@ struct Describe<Out<T>> {
   static ArgumentType get() { return {std::string(TypeName<T>::value) + "*", true, false}; }
 };
 
-/// \throws DeviceError that names kernel, argument, what the program has and what the host passes.
-void check_signature(const cl::Kernel& kernel, const std::vector<ArgumentType>& expected, const Context& context);
+/// What a driver reports of a kernel argument. An empty type was not reported.
+struct ReportedArgument {
+  std::string name, type;
+  bool global = false, constant = false;
+};
 
-/// \throws DeviceError where the kernel takes more local memory than the device is to have.
+/// One spelling for all spellings of a type: "const unsigned int *" and "uint*" give "uint*", "struct FilterArguments"
+/// gives "FilterArguments".
+std::string canonical_type(const std::string& spelling);
+
+/// What differs between an argument and the type that the host passes; empty: nothing, or the type was not reported.
+std::string argument_difference(const ReportedArgument& reported, const ArgumentType& expected);
+
+/// The largest work-group of a kernel, and whether its source requires a size (reqd_work_group_size). Only kernels
+/// without a required size can run in smaller groups.
+struct GroupLimit {
+  std::size_t items = 1;
+  bool required = true;
+};
+
+/// \throws DeviceError where the driver does not answer.
+GroupLimit group_limit(const cl::Kernel& kernel, const std::string& name, const Context& context);
+
+/// Differences between a kernel and its host signature, one sentence each with kernel and argument; kernels that use
+/// local memory must require their group size.
+std::vector<std::string> kernel_faults(const cl::Kernel& kernel, const std::string& name,
+                                       const std::vector<ArgumentType>& expected, const GroupLimit& group,
+                                       const Context& context);
+
+/// \throws DeviceError where the kernel takes more local memory than the device has, or the driver does not answer.
 void check_local_memory(const cl::Kernel& kernel, const std::string& name, const Context& context);
 
 /// How many work-items to start; the global size is rounded up to whole work-groups.
@@ -96,17 +122,22 @@ class Kernel {
     } catch (const cl::Error& error) {
       throw_device_error("creating kernel " + name, error.err(), context.name());
     }
-    check_signature(kernel_, {Describe<Args>::get()...}, context);
     check_local_memory(kernel_, name, context);
+    group_ = group_limit(kernel_, name, context);
+    if (context.checks_kernels())
+      context.add_kernel_faults(kernel_faults(kernel_, name, {Describe<Args>::get()...}, group_, context));
   }
 
-  /// Enqueues the kernel. An empty range enqueues nothing. \throws DeviceError with kernel, sizes and device.
-  void operator()(const Range& range, Args... args) const {
+  /// Enqueues the kernel. An empty range enqueues nothing. Groups that are too large for the kernel on this device
+  /// become smaller where its source requires no size. \throws DeviceError with kernel, sizes and device.
+  void operator()(Range range, Args... args) const {
     if (range.x == 0 || range.y == 0) return;
+    while (!group_.required && range.local_x > 1 && range.local_x * range.local_y > group_.items)
+      range.local_x = (range.local_x + 1) / 2;
     const std::size_t global_x = (range.x + range.local_x - 1) / range.local_x * range.local_x;
     const std::size_t global_y = (range.y + range.local_y - 1) / range.local_y * range.local_y;
     try {
-      if (range.local_x * range.local_y > context_->limits().group_items) throw cl::Error(CL_INVALID_WORK_GROUP_SIZE);
+      if (range.local_x * range.local_y > group_.items) throw cl::Error(CL_INVALID_WORK_GROUP_SIZE);
       cl_uint index = 0;
       (set(index++, args), ...);
       context_->count_launch();
@@ -139,6 +170,7 @@ class Kernel {
   Context* context_ = nullptr;
   std::string name_;
   cl::Kernel kernel_;
+  GroupLimit group_;
 };
 
 }  // namespace quadedge::opencl

@@ -41,12 +41,21 @@ inline Json to_json(const LatencySummary& latency) {
           {"first", to_json(latency.first)}};
 }
 
+inline Json to_json(const FloatSupport& support) {
+  Json rounding = Json::array();
+  if (support.rounds_to_nearest) rounding.push_back("nearest");
+  if (support.rounds_to_zero) rounding.push_back("zero");
+  if (support.rounds_to_infinity) rounding.push_back("infinity");
+  return {{"fma", support.fma},
+          {"denormals", support.denormals},
+          {"rounding", rounding},
+          {"correctly_rounded_divide_sqrt", support.exact_divide_sqrt}};
+}
+
 inline Json to_json(const DeviceInfo& device) {
-  return {{"name", device.name},
-          {"platform", device.platform},
-          {"driver", device.driver},
-          {"opencl", device.opencl},
-          {"type", device.type}};
+  return {{"name", device.name},     {"platform", device.platform},
+          {"driver", device.driver}, {"opencl", device.opencl},
+          {"type", device.type},     {"single_precision", to_json(device.single_precision)}};
 }
 
 /// Adds what every result says of where it comes from: `version`, `commit` (null outside a checkout), `date` (UTC) and

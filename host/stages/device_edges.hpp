@@ -43,6 +43,7 @@ struct DeviceEdges {
   /// Copies the edges to the host; after read_count(). `height` of the image in pixels.
   EdgeSet read(int height) const {
     EdgeSet edges;
+    const opencl::CopyGuard guard(*packed.context());
     std::size_t block = 0;
     for (auto* values : {&edges.x, &edges.y, &edges.direction, &edges.strength, &edges.scale_drift}) {
       values->resize(static_cast<std::size_t>(host_count));

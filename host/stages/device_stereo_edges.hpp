@@ -2,18 +2,19 @@
 /// \file device_stereo_edges.hpp  The stereo edges of one rig on the device, with what the matching in time needs of
 /// them.
 
-#include <utility>
-
 #include "opencl/buffer.hpp"
+#include "opencl/read_back.hpp"
 #include "quadedge/edges.hpp"
 #include "stages/device_image.hpp"
 #include "stages/packed_positions.hpp"
 
 namespace quadedge::stages {
 
-/// Stereo edges in the scan order of their left edges. Everything a later frame needs stands here, so that the edges of
+/// Stereo edges in the scan order of their left edges, with everything that a later frame needs, so that the edges of
 /// the frame itself can be overwritten.
 struct DeviceStereoEdges {
+  opencl::Buffer<cl_uchar> block;  ///< holds the next five arrays, which the host reads in one copy
+  opencl::Buffer<cl_int> total;    ///< {number of rows, 0}
   opencl::Buffer<cl_int> left_index, right_index;
   /// Seven blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad], left scale drift [px].
   opencl::Buffer<cl_float> packed;
@@ -29,30 +30,18 @@ struct DeviceStereoEdges {
 
   PositionsView positions(Side side) const { return {packed, {3 * index_of(side) * stride, stride, count}}; }
 
-  /// Copies the rows to the host, and their number, which stands in `total` first; waits for the device once. As many
-  /// rows as there may be are copied, as their number is not known yet.
-  void read(const opencl::Buffer<cl_int>& total, StereoEdges& edges) {
-    const auto size = static_cast<std::size_t>(stride), step = size;
-    for (auto [buffer, values] :
-         {std::pair(&left_index, &edges.left_index), std::pair(&right_index, &edges.right_index)}) {
-      values->resize(size);
-      buffer->read_later(values->data(), size);
-    }
-    std::size_t block = 0;
-    for (auto* values : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y,
-                         &edges.right_direction, &edges.left_scale_drift}) {
-      values->resize(size);
-      packed.read_later(values->data(), size, step * block++);
-    }
-    edges.ncc.resize(size);
-    ncc.read_later(edges.ncc.data(), size);
-    total.read(&count, 1);
-    const auto found = static_cast<std::size_t>(count);
-    for (auto* values : {&edges.left_index, &edges.right_index}) values->resize(found);
-    for (auto* values : {&edges.left_x, &edges.left_y, &edges.left_direction, &edges.right_x, &edges.right_y,
-                         &edges.right_direction, &edges.left_scale_drift, &edges.ncc})
-      values->resize(found);
-  }
+  /// Makes room for `rows` stereo edges; contents are lost when it grows.
+  void reserve(opencl::Context& context, std::size_t rows);
+  /// Copies the rows to `edges` and their number to `count`; waits for the device once.
+  void read(opencl::Context& context, opencl::ReadBack& read_back, StereoEdges& edges);
+
+ private:
+  /// Where the arrays begin in the block [bytes].
+  struct Places {
+    std::size_t left_index = 0, right_index = 0, packed = 0, ncc = 0, end = 0;
+  };
+  Places places_;
+  std::size_t room_ = 0;  ///< rows
 };
 
 }  // namespace quadedge::stages

@@ -40,16 +40,12 @@ void StereoMutual::run(const DeviceEdges& left, const DeviceEdges& right, Patche
   claim_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed);
   owner_(range, arguments, relaxation.chosen, relaxation.score, clusters.anchor, mutual.claimed, mutual.owner);
   mutual_(range, arguments, relaxation.chosen, clusters.anchor, left.packed, mutual.owner, mutual.keep);
-  scan_.run(mutual.keep, n, n, mutual.keep_first, mutual.total);
-
+  result.reserve(context_, left_edges);
   result.stride = n;
-  result.left_index.ensure(context_, left_edges);
-  result.right_index.ensure(context_, left_edges);
-  result.packed.ensure(context_, 7 * left_edges);
-  result.ncc.ensure(context_, left_edges);
+  scan_.run(mutual.keep, n, n, mutual.keep_first, result.total);
   collect_(range, arguments, mutual.keep_first, relaxation.chosen, left.packed, clusters.packed, clusters.anchor,
            result.left_index, result.right_index, result.packed, result.ncc);
-  result.read(mutual.total, edges);
+  result.read(context_, read_back_, edges);
   right_patches.cut(result.positions(Side::right), result.right_patches);
 }
 

@@ -19,7 +19,7 @@ namespace quadedge::stages {
 struct DeviceMutual {
   opencl::Buffer<cl_int> claimed;  ///< per right edge: the bits of the highest score offered
   opencl::Buffer<cl_int> owner;    ///< per right edge: the left edge that offers it
-  opencl::Buffer<cl_int> keep, keep_first, total;
+  opencl::Buffer<cl_int> keep, keep_first;
 };
 
 /// doc/method.md section 3, filter 12. Variants of the stage "stereo_mutual".
@@ -44,6 +44,7 @@ class StereoMutual {
   float mutual_radius_;
   std::size_t local_size_;
   Scan scan_;
+  opencl::ReadBack read_back_;
   opencl::Kernel<StereoMutualArguments, In<cl_int>, In<cl_float>, In<cl_int>, Out<cl_int>> claim_;
   opencl::Kernel<StereoMutualArguments, In<cl_int>, In<cl_float>, In<cl_int>, In<cl_int>, Out<cl_int>> owner_;
   opencl::Kernel<StereoMutualArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_int>, Out<cl_int>> mutual_;

@@ -13,11 +13,12 @@ bool in_groups(const opencl::Defines& defines) { return defines.count("GROUP") !
 
 cl::Program match_program(opencl::Context& context, const opencl::Defines& defines) {
   if (in_groups(defines)) {
-    return context.program(
-        {"similarity.cl", "similarity_lanes.cl", "edge_positions.cl", "indexed_points.cl", "temporal_match_groups.cl"},
-        defines);
+    return context.program({"described_edges.cl", "similarity.cl", "similarity_lanes.cl", "edge_positions.cl",
+                            "indexed_points.cl", "temporal_match_groups.cl"},
+                           defines);
   }
-  return context.program({"similarity.cl", "edge_positions.cl", "indexed_points.cl", "temporal_match.cl"}, defines);
+  return context.program(
+      {"described_edges.cl", "similarity.cl", "edge_positions.cl", "indexed_points.cl", "temporal_match.cl"}, defines);
 }
 
 }  // namespace
@@ -66,6 +67,24 @@ void TemporalMatch::read_tapped(std::size_t rows, TappedMatch& tapped) const {
   }
 }
 
+std::optional<AliveRows> TemporalMatch::read_quads(std::size_t rows, int step, const StereoEdges& edges,
+                                                   TemporalMatches& matches) {
+  matches.clear();
+  std::optional<AliveRows> alive = AliveRows();
+  read_back_.read(context_, result_, kQuadRowInts * rows, [&](const cl_int* values) {
+    for (std::size_t row = 0; row < rows; ++row, values += kQuadRowInts) {
+      if ((values[3] & kRowOverflow) != 0) {
+        alive.reset();
+        break;
+      }
+      alive->left += (values[3] & kLeftAlive) != 0 ? 1 : 0;
+      alive->right += (values[3] & kRightAlive) != 0 ? 1 : 0;
+      append_row(values, static_cast<std::int32_t>(row) * step, edges, matches);
+    }
+  });
+  return alive;
+}
+
 std::optional<AliveRows> TemporalMatch::run(const DevicePositions& predicted, const TemporalSearch& search,
                                             const DeviceStereoEdges& base, const DeviceStereoEdges& current,
                                             const DevicePointIndex& left, const DevicePointIndex& right,
@@ -112,18 +131,7 @@ std::optional<AliveRows> TemporalMatch::run(const DevicePositions& predicted, co
     if (size > 0) launch_tap(size);
     read_tapped(rows, *tapped);
   }
-  rows_.resize(kQuadRowInts * rows);
-  result_.read(rows_.data(), rows_.size());
-  matches.clear();
-  AliveRows alive;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const cl_int* values = rows_.data() + kQuadRowInts * row;
-    if ((values[3] & kRowOverflow) != 0) return std::nullopt;
-    alive.left += (values[3] & kLeftAlive) != 0 ? 1 : 0;
-    alive.right += (values[3] & kRightAlive) != 0 ? 1 : 0;
-    append_row(values, static_cast<std::int32_t>(row) * search.step, edges, matches);
-  }
-  return alive;
+  return read_quads(rows, search.step, edges, matches);
 }
 
 }  // namespace quadedge::stages

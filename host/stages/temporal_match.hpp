@@ -63,6 +63,8 @@ class TemporalMatch {
                                      In<cl_char>, In<cl_float>, Out<cl_int>, Tapped...>;
 
   void read_tapped(std::size_t rows, TappedMatch& tapped) const;
+  /// Reads the rows of the result back. \returns nothing where a row has no room for its candidates
+  std::optional<AliveRows> read_quads(std::size_t rows, int step, const StereoEdges& edges, TemporalMatches& matches);
 
   opencl::Context& context_;
   TemporalConfig config_;
@@ -70,7 +72,7 @@ class TemporalMatch {
   bool fused_;
   std::size_t local_size_, items_per_row_;
   opencl::Buffer<cl_int> result_;
-  std::vector<cl_int> rows_;
+  opencl::ReadBack read_back_;
   MatchKernel<> kernel_;
 
   /// What only a tap needs.

@@ -28,6 +28,7 @@ void Undistortion::upload(const ImageView& recorded, opencl::Buffer<cl_uchar>& t
     context_.queue().enqueueWriteBufferRect(target.memory(), CL_FALSE, {0, 0, 0}, {0, 0, 0}, {width, height, 1}, width,
                                             0, static_cast<std::size_t>(recorded.stride), 0, recorded.pixels, nullptr,
                                             context_.watch(opencl::Context::Command::transfer));
+    context_.copy_started();
   } catch (const cl::Error& error) {
     opencl::throw_device_error("uploading an image", error.err(), context_.name());
   }

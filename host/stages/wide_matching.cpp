@@ -58,6 +58,7 @@ TemporalMatches WideMatching::run(const DeviceWideEdges& earlier, const DeviceWi
                    current.descriptors, current_blocks_, current.edges.packed, best_, similarity_);
   }
   std::vector<cl_int> best(rows);
+  const opencl::CopyGuard guard(context_);
   best_.read_later(best.data(), rows);
   const auto similarity = similarity_.read(rows);
   TemporalMatches matches;

@@ -9,6 +9,16 @@
 
 namespace quadedge {
 
+/// What a device offers in single precision (CL_DEVICE_SINGLE_FP_CONFIG).
+struct FloatSupport {
+  bool fma = false;  ///< fused multiply-add with one rounding
+  bool denormals = false;
+  bool rounds_to_nearest = false, rounds_to_zero = false, rounds_to_infinity = false;
+  /// Division and square root can be rounded correctly; kernels are then built to do so. Without it results may differ
+  /// from those of other devices in the last bits, and the self-test decides by its tolerance.
+  bool exact_divide_sqrt = false;
+};
+
 /// Properties that a device reports.
 struct DeviceInfo {
   int index = 0;  ///< consecutive number over all platforms, as printed by `quadedge devices`
@@ -19,19 +29,26 @@ struct DeviceInfo {
   std::string type;    ///< cpu | gpu | accelerator | reference
   unsigned compute_units = 0;
   unsigned long long memory_bytes = 0;
+  FloatSupport single_precision;
 };
 
 /// All OpenCL devices in a fixed order; empty if there is none. Does not throw if no driver is installed.
 std::vector<DeviceInfo> list_devices();
 
-/// Restricts a device, to test the behaviour on smaller ones. Unset members keep the value of the device.
+/// `devices` in the order in which the choice "auto" prefers them: GPUs, then CPUs, then all others.
+std::vector<DeviceInfo> by_preference(std::vector<DeviceInfo> devices);
+
+/// Restricts a device, to test the behaviour on smaller ones and on one that fails. Unset members keep the value of the
+/// device.
 struct DeviceLimits {
   std::optional<std::string> type;         ///< cpu | gpu | accelerator
   std::optional<std::size_t> group_items;  ///< maximum number of work-items of a work-group
   std::optional<std::size_t>
       local_bytes;  ///< local memory of a work-group; 0: local memory is emulated in global memory
   std::optional<std::size_t> memory_bytes;
-  std::optional<bool> stores_bytes;  ///< cl_khr_byte_addressable_store
+  std::optional<bool> stores_bytes;       ///< cl_khr_byte_addressable_store
+  std::optional<bool> exact_divide_sqrt;  ///< CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+  std::optional<std::size_t> launches;    ///< kernel launches that succeed before the device is lost
 };
 
 /// Options for opening a device.

@@ -16,10 +16,11 @@ struct SelfTestResult {
 };
 
 /// Runs every stage on a small built-in pair of frames, with each kind of search, and compares the results with stored
-/// results of the C++ reference. A long loop (`long_loop`) is run first, because some drivers terminate long loops
-/// early. Takes tens of milliseconds once the kernels are built.
-/// \param variants  stage -> kernel variant, as in Config
-/// \throws DeviceError if a kernel does not build or run
+/// results of the C++ reference, within a tolerance. A long loop (`long_loop`) is run first, because some drivers
+/// terminate long loops early. Kernel arguments whose types differ from those that the host passes are listed in
+/// `difference` if the results are wrong; if the results are right, the test passes. Takes tens of milliseconds once
+/// the kernels are built. \param variants  stage -> kernel variant, as in Config \throws DeviceError if a kernel does
+/// not build or run
 SelfTestResult self_test(Device& device, const std::map<std::string, std::string>& variants = {});
 
 }  // namespace quadedge

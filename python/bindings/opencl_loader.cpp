@@ -52,6 +52,7 @@ FORWARD(cl_command_queue, clCreateCommandQueue,
         (cl_context context, cl_device_id device, cl_command_queue_properties properties, cl_int* status),
         (context, device, properties, status))
 FORWARD(cl_int, clReleaseCommandQueue, (cl_command_queue queue), (queue))
+FORWARD(cl_int, clFlush, (cl_command_queue queue), (queue))
 FORWARD(cl_int, clFinish, (cl_command_queue queue), (queue))
 
 FORWARD(cl_program, clCreateProgramWithSource,
@@ -94,7 +95,18 @@ FORWARD(cl_int, clEnqueueNDRangeKernel,
 
 FORWARD(cl_mem, clCreateBuffer, (cl_context context, cl_mem_flags flags, size_t size, void* host, cl_int* status),
         (context, flags, size, host, status))
+FORWARD(cl_mem, clCreateSubBuffer,
+        (cl_mem buffer, cl_mem_flags flags, cl_buffer_create_type type, const void* region, cl_int* status),
+        (buffer, flags, type, region, status))
 FORWARD(cl_int, clReleaseMemObject, (cl_mem memory), (memory))
+FORWARD(void*, clEnqueueMapBuffer,
+        (cl_command_queue queue, cl_mem buffer, cl_bool blocking, cl_map_flags flags, size_t offset, size_t size,
+         cl_uint waits, const cl_event* wait_list, cl_event* event, cl_int* status),
+        (queue, buffer, blocking, flags, offset, size, waits, wait_list, event, status))
+FORWARD(cl_int, clEnqueueUnmapMemObject,
+        (cl_command_queue queue, cl_mem memory, void* mapped, cl_uint waits, const cl_event* wait_list,
+         cl_event* event),
+        (queue, memory, mapped, waits, wait_list, event))
 FORWARD(cl_int, clEnqueueFillBuffer,
         (cl_command_queue queue, cl_mem buffer, const void* pattern, size_t pattern_size, size_t offset, size_t size,
          cl_uint waits, const cl_event* wait_list, cl_event* event),

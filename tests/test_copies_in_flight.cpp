@@ -1,0 +1,177 @@
+/// \file test_copies_in_flight.cpp  Host memory outlives the copies that use it, also where an exception comes first;
+/// results that are read in one copy.
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <numeric>
+#include <thread>
+
+#include "frontends.hpp"
+#include "opencl/buffer.hpp"
+#include "opencl/read_back.hpp"
+#include "quadedge/error.hpp"
+#include "stages/device_stereo_edges.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+/// Holds back everything that is enqueued after it, for a while.
+class Gate {
+ public:
+  explicit Gate(opencl::Context& context) : event_(context.context()) {
+    std::vector<cl::Event> waits{event_};
+    context.queue().enqueueMarkerWithWaitList(&waits);
+    context.queue().flush();
+    opener_ = std::thread([this] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      open_ = true;
+      event_.setStatus(CL_COMPLETE);
+    });
+  }
+  ~Gate() { opener_.join(); }
+  bool is_open() const { return open_; }
+
+ private:
+  cl::UserEvent event_;
+  std::atomic<bool> open_{false};
+  std::thread opener_;
+};
+
+}  // namespace
+
+TEST_CASE("copies: a block that an exception leaves waits for its copies", "[device]") {
+  for (const auto& index : all_devices()) {
+    Device device(index);
+    auto& context = *device.context();
+    opencl::Buffer<cl_int> buffer(context, 1000);
+    buffer.write(std::vector<cl_int>(1000, 7).data(), 1000);
+    std::vector<cl_int> values(1000, 0);
+    const Gate gate(context);
+    try {
+      const opencl::CopyGuard guard(context);
+      buffer.read_later(values.data(), values.size());
+      throw DataError("something else");
+    } catch (const DataError&) {
+      CHECK(gate.is_open());
+      CHECK(values == std::vector<cl_int>(1000, 7));
+    }
+  }
+}
+
+TEST_CASE("copies: a buffer that goes waits for them", "[device]") {
+  Device device(all_devices().front());
+  auto& context = *device.context();
+  std::vector<cl_int> values(1000, 0);
+  auto buffer = std::make_unique<opencl::Buffer<cl_int>>(context, 1000);
+  buffer->write(std::vector<cl_int>(1000, 7).data(), 1000);
+  const Gate gate(context);
+  buffer->read_later(values.data(), values.size());
+  buffer.reset();
+  CHECK(gate.is_open());
+  CHECK(values == std::vector<cl_int>(1000, 7));
+}
+
+TEST_CASE(
+    "copies: when the device is lost, images and predictions are no longer in use by the time that it is reported",
+    "[device]") {
+  const matching::RenderedScene scene("room", 161, 97, 2);
+  for (const auto& index : all_devices()) {
+    std::size_t before_first = 0, before_match = 0;
+    {
+      Device device(index, kept_programs());
+      const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+      before_first = device.context()->traffic().launches;
+      frontend->process(scene.frame(0));
+      frontend->process(scene.frame(1));
+      before_match = device.context()->traffic().launches;
+    }
+    DeviceOptions options = kept_programs();
+    SECTION("images") {
+      options.limits.launches = before_first + 1;
+      Device device(index, options);
+      const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+      const Gate gate(*device.context());
+      CHECK_THROWS_AS(frontend->process(scene.frame(0)), DeviceError);
+      CHECK(gate.is_open());
+    }
+    SECTION("predictions") {
+      options.limits.launches = before_match + 1;
+      Device device(index, options);
+      const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
+      const auto base = frontend->process(scene.frame(0));
+      frontend->process(scene.frame(1));
+      const Gate gate(*device.context());
+      CHECK_THROWS_AS(frontend->match(*base, matching::search_around(base->edges, 12)), DeviceError);
+      CHECK(gate.is_open());
+    }
+  }
+}
+
+TEST_CASE("read-back: the host sees what is in the buffer, on CPUs by mapping it and elsewhere by a copy", "[device]") {
+  for (const auto& index : all_devices()) {
+    for (const auto* type : {"cpu", "gpu"}) {
+      DeviceOptions options;
+      options.limits.type = type;
+      Device device(index, options);
+      auto& context = *device.context();
+      opencl::ReadBack read_back;
+      for (const std::size_t size : {10U, 5000U, 20U}) {
+        opencl::Buffer<cl_int> buffer(context, size);
+        std::vector<cl_int> values(size), seen;
+        for (const cl_int first : {3, -8}) {  // the buffer can be written again afterwards
+          std::iota(values.begin(), values.end(), first);
+          buffer.write(values.data(), size);
+          const std::size_t waits = context.traffic().waits;
+          read_back.read(context, buffer, size, [&](const cl_int* found) { seen.assign(found, found + size); });
+          CHECK(seen == values);
+          CHECK(context.traffic().waits == waits + 1);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("read-back: all arrays of the stereo edges come in one copy", "[device][oclgrind]") {
+  for (const auto& index : all_devices()) {
+    for (const auto* type : {"cpu", "gpu"}) {
+      DeviceOptions options;
+      options.limits.type = type;
+      Device device(index, options);
+      auto& context = *device.context();
+      opencl::ReadBack read_back;
+      stages::DeviceStereoEdges rig;
+      for (const int stride : {5, 700, 33}) {
+        const auto rows = static_cast<std::size_t>(stride);
+        rig.reserve(context, rows);
+        rig.stride = stride;
+        const auto upload = [&](auto& buffer, std::size_t count, float first) {
+          std::vector<std::decay_t<decltype(buffer.read(1)[0])>> values(count);
+          std::iota(values.begin(), values.end(), static_cast<decltype(values[0] + 0)>(first));
+          buffer.write(values.data(), count);
+        };
+        upload(rig.total, 2, static_cast<float>(stride - 2));
+        upload(rig.left_index, rows, 10000);
+        upload(rig.right_index, rows, 20000);
+        upload(rig.packed, 7 * rows, 30000);
+        upload(rig.ncc, rows, 40000);
+        StereoEdges edges;
+        const auto before = context.traffic();
+        rig.read(context, read_back, edges);
+        CHECK(context.traffic().waits == before.waits + 1);
+        CHECK(rig.count == stride - 2);
+        REQUIRE(edges.size() == rows - 2);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+          const auto k = static_cast<float>(i), block = static_cast<float>(stride);
+          CHECK(edges.left_index[i] == 10000 + static_cast<int>(i));
+          CHECK(edges.right_index[i] == 20000 + static_cast<int>(i));
+          CHECK(edges.left_x[i] == 30000 + k);
+          CHECK(edges.left_y[i] == 30000 + block + k);
+          CHECK(edges.right_direction[i] == 30000 + 5 * block + k);
+          CHECK(edges.left_scale_drift[i] == 30000 + 6 * block + k);
+          CHECK(edges.ncc[i] == 40000 + k);
+        }
+      }
+    }
+  }
+}
