@@ -33,17 +33,24 @@ static inline void wide_products(const float* mine, global const uchar* block, f
 #pragma unroll
   for (int row = 0; row < ROWS; ++row) products[row] = 0.0f;
   for (int k = 0; k < kWideBytes; ++k) {
-    const float16 other = convert_float16(vload16(k, block));
+    const float16 other = convert_float16(((global const uchar16*)block)[k]);
 #pragma unroll
     for (int row = 0; row < ROWS; ++row)
       products[row] = fma((float16)(mine[row * kWideBytes + k]), other, products[row]);
   }
 }
 
+// The same of one descriptor, in CHAINS sums that do not wait for one another.
+#define CHAINS 4
 static inline float16 wide_product(const float* mine, global const uchar* block) {
-  float16 product = 0.0f;
-  for (int k = 0; k < kWideBytes; ++k) product = fma((float16)(mine[k]), convert_float16(vload16(k, block)), product);
-  return product;
+  float16 sums[CHAINS] = {0.0f, 0.0f, 0.0f, 0.0f};
+  for (int k = 0; k < kWideBytes; k += CHAINS) {
+#pragma unroll
+    for (int chain = 0; chain < CHAINS; ++chain)
+      sums[chain] =
+          fma((float16)(mine[k + chain]), convert_float16(((global const uchar16*)block)[k + chain]), sums[chain]);
+  }
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 static inline float wide_highest(const float16 v) {
@@ -128,25 +135,13 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
       listed_highest[r][listed[r]++] = here;
     }
   }
+  // Columns that compete are few: what they exclude need not be compared with all other rows.
+  int left = 0;
   for (int r = 0; r < ROWS; ++r) {
-    alone[r] = winner[r] >= 0;
-    // Without a winner anything may stand in `found`; it has to be something that exists.
-    wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * kWideBytes : row_descriptors, found + r * kWideBytes);
-  }
-  for (int block = 0; block * kBlockLanes < rows; ++block) {
-    wide_products(found, row_blocks + (size_t)block * (kWideBytes * kBlockLanes), products);
-    for (int r = 0; r < ROWS; ++r) {
-      const int row = min(first + r, rows - 1);
-      if (alone[r] && wide_highest(products[r]) >= highest[r]) {
-        alone[r] = !wide_elsewhere(products[r], highest[r], false, block, rows, row_edges, row_edges + row_stride,
-                                   row_step, row * row_step, neighbourhood);
-      }
-    }
-  }
-  for (int r = 0; r < ROWS && first + r < rows; ++r) {
     const float limit = wide_limit(highest[r], ratio);
     const bool all = listed[r] > LISTED;
     const int blocks = all ? (columns + kBlockLanes - 1) / kBlockLanes : listed[r];
+    alone[r] = winner[r] >= 0;
     for (int k = 0; alone[r] && k < blocks; ++k) {
       const int block = all ? k : list[r][k];
       if (!all && listed_highest[r][k] <= limit) continue;
@@ -155,6 +150,22 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
           block, columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step,
           neighbourhood);
     }
+    left += alone[r];
+    // Without a winner anything may stand in `found`; it has to be something that exists.
+    wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * kWideBytes : row_descriptors, found + r * kWideBytes);
+  }
+  for (int block = 0; left > 0 && block * kBlockLanes < rows; ++block) {
+    wide_products(found, row_blocks + (size_t)block * (kWideBytes * kBlockLanes), products);
+    for (int r = 0; r < ROWS; ++r) {
+      const int row = min(first + r, rows - 1);
+      if (alone[r] && wide_highest(products[r]) >= highest[r]) {
+        alone[r] = !wide_elsewhere(products[r], highest[r], false, block, rows, row_edges, row_edges + row_stride,
+                                   row_step, row * row_step, neighbourhood);
+        left -= !alone[r];
+      }
+    }
+  }
+  for (int r = 0; r < ROWS && first + r < rows; ++r) {
     best[first + r] = alone[r] ? winner[r] : -1;
     similarity[first + r] = alone[r] ? highest[r] / SQUARE : 0.0f;
   }
