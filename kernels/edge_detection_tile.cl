@@ -7,6 +7,7 @@
 #define TILE_Y 8
 #endif
 
+#define OF_GROUP __attribute__((reqd_work_group_size(LOCAL, 1, 1)))
 #define TILE_ROWS (2 * TILE_Y + 2)             // of the doubled grid: the tile's and one more on either side
 #define TILE_CELLS (2 * TILE_X + 2)            // per row, likewise
 #define TILE_COLUMNS (TILE_X + 2 + 2 * PAIRS)  // sums along y that these cells need
@@ -28,9 +29,9 @@
 //
 // Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's position (4 * (r * 2 * width + X)) where
 // it did.
-kernel void edges_tile_maxima(const DetectionArguments args, global const float* threshold_of_frame, const int tiles_x,
-                              global const float* plane, global const float* taps, global float* winners,
-                              global uchar* flags) {
+kernel OF_GROUP void edges_tile_maxima(const DetectionArguments args, global const float* threshold_of_frame,
+                                       const int tiles_x, global const float* plane, global const float* taps,
+                                       global float* winners, global uchar* flags) {
   local float smooth_y[TILE_ROWS * TILE_COLUMNS], slope_y[TILE_ROWS * TILE_COLUMNS];
   local float magnitude[TILE_ROWS * TILE_CELLS];
   float2 gradients[CELLS_OF_ITEM];  // in registers: local memory for them would keep groups away
@@ -81,8 +82,8 @@ kernel void edges_tile_maxima(const DetectionArguments args, global const float*
              m[TILE_CELLS - 1], m[TILE_CELLS + 1], &ahead, &behind);
       if (IS_MAXIMUM(m[0], ahead, behind)) {
         won = 1;
-        vstore4(parabola_peak(cell_x, cell_y, gx, gy, m[0], ahead, behind), (size_t)cell_y * 2 * width + cell_x,
-                winners);
+        ((global float4*)winners)[(size_t)cell_y * 2 * width + cell_x] =
+            parabola_peak(cell_x, cell_y, gx, gy, m[0], ahead, behind);
       }
     }
     flags[(size_t)cell_y * 2 * width + cell_x] = won;
@@ -90,7 +91,7 @@ kernel void edges_tile_maxima(const DetectionArguments args, global const float*
 }
 
 // counts[row] = winners of the row. One work-group per row of the doubled grid.
-kernel void edges_tile_count(global const uchar* flags, const int cells, global int* counts) {
+kernel OF_GROUP void edges_tile_count(global const uchar* flags, const int cells, global int* counts) {
   local int sums[LOCAL];
   const int item = (int)get_local_id(0), row = (int)get_group_id(0);
   int sum = 0;
@@ -105,9 +106,9 @@ kernel void edges_tile_count(global const uchar* flags, const int cells, global 
 
 // Moves the winners of a row to their position in scan order, as far as the capacity reaches; rows[position] = row of
 // the doubled grid. One work-group per row.
-kernel void edges_tile_compact(global const uchar* flags, const int cells, global const float* winners,
-                               global const int* row_first, const int max_edges, global float* compact,
-                               global int* rows) {
+kernel OF_GROUP void edges_tile_compact(global const uchar* flags, const int cells, global const float* winners,
+                                        global const int* row_first, const int max_edges, global float* compact,
+                                        global int* rows) {
   local int sums[LOCAL];
   const int item = (int)get_local_id(0), row = (int)get_group_id(0);
   int base = row_first[row];
@@ -124,7 +125,7 @@ kernel void edges_tile_compact(global const uchar* flags, const int cells, globa
     }
     const int position = base + sums[item] - won;
     if (won && position < max_edges) {
-      vstore4(vload4((size_t)row * cells + i, winners), position, compact);
+      ((global float4*)compact)[position] = ((global const float4*)winners)[(size_t)row * cells + i];
       rows[position] = row;
     }
     base += sums[LOCAL - 1];
@@ -133,58 +134,65 @@ kernel void edges_tile_compact(global const uchar* flags, const int cells, globa
 }
 
 // Third-order direction and Newton step. 8 work-items per edge: lane l sums the columns l, l + 8, l + 16 ... of the
-// window.
-kernel void edges_tile_directions(const DetectionArguments args, global const float* plane, global const float* compact,
-                                  global const int* rows, global const int* total, global float* edges) {
+// window. The host does not know the number of edges: as many groups as the device can run at once share them.
+// LONG: one edge from window to position, in a loop.
+kernel OF_GROUP void edges_tile_directions(const DetectionArguments args, global const float* plane,
+                                           global const float* compact, global const int* rows, global const int* total,
+                                           global float* edges) {
   // Weights along y of each edge's [ORDERS][COLUMNS], then sums [DERIVATIVES][LOCAL].
   local float shared[LOCAL * (ORDERS * COLUMNS > 8 * DERIVATIVES ? ORDERS * COLUMNS / 8 : DERIVATIVES)];
   const int item = (int)get_local_id(0), lane = item & 7, group = item >> 3;
-  const int n = (int)get_global_id(0) >> 3, stride = args.plane_stride;
-  if ((int)get_group_id(0) * (LOCAL / 8) >= total[0]) return;  // the whole group; there is room for far more edges
-  const bool active = n < total[0];
-  const float4 winner = active ? vload4(n, compact) : (float4)0.0f;
-  const float x = AT_CELL ? 0.5f * floor(winner.w) : winner.x,
-              y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
+  const int stride = args.plane_stride, count = total[0], step = (int)get_num_groups(0) * (LOCAL / 8);
   local float* weights_y = shared + group * ORDERS * COLUMNS;
   local float* sums = shared;
-  const int whole_x = (int)x, whole_y = (int)y;
-  for (int k = lane; k < COLUMNS; k += 8) {
-    float w[ORDERS];
-    weights(y - (float)whole_y, k, w);
-    for (int order = 0; order < ORDERS; ++order) weights_y[order * COLUMNS + k] = w[order];
-  }
-  barrier(CLK_LOCAL_MEM_FENCE);
-  const float level = window_level(plane, stride, whole_x, whole_y);
-  global const float* window = WINDOW(plane, stride, whole_x, whole_y);
-  float s[DERIVATIVES];
-  for (int column = lane; column < COLUMNS; column += 8) {
-    float d[ORDERS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    // Unrolled altogether it takes 170 registers on AMD.
-    _Pragma("unroll 6") for (int k = 0; k < TAPS; ++k) {
-      const float grey = window[k * stride + column] - level;
-      for (int order = 0; order < ORDERS; ++order) d[order] = fma(weights_y[order * COLUMNS + k], grey, d[order]);
+  for (int first = (int)get_group_id(0) * (LOCAL / 8); first < count; first += step) {
+    const int n = first + group;
+    const bool active = n < count;
+    const float4 winner = active ? ((global const float4*)compact)[n] : (float4)0.0f;
+    const float x = AT_CELL ? 0.5f * floor(winner.w) : winner.x,
+                y = AT_CELL ? 0.5f * (float)(active ? rows[n] : 0) : winner.y;
+    const int whole_x = (int)x, whole_y = (int)y;
+    for (int k = lane; k < COLUMNS; k += 8) {
+      float w[ORDERS];
+      weights(y - (float)whole_y, k, w);
+      for (int order = 0; order < ORDERS; ++order) weights_y[order * COLUMNS + k] = w[order];
     }
-    float w[ORDERS];
-    weights(x - (float)whole_x, column, w);
-    const float wx[DERIVATIVES] = {w[1], w[0], w[2], w[1], w[0], w[3], w[2], w[1], w[0], w[4], w[3], w[2], w[1], w[0]};
-    const float dy[DERIVATIVES] = {d[0], d[1], d[0], d[1], d[2], d[0], d[1], d[2], d[3], d[0], d[1], d[2], d[3], d[4]};
-    for (int j = 0; j < DERIVATIVES; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
-  }
-  barrier(CLK_LOCAL_MEM_FENCE);  // the weights have been used
-  for (int j = 0; j < DERIVATIVES; ++j) sums[j * LOCAL + item] = s[j];
-  for (int distance = 4; distance > 0; distance /= 2) {
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (lane < distance) {
-      for (int j = 0; j < DERIVATIVES; ++j) sums[j * LOCAL + item] += sums[j * LOCAL + item + distance];
+    const float level = window_level(plane, stride, whole_x, whole_y);
+    global const float* window = WINDOW(plane, stride, whole_x, whole_y);
+    float s[DERIVATIVES];
+    for (int column = lane; column < COLUMNS; column += 8) {
+      float d[ORDERS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+      // Unrolled altogether it takes 170 registers on AMD.
+      _Pragma("unroll 6") for (int k = 0; k < TAPS; ++k) {
+        const float grey = window[k * stride + column] - level;
+        for (int order = 0; order < ORDERS; ++order) d[order] = fma(weights_y[order * COLUMNS + k], grey, d[order]);
+      }
+      float w[ORDERS];
+      weights(x - (float)whole_x, column, w);
+      const float wx[DERIVATIVES] = {w[1], w[0], w[2], w[1], w[0], w[3], w[2],
+                                     w[1], w[0], w[4], w[3], w[2], w[1], w[0]};
+      const float dy[DERIVATIVES] = {d[0], d[1], d[0], d[1], d[2], d[0], d[1],
+                                     d[2], d[3], d[0], d[1], d[2], d[3], d[4]};
+      for (int j = 0; j < DERIVATIVES; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
     }
-  }
-  if (active && lane == 0) {
-    float d[DERIVATIVES], edge_x = winner.x, edge_y = winner.y, drift;
-    for (int j = 0; j < DERIVATIVES; ++j) d[j] = sums[j * LOCAL + item];
-    edges[2 * args.max_edges + n] = third_order(d, args.newton_max, &edge_x, &edge_y, &drift);
-    edges[n] = edge_x;
-    edges[args.max_edges + n] = edge_y;
-    edges[3 * args.max_edges + n] = winner.z;
-    edges[4 * args.max_edges + n] = drift;
+    barrier(CLK_LOCAL_MEM_FENCE);  // the weights have been used
+    for (int j = 0; j < DERIVATIVES; ++j) sums[j * LOCAL + item] = s[j];
+    for (int distance = 4; distance > 0; distance /= 2) {
+      barrier(CLK_LOCAL_MEM_FENCE);
+      if (lane < distance) {
+        for (int j = 0; j < DERIVATIVES; ++j) sums[j * LOCAL + item] += sums[j * LOCAL + item + distance];
+      }
+    }
+    if (active && lane == 0) {
+      float d[DERIVATIVES], edge_x = winner.x, edge_y = winner.y, drift;
+      for (int j = 0; j < DERIVATIVES; ++j) d[j] = sums[j * LOCAL + item];
+      edges[2 * args.max_edges + n] = third_order(d, args.newton_max, &edge_x, &edge_y, &drift);
+      edges[n] = edge_x;
+      edges[args.max_edges + n] = edge_y;
+      edges[3 * args.max_edges + n] = winner.z;
+      edges[4 * args.max_edges + n] = drift;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // the sums have been used
   }
 }

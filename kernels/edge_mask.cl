@@ -26,9 +26,9 @@ kernel void edge_mask_rows(const int width, const int height, global const uchar
   const int count = counts[row];
   int kept = 0;
   for (int i = 0; i < count; ++i) {
-    const float4 winner = vload4(i, maxima);
+    const float4 winner = ((global const float4*)maxima)[i];
     if (hidden[(int)winner.w / 2] != 0) continue;
-    vstore4(winner, kept, maxima);
+    ((global float4*)maxima)[kept] = winner;
     ++kept;
   }
   counts[row] = kept;

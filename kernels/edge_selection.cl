@@ -80,14 +80,25 @@ kernel void edge_selection_spacing(const int budget, global int* tally, global f
 
 #ifdef IN_CELLS
 
-// tally[image] += the weights of the maxima of every kSelectionSample-th pair of rows. One work-item per cell.
-kernel void edge_selection_weigh_cells(const SelectionArguments args, global const float* winners,
-                                       global const uchar* flags, const int image, global int* tally) {
-  const size_t cell = get_global_id(0);
-  if (cell >= 4 * (size_t)args.width * args.height || !flags[cell]) return;
-  if ((int)(cell / (4 * (size_t)args.width)) % kSelectionSample != 0) return;
-  const int weight = weight_of(&args, vload4(cell, winners));
-  if (weight > 0) atomic_add(tally + image, weight);
+// tally[image] += the weights of the maxima of every kSelectionSample-th pair of rows. One work-group of GROUP per such
+// pair, which adds its sum once.
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edge_selection_weigh_cells(const SelectionArguments args,
+                                                                                          global const float* winners,
+                                                                                          global const uchar* flags,
+                                                                                          const int image,
+                                                                                          global int* tally) {
+  local int sums[GROUP];
+  const int item = (int)get_local_id(0), cells = 4 * args.width;
+  const size_t first = (size_t)get_group_id(0) * kSelectionSample * cells;
+  int sum = 0;
+  for (int i = item; i < cells; i += GROUP)
+    if (flags[first + i]) sum += weight_of(&args, ((global const float4*)winners)[first + i]);
+  sums[item] = sum;
+  for (int distance = GROUP / 2; distance > 0; distance /= 2) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (item < distance) sums[item] += sums[item + distance];
+  }
+  if (item == 0 && sums[0] > 0) atomic_add(tally + image, sums[0]);
 }
 
 // Takes the flag of the maxima that are not chosen. One work-item per cell.
@@ -96,7 +107,7 @@ kernel void edge_selection_cells(const SelectionArguments args, global const flo
   const size_t cell = get_global_id(0);
   const float spacing = spacing_of_frame[0];
   if (cell >= 4 * (size_t)args.width * args.height || spacing == 0.0f || !flags[cell]) return;
-  const float4 winner = vload4(cell, winners);
+  const float4 winner = ((global const float4*)winners)[cell];
   flags[cell] = (uchar)chosen(&args, winner.x, winner.y, winner.w, spacing);
 }
 

@@ -26,7 +26,7 @@ typedef struct __attribute__((packed)) {
 #define COLUMN private
 #define COUNT(bin) ++tally[bin]
 #else
-#define FORM
+#define FORM __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 #define POINTS (GROUP > 2 * RADIUS ? (GROUP - 2 * RADIUS - 1) / kThresholdStep + 1 : 1)
 #define TALLY local
 #define COLUMN local
@@ -212,8 +212,9 @@ static inline float noise_median(local const int* tally, const float total) {
 // From the tallies of both images to the threshold. One group. result = threshold [grey levels per px], which it keeps
 // from frame to frame as long as it stays within kThresholdHold of what is measured; standard deviation of the noise
 // [grey levels].
-kernel void edges_threshold(const ThresholdArguments args, global const int* tallies, const int count,
-                            global float* result) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edges_threshold(const ThresholdArguments args,
+                                                                               global const int* tallies,
+                                                                               const int count, global float* result) {
   local int sums[kThresholdBins];
   const int item = (int)get_local_id(0);
   for (int bin = item; bin < kThresholdBins; bin += GROUP) {

@@ -23,3 +23,8 @@ static inline PointIndex open_index(const PackedPointIndex at, global const floa
 static inline int cell_of(const float position, const float size, const int count) {
   return (int)clamp(position / size, 0.0f, (float)(count - 1));
 }
+
+// Number of the cell that a position belongs to.
+static inline int cell_at(const PackedPointIndex at, const float x, const float y) {
+  return cell_of(y, kCellHeight, at.rows) * at.columns + cell_of(x, kCellWidth, at.columns);
+}

@@ -71,7 +71,7 @@ kernel void side_patches(const PatchArguments args, global const uint* corners, 
     squares += row * row;
     ((global char16*)patch)[i] = convert_char16(row);
   }
-  vstore4((float4)(inverse_norm(sums_of_lanes(squares)), 0.0f, 0.0f), 0, (global float*)(patch + kInverseNorms));
+  *(global float4*)(patch + kInverseNorms) = (float4)(inverse_norm(sums_of_lanes(squares)), 0.0f, 0.0f);
 }
 
 #else

@@ -21,7 +21,9 @@ static inline void group_scan(local int2* sums) {
   }
 }
 
-kernel void scan(global const int* counts, const int count, const int capacity, global int* first, global int* total) {
+kernel __attribute__((reqd_work_group_size(SCAN_LOCAL, 1, 1))) void scan(global const int* counts, const int count,
+                                                                         const int capacity, global int* first,
+                                                                         global int* total) {
   local int2 sums[SCAN_LOCAL];  // before the group's part, inside it
   const int item = (int)get_local_id(0);
   const int part = (count + (int)get_global_size(0) - 1) / (int)get_global_size(0);

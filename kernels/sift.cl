@@ -336,8 +336,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
   const float norm = sqrt(sum_lanes(squares));
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
   if (wanted >= count) return;
-  vstore8(convert_uchar8(convert_int8(min(min(bins, clip) * scale, 255.0f) + 0.5f)), cell,
-          descriptors + (size_t)edge * (kEdgeSiftBytes) + side * kSiftBytes);
+  global uchar8* descriptor = (global uchar8*)(descriptors + (size_t)edge * kEdgeSiftBytes + side * kSiftBytes);
+  descriptor[cell] = convert_uchar8(convert_int8(min(min(bins, clip) * scale, 255.0f) + 0.5f));
 }
 
 #endif

@@ -1,5 +1,5 @@
 // similarity.cl: how alike two edges are (doc/method.md section 2). Plain functions for the filters; name this file
-// before theirs.
+// before theirs. Needs described_edges.cl.
 //
 // The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
 // Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
@@ -10,8 +10,8 @@ static inline float4 patch_scores(global const char* a, global const char* b) {
   short16 of_a[7], of_b[7];
 #pragma unroll
   for (int row = 0; row < 7; ++row) {
-    of_a[row] = convert_short16(((global const char16*)a)[row]);
-    of_b[row] = convert_short16(((global const char16*)b)[row]);
+    of_a[row] = convert_short16(patch_row(a, row));
+    of_b[row] = convert_short16(patch_row(b, row));
   }
   int16 alike = convert_int16(of_a[6] * of_b[6]), crossed = convert_int16(of_a[6] * of_b[6].s89abcdef01234567);
 #pragma unroll
@@ -22,8 +22,7 @@ static inline float4 patch_scores(global const char* a, global const char* b) {
   const int8 same_sides = (int8)(alike.s0123 + alike.s4567, alike.s89ab + alike.scdef);
   const int8 other_sides = (int8)(crossed.s0123 + crossed.s4567, crossed.s89ab + crossed.scdef);
   const int8 twos = (int8)(same_sides.even + same_sides.odd, other_sides.even + other_sides.odd);
-  const float2 inverse_a = vload2(0, (global const float*)(a + kInverseNorms));
-  const float2 inverse_b = vload2(0, (global const float*)(b + kInverseNorms));
+  const float2 inverse_a = patch_norms(a), inverse_b = patch_norms(b);
   return convert_float4(twos.even + twos.odd) * inverse_a.xyxy * inverse_b.xyyx;
 }
 
@@ -54,8 +53,10 @@ static inline int sift_distance2(global const uchar* a, global const uchar* b) {
     high += square >> (ushort16)8;                   \
   }
   for (int k = 0; k < 8; ++k) {
-    const ushort16 a_dark = convert_ushort16(vload16(k, a)), a_bright = convert_ushort16(vload16(k, a + 128));
-    const ushort16 b_dark = convert_ushort16(vload16(k, b)), b_bright = convert_ushort16(vload16(k, b + 128));
+    const ushort16 a_dark = convert_ushort16(descriptor_part(a, k)),
+                   a_bright = convert_ushort16(descriptor_part(a, k + 8));
+    const ushort16 b_dark = convert_ushort16(descriptor_part(b, k)),
+                   b_bright = convert_ushort16(descriptor_part(b, k + 8));
     ADD_SQUARES(total_dd, high_dd, a_dark, b_dark)
     ADD_SQUARES(total_bb, high_bb, a_bright, b_bright)
     ADD_SQUARES(total_db, high_db, a_dark, b_bright)

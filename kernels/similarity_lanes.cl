@@ -1,5 +1,5 @@
 // similarity_lanes.cl: similarity.cl with eight work-items per pair of edges, each with a part of their bytes.
-// Functions only; sums are of whole numbers, so that their order decides nothing.
+// Functions only; needs described_edges.cl. Sums are of whole numbers, so that their order decides nothing.
 
 #define PAIR_ITEMS 8  // one per row of 16 bytes of the patches, and one that works along
 
@@ -22,8 +22,8 @@ static inline int block_distance2(const uchar16 a, const uchar16 b) {
 
 // Squares of the distances in block `k` of the descriptors: the pairings of sides in the order of sift_distance2().
 static inline int4 block_distances(global const uchar* a, global const uchar* b, const int k) {
-  const uchar16 a_dark = vload16(k, a), a_bright = vload16(k, a + 128);
-  const uchar16 b_dark = vload16(k, b), b_bright = vload16(k, b + 128);
+  const uchar16 a_dark = descriptor_part(a, k), a_bright = descriptor_part(a, k + 8);
+  const uchar16 b_dark = descriptor_part(b, k), b_bright = descriptor_part(b, k + 8);
   return (int4)(block_distance2(a_dark, b_dark), block_distance2(a_bright, b_bright), block_distance2(a_dark, b_bright),
                 block_distance2(a_bright, b_dark));
 }

@@ -18,7 +18,7 @@ static inline float better_side(global const uint* corners, const int width, con
     products += rows[k] * convert_float16(((global const char16*)side_patches)[k]);
   }
   const float dark_norm = sqrt(sum_used(squares.lo)), bright_norm = sqrt(sum_used(squares.hi));
-  const float2 inverse_norms = vload2(0, (global const float*)(side_patches + kInverseNorms));
+  const float2 inverse_norms = *(global const float2*)(side_patches + kInverseNorms);
   return fmax(dark_norm < 1e-10f ? 0.0f : sum_used(products.lo) * inverse_norms.x / dark_norm,
               bright_norm < 1e-10f ? 0.0f : sum_used(products.hi) * inverse_norms.y / bright_norm);
 }

@@ -39,7 +39,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   float cosine;
   const float sine = sine_cosine(left_direction[i], &cosine);
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
-  const float2 inverse_norms = vload2(0, (global const float*)(side_patches + kInverseNorms));
+  const float2 inverse_norms = *(global const float2*)(side_patches + kInverseNorms);
 
   for (int c = begin + lane; c < end; c += kPatchLanes) {
     const int j = target[c];

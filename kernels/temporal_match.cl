@@ -245,5 +245,5 @@ kernel void temporal_match(const TemporalMatchArguments args, global const float
   }
   const int groups = count_groups(left_target, agreeing, args.current, current, args.choice.cluster_gap,
                                   args.choice.cluster_orientation);
-  vstore4((int4)(winner, groups - 1, as_int(score), flags), row, result);
+  ((global int4*)result)[row] = (int4)(winner, groups - 1, as_int(score), flags);
 }

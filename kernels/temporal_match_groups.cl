@@ -105,7 +105,7 @@ static inline int find_near(const float radius, const float orientation, RowSide
     const uint all_close = vote(votes, close);
     const int at = side->count + voters_before(all_close);
     if (close && at < side->room)
-      vstore4((int4)(index->number[k], passes ? kCandidateAlive : ORIENTATION_ORDER, 0, 0), at, side->seen);
+      ((global int4*)side->seen)[at] = (int4)(index->number[k], passes ? kCandidateAlive : ORIENTATION_ORDER, 0, 0);
     side->count += (int)popcount(all_close);
 #endif
     const uint passing = vote(votes, passes);
@@ -125,15 +125,15 @@ static inline int find_near(const float radius, const float orientation, RowSide
 static inline void compare_patches(const RowSide* side, const int count, local Candidates* found,
                                    local int4* products) {
   const int item = (int)get_local_id(0), row = item % PAIR_ITEMS;
-  const char16 mine = row < kPatchSide ? vload16(row, side->patch) : (char16)0;
-  const float2 inverse_a = vload2(0, (global const float*)(side->patch + kInverseNorms));
+  const char16 mine = row < kPatchSide ? patch_row(side->patch, row) : (char16)0;
+  const float2 inverse_a = patch_norms(side->patch);
   for (int first = 0; first < count; first += PAIRS) {
     const int c = first + item / PAIR_ITEMS;
     global const char* other = patch_of(side->patches, side->numbers, found->target[min(c, count - 1)]);
-    products[item] = row_products(mine, vload16(row, other));
+    products[item] = row_products(mine, patch_row(other, row));
     barrier(CLK_LOCAL_MEM_FENCE);
     if (row == 0 && c < count) {
-      const float2 inverse_b = vload2(0, (global const float*)(other + kInverseNorms));
+      const float2 inverse_b = patch_norms(other);
       const float4 scores = convert_float4(sum_of_items(products + item, kPatchSide)) * inverse_a.xyxy * inverse_b.xyyx;
       found->ncc[c] = max(max(scores.x, scores.y), max(scores.z, scores.w));
     }
@@ -286,5 +286,5 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void temporal_match(
   barrier(CLK_LOCAL_MEM_FENCE);
   local int labels[2 * MOST];
   const int groups = count_groups(&args, right->target, agreeing, current, labels, &votes);
-  if (item == 0) vstore4((int4)(winner, groups - 1, as_int(score), flags), row, result);
+  if (item == 0) ((global int4*)result)[row] = (int4)(winner, groups - 1, as_int(score), flags);
 }

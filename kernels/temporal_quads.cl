@@ -75,10 +75,10 @@ kernel void temporal_best(const TemporalBestArguments args, global const int* fi
     highest = weighed;
   }
   if (winner < 0) {
-    vstore4((int4)(-1, 0, 0, 0), row, result);
+    ((global int4*)result)[row] = (int4)(-1, 0, 0, 0);
     return;
   }
   const int groups = count_groups(begin, end, target, args.current, current, args.choice.cluster_gap,
                                   args.choice.cluster_orientation, label);
-  vstore4((int4)(target[winner], groups - 1, as_int(score[winner]), 0), row, result);
+  ((global int4*)result)[row] = (int4)(target[winner], groups - 1, as_int(score[winner]), 0);
 }

@@ -58,6 +58,6 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_describe(
   const float norm = sqrt(sum_of_cells(shares, cell, wide_sum(histogram * histogram)));
   const float scale = norm > 0.0f ? NORM / norm : 0.0f;
   if (wanted < rows)
-    vstore8(convert_uchar8(convert_int8(min(histogram * scale, 255.0f) + 0.5f)), cell,
-            descriptors + (size_t)row * kWideBytes);
+    ((global uchar8*)(descriptors + (size_t)row * kWideBytes))[cell] =
+        convert_uchar8(convert_int8(min(histogram * scale, 255.0f) + 0.5f));
 }

@@ -18,13 +18,13 @@ typedef struct {
 
 static inline Descriptor wide_load(global const uchar* bytes) {
   Descriptor result;
-  for (int k = 0; k < BLOCKS; ++k) result.part[k] = convert_float16(vload16(k, bytes));
+  for (int k = 0; k < BLOCKS; ++k) result.part[k] = convert_float16(((global const uchar16*)bytes)[k]);
   return result;
 }
 
 static inline float wide_product(const Descriptor* a, global const uchar* b) {
   float16 sum = 0.0f;
-  for (int k = 0; k < BLOCKS; ++k) sum = fma(a->part[k], convert_float16(vload16(k, b)), sum);
+  for (int k = 0; k < BLOCKS; ++k) sum = fma(a->part[k], convert_float16(((global const uchar16*)b)[k]), sum);
   const float8 eight = sum.lo + sum.hi;
   const float4 four = eight.lo + eight.hi;
   const float2 two = four.lo + four.hi;

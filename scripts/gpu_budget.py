@@ -24,6 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent
 CLANGS = [f"clang-{version}" for version in range(22, 15, -1)]
 PTX_FEATURE = {"sm_75": "+ptx63", "sm_86": "+ptx71", "sm_90": "+ptx78"}
 LOWEST_OCCUPANCY = 32  # percent, of kernels that take more than a twentieth of a frame
+BUILD_OPTIONS = ["-cl-std=CL1.2", "-cl-fp32-correctly-rounded-divide-sqrt"]  # as the host sets them
 
 
 @dataclass
@@ -77,7 +78,7 @@ def compile_program(clang: str, target: str, line: str, folder: Path) -> str:
     else:
         options = ["-target", "amdgcn-unknown-amdhsa", f"-mcpu={target}", "-nogpulib"]
         library = "amdgcn--amdhsa.bc"
-    call = [clang, "-x", "cl", "-cl-std=CL1.2", "-O3", "-S", "-o", "-", "-D__OPENCL_VERSION__=120", *options, *defines,
+    call = [clang, "-x", "cl", *BUILD_OPTIONS, "-O3", "-S", "-o", "-", "-D__OPENCL_VERSION__=120", *options, *defines,
             "-Xclang", "-finclude-default-header", "-Xclang", "-mlink-builtin-bitcode", "-Xclang",
             f"/usr/lib/clc/{library}", str(source)]
     done = subprocess.run(call, capture_output=True, text=True, check=False)

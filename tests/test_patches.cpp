@@ -285,7 +285,7 @@ TEST_CASE("patches: the kernels' similarity equals the reference's bit for bit",
     Device device(index, kept_programs());
     auto& context = *device.context();
     const auto program = build_program(
-        context, {"similarity.cl"},
+        context, {"described_edges.cl", "similarity.cl"},
         "kernel void score(global const char* patches, global float* scores) {\n"
         "  const int a = (int)get_global_id(0), b = (int)get_global_id(1), k = b * (int)get_global_size(0) + a;\n"
         "  scores[k] = patch_ncc(patches + a * 128, patches + b * 128);\n"

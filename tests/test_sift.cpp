@@ -180,7 +180,7 @@ TEST_CASE("sift: the kernels' distance equals the reference's", "[sift][device][
     Device device(index, kept_programs());
     auto& context = *device.context();
     const auto program =
-        build_program(context, {"similarity.cl"},
+        build_program(context, {"described_edges.cl", "similarity.cl"},
                       "kernel void distance2(global const uchar* sift, global int* distances) {\n"
                       "  const int a = (int)get_global_id(0), b = (int)get_global_id(1);\n"
                       "  distances[b * (int)get_global_size(0) + a] = sift_distance2(sift + a * 256, sift + b * 256);\n"

@@ -10,9 +10,10 @@ CandidateFilters::CandidateFilters(opencl::Context& context, const std::map<std:
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const bool grouped = variant.defines.count("GROUP") > 0;
   items_per_row_ = grouped ? local_size_ : 1;
-  const auto program = grouped
-                           ? context.program({"similarity_lanes.cl", "candidate_filters_groups.cl"}, variant.defines)
-                           : context.program({"similarity.cl", "candidate_filters.cl"}, variant.defines);
+  const auto program =
+      grouped ? context.program({"described_edges.cl", "similarity_lanes.cl", "candidate_filters_groups.cl"},
+                                variant.defines)
+              : context.program({"described_edges.cl", "similarity.cl", "candidate_filters.cl"}, variant.defines);
   kernel_ = {context, program, "candidate_filters"};
 }
 

@@ -10,6 +10,7 @@
 namespace quadedge::stages {
 namespace {
 
+constexpr std::size_t kItemsPerUnit = 1024;  // that a compute unit runs at once in edges_tile_directions
 constexpr int kStripRows = 64;  // rows of the doubled grid that one work-item filters: two more are computed twice
 
 }  // namespace
@@ -90,8 +91,9 @@ void EdgeDetection::take_directions(const PaddedPlane& plane, DeviceEdges& edges
   } else {
     tile_compact_({rows * local_size_, local_size_}, maxima_.flags, 2 * width_, maxima_.winners, edges.row_first,
                   config_.max_edges, compact_, rows_);
-    tile_directions_({8 * static_cast<std::size_t>(config_.max_edges), local_size_}, arguments, plane.pixels(),
-                     compact_, rows_, edges.count, edges.packed);
+    const std::size_t at_most = 8 * static_cast<std::size_t>(config_.max_edges);
+    tile_directions_({std::min(at_most, context_.limits().compute_units * kItemsPerUnit), local_size_}, arguments,
+                     plane.pixels(), compact_, rows_, edges.count, edges.packed);
   }
 }
 

@@ -1,17 +1,25 @@
 #include "stages/edge_selection.hpp"
 
+#include <algorithm>
+
 #include "stages/padded_plane.hpp"
 
 namespace quadedge::stages {
 
 EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
                              const SelectionArguments& right, const EdgeMaxima& maxima)
-    : context_(context), budget_(config.budget), local_size_(context.is_cpu() ? 1 : 64), left_(left), right_(right) {
+    : context_(context),
+      budget_(config.budget),
+      local_size_(context.is_cpu() ? 1 : 64),
+      weighing_group_(std::min<std::size_t>(64, context.limits().group_items)),
+      left_(left),
+      right_(right) {
   spacing_.write(context, {0.0F});
   if (budget_ == 0) return;
   tally_.write(context, {0, 0});
   opencl::Defines defines = gradient_defines(config);
   defines.merge(maxima.defines());
+  if (maxima.in_cells) defines["GROUP"] = std::to_string(weighing_group_);
   const cl::Program program = context.program({"edge_detection.cl", "edge_selection.cl"}, defines);
   space_ = {context, program, "edge_selection_spacing"};
   if (maxima.in_cells) {
@@ -24,13 +32,11 @@ EdgeSelection::EdgeSelection(opencl::Context& context, const EdgesConfig& config
 }
 
 void EdgeSelection::weigh(const SelectionArguments& arguments, const EdgeMaxima& maxima, cl_int image) {
-  const auto rows = 2 * static_cast<std::size_t>(arguments.height),
-             columns = 2 * static_cast<std::size_t>(arguments.width);
+  const std::size_t samples = (static_cast<std::size_t>(arguments.height) + kSelectionSample - 1) / kSelectionSample;
   if (maxima.in_cells) {
-    weigh_cells_({rows * columns, local_size_}, arguments, maxima.winners, maxima.flags, image, tally_);
+    weigh_cells_({samples * weighing_group_, weighing_group_}, arguments, maxima.winners, maxima.flags, image, tally_);
   } else {
-    weigh_rows_({(rows / 2 + kSelectionSample - 1) / kSelectionSample, local_size_}, arguments, maxima.winners,
-                maxima.counts, image, tally_);
+    weigh_rows_({samples, local_size_}, arguments, maxima.winners, maxima.counts, image, tally_);
   }
 }
 

@@ -35,7 +35,7 @@ class EdgeSelection {
 
   opencl::Context& context_;
   cl_int budget_;
-  std::size_t local_size_;
+  std::size_t local_size_, weighing_group_;
   SelectionArguments left_, right_;
   opencl::Buffer<cl_int> tally_;  ///< weights of the left and the right image
   opencl::Buffer<cl_float> spacing_;

@@ -6,6 +6,7 @@
 
 #include "opencl/argument_structs.hpp"
 #include "stages/packed_positions.hpp"
+#include "stages/scan.hpp"
 
 namespace quadedge::stages {
 
@@ -22,6 +23,7 @@ class DevicePointIndex {
   opencl::Buffer<cl_int> cells;
 
   const PackedPointIndex& layout() const { return layout_; }
+  int cell_count() const { return layout_.columns * layout_.rows; }
   /// Makes room for `count` edges; contents are lost.
   void resize(opencl::Context& context, int count);
 
@@ -44,11 +46,24 @@ class PointIndex {
   template <class T>
   using Out = opencl::Out<T>;
 
+  /// Counts the edges of all cells, then places and sorts them, each in a launch over both sides.
+  void run_in_groups(const PointIndexArguments& arguments, const PositionsView& left_edges,
+                     const PositionsView& right_edges, DevicePointIndex& left, DevicePointIndex& right);
+
   opencl::Context& context_;
   std::size_t local_size_;
+  bool grouped_;
   opencl::Kernel<PointIndexArguments, In<cl_float>, In<cl_float>, Out<cl_float>, Out<cl_int>, Out<cl_float>,
                  Out<cl_int>>
       kernel_;
+  Scan scan_;
+  opencl::Buffer<cl_int> counts_, first_, total_;  ///< per cell of both sides
+  opencl::Buffer<cl_int> numbers_;                 ///< per edge of both sides
+  opencl::Kernel<PointIndexArguments, In<cl_float>, In<cl_float>, Out<cl_int>> count_;
+  opencl::Kernel<PointIndexArguments, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>, Out<cl_int>> place_;
+  opencl::Kernel<PointIndexArguments, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>, Out<cl_float>, Out<cl_int>,
+                 Out<cl_float>, Out<cl_int>>
+      sort_;
 };
 
 }  // namespace quadedge::stages
