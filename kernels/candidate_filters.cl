@@ -1,7 +1,7 @@
 // candidate_filters.cl: NCC, SIFT and both best-and-nearly-best filters over candidate lists, in stereo and in time.
 //
-// Needs similarity.cl. In: candidate lists; patches of both sets of edges, with the numbers under which an edge's own
-// stand there, and their SIFT descriptors in the order of the edges.
+// Needs similarity.cl. In: candidate lists; patches of both sets of edges, with the patch number of every edge, and
+// their SIFT descriptors in the order of the edges.
 // Out per candidate: NCC, SIFT distance and state; per row the number of survivors. One work-item = one row.
 // Reference: host/reference/candidate_filters.cpp.
 
@@ -17,7 +17,7 @@ kernel void candidate_filters(const FilterArguments args, global const int* firs
   global const char* patch = patches_a + kEdgePatchBytes * (size_t)patch_of_a[edge];
   global const uchar* descriptor = sift_a + kEdgeSiftBytes * (size_t)edge;
 
-  // Which of the two similarities is computed first does not change who survives; only a tap needs both for all.
+  // The order of the two filters does not change the survivors; only taps need both scores of all candidates.
   float best_ncc = 0.0f;
   for (int c = begin; c < end; ++c) {
     const int j = target[c];

@@ -1,7 +1,7 @@
-// candidate_filters_groups.cl: candidate_filters.cl with one work-group of GROUP work-items per row, for GPUs: eight of
-// them share a candidate and read its patches, and its descriptors, one after the other in memory.
+// candidate_filters_groups.cl: candidate_filters.cl with one work-group of GROUP work-items per row, for GPUs. Eight
+// work-items share a candidate, so that they read its patches and descriptors from contiguous memory.
 //
-// Needs similarity_lanes.cl. In and out as in candidate_filters.cl, and the same bits: the sums are of whole numbers.
+// Needs similarity_lanes.cl. Input, output and bits are those of candidate_filters.cl, since all sums are integers.
 // Reference: host/reference/candidate_filters.cpp.
 
 #define PAIRS (GROUP / PAIR_ITEMS)

@@ -1,10 +1,10 @@
-// ceilings.cl: what the device can do at most, as a scale for the kernels' times (host/benchmark/ceilings.hpp).
+// ceilings.cl: peak bandwidth and arithmetic of the device, to compare kernel times with (host/benchmark/ceilings.hpp).
 //
 // ceiling_copy   In: `count` vectors of 16 floats. Out: the same elsewhere. Each work-item takes its part of
 //                neighbouring vectors where CHUNK is above 1 (CPUs), or every get_global_size(0)-th one (GPUs), so that
 //                loads are contiguous for both.
 // ceiling_fma    Out: one sum per work-item, of ROUNDS * 8 * 16 fused multiply-adds in eight chains of float16, which
-//                wait for nobody and stay in registers once the loops over them are unrolled.
+//                are independent and stay in registers once the loops over them are unrolled.
 
 #ifndef CHUNK
 #define CHUNK 1

@@ -1,6 +1,6 @@
-// common.cl: put in front of every program. What all kernels share.
+// common.cl: shared by all kernels, prepended to every program.
 //
-// Host and device must round alike: a*b+c is never fused.
+// Host and device must round in the same way: a*b+c is never fused.
 #pragma OPENCL FP_CONTRACT OFF
 
 // MAX_VALUE: largest value of the recorded images' pixels, 0 to 255 grey levels whatever their depth.
@@ -14,8 +14,8 @@ typedef uchar Pixel;
 #endif
 #define GREY_PER_VALUE (255.0f / (float)MAX_VALUE)
 
-// For kernels written in vectors: without the hint Intel's compiler for CPUs also lays their work-items side by side,
-// which takes it two to four times as long, and a minute for temporal_match.cl. Others do not care.
+// For kernels written with vector types. Without the hint Intel's compiler for CPUs also vectorises across work-items:
+// compilation takes two to four times as long, a minute for temporal_match.cl. Other compilers ignore it.
 #define IN_VECTORS __attribute__((vec_type_hint(float16)))
 
 #ifndef PI_F

@@ -1,8 +1,8 @@
 // direction.cl: sine and cosine of a direction, and rounding down, in plain arithmetic.
 //
 // The built-in functions differ between drivers in the last bits and are slow on some (PoCL emulates floor lane by
-// lane).
-// Discrete choices follow from these numbers, so every device shall compute the same. Name this file before its users.
+// lane). Since discrete decisions depend on these values, all devices must compute the same. List this file before the
+// files that use it.
 
 // Sine and cosine of x radians, |x| < 1000: reduction by multiples of pi/2 in three parts, then the Taylor polynomials
 // of degree 9 and 10, whose remainders on [-pi/4, pi/4] are 2e-9 and 2e-10. Error at most 1e-7.

@@ -15,7 +15,7 @@
 #define CELLS_OF_ITEM (4 * TILE_X * TILE_Y / LOCAL)         // of the tile's, each work-item's own
 
 // x, y = the gradient of cell (column, row) of a tile with its border, from the sums along y. A macro, because PoCL 3.1
-// gives a function that is called twice wrong local arrays.
+// passes wrong local arrays to functions that are called twice.
 #define TILE_GRADIENT(x, y, row, column)                                                         \
   {                                                                                              \
     const int phase = ((column) + 1) & 1, at = (row)*TILE_COLUMNS + ((column) + 1) / 2 + RADIUS; \
@@ -27,21 +27,21 @@
 
 // Gradient and maximum test of TILE_X x TILE_Y pixels per work-group of LOCAL.
 //
-// Out: flags, 2 height x 2 width: 1 where a cell won; winners, at the cell's position (4 * (r * 2 * width + X)) where
-// it did.
+// Out: flags, 2 height x 2 width: 1 for maxima; winners: the maxima, at the position of their cell
+// (4 * (r * 2 * width + X)).
 kernel OF_GROUP void edges_tile_maxima(const DetectionArguments args, global const float* threshold_of_frame,
                                        const int tiles_x, global const float* plane, global const float* taps,
                                        global float* winners, global uchar* flags) {
   local float smooth_y[TILE_ROWS * TILE_COLUMNS], slope_y[TILE_ROWS * TILE_COLUMNS];
   local float magnitude[TILE_ROWS * TILE_CELLS];
-  float2 gradients[CELLS_OF_ITEM];  // in registers: local memory for them would keep groups away
+  float2 gradients[CELLS_OF_ITEM];  // in registers: in local memory they would reduce occupancy
   const int stride = args.plane_stride, width = args.width, height = args.height, margin = args.margin;
   const float threshold = threshold_of_frame[0];
   const int item = (int)get_local_id(0);
   const int x0 = ((int)get_group_id(0) % tiles_x) * TILE_X, y0 = ((int)get_group_id(0) / tiles_x) * TILE_Y;
 
-  // Along y: rows 2 y0 - 1 .. 2 (y0 + TILE_Y) of the doubled grid, columns from x0 - 1 - RADIUS on. What reaches beyond
-  // the plane belongs to no cell of the image.
+  // Along y: rows 2 y0 - 1 .. 2 (y0 + TILE_Y) of the doubled grid, columns from x0 - 1 - RADIUS on. Sums beyond the
+  // plane belong to no cell of the image.
   for (int i = item; i < TILE_ROWS * TILE_COLUMNS; i += LOCAL) {
     const int row = 2 * y0 - 1 + i / TILE_COLUMNS, phase = row & 1;
     const int y = min(row >> 1, height), x = min(x0 - 1 - RADIUS + i % TILE_COLUMNS, width + RADIUS);
@@ -163,7 +163,7 @@ kernel OF_GROUP void edges_tile_directions(const DetectionArguments args, global
     float s[DERIVATIVES];
     for (int column = lane; column < COLUMNS; column += 8) {
       float d[ORDERS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-      // Unrolled altogether it takes 170 registers on AMD.
+      // Fully unrolled it needs 170 registers on AMD.
       _Pragma("unroll 6") for (int k = 0; k < TAPS; ++k) {
         const float grey = window[k * stride + column] - level;
         for (int order = 0; order < ORDERS; ++order) d[order] = fma(weights_y[order * COLUMNS + k], grey, d[order]);
@@ -176,7 +176,7 @@ kernel OF_GROUP void edges_tile_directions(const DetectionArguments args, global
                                      d[2], d[3], d[0], d[1], d[2], d[3], d[4]};
       for (int j = 0; j < DERIVATIVES; ++j) s[j] = column < 8 ? wx[j] * dy[j] : fma(wx[j], dy[j], s[j]);
     }
-    barrier(CLK_LOCAL_MEM_FENCE);  // the weights have been used
+    barrier(CLK_LOCAL_MEM_FENCE);  // all work-items have read the weights
     for (int j = 0; j < DERIVATIVES; ++j) sums[j * LOCAL + item] = s[j];
     for (int distance = 4; distance > 0; distance /= 2) {
       barrier(CLK_LOCAL_MEM_FENCE);
@@ -193,6 +193,6 @@ kernel OF_GROUP void edges_tile_directions(const DetectionArguments args, global
       edges[3 * args.max_edges + n] = winner.z;
       edges[4 * args.max_edges + n] = drift;
     }
-    barrier(CLK_LOCAL_MEM_FENCE);  // the sums have been used
+    barrier(CLK_LOCAL_MEM_FENCE);  // all work-items have read the sums
   }
 }

@@ -1,4 +1,4 @@
-// edge_mask.cl: takes away the maxima where an image shows nothing of the world. doc/method.md section 1.
+// edge_mask.cl: removes the maxima in masked parts of an image. doc/method.md section 1.
 //
 // In: the maxima of edge_detection_strip.cl (rows: packed at the start of their row) or, with IN_CELLS, of
 // edge_detection_tile.cl (flags over the grid), which are thinned out in place; mask = height x width bytes, not 0

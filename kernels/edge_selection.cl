@@ -1,23 +1,23 @@
-// edge_selection.cl: which maxima become edges, before anything else is spent on them: those where a curve crosses one
-// of evenly spaced epipolar lines. doc/method.md section 1.
+// edge_selection.cl: selects the maxima that become edges: those where a curve crosses one of evenly spaced epipolar
+// lines. doc/method.md section 1.
 //
 // Needs edge_detection.cl. In: the maxima of edge_detection_strip.cl (rows: packed at the start of their row) or, with
 // IN_CELLS, of edge_detection_tile.cl (flags over the grid), which it thins out in place. An image's epipolar lines are
-// numbered by EpipolarRows, alike in both images, so that an edge and its counterpart stay together.
-// First maxima of both images are weighed with what each would add at a spacing of 1 px, then the spacing follows
-// from the budget, then the maxima are chosen. Sums are integers, whose order does not matter.
+// numbered by EpipolarRows in the same way in both images, so that an edge and its counterpart are kept together.
+// First the maxima of both images are weighed by their number of edges at a spacing of 1 px, then the spacing is
+// computed from the budget, then the maxima are selected. All sums are integers, so their order does not matter.
 // Reference: host/reference/edge_selection.cpp.
 
 // The functions below for one maximum and for sixteen, with the same operations: T is float or float16, I int or int16.
-// crossing: the number of the epipolar line of a maximum; step: by which that of neighbouring maxima along the curve
-// differs; sine: of the angle between curve and line. Its tangent has 1 as the longer component, because neighbouring
-// maxima are half a pixel apart along it.
-// density: lines that a curve meets under a small angle are asked for more densely, so that its edges keep their
-// distance: every 1, 1/2, 1/4, 1/8, 1/16 of the spacing.
-// meets: is this the maximum of its curve that is nearest to a line of the lattice? width: 1; 1.5 gives every other
-// line two of them.
-// chosen: positions and directions of the two images differ a little, so the searched image keeps the neighbours too,
-// and what a neighbouring density asks for.
+// crossing: the number of the epipolar line of a maximum; step: its difference between neighbouring maxima of the
+// curve; sine: of the angle between curve and line. The longer component of the tangent is 1, because neighbouring maxima are
+// half a pixel apart along it.
+// density: where a curve meets the lines at a small angle, the lines are closer, so that edges keep their distance: 1,
+// 1/2, 1/4, 1/8 or 1/16 of the spacing.
+// meets: true for the maximum of a curve that is nearest to a line of the lattice. width: 1; with 1.5 every other line
+// has two of them.
+// chosen: positions and directions of the two images differ slightly, so the searched image also keeps the neighbours,
+// and the maxima of neighbouring densities.
 #define DEFINE_LATTICE(T, I, SUFFIX)                                                                              \
   static inline T crossing##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code, \
                                    T* step, T* sine) {                                                            \
@@ -62,7 +62,7 @@ DEFINE_LATTICE(float, int, )
 DEFINE_LATTICE(float16, int16, 16)
 #endif
 
-// How many edges a maximum stands for at a spacing of 1 px, times kSelectionUnit.
+// Number of edges that a maximum contributes at a spacing of 1 px, times kSelectionUnit.
 static inline int weight_of(const SelectionArguments* args, const float4 winner) {
   float step, sine;
   crossing(args, winner.x, winner.y, winner.w, &step, &sine);
@@ -101,7 +101,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edge_selection_we
   if (item == 0 && sums[0] > 0) atomic_add(tally + image, sums[0]);
 }
 
-// Takes the flag of the maxima that are not chosen. One work-item per cell.
+// Clears the flags of the maxima that are not selected. One work-item per cell.
 kernel void edge_selection_cells(const SelectionArguments args, global const float* spacing_of_frame,
                                  global const float* winners, global uchar* flags) {
   const size_t cell = get_global_id(0);
@@ -126,8 +126,8 @@ kernel void edge_selection_weigh_rows(const SelectionArguments args, global cons
   if (sum > 0) atomic_add(tally + image, sum);
 }
 
-// Keeps the chosen maxima of a row, in their order. One work-item per row of the doubled grid, sixteen maxima at a
-// time; what it reads beyond the last of them is not used (rows without room behind them have no maxima).
+// Keeps the selected maxima of a row, in their order. One work-item per row of the doubled grid, sixteen maxima at a
+// time. Values read beyond the last maximum are not used (rows at the end of the buffer have no maxima).
 kernel void edge_selection_rows(const SelectionArguments args, global const float* spacing_of_frame,
                                 global float* winners, global int* counts) {
   const int row = (int)get_global_id(0);

@@ -3,11 +3,11 @@
 //
 // An image is tallied at lattice points kThresholdStep px apart, in the middle of square cells: the magnitude of the
 // gradient at the point, and the responses of the noise operator along the point's row. A tally is kThresholdBins
-// integers, first those of the gradient, then those of the noise; each row of the lattice has one of its own, so that
-// no order of work-items shows. Reference: host/reference/edge_threshold.cpp.
+// integers, first those of the gradient, then those of the noise; every row of the lattice has its own tally, so that
+// the result does not depend on the order of work-items. Reference: host/reference/edge_threshold.cpp.
 //
-// GROUP 1: one work-item tallies a row of the lattice with float16. Otherwise a group does, as many points at a time as
-// it has work-items for the columns of pixels around them.
+// GROUP 1: one work-item tallies a row of the lattice with float16. Otherwise a group tallies a row, as many points at
+// a time as it has work-items for the columns of pixels around them.
 
 #ifndef GROUP
 #define GROUP 1
@@ -42,7 +42,7 @@ static inline float gradient_bin_start(const int bin) {
   return bin == 0 ? 0.0f : as_float((bin + kGradientBinsFrom) << 20);
 }
 
-// Whole numbers below 16 have a bin of their own, larger ones eight per octave.
+// Integers below 16 have one bin each, larger ones eight bins per octave.
 static inline int noise_bin(const int response) {
   const int octave = 31 - (int)clz(response | 1);
   return min(response < 16 ? response : 16 + 8 * (octave - 4) + ((response >> (octave - 3)) & 7), kNoiseBins - 1);
@@ -125,7 +125,7 @@ static inline void tally_gradients(global const float* pixel, const int points, 
                                    global const float* taps, local float* smooth_y, local float* slope_y,
                                    TALLY int* tally) {
   const int item = (int)get_local_id(0), columns = (points - 1) * kThresholdStep + 2 * RADIUS + 1;
-  barrier(CLK_LOCAL_MEM_FENCE);  // the columns of the points before have been used
+  barrier(CLK_LOCAL_MEM_FENCE);  // all work-items have read the previous columns
 #define AT(k) ONE(pixel + i - RADIUS + (k)*args.plane_stride)
   for (int i = item; i < columns; i += GROUP) {
     SMOOTH(float, smooth_y[i], AT, SMOOTH_TAPS(taps, 0), 0)
@@ -139,7 +139,7 @@ static inline void tally_gradients(global const float* pixel, const int points, 
   }
 }
 
-// A pixel each.
+// One pixel per work-item.
 static inline void tally_noise(global const float* row, const int first_x, const int points,
                                const ThresholdArguments args, TALLY int* tally) {
   for (int x = first_x + (int)get_local_id(0); x < first_x + points * kThresholdStep; x += GROUP) {
@@ -194,7 +194,7 @@ static inline float gradient_exceeded_by(local const int* tally, const float wan
   return 0.0f;
 }
 
-// Median of the noise operator's responses in steps; a whole number stands for half a step to either side.
+// Median of the noise operator's responses in steps; an integer represents half a step to either side.
 static inline float noise_median(local const int* tally, const float total) {
   float below = 0.0f;
   for (int bin = 0; bin < kNoiseBins; ++bin) {

@@ -1,9 +1,9 @@
-// layouts.cl: put in front of every program, behind common.cl. What host and kernels have to lay out alike, written
-// once: the host compiles this very file (host/common/layouts.hpp), so it keeps to what is C and C++ at once. Constants
-// named kLikeThis stand here.
+// layouts.cl: memory layouts shared by host and kernels, prepended to every program after common.cl. The host compiles
+// this file, too (host/common/layouts.hpp), so it must be valid C and C++. It also defines the constants named
+// kLikeThis.
 //
 // Structures are passed to kernels by value. Their fields are int, float, arrays or structures of these: all of 4
-// bytes, so that no compiler puts room between them. tests/test_layouts.cpp compares them on every device, field by
+// bytes, so that no compiler inserts padding. tests/test_layouts.cpp compares them on every device, field by
 // field.
 
 #ifdef __cplusplus
@@ -41,7 +41,7 @@ enum {
   kWideBytes = kWideCells * kWideCells * kWideAngles
 };
 
-// Wide descriptors that stand in one block, element by element (wide_matching_blocks.cl).
+// Wide descriptors that are interleaved in a block, element by element (wide_matching_blocks.cl).
 enum { kBlockLanes = 16 };
 
 // Cells of a point index (point_index.cl), px.
@@ -52,11 +52,11 @@ FLOAT_CONSTANT kCellHeight = 4.0f;
 // candidate at the same position, which is refined for both.
 enum { kCandidateAlive = 0, kCandidateRepresented = 255 };
 
-// Candidates that shift onto the epipolar line within so many px of one another lie at the same position: neighbours on
-// a curve, which the refinement leads to the same point (stereo_refinement.cl).
+// Candidates within this distance [px] after the shift onto the epipolar line count as one position: they are
+// neighbours on a curve that the refinement moves to the same point (stereo_refinement.cl).
 FLOAT_CONSTANT kSamePosition = 0.5f;
 FLOAT_CONSTANT kLongestScaleDrift = 3.0f;  // of an edge per unit of log(edges.sigma) [px]; flat profiles promise any
-// Largest difference of contrast that the photometric alignment evens out (photometric.cl).
+// Largest ratio of contrasts that the photometric alignment compensates (photometric.cl).
 FLOAT_CONSTANT kGainMax = 2.0f;
 // Members of a cluster whose similarity differs by less are equally similar: the first right edge in scan order
 // represents the cluster. Members that the refinement led to the same position always are; rounding must not choose
@@ -141,7 +141,7 @@ typedef struct {
   int max_edges;
 } DetectionArguments;
 
-// Numbers the epipolar lines of an image, alike in both images of a rig, in pixels of the left camera: the line through
+// Numbers the epipolar lines in the same way in both images of a rig, in pixels of the left camera: the line through
 // (x, y) has number (across . (x, y, 1)) / (forward . (x, y, 1)). On a rectified rig that is y less the principal
 // point's.
 typedef struct {
@@ -151,10 +151,10 @@ typedef struct {
 
 enum {
   kSelectionUnit = 256,  // of the weights that edge_selection.cl adds up
-  kSelectionSample = 4   // every so many pairs of rows of the doubled grid are weighed
+  kSelectionSample = 4   // one of so many pairs of rows of the doubled grid is weighed
 };
 FLOAT_CONSTANT kSearchedWidth = 1.5f;     // of the maxima around a line that the searched image keeps, in steps
-FLOAT_CONSTANT kSelectionSteps = 32.0f;   // of the spacing per px, so that a maximum more or less changes nothing
+FLOAT_CONSTANT kSelectionSteps = 32.0f;   // of the spacing per px: a maximum more or less does not change it
 FLOAT_CONSTANT kClosestSelection = 0.5f;  // px; maxima of a curve are not closer
 
 // edge_selection.cl.
@@ -189,8 +189,8 @@ typedef struct {
 } StereoCandidateArguments;
 
 // Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 6. The orders are the filters'
-// numbers in their cascade; the nearly-best filters follow at the larger one + 1 and + 2. sift_max = 0: SIFT takes no
-// part.
+// numbers in their cascade; the nearly-best filters follow at the larger one + 1 and + 2. sift_max = 0: SIFT is
+// not used.
 typedef struct {
   float ncc_min, sift_max, ncc_nearly_best, sift_nearly_best;
   int ncc_order, sift_order;
@@ -201,7 +201,7 @@ typedef struct {
   int rows;
   int row_step;    // row r belongs to edge r * row_step of the first set
   int capacity;    // of the candidate lists
-  int all_scores;  // not 0: both similarities of every candidate, also where one decides
+  int all_scores;  // not 0: both scores of every candidate, even where one decides
   FilterLimits limits;
 } FilterArguments;
 
@@ -237,12 +237,12 @@ FLOAT_CONSTANT kRelaxationCell = 4.0f;
 enum { kRelaxationNeighbours = 16 };
 FLOAT_CONSTANT kRelaxationRing[2] = {6.0f, 20.0f};
 FLOAT_CONSTANT kEighthCosine[8] = {1.0f, 0.70710678f, 0.0f, -0.70710678f, -1.0f, -0.70710678f, 0.0f, 0.70710678f};
-// Two positions support one another as long as they differ by less than this [px], for each ring: 1 px, and 0.2 per px
-// between the edges, which a surface may turn where nothing says how it is turned.
+// Two positions support each other if they differ by less than this [px], for each ring: 1 px, plus 0.2 px per px of
+// distance between the edges, for surfaces of unknown slope.
 FLOAT_CONSTANT kSupportReach[2] = {2.2f, 5.0f};
-// Support of an edge that has none: neighbours alone shall not rule out a candidate.
+// Support of an edge without neighbours that agree: neighbours alone must not rule out a candidate.
 FLOAT_CONSTANT kSupportFloor = 0.05f;
-// Support that an edge is given unasked whose only candidate is similar enough without: that of an ordinary edge.
+// Support assigned to an edge whose only candidate is similar enough without a vote: that of an average edge.
 FLOAT_CONSTANT kUsualSupport = 0.7f;
 // Steepest change of a position along an edge that is believed, and the sine of the smallest angle between a right edge
 // and its epipolar line at which it is taken: below it the angle's error is the slope.
@@ -254,7 +254,7 @@ typedef struct {
   int columns, cell_rows;  // cells of the left image
   float similarity_min;    // of a candidate that takes part
   float scale;             // of differences of similarity
-  float support_weight;    // in similarity; 0: no support is asked
+  float support_weight;    // in similarity; 0: no vote
   float score_min;         // of the chosen candidate
   EpipolarGeometry geometry;
 } StereoRelaxationArguments;

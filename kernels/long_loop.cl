@@ -1,8 +1,8 @@
-// long_loop.cl: a loop longer than those of the stages. OpenCL sets no limit, but there are drivers that end a kernel's
-// loops without a word (Mesa's llvmpipe after 65,535 rounds of all of them together), so that large images lack edges
-// which small ones have. Part of the self-test; stage: host/stages/long_loop.cpp.
+// long_loop.cl: a loop longer than those of the stages. OpenCL sets no limit, but some drivers silently terminate loops
+// (Mesa's llvmpipe after 65,535 iterations of all loops of a kernel), so that edges are missing in large images only.
+// Part of the self-test; stage: host/stages/long_loop.cpp.
 //
-// Out: what a linear congruential generator has reached, which no compiler works out beforehand. One work-item.
+// Out: the state of a linear congruential generator, which compilers do not evaluate in advance. One work-item.
 
 kernel void long_loop(const int rounds, global uint* result) {
   uint value = 1u;

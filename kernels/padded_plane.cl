@@ -1,5 +1,5 @@
-// padded_plane.cl: an image as floats with its border replicated; needs edge_detection.cl, which says how the plane
-// lies.
+// padded_plane.cl: an image as floats with its border replicated; needs edge_detection.cl, which describes the layout
+// of the plane.
 
 // One work-item = 16 neighbouring floats of the plane.
 kernel void edges_pad(global const uchar* bytes, const int width, const int height, global float* plane,

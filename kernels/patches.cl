@@ -11,8 +11,8 @@
 #ifndef ITEMS_PER_EDGE
 #define ITEMS_PER_EDGE 1
 #endif
-// Added and taken away again it leaves the nearest integer, halves to the even one: 1.5 * 2^23 has no room for a
-// fraction.
+// Adding and subtracting it rounds to the nearest integer, halves to even, because floats of about 1.5 * 2^23 have no
+// fraction bits.
 #define NO_FRACTION 12582912.0f
 
 #if ITEMS_PER_EDGE == 1
@@ -21,8 +21,8 @@
 #define SIDES float  // of the work-item's side
 #endif
 
-// A patch becomes integers, at most kPatchLargest of magnitude; a flat one becomes zeros. Their squares add up to less
-// than 2^24: floats hold these sums exactly.
+// Patches are stored as integers of magnitude up to kPatchLargest, flat ones as zeros. Sums of their squares are below
+// 2^24, which floats represent exactly.
 static inline SIDES scale_of(const SIDES largest) {
   return largest < kFlatPatchContrast ? (SIDES)(0.0f) : (float)kPatchLargest / largest;
 }
@@ -97,7 +97,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(cons
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), side = patch_in_group() & 1;
   const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
-  const int edge = min(wanted, count - 1);  // surplus work-items work along with the last edge for the barriers
+  const int edge =
+      min(wanted, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
   float rows[kPatchSide];

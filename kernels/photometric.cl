@@ -2,7 +2,7 @@
 // Needs direction.cl. Images come as the corners of pixel_corners.cl.
 //
 // A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the bright side.
-// The eighth lane is a sample again, finite and without meaning; sums leave it out.
+// The eighth lane repeats a sample; it is finite but unused, and sums exclude it.
 // Reference: host/reference/photometric.cpp.
 
 #define PATCH_REACH 8  // px, more than half the diagonal of a patch
@@ -55,8 +55,8 @@ static inline PatchFrame patch_frame(const float x, const float y, const float c
   const float##N c = CORNER(N, four_, 16u, 255u), d = CORNER(N, four_, 24u, 255u);
 #endif
 
-// Whether no sample of a patch can leave the image, given the pixel PATCH_REACH up and left of its centre: then nothing
-// has to be clamped.
+// True if no sample of a patch can be outside the image, given the pixel PATCH_REACH up and left of its centre: then
+// nothing has to be clamped.
 static inline int lies_inside(const int base_x, const int base_y, const int width, const int height) {
   return base_x >= 0 && base_y >= 0 && base_x + 2 * PATCH_REACH < width && base_y + 2 * PATCH_REACH < height;
 }
@@ -90,7 +90,7 @@ static inline void cut_patch(global const uint* corners, const int width, const 
     const float8 top = a + fx * (b - a), bottom = c + fx * (d - c);
     rows[i] = top + fy * (bottom - top);
   }
-  // Taking the middle sample away first makes a constant patch exactly zero.
+  // Subtracting the middle sample first makes a constant patch exactly zero.
   const float middle = rows[kPatchSide / 2].s3;
 #pragma unroll
   for (int i = 0; i < kPatchSide; ++i) {
@@ -180,7 +180,7 @@ static inline float rows_ncc(const float8* a, const float norm_a, const float8* 
   return norms < 1e-10f ? 0.0f : sum_used(product) / norms;
 }
 
-// What align_edge() ends with.
+// Results of align_edge().
 #define ALIGN_LEFT 0     // the clamp
 #define ALIGN_MOVED 1    // after the last step
 #define ALIGN_SETTLED 2  // with a step below the tolerance: `values` is the patch that it found

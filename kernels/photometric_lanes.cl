@@ -1,25 +1,25 @@
 // photometric_lanes.cl: photometric.cl with one work-item per lane of a patch, which holds the seven samples of its
 // column.
-// Functions only. Needs photometric.cl; every result is the same bits as there.
+// Functions only. Needs photometric.cl; all results have the same bits as there.
 //
-// Eight neighbouring work-items share a patch; a group of GROUP works on GROUP / kPatchLanes patches. The eighth lane's
-// samples have no meaning, it works along. All work-items of a group must call the functions that take an Exchange:
-// they contain barriers. Where a function takes `wanted`, a patch without it only attends the barriers.
+// Eight neighbouring work-items share a patch; a group of GROUP works on GROUP / kPatchLanes patches. The samples
+// of the eighth lane are unused. All work-items of a group must call the functions that take an Exchange, because they
+// contain barriers. Where a function takes `wanted`, patches without it only take part in the barriers.
 
 #ifndef GROUP
 #define GROUP 64
 #endif
 #define EXCHANGE_FLOATS (4 * GROUP)
 
-// What work-items tell one another, two floats each, through local memory. The halves serve in turn, so that one
-// barrier an exchange is enough: before a half is written again, everyone has passed the other's barrier and thus read
-// it.
+// Exchange of two floats per work-item through local memory. Two halves are used alternately, so that one barrier per
+// exchange suffices: before a half is written again, all work-items have passed the barrier of the other half and thus
+// have read it.
 typedef struct {
   local float* memory;  // EXCHANGE_FLOATS
   int turn;             // half to be written next
 } Exchange;
 
-// Returns what all have told: `a` of work-item k at k, `b` at GROUP + k. To be read before the next exchange.
+// Returns the values of all work-items: `a` of work-item k at k, `b` at GROUP + k. Valid until the next exchange.
 static inline local const float* tell(Exchange* exchange, const float a, const float b) {
   const int item = (int)get_local_id(0);
   local float* told = exchange->memory + exchange->turn * 2 * GROUP;
@@ -45,7 +45,7 @@ static inline float2 sum_two_lanes(Exchange* exchange, const float a, const floa
   return (float2)(sum_used(vload8(patch_in_group(), told)), sum_used(vload8(patch_in_group(), told + GROUP)));
 }
 
-// Whether any patch of the group told an `a` other than 0; its first lane speaks for it.
+// True if the first lane of any patch of the group has published an `a` other than 0.
 static inline int any_patch(local const float* told) {
   int any = 0;
   for (int k = 0; k < GROUP; k += kPatchLanes) any |= told[k] != 0.0f;
@@ -112,8 +112,8 @@ static inline float column_product(const float* a, const float* b) {
   return sum;
 }
 
-// align_edge(); the samples of `fixed` and `derivative` stand GROUP apart. Patches of the group that end early wait for
-// the others. ALIGN_LEFT where not `wanted`.
+// align_edge(); the samples of `fixed` and `derivative` are GROUP floats apart. Patches that finish early wait for the
+// others of the group. Returns ALIGN_LEFT if not `wanted`.
 static inline int align_columns(global const uint* corners, const int width, const int height, const PatchFrame moving,
                                 const float ex, const float ey, local const float* fixed, const float fixed_norm,
                                 local const float* derivative, const float stiffness, const AlignmentSettings settings,

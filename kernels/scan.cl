@@ -2,9 +2,9 @@
 //
 // In: counts (count). Out: first (count + 1) with first[i] = min(counts[0] + ... + counts[i - 1], capacity), and
 // total = {elements that fit, elements that were cut off}. Every group owns one contiguous part of the counts, every
-// work-item one contiguous part of its group's. OpenCL 1.2 lets no group wait for another, so each adds up what lies
-// before its part by itself, and one launch is enough: with 32 groups a count is read 16 times more, but in order.
-// Integer sums, so the result does not depend on the sizes chosen.
+// work-item one contiguous part of its group's. In OpenCL 1.2 groups cannot wait for each other, so every group
+// sums all counts before its part itself, and one launch suffices: with 32 groups every count is read 16 times more, in
+// order. The sums are integers, so the result does not depend on the sizes.
 #ifndef SCAN_LOCAL
 #define SCAN_LOCAL 1
 #endif
@@ -24,7 +24,7 @@ static inline void group_scan(local int2* sums) {
 kernel __attribute__((reqd_work_group_size(SCAN_LOCAL, 1, 1))) void scan(global const int* counts, const int count,
                                                                          const int capacity, global int* first,
                                                                          global int* total) {
-  local int2 sums[SCAN_LOCAL];  // before the group's part, inside it
+  local int2 sums[SCAN_LOCAL];  // sums before and within the group's part
   const int item = (int)get_local_id(0);
   const int part = (count + (int)get_global_size(0) - 1) / (int)get_global_size(0);
   const int group_begin = min((int)get_group_id(0) * SCAN_LOCAL * part, count);

@@ -3,7 +3,7 @@
 //
 // The gradient of the blurred image is made once per image, in three passes over planes of `stride` floats per row.
 // Pixel (x, y) of the planes of the blur stands at y * stride + kSiftPadding + x; the maps also have kSiftPadding rows
-// above and below, so that a descriptor's samples need no test: outside the image and on its outermost pixels the
+// above and below, so that samples need no bounds check: outside the image and on its outermost pixels the
 // magnitude is zero.
 // stride = kSiftPadding + width rounded up to 8 + kSiftPadding. One work-item = 8 pixels of a row.
 // sift_blur_down   In: image (width x height, packed). Out: blurred along y; columns -8 .. width rounded up + 8.
@@ -92,8 +92,8 @@ kernel IN_VECTORS void sift_gradient(global const float* blurred, const int widt
   vstore8(bins, 0, angle + (size_t)row * stride + column);
 }
 
-// Nearest pixel of a key point, kept so near the image that its samples stay inside the maps (they are all zero beyond
-// it).
+// Nearest pixel of a key point, limited to the surroundings of the image so that all samples are inside the maps
+// (beyond, they would all be zero).
 static inline int nearest(const float coordinate, const int size) {
   return (int)clamp(rint(coordinate), -(float)(RADIUS + 1), (float)(size + RADIUS));
 }
@@ -106,7 +106,7 @@ static inline float sum_lanes(const float8 v) {
 
 #if ITEMS_PER_EDGE == 1
 
-#define ROW (kSiftCells + 2)  // cells with a ring around them that takes what falls outside
+#define ROW (kSiftCells + 2)  // cells with a ring around them for samples outside
 
 constant int8 kAngleMask[kSiftAngles] = {(int8)(-1, 0, 0, 0, 0, 0, 0, 0), (int8)(0, -1, 0, 0, 0, 0, 0, 0),
                                          (int8)(0, 0, -1, 0, 0, 0, 0, 0), (int8)(0, 0, 0, -1, 0, 0, 0, 0),
@@ -158,7 +158,7 @@ static inline float8 two_bins(const float low, const float high, const int bin) 
   return as_float8((as_int8((float8)(low)) & lower) | (as_int8((float8)(high)) & upper));
 }
 
-// Lane k of two vectors that stand behind one another.
+// Lane k of two concatenated vectors.
 #define LANE(T, vectors, k) ((const T*)(vectors))[k]
 
 // LONG: the histogram stays in registers from the first sample to the last byte.
@@ -268,7 +268,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
   global const float* directions = ys + args.edges.stride;
   const int local_edge = (int)get_local_id(0) / ITEMS_PER_EDGE, item = (int)get_local_id(0) % ITEMS_PER_EDGE;
   const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
-  const int edge = min(wanted, count - 1);  // surplus work-items work along with the last edge for the barriers
+  const int edge =
+      min(wanted, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
   const float direction = directions[edge], x = xs[edge], y = ys[edge];
   float cosine;
   const float sine = sine_cosine(direction, &cosine);

@@ -1,5 +1,5 @@
-// similarity.cl: how alike two edges are (doc/method.md section 2). Plain functions for the filters; name this file
-// before theirs. Needs described_edges.cl.
+// similarity.cl: similarity of two edges (doc/method.md section 2). Functions only; needs described_edges.cl. List this
+// file before the filters that use it.
 //
 // The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
 // Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.

@@ -24,7 +24,7 @@ static inline int lower_bound_x(global const float* xs, int begin, int end, cons
   return begin;
 }
 
-// What a right edge of a row has to be.
+// Conditions on the right edges of a row.
 typedef struct {
   EpipolarLine line;
   float direction;         // of the left edge
@@ -41,8 +41,7 @@ static inline int passes(const Wanted* wanted, const float x, const float y, con
          !(angle_between(direction, wanted->direction) > wanted->orientation);
 }
 
-// Visits the right edges [begin, end) of a row up to x = `to`; writes those that pass to target[] while fewer than
-// `room` are written.
+// Visits the right edges [begin, end) of a row up to x = `to` and writes at most `room` of those that pass to target[].
 static inline int visit_row(const Wanted* wanted, global const float* xs, global const float* ys,
                             global const float* directions, int begin, const int end, const int total, const float to,
                             global int* target, const int room, int count) {
@@ -64,7 +63,7 @@ static inline int visit_row(const Wanted* wanted, global const float* xs, global
     for (int lane = 0; lane < LANES; ++lane) lowest = fmin(lowest, excess[lane]);
     if (lowest <= 0.0f) {
       const int lanes = min(LANES, end - begin);
-      if (count + lanes <= room) {  // what does not pass is overwritten by what comes next
+      if (count + lanes <= room) {  // edges that do not pass are overwritten by the next ones
         for (int lane = 0; lane < lanes; ++lane) {
           target[count] = begin + lane;
           count += excess[lane] <= 0.0f;
@@ -143,8 +142,8 @@ kernel void stereo_candidates_count(const StereoCandidateArguments args, global 
       visit_row_of(&args, i, left_edges, right_edges, right_row_first, noted + i * kNotedCandidates, kNotedCandidates);
 }
 
-// Copies what the first sweep noted; only rows with more candidates than that sweep again. Rows beyond the capacity
-// stay empty: the host sees the total, makes room and runs again.
+// Copies the candidates stored by the first sweep; only rows with more candidates sweep again. Rows beyond the capacity
+// stay empty: the host reads the total, enlarges the buffers and runs the sweep again.
 kernel void stereo_candidates_fill(const StereoCandidateArguments args, global const float* left_edges,
                                    global const float* right_edges, global const int* right_row_first,
                                    global const int* first, const int capacity, global const int* noted,

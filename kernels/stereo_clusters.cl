@@ -4,7 +4,7 @@
 // of cluster_anchor.
 // Reference: host/reference/stereo_clusters.cpp.
 
-// By what the representative of a cluster is chosen: a represented candidate comes behind every alive one.
+// Criterion for the representative of a cluster: alive candidates come before represented ones.
 static inline float rank_in_cluster(global const uchar* state, global const float* similarity, const int c) {
   return state[c] == kCandidateRepresented ? similarity[c] - kBehindAll : similarity[c];
 }

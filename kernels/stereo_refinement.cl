@@ -3,8 +3,8 @@
 //
 // Needs direction.cl, epipolar.cl, photometric.cl and candidate_positions.cl. In: both images as corners, edges, the
 // left edges' side patches (patches.cl), candidate lists.
-// Out per candidate: its position `s` on the left edge's epipolar line (px from the point at infinity), how alike both
-// positions look, and state = rejected_order where the refinement diverged. One work-item = one left edge;
+// Out per candidate: its position `s` on the left edge's epipolar line (px from the point at infinity), the similarity
+// of both positions, and state = rejected_order where the refinement diverged. One work-item = one left edge;
 // stereo_refinement_lanes.cl has eight per edge.
 // Reference: host/reference/stereo_refinement.cpp.
 
@@ -42,7 +42,7 @@ kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, g
   global const float* right_direction = right_y + args.right.stride;
   const float x = left_x[i], y = left_y[i];
   const EpipolarLine line = epipolar_line(&args.geometry, x, y);
-  // A position known across the edge is known the worse along the line the flatter the edge lies to it.
+  // The smaller the angle between edge and line, the less a position across the edge says about that along the line.
   const float line_sine = left_epipolar_sine(&args.geometry, x, y, left_direction[i]);
   const float edge_stiffness = args.stiffness * line_sine * line_sine;
   float cosine;
@@ -85,7 +85,7 @@ kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, g
                 patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, values);
     }
     const float on_edge = rows_ncc(fixed, fixed_norm, values);
-    // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
+    // A similar side cannot compensate for a dissimilar centre, which gets the lowest similarity of a side.
     float beside = -1.0f;
     if (0.5f * (on_edge + 1.0f) >= args.similarity_min) {
       beside = better_side(right_corners, args.right_width, args.right_height,

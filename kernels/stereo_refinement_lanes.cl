@@ -15,12 +15,12 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     global float* similarity) {
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
-  // What serves all candidates of an edge, a column per work-item: registers are few.
+  // Values that all candidates of an edge use, one column per work-item; in local memory, to save registers.
   local float fixed_columns[kPatchSide * GROUP], derivative_columns[kPatchSide * GROUP];
   local float* fixed = fixed_columns + get_local_id(0);
   local float* derivative = derivative_columns + get_local_id(0);
   const int lane = lane_of_item(), first_item = kPatchLanes * patch_in_group();
-  // Surplus work-items work along with the last edge and an empty row for the barriers.
+  // Surplus work-items take the last edge and an empty row, since all must reach the barriers.
   const int wanted = (int)(get_global_id(0) / kPatchLanes), left_count = args.left.count;
   const int i = min(wanted, left_count - 1);
   const int begin = wanted < left_count ? first[i] : 0,
@@ -33,7 +33,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   global const float* right_direction = right_y + args.right.stride;
   const float x = left_x[i], y = left_y[i];
   const EpipolarLine line = epipolar_line(&args.geometry, x, y);
-  // A position known across the edge is known the worse along the line the flatter the edge lies to it.
+  // The smaller the angle between edge and line, the less a position across the edge says about that along the line.
   const float line_sine = left_epipolar_sine(&args.geometry, x, y, left_direction[i]);
   const float edge_stiffness = args.stiffness * line_sine * line_sine;
   float cosine;
@@ -108,7 +108,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
       if (place == 0) {
         const float norms = fixed_norm * norm;
         on_edge = norms < 1e-10f ? 0.0f : sums.y / norms;
-        // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
+        // A similar side cannot compensate for a dissimilar centre, which gets the lowest similarity of a side.
         alike = aligned != ALIGN_LEFT && 0.5f * (on_edge + 1.0f) >= args.similarity_min;
       } else if (alike) {
         const float side_ncc = norm < 1e-10f ? 0.0f : sums.y * (place == 1 ? inverse_norms.x : inverse_norms.y) / norm;

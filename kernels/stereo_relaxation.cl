@@ -1,5 +1,5 @@
-// stereo_relaxation.cl: filter 10 of the stereo cascade: relaxation labelling. Neighbouring edges vote on which
-// candidate an edge takes.
+// stereo_relaxation.cl: filter 10 of the stereo cascade: relaxation labelling. Neighbouring edges vote on the
+// candidates of an edge.
 //
 // Needs direction.cl and epipolar.cl. One work-item = one left edge; its candidates are the clusters of
 // stereo_clusters.cl that reach similarity_min, the others have prior 0. Beliefs of a round are read and those of the
@@ -56,7 +56,7 @@ kernel void relaxation_start(const StereoRelaxationArguments args, global const 
   atomic_min(cells + (int)(y / kRelaxationCell) * args.columns + (int)(x / kRelaxationCell), i);
 }
 
-// The edge that stands for point n of the rings around (x, y); INT_MAX: none.
+// The edge that represents point n of the rings around (x, y); INT_MAX: none.
 static inline int neighbour_at(const StereoRelaxationArguments* args, global const int* cells, const float x,
                                const float y, const int n) {
   const float radius = kRelaxationRing[n / 8];
@@ -66,8 +66,8 @@ static inline int neighbour_at(const StereoRelaxationArguments* args, global con
   return cells[row * args->columns + column];
 }
 
-// What the candidates begin .. end of a neighbour at (dx, dy) say for a candidate: the belief in that one of them that
-// fits best, the less the farther it is from where the mean of both slopes expects it.
+// Support of a candidate by the candidates begin .. end of a neighbour at (dx, dy): the belief of the best-fitting one,
+// reduced by its distance from the position that the mean of both slopes predicts.
 static inline float vote(global const float* position, global const float* slope_x, global const float* slope_y,
                          global const float* belief, const int candidate, const int begin, const int end,
                          const float dx, const float dy, const float reach) {
@@ -117,9 +117,9 @@ kernel void relaxation_round(const StereoRelaxationArguments args, global const 
   for (int k = begin; k < end; ++k) next_belief[k] /= total;
 }
 
-// The candidate that is believed most, of equal ones the most similar, then the first; its score is its similarity and
-// what the neighbours say for it; an edge whose only candidate needs no support asks nobody. chosen = -1: no candidate,
-// or its score does not reach score_min.
+// The candidate with the highest belief; among equal ones the most similar, then the first. Its score is its similarity
+// plus the support of the neighbours; a single candidate that needs no support gets no vote. chosen = -1: no candidate,
+// or its score is below score_min.
 kernel void relaxation_choose(const StereoRelaxationArguments args, global const int* first,
                               global const int* cluster_count, global const float* left_edges,
                               global const float* clusters, global const float* slopes, global const int* cells,

@@ -38,7 +38,7 @@ kernel void temporal_candidates_count(const TemporalCandidateArguments args, glo
       visit_near(edge_at(args.predicted, predicted, row * args.row_step), &index, args.radius, args.orientation, 0, 0);
 }
 
-// Rows beyond the capacity stay empty: the host sees the total, makes room and runs again.
+// Rows beyond the capacity stay empty: the host reads the total, enlarges the buffers and runs the sweep again.
 kernel void temporal_candidates_fill(const TemporalCandidateArguments args, global const float* predicted,
                                      global const float* points, global const int* cells, global const int* first,
                                      const int capacity, global int* target) {

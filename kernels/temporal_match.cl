@@ -5,18 +5,17 @@
 //
 // Needs similarity.cl, edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in
 // both current images (NaN: none), the point indices of the current stereo edges of both sides, side patches, with the
-// number of each stereo edge's left patch; the right ones stand in the order of the stereo edges.
+// number of each stereo edge's left patch; right patches are in the order of the stereo edges.
 // Out per row, which belongs to base edge row * row_step: kQuadRowInts ints (layouts.cl).
 // With LANES (16) a work-item tests as many points of the index at once, and asks for memory ahead: for CPUs.
 // With TAP it also writes down every candidate within the radius, with its scores and its state (layouts.cl). The
 // orders of the filters are defined with TAP.
 // Reference: host/reference/temporal_match.cpp.
 
-// Candidates of a row and side that there is room for; a row with more says so and has no result.
+// Maximum number of candidates per row and side; rows with more are flagged and have no result.
 #define MOST 160
 
-// Brings a patch's two cache lines near where the compiler targets a CPU; OpenCL's own prefetch() does nothing there
-// (PoCL).
+// Prefetches the two cache lines of a patch on CPUs, where OpenCL's own prefetch() does nothing (PoCL).
 static inline void ask_for_patch(global const char* patch) {
 #if defined(__x86_64__) || defined(__aarch64__)
   __builtin_prefetch(patch);
@@ -32,8 +31,8 @@ static inline global const char* patch_of(global const char* patches, global con
 }
 
 #ifdef TAP
-// What a tap sees of one side of a row: kTappedInts ints per candidate. SIFT is measured for the tap alone and decides
-// nothing here.
+// One side of a row as a tap sees it: kTappedInts ints per candidate. SIFT distances are computed for the tap only and
+// decide nothing here.
 typedef struct {
   global int* seen;                // of this row
   int room;                        // candidates that fit there
@@ -100,7 +99,7 @@ static inline int similar_near(const TemporalMatchArguments* args, const float3 
             fmax(dx * dx + dy * dy - radius * radius, angle_between(directions[k + lane], direction) - orientation);
       }
       const int lanes = min(LANES, end - k);
-      for (int lane = 0; lane < lanes; ++lane) {  // what does not pass is overwritten by what comes next
+      for (int lane = 0; lane < lanes; ++lane) {  // points that do not pass are overwritten by the next ones
         TAPPED(if (too_far[lane] <= 0.0f) tap->at[near] =
                    tap_candidate(tap, numbers[k + lane], excess[lane] <= 0.0f ? kCandidateAlive : ORIENTATION_ORDER);)
         target[near] = numbers[k + lane];
@@ -120,7 +119,7 @@ static inline int similar_near(const TemporalMatchArguments* args, const float3 
     }
   }
 #ifdef LANES
-  // The patches stand all over the memory: all are asked for before the first is needed.
+  // The patches are scattered in memory: all are prefetched before the first is used.
   for (int c = 0; c < near; ++c) ask_for_patch(patch_of(patches, patch_numbers, target[c]));
 #endif
   int similar = 0;

@@ -1,19 +1,18 @@
-// temporal_match_groups.cl: temporal_match.cl with one work-group of GROUP work-items per row, for GPUs: the candidates
-// stand in local memory, the points of the index are tested GROUP at a time, and eight work-items share a pair of
-// patches.
+// temporal_match_groups.cl: temporal_match.cl with one work-group of GROUP work-items per row, for GPUs. Candidates are
+// kept in local memory, GROUP points of the index are tested at a time, and eight work-items share a pair of patches.
 //
 // Needs similarity.cl (for taps), similarity_lanes.cl, edge_positions.cl and indexed_points.cl. In and out as in
 // temporal_match.cl, and the same bits: what work-items add up are whole numbers.
-// GROUP is at most 32, so that a word holds what every work-item has to say.
+// GROUP is at most 32, so that one word holds a bit per work-item.
 // Reference: host/reference/temporal_match.cpp.
 
-// Candidates of a row and side that there is room for; a row with more says so and has no result.
+// Maximum number of candidates per row and side; rows with more are flagged and have no result.
 #define MOST 160
 #define PAIRS (GROUP / PAIR_ITEMS)
 #define NOBODY (-1)  // the target of a candidate that a filter has rejected
 
-// Yes or no of all work-items, as bits of a word. Three words serve in turn, so that one barrier a vote is enough:
-// before a word is cleared, everyone has passed the barrier of the vote after its own and thus read it.
+// Votes of all work-items, one bit each. Three words are used in turn, so that one barrier per vote suffices: before a
+// word is cleared, all work-items have passed the barrier of the following vote and thus have read it.
 typedef struct {
   local uint* words;
   int turn;
@@ -28,7 +27,7 @@ static inline uint vote(Votes* votes, const int yes) {
   return votes->words[now];
 }
 
-// How many before this work-item said yes.
+// Number of work-items before this one that voted yes.
 static inline int voters_before(const uint word) { return (int)popcount(word & ((1u << (uint)get_local_id(0)) - 1u)); }
 
 // The candidates of one side of a row, in the order of the index.
@@ -40,7 +39,7 @@ typedef struct {
 #endif
 } Candidates;
 
-// What a row looks for on one side, and where.
+// One side of a row: what is searched, and where.
 typedef struct {
   float3 predicted;
   PointIndex index;
@@ -87,7 +86,7 @@ static inline int find_near(const float radius, const float orientation, RowSide
             last_column = cell_of(x + radius, kCellWidth, columns);
   const int last_row = there ? cell_of(y + radius, kCellHeight, rows) : -1;
   int near = 0, row = cell_of(y - radius, kCellHeight, rows) - 1, begin = 0, end = 0;
-  for (;;) {  // one loop over all rows of cells: PoCL takes long over barriers in nested ones
+  for (;;) {  // one loop over all rows of cells: PoCL compiles barriers in nested loops slowly
     while (begin >= end && row < last_row) {
       ++row;
       begin = index->cell_first[row * columns + first_column];

@@ -1,5 +1,5 @@
 // wide_description_groups.cl: the description of wide_description.cl with sixteen work-items per row, one per cell, for
-// GPUs; samples and bins stand in local memory.
+// GPUs; samples and bins are kept in local memory.
 //
 // Needs direction.cl and wide_samples.cl before it. In and out as there, and the same bits: every sum is taken in
 // the same order. Groups of GROUP work-items. Reference: host/reference/wide_description.cpp.

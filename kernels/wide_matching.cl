@@ -4,7 +4,7 @@
 // packed as stereo_collect writes them (left x, y). The similarity of two descriptors of norm 512 is their product,
 // their squared distance 2 (512^2 - product): whole numbers below 2^24, exact in single precision in any order.
 // Out per row: the column with the highest similarity, the first on a tie, or -1 where
-//   - another row farther than `neighbourhood` px from this one is at least as alike to that column, or
+//   - another row farther than `neighbourhood` px from this one is at least as similar to that column, or
 //   - a column farther than `neighbourhood` px from it has less than 1 / ratio times its distance (Lowe's test against
 //   a match elsewhere).
 // One work-item = one row. Reference: host/reference/wide_matching.cpp.

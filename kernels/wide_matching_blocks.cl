@@ -116,7 +116,7 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
         winner[r] = block * kBlockLanes + lane;
       }
       // The limit only rises: whatever it has passed does not compete. A full list is cleared of that;
-      // LISTED + 1 says it did not suffice.
+      // LISTED + 1 means that it is still full.
       const float limit = wide_limit(highest[r], ratio);
       if (here <= limit || listed[r] > LISTED) continue;
       if (listed[r] == LISTED) {
@@ -135,7 +135,7 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
       listed_highest[r][listed[r]++] = here;
     }
   }
-  // Columns that compete are few: what they exclude need not be compared with all other rows.
+  // Competing columns are few. Rows that they exclude need not be compared with all other rows.
   int left = 0;
   for (int r = 0; r < ROWS; ++r) {
     const float limit = wide_limit(highest[r], ratio);
@@ -151,7 +151,7 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
           neighbourhood);
     }
     left += alone[r];
-    // Without a winner anything may stand in `found`; it has to be something that exists.
+    // Rows without a winner load any descriptor that exists.
     wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * kWideBytes : row_descriptors, found + r * kWideBytes);
   }
   for (int block = 0; left > 0 && block * kBlockLanes < rows; ++block) {

@@ -52,7 +52,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_match(const 
   global const uint* column_words = (global const uint*)column_descriptors;
   global const float *row_x = row_edges, *row_y = row_edges + args.rows.stride;
   global const float *column_x = column_edges, *column_y = column_edges + args.columns.stride;
-  for (int k = item; k < ROWS * PITCH; k += GROUP) mine[k] = found[k] = 0;  // rows beyond the last are alike to none
+  for (int k = item; k < ROWS * PITCH; k += GROUP) mine[k] = found[k] = 0;  // rows beyond the last are similar to none
   barrier(CLK_LOCAL_MEM_FENCE);
   load_tile(row_words, first_row, row_count, mine);
 
@@ -84,7 +84,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_match(const 
     winner_of[r * GROUP + item] = at[r];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (item < ROWS) {  // the first of the most alike columns
+  if (item < ROWS) {  // the first of the most similar columns
     int high = 0, column = -1;
     for (int k = 0; k < GROUP; ++k) {
       const int of_k = highest_of[item * GROUP + k], column_of_k = winner_of[item * GROUP + k];
@@ -102,7 +102,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void wide_match(const 
     if (winner[r] >= 0) load_tile(column_words, winner[r], 1, found + r * PITCH);
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (int from = 0; from < rows; from += GROUP) {  // another row that is at least as alike to the column
+  for (int from = 0; from < rows; from += GROUP) {  // another row that is at least as similar to the column
     const int count = min(GROUP, rows - from);
     load_tile(row_words, from, count, tile);
     barrier(CLK_LOCAL_MEM_FENCE);

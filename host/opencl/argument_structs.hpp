@@ -6,7 +6,7 @@
 #include "common/layouts.hpp"
 #include "opencl/kernel.hpp"
 
-/// Every structure of kernels/layouts.cl; tests/test_layouts.cpp holds the list complete.
+/// Every structure of kernels/layouts.cl; tests/test_layouts.cpp verifies that the list is complete.
 #define QUADEDGE_KERNEL_STRUCTS(VISIT) \
   VISIT(PackedPositions)               \
   VISIT(PackedPointIndex)              \

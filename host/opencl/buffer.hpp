@@ -26,8 +26,8 @@ class Buffer {
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
 
-  /// Makes room for at least `count` elements, with an eighth to spare from the second time on. The contents are lost
-  /// when it grows. \throws DeviceError when memory runs out.
+  /// Allocates at least `count` elements; from the second allocation on, an eighth more. Growing discards the contents.
+  /// \throws DeviceError if the device has not enough memory
   void ensure(Context& context, std::size_t count) {
     if (context_ != nullptr && count <= capacity_) return;
     const std::size_t spare = context_ != nullptr ? count / 8 : 0;
@@ -44,8 +44,8 @@ class Buffer {
     context.account(own_bytes_);
   }
 
-  /// Becomes `count` elements of `block`, from byte `offset` on, a multiple of Context::region_alignment(): several
-  /// arrays that are read together stand in one piece of memory.
+  /// Makes this buffer a region of `block`: `count` elements from byte `offset` on, which must be a multiple of
+  /// Context::region_alignment(). Arrays that are read together can so share one allocation.
   void place(Context& context, const Buffer<cl_uchar>& block, std::size_t offset, std::size_t count) {
     release();
     const cl_buffer_region region{offset, count * sizeof(T)};
@@ -57,19 +57,19 @@ class Buffer {
     capacity_ = count;
   }
 
-  /// Null without memory.
+  /// The context of the memory; null if there is none.
   Context* context() const { return context_; }
   std::size_t capacity() const { return capacity_; }
   const cl::Buffer& memory() const { return memory_; }
 
-  /// Copies from the host. Returns after the host memory may be reused.
+  /// Copies from the host and returns when the host memory can be reused.
   void write(const T* values, std::size_t count) {
     if (count == 0) return;
     context_->count_wait();
     enqueue_write(values, count, CL_TRUE);
     context_->copies_done();
   }
-  /// The same without waiting: `values` must stay as they are until the next read() of any buffer of the context.
+  /// Non-blocking write(): `values` must not change before the next read() of any buffer of the context.
   void write_later(const T* values, std::size_t count) {
     if (count == 0) return;
     enqueue_write(values, count, CL_FALSE);
@@ -79,15 +79,15 @@ class Buffer {
     ensure(context, values.size());
     write(values.data(), values.size());
   }
-  /// Copies to the host, after everything enqueued before, and waits for it.
+  /// Waits for all commands enqueued before, then copies to the host.
   void read(T* values, std::size_t count, std::size_t offset = 0) const {
     if (count == 0) return;
     context_->count_wait();
     enqueue_read(values, count, offset, CL_TRUE);
     context_->copies_done();
   }
-  /// The same without waiting: `values` are there after the next read() of any buffer of the context, and must live
-  /// until then.
+  /// Non-blocking read(): `values` are valid after the next read() of any buffer of the context and must exist until
+  /// then.
   void read_later(T* values, std::size_t count, std::size_t offset = 0) const {
     if (count == 0) return;
     enqueue_read(values, count, offset, CL_FALSE);
@@ -104,7 +104,7 @@ class Buffer {
     call("filling a buffer",
          [&] { context_->queue().enqueueFillBuffer(memory_, value, 0, count * sizeof(T), nullptr, watch()); });
   }
-  /// Copies `count` elements from the same place of another buffer, on the device.
+  /// Copies `count` elements from the same offset of another buffer, on the device.
   void copy(const Buffer& source, std::size_t offset, std::size_t count) {
     if (count == 0) return;
     call("copying a buffer", [&] {
@@ -123,7 +123,7 @@ class Buffer {
  private:
   void release() noexcept {
     if (context_ != nullptr) {
-      context_->finish_copies();  // they may use host memory that is freed together with this
+      context_->finish_copies();  // they may use host memory that is freed next
       context_->account(-own_bytes_);
     }
     memory_ = cl::Buffer();
@@ -157,7 +157,7 @@ class Buffer {
   Context* context_ = nullptr;
   cl::Buffer memory_;
   std::size_t capacity_ = 0;
-  std::ptrdiff_t own_bytes_ = 0;  ///< none where the memory belongs to a block
+  std::ptrdiff_t own_bytes_ = 0;  ///< 0 for a region of a block
 };
 
 }  // namespace quadedge::opencl

@@ -93,7 +93,7 @@ std::optional<cl::Program> Context::find_kept(const std::string& key, const std:
     program.build({device_}, options.c_str());
     return program;
   } catch (const cl::Error&) {
-    return std::nullopt;  // of another build of the driver, or one that takes no binaries: compiled again
+    return std::nullopt;  // made by another driver, or the driver accepts no binaries: build from source
   }
 }
 

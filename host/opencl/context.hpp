@@ -1,5 +1,5 @@
 #pragma once
-/// \file context.hpp  One OpenCL device with its in-order queue, its built programs and its bookkeeping.
+/// \file context.hpp  An OpenCL device with its in-order queue, built programs and counters.
 
 #include <CL/opencl.hpp>
 #include <cstddef>
@@ -18,14 +18,13 @@ namespace quadedge::opencl {
 /// Compile-time parameters of a program, in a fixed order.
 using Defines = std::map<std::string, std::string>;
 
-/// What the device spent on a stage between two calls of Context::take_profile() [ms]. A device that is busy with one
-/// command after the other spends nothing on waits.
+/// Device time of a stage between two calls of Context::take_profile() [ms].
 struct StageProfile {
   std::string stage;
-  double kernel_ms = 0;    ///< running kernels
-  double transfer_ms = 0;  ///< copying to, from and on the device
-  double queue_ms = 0;     ///< idle although a command of the stage was enqueued: what the driver takes to start it
-  double launches = 0;     ///< kernels; a fraction in a mean
+  double kernel_ms = 0;    ///< execution of kernels
+  double transfer_ms = 0;  ///< copies to, from and on the device
+  double queue_ms = 0;     ///< idle time while a command of the stage was waiting: launch overhead of the driver
+  double launches = 0;     ///< number of kernel launches; fractional in means
 
   double wall_ms() const { return kernel_ms + transfer_ms + queue_ms; }
 };
@@ -38,10 +37,10 @@ struct Limits {
   std::optional<std::size_t> launches;
 };
 
-/// Owns context, queue and programs. Not copyable; everything made from it must die before it.
+/// Owns context, queue and programs. Not copyable; must outlive all buffers and kernels made from it.
 class Context {
  public:
-  /// \throws DeviceError for a device that cannot store bytes.
+  /// \throws DeviceError if the device cannot store single bytes
   Context(cl::Device device, const DeviceOptions& options);
   ~Context() { finish_copies(); }
   Context(const Context&) = delete;
@@ -55,19 +54,19 @@ class Context {
     return queue_;
   }
   const std::string& name() const { return name_; }
-  /// Bytes that the start of a region within a buffer is a multiple of.
+  /// Alignment of regions within a buffer [bytes].
   std::size_t region_alignment() const { return limits_.region_alignment; }
-  /// Whether kernels are chosen as for a CPU.
+  /// True if the variants for CPUs are the default.
   bool is_cpu() const { return is_cpu_; }
   const Limits& limits() const { return limits_; }
   bool profiling() const { return profiling_; }
 
-  /// Builds (once per context and set of parameters) the program made of common.cl, layouts.cl and `files`, in that
-  /// order, or takes it from the folder of kept programs.
-  /// \throws DeviceError with device, options and compiler log; the log names kernel file and line.
+  /// Returns the program made of common.cl, layouts.cl and `files`, in that order. It is built once per context and set
+  /// of defines, or loaded from the program cache.
+  /// \throws DeviceError with device, options and compiler log, which names kernel file and line
   cl::Program program(const std::vector<std::string>& files, const Defines& defines);
 
-  /// Every program built so far: its options, then its kernel files without common.cl, separated by spaces.
+  /// All programs built so far: options, then kernel files without common.cl, separated by spaces.
   std::vector<std::string> programs() const;
 
   /// Time spent on building and loading programs so far [ms].
@@ -76,41 +75,40 @@ class Context {
   /// Options that every program is built with, before its defines.
   const std::string& build_options() const { return build_options_; }
 
-  /// From now on kernels are compared with their host signatures when they are created. For tests and the self-test:
-  /// drivers may spell types in ways that nobody foresaw, so that a difference alone does not end a run.
+  /// Turns the comparison of new kernels with their host signatures on or off. Only tests and the self-test use it,
+  /// since drivers may spell types in unexpected ways.
   void check_kernels(bool checks) { checks_kernels_ = checks; }
   bool checks_kernels() const { return checks_kernels_; }
-  /// What check_kernels() has found, one sentence per fault.
+  /// Differences found so far, one sentence each.
   const std::vector<std::string>& kernel_faults() const { return kernel_faults_; }
   void add_kernel_faults(const std::vector<std::string>& faults) {
     kernel_faults_.insert(kernel_faults_.end(), faults.begin(), faults.end());
   }
 
-  /// Waits until everything enqueued is done.
+  /// Waits until all enqueued commands are complete.
   void finish();
-  /// Submits everything enqueued so far, so that the device starts while the host goes on.
+  /// Submits all enqueued commands, so that the device starts while the host continues.
   void flush();
 
-  /// A copy that uses host memory was enqueued without waiting for it.
+  /// To be called after a non-blocking copy that uses host memory was enqueued.
   void copy_started() { copies_in_flight_ = true; }
-  /// The host has waited for everything enqueued before.
+  /// To be called after the host has waited for all commands enqueued before.
   void copies_done() { copies_in_flight_ = false; }
-  /// Waits for copies that still use host memory. Destructors of that memory's owners call it; a device that fails by
-  /// then has reported its fault already.
+  /// Waits for copies that still use host memory. For destructors: ignores errors, which other calls report.
   void finish_copies() noexcept;
 
-  /// Bytes held by buffers now and at most.
+  /// Bytes allocated by buffers, now and at the peak.
   std::size_t bytes() const { return bytes_; }
   std::size_t peak_bytes() const { return peak_bytes_; }
   void account(std::ptrdiff_t bytes);
 
-  /// What went over the queue so far: kernels launched, copies to the device and their bytes, bytes copied to the host,
-  /// and how often the host waited for the queue.
+  /// Counts since construction: kernel launches, copies to the device and their bytes, bytes copied to the host, and
+  /// waits of the host for the queue.
   struct Traffic {
     std::size_t launches = 0, writes = 0, to_device = 0, to_host = 0, waits = 0;
   };
   const Traffic& traffic() const { return traffic_; }
-  /// \throws cl::Error where DeviceLimits::launches is used up.
+  /// \throws cl::Error if DeviceLimits::launches is exceeded
   void count_launch() {
     if (limits_.launches && traffic_.launches >= *limits_.launches) throw cl::Error(CL_OUT_OF_RESOURCES);
     ++traffic_.launches;
@@ -122,31 +120,30 @@ class Context {
   void count_to_host(std::size_t bytes) { traffic_.to_host += bytes; }
   void count_wait() { ++traffic_.waits; }
 
-  /// The stage that profiling books the following commands under.
+  /// Sets the stage that the following commands are profiled under.
   void begin_stage(const std::string& stage) { stage_ = stage; }
   const std::string& stage() const { return stage_; }
   enum class Command { kernel, transfer };
-  /// The event of the command that is enqueued next; null where nothing is profiled.
+  /// The event for the next command; null without profiling.
   cl::Event* watch(Command kind);
-  /// What the commands since the last call took, by stage in order of first appearance, from the events' times; waits
-  /// for the queue.
+  /// Times of the commands since the last call, by stage in order of first appearance; waits for the queue.
   std::vector<StageProfile> take_profile();
-  /// What take_profile() returned last.
+  /// The last result of take_profile().
   const std::vector<StageProfile>& last_profile() const { return last_profile_; }
 
  private:
   void take_limits(const DeviceLimits& wished);
   std::string kernel_text(const std::string& file) const;
-  /// Compiles. \param what  the program's name in messages
+  /// Compiles a program. \param what  its name in messages
   cl::Program build(const std::string& source, const std::string& options, const std::string& what) const;
-  /// A kept program that the driver takes.
+  /// A cached program that the driver accepts.
   std::optional<cl::Program> find_kept(const std::string& key, const std::string& options) const;
 
   cl::Device device_;
   cl::Context context_;
   cl::CommandQueue queue_;
   std::string name_;
-  std::string driver_;  ///< platform, device and versions of both: whose programs are alike
+  std::string driver_;  ///< platform, device and their versions; part of the cache key
   std::string kernel_folder_;
   ProgramCache cache_;
   Limits limits_;
@@ -166,12 +163,12 @@ class Context {
     Command kind = Command::kernel;
     cl::Event event;
   };
-  std::deque<Watched> watched_;  ///< in the order of the queue; events stay where they are
+  std::deque<Watched> watched_;  ///< in queue order; a deque, since pointers to events must stay valid
   std::vector<StageProfile> last_profile_;
 };
 
-/// Waits at the end of a block for copies that still use host memory, as they do when an exception is thrown before the
-/// block's own wait. Declare it after the memory that it protects.
+/// Waits at the end of a scope for copies that still use host memory, which happens if an exception is thrown before
+/// the regular wait. Declare it after the memory that it protects.
 class CopyGuard {
  public:
   explicit CopyGuard(Context& context) : context_(context) {}

@@ -71,7 +71,7 @@ std::vector<FoundDevice> find_devices() {
         info.single_precision = float_support(device);
         found.push_back({info, device});
       } catch (const cl::Error&) {
-        continue;  // a device that cannot even describe itself cannot be used
+        continue;  // a device that cannot be queried cannot be used
       }
     }
   }

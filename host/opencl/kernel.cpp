@@ -11,7 +11,7 @@ std::string words(const ArgumentType& type) {
   return std::string(type.global ? "global " : "") + (type.constant ? "const " : "") + type.type;
 }
 
-/// The identifiers of a type's spelling, and its stars.
+/// Splits a type into identifiers and asterisks.
 std::vector<std::string> tokens(const std::string& spelling) {
   std::vector<std::string> found;
   bool in_word = false;
@@ -123,7 +123,7 @@ void check_local_memory(const cl::Kernel& kernel, const std::string& name, const
   } catch (const cl::Error& error) {
     throw_device_error("reading the local memory of kernel " + name, error.err(), context.name());
   }
-  constexpr std::size_t kLittle = 2048;  // every device has as much; kernels of one group per image take it
+  constexpr std::size_t kLittle = 2048;  // available on every device; used by kernels with one group per image
   if (bytes <= std::max(context.limits().local_bytes, kLittle)) return;
   throw DeviceError("kernel " + name + " takes " + std::to_string(bytes) + " bytes of local memory, " + context.name() +
                     " has " + std::to_string(context.limits().local_bytes));

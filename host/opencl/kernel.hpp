@@ -23,7 +23,7 @@ struct Out {
   const cl::Buffer* memory;
 };
 
-/// OpenCL C name of a host type; specialise it for a structure that is passed by value.
+/// OpenCL C name of a host type. Specialise it for structures that are passed by value.
 template <class T>
 struct TypeName;
 template <>
@@ -76,11 +76,12 @@ struct ReportedArgument {
   bool global = false, constant = false;
 };
 
-/// One spelling for all spellings of a type: "const unsigned int *" and "uint*" give "uint*", "struct FilterArguments"
-/// gives "FilterArguments".
+/// Normalises the spelling of a type: "const unsigned int *" and "uint*" become "uint*", "struct FilterArguments"
+/// becomes "FilterArguments".
 std::string canonical_type(const std::string& spelling);
 
-/// What differs between an argument and the type that the host passes; empty: nothing, or the type was not reported.
+/// The difference between an argument and the type that the host passes; empty if they agree or the driver reports
+/// none.
 std::string argument_difference(const ReportedArgument& reported, const ArgumentType& expected);
 
 /// The largest work-group of a kernel, and whether its source requires a size (reqd_work_group_size). Only kernels
@@ -90,7 +91,7 @@ struct GroupLimit {
   bool required = true;
 };
 
-/// \throws DeviceError where the driver does not answer.
+/// \throws DeviceError if the query fails
 GroupLimit group_limit(const cl::Kernel& kernel, const std::string& name, const Context& context);
 
 /// Differences between a kernel and its host signature, one sentence each with kernel and argument; kernels that use
@@ -99,10 +100,10 @@ std::vector<std::string> kernel_faults(const cl::Kernel& kernel, const std::stri
                                        const std::vector<ArgumentType>& expected, const GroupLimit& group,
                                        const Context& context);
 
-/// \throws DeviceError where the kernel takes more local memory than the device has, or the driver does not answer.
+/// \throws DeviceError if the kernel needs more local memory than the device has, or the query fails
 void check_local_memory(const cl::Kernel& kernel, const std::string& name, const Context& context);
 
-/// How many work-items to start; the global size is rounded up to whole work-groups.
+/// Global and local size of a launch; the global size is rounded up to whole work-groups.
 struct Range {
   std::size_t x = 1, y = 1;
   std::size_t local_x = 1, local_y = 1;
@@ -128,8 +129,8 @@ class Kernel {
       context.add_kernel_faults(kernel_faults(kernel_, name, {Describe<Args>::get()...}, group_, context));
   }
 
-  /// Enqueues the kernel. An empty range enqueues nothing. Groups that are too large for the kernel on this device
-  /// become smaller where its source requires no size. \throws DeviceError with kernel, sizes and device.
+  /// Enqueues the kernel; an empty range enqueues nothing. If the device cannot run groups of this size and the source
+  /// requires none, the groups become smaller. \throws DeviceError with kernel, sizes and device
   void operator()(Range range, Args... args) const {
     if (range.x == 0 || range.y == 0) return;
     while (!group_.required && range.local_x > 1 && range.local_x * range.local_y > group_.items)

@@ -1,5 +1,5 @@
 #pragma once
-/// \file kernel_sources.hpp  The kernel texts that the build embeds.
+/// \file kernel_sources.hpp  The kernel sources embedded by the build.
 
 #include <map>
 #include <string>

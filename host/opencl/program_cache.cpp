@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kContent = "quadedge program 1\n";
 constexpr const char* kSuffix = ".program";
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo): tells damage, not intent.
+/// FNV-1a, 64 bits (Fowler, Noll, Vo): detects damage, not manipulation.
 std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
@@ -31,7 +31,7 @@ std::string number(std::uint64_t value) {
   return text;
 }
 
-/// What stands before the binary: the whole key, so that two keys of one file name are told apart.
+/// Header before the binary. It contains the whole key, because two keys may have the same file name.
 std::string head(const std::string& key, std::string_view binary) {
   return std::string(kContent) + number(key.size()) + number(binary.size()) + number(checksum(binary)) + key;
 }
@@ -51,7 +51,7 @@ std::optional<ProgramCache::Binary> ProgramCache::find(const std::string& key) c
   const std::string_view binary = std::string_view(file).substr(front);
   if (file.compare(0, front, head(key, binary)) != 0) return std::nullopt;
   std::error_code ignored;
-  fs::last_write_time(path(key), fs::file_time_type::clock::now(), ignored);  // the time of its last use
+  fs::last_write_time(path(key), fs::file_time_type::clock::now(), ignored);  // time of the last use
   return Binary(binary.begin(), binary.end());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file program_cache.hpp  Built programs that outlive the process.
+/// \file program_cache.hpp  A cache of built programs, shared by processes.
 
 #include <cstdint>
 #include <optional>
@@ -9,23 +9,23 @@
 
 namespace quadedge::opencl {
 
-/// One file per program in a folder that processes may share. A file that is cut, damaged or made for something else
-/// counts as none, and what cannot be kept is built again the next time: nothing here throws.
+/// One file per program, in a folder that several processes can share. Truncated, damaged and foreign files are
+/// ignored, and programs that cannot be stored are built again the next time. Nothing throws.
 class ProgramCache {
  public:
   using Binary = std::vector<unsigned char>;
 
-  /// Bytes of all files together; what was not used for the longest time goes first.
+  /// Maximum size of all files [bytes]; the least recently used ones are removed first.
   static constexpr std::uintmax_t kBound = std::uintmax_t{256} << 20U;
 
-  /// \param folder  made when it is needed; empty: nothing is kept
+  /// \param folder  created when needed; empty: no cache
   explicit ProgramCache(std::string folder) : folder_(std::move(folder)) {}
 
-  /// What keep() was given for the same key. \param key  everything that decides the binary
+  /// The binary stored under `key`. \param key  everything that the binary depends on
   std::optional<Binary> find(const std::string& key) const;
   void keep(const std::string& key, const Binary& binary) const;
 
-  /// Where the binary of a key is kept.
+  /// Path of the file for a key.
   std::string path(const std::string& key) const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace quadedge::opencl {
 
-/// Makes the contents of buffers visible to the host. CPUs map the buffer and copy nothing; for other devices they are
-/// copied to pinned memory, which is mapped once and used again in every frame.
+/// Gives the host access to the contents of buffers. On CPUs the buffer is mapped, which copies nothing; on other
+/// devices it is copied to pinned memory, which is mapped once and reused in every frame.
 class ReadBack {
  public:
   ReadBack() = default;

@@ -5,7 +5,7 @@
 namespace quadedge::opencl {
 
 const std::vector<Variant>& all_variants() {
-  // LONG: a table. One row per variant; rows of one stage stand together.
+  // LONG: a table, one row per variant, ordered by stage.
   static const std::vector<Variant> table = {
       {"undistortion", "item64", {}, 64, true, true, "one work-item per pixel, groups of 64"},
       {"undistortion", "item16", {}, 16, false, false, "one work-item per pixel, groups of 16"},

@@ -61,8 +61,8 @@ GradientField gradient_field(ImageView image, const EdgesConfig& config);
 Probe probe_maximum(const GradientField& field, int cell_x, int cell_y);
 
 /// Kernels re-centred at (x, y): 2 R + 2 taps per axis beginning at floor(x) - R. Grey levels are taken relative to the
-/// mean of the four pixels around the point, because the cut tails of an off-centre kernel would see the absolute
-/// level.
+/// mean of the four pixels around the point, because the truncated tails of an off-centre kernel would respond to the
+/// absolute level.
 Derivatives derivatives_at(ImageView image, double x, double y, double sigma);
 
 /// Third-order edges of an image of any size (too small for the margin: none) whose gradient exceeds `threshold` [grey

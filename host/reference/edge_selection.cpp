@@ -6,7 +6,7 @@
 namespace quadedge::reference {
 namespace {
 
-// Single precision on purpose: the device decides alike.
+// Single precision, so that the device makes the same decisions.
 constexpr float kHalfAnOctave = 0.70710678F;
 
 /// The direction of a gradient is known in steps: direction_code() of kernels/edge_detection.cl.
@@ -46,7 +46,7 @@ bool meets(const Crossing& at, float spacing, float width) {
   return distance >= -reach && distance < reach;
 }
 
-/// Of a part of the rows, in place of all.
+/// From a sample of the rows.
 double weight_of_all(const SelectionArguments& arguments, const GradientMaxima& maxima) {
   double sum = 0;
   for (std::size_t i = 0; i < maxima.x.size(); ++i) {

@@ -26,7 +26,7 @@ int gradient_bin(double magnitude) {
   return bin;
 }
 
-/// Whole numbers below 16 have a bin of their own, larger ones eight per octave.
+/// Integers below 16 have one bin each, larger ones eight bins per octave.
 int noise_bin_start(int bin) { return bin < 16 ? bin : (8 + bin % 8) << (bin / 8 - 1); }
 
 int noise_bin(int response) {
@@ -110,7 +110,7 @@ double ContrastTally::noise() const {
   double below = 0;
   for (int bin = 0; bin < kNoiseBins; ++bin) {
     const auto here = static_cast<double>(responses[static_cast<std::size_t>(bin)]);
-    // A whole number stands for half a step to either side.
+    // An integer represents half a step to either side.
     const double start = std::max(noise_bin_start(bin) - 0.5, 0.0), end = noise_bin_start(bin + 1) - 0.5;
     if (here > 0 && below + here >= half)
       return (start + (end - start) * (half - below) / here) / static_cast<double>(kNoiseMedian);

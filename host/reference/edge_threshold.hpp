@@ -11,13 +11,13 @@
 
 namespace quadedge::reference {
 
-/// How often which magnitude of the gradient and which response of the noise operator was seen, in the bins of
+/// Histograms of the gradient magnitude and of the response of the noise operator, in the bins of
 /// kernels/edge_threshold.cl.
 struct ContrastTally {
   std::array<std::int64_t, kGradientBins> gradients{};
   std::array<std::int64_t, kNoiseBins> responses{};
 
-  /// Adds what `image` shows at its lattice points.
+  /// Adds the lattice points of `image`.
   void add(const ImageView& image, double sigma);
   /// The magnitude that this ratio of the gradients exceeds [grey levels per px]; 0 without any.
   double gradient_exceeded_by(double ratio) const;
@@ -26,7 +26,7 @@ struct ContrastTally {
   double noise() const;
 };
 
-/// Chooses the threshold of one frame after the other.
+/// Determines the threshold frame by frame.
 class EdgeThreshold {
  public:
   explicit EdgeThreshold(const EdgesConfig& config) : config_(config) {}

@@ -32,7 +32,7 @@ PatchValues sample_patch(const ImageView& image, double x, double y, double c, d
       values[i * kPatchSide + j] = bilinear(image, x + along * c - across * s, y + along * s + across * c);
     }
   }
-  // Taking the middle sample away first makes a constant patch exactly zero.
+  // Subtracting the middle sample first makes a constant patch exactly zero.
   const double middle = values[kPatchSamples / 2];
   double mean = 0;
   for (double& value : values) mean += value -= middle;

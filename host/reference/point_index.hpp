@@ -1,6 +1,6 @@
 #pragma once
-/// \file point_index.hpp  Points ordered by cells of the image, so that "points near this position" costs what it
-/// returns.
+/// \file point_index.hpp  Points sorted by cells of the image, so that the cost of a search is proportional to the
+/// number of points found.
 
 #include <algorithm>
 #include <cstdint>

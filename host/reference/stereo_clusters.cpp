@@ -22,7 +22,7 @@ StereoClusters stereo_clusters(const Candidates& candidates, const CandidateScor
     }
     std::stable_sort(members.begin(), members.end(),
                      [&](std::size_t a, std::size_t b) { return positions[a] < positions[b]; });
-    // A represented candidate comes behind every alive one.
+    // Alive candidates come before represented ones.
     const auto rank = [&](std::size_t c) {
       const bool represented = scores.state[c] == kCandidateRepresented;
       return represented ? refined.similarity[c] - kBehindAll : refined.similarity[c];

@@ -76,7 +76,7 @@ RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView
         return patch_ncc(stored_side(left_patches.data() + i * kEdgePatchBytes, side),
                          cut_patch(right_image, right_frame(refined.position[c], side == 0 ? 1 : -1), 0, 0));
       };
-      // No side can make up for a centre that is too unlike: it counts as unlike as a side can be.
+      // A similar side cannot compensate for a dissimilar centre, which gets the lowest similarity of a side.
       const double centre = patch_ncc(on_edge, found->values);
       const double beside = 0.5 * (centre + 1) >= static_cast<double>(lowest_similarity(config))
                                 ? std::max(side_ncc(0), side_ncc(1))

@@ -28,8 +28,8 @@ struct RefinedCandidates {
 /// position, as tightly as an edge is known along this line: refine_prior_sigma / sin(angle between edge and line).
 /// `left_patches`: the side patches of the left edges, see reference/patches.hpp.
 ///
-/// Neighbours on one curve shift to the same position: of candidates within 0.5 px the one whose sides are most alike
-/// is refined and represents the others, which stay where they are.
+/// Neighbours on one curve shift to the same position. Among candidates within 0.5 px, the one with the most similar
+/// sides is refined and represents the others, which keep their positions.
 RefinedCandidates stereo_refinement(const ImageView& left_image, const ImageView& right_image,
                                     const std::vector<std::int8_t>& left_patches, const EdgeSet& left,
                                     const EdgeSet& right, const EpipolarGeometry& geometry,

@@ -34,7 +34,7 @@ class Neighbourhood {
   std::size_t begin(std::size_t i) const { return static_cast<std::size_t>(clusters_.first[i]); }
   std::size_t end(std::size_t i) const { return static_cast<std::size_t>(clusters_.first[i + 1]); }
 
-  /// Edge i stands for its cell, unless another one does.
+  /// Edge i represents its cell, unless the cell has a representative.
   void enter(std::size_t i) {
     auto& cell = cells_[cell_of(left_.x[i], left_.y[i]).value()];
     if (!cell) cell = i;

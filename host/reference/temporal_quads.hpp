@@ -13,8 +13,8 @@ namespace quadedge::reference {
 std::vector<float> temporal_agreement(const Candidates& left_candidates, CandidateScores& left,
                                       const Candidates& right_candidates, const CandidateScores& right);
 
-/// The quad of every row: its most alike candidate, after distance_weight (d / radius)^2 is taken away, d the distance
-/// from the predicted left position. Along a curve that looks the same everywhere the prediction decides.
+/// The quad of every row: its most similar candidate, after subtracting distance_weight (d / radius)^2, where d is the
+/// distance from the predicted left position. Along a curve of uniform appearance the prediction decides.
 /// `competing_clusters` counts further groups of candidates that do not chain up with the winner's (doc/method.md
 /// section 4, filter 8).
 ///

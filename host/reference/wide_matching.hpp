@@ -17,9 +17,10 @@ struct WideEdges {
   std::vector<std::uint8_t> descriptors;  ///< kWideBytes each
 };
 
-/// Finds the earlier edges among the current ones, anywhere in the left image: the most alike, if it is mutually best
-/// and no match elsewhere is nearly as good (config.wide_ratio; "elsewhere": farther than config.wide_neighbourhood
-/// px). The matches' ncc is the cosine of the two descriptors; they have no competing clusters.
+/// Finds the earlier edges among the current ones, anywhere in the left image: the most similar one, if it is mutually
+/// best and no match elsewhere is nearly as good (config.wide_ratio; "elsewhere": farther than
+/// config.wide_neighbourhood px). The matches' ncc is the cosine of the two descriptors; they have no competing
+/// clusters.
 TemporalMatches wide_matches(const WideEdges& earlier, const WideEdges& current, const TemporalConfig& config);
 
 }  // namespace quadedge::reference

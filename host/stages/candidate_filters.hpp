@@ -24,7 +24,7 @@ class CandidateFilters {
   CandidateFilters(opencl::Context& context, const std::map<std::string, std::string>& variants);
 
   /// Fills ncc, sift and state of every candidate. Row r belongs to edge r * row_step of the first set.
-  /// `all_scores`: also computes what is not needed to decide (for a tap).
+  /// `all_scores`: computes both scores of every candidate, even where one of them decides (for a tap).
   void run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step, bool all_scores,
            DeviceCandidates& candidates);
 

@@ -9,8 +9,8 @@
 
 namespace quadedge::stages {
 
-/// Candidate lists in compressed rows with one set of scores per candidate. The capacity is explicit: a sweep that
-/// finds more makes room and runs again, so nothing is lost.
+/// Candidate lists in compressed rows, with the scores of every candidate. If the capacity is exceeded, the buffers
+/// grow and the sweep runs again, so no candidate is lost.
 struct DeviceCandidates {
   opencl::Buffer<cl_int> counts;       ///< scratch of the first sweep
   opencl::Buffer<cl_int> first;        ///< rows + 1
@@ -23,7 +23,7 @@ struct DeviceCandidates {
   int capacity = 0;
   int host_total = 0;
 
-  /// Makes room for `wanted` candidates; contents are lost when it grows.
+  /// Allocates room for `wanted` candidates. Growing discards the contents.
   void reserve(opencl::Context& context, int wanted) {
     capacity = std::max(capacity, wanted);
     const auto size = static_cast<std::size_t>(capacity);
@@ -33,7 +33,7 @@ struct DeviceCandidates {
     state.ensure(context, size);
   }
 
-  /// Turns counts into lists: `fill` enqueues the second sweep. Runs it again with more room when the lists do not fit.
+  /// Turns counts into lists: `fill` enqueues the second sweep, after the buffers have grown to the size of the lists.
   template <class Fill>
   void build(opencl::Context& context, Scan& scan, const Fill& fill) {
     for (;;) {
@@ -47,14 +47,14 @@ struct DeviceCandidates {
     fill();
   }
 
-  /// Rows that kept a candidate through the filters.
+  /// Number of rows with a candidate that passed all filters.
   int living_rows() const {
     const auto counts_per_row = alive.read(static_cast<std::size_t>(rows));
     return static_cast<int>(
         std::count_if(counts_per_row.begin(), counts_per_row.end(), [](cl_int n) { return n > 0; }));
   }
 
-  /// All candidates, without scores; and with what the filters decided, for a tap.
+  /// All candidates without scores; with scores and the decisions of the filters, for a tap.
   CandidateLists read() const;
   JudgedCandidates read_judged() const;
 };

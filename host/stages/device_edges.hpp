@@ -7,8 +7,7 @@
 
 namespace quadedge::stages {
 
-/// Third-order edges in scan order (EdgeSet on the device). Only the first host_count elements of a block mean
-/// anything.
+/// Third-order edges in scan order (EdgeSet on the device). Only the first host_count elements of a block are valid.
 struct DeviceEdges {
   /// Five blocks of `stride` floats: x, y [px], direction [rad], strength [grey levels per px], scale drift [px].
   opencl::Buffer<cl_float> packed;
@@ -17,9 +16,9 @@ struct DeviceEdges {
   opencl::Buffer<cl_int> count;      ///< {number of edges, edges cut off because the capacity ran out}
   cl_int host_values[2] = {0, 0};    ///< `count` on its way to the host
   int host_count = 0;                ///< count[0] after read_count()
-  int host_dropped = 0;              ///< count[1] after read_count(); not zero is an overflow that the frame reports
+  int host_dropped = 0;              ///< count[1] after read_count(); if not 0, the frame reports an overflow
 
-  /// Makes room for `capacity` edges; contents are lost when it grows.
+  /// Allocates room for `capacity` edges. Growing discards the contents.
   void reserve(opencl::Context& context, int capacity) {
     packed.ensure(context, 5 * static_cast<std::size_t>(capacity));
     stride = capacity;
@@ -30,7 +29,7 @@ struct DeviceEdges {
     count.read(host_values, 2);
     take_count();
   }
-  /// The same in two halves, with a read() of another buffer between them.
+  /// read_count() in two steps, with a read() of another buffer between them.
   void request_count() { count.read_later(host_values, 2); }
   void take_count() {
     host_count = host_values[0];
@@ -40,7 +39,7 @@ struct DeviceEdges {
   /// After read_count().
   PositionsView positions() const { return {packed, {0, stride, host_count}}; }
 
-  /// Copies the edges to the host; after read_count(). `height` of the image in pixels.
+  /// Copies the edges to the host; call it after read_count(). `height`: of the image [px].
   EdgeSet read(int height) const {
     EdgeSet edges;
     const opencl::CopyGuard guard(*packed.context());

@@ -8,7 +8,7 @@
 
 namespace quadedge::stages {
 
-/// The defines of programs that read images whose largest value is `max_value`, on top of others.
+/// `others` and the defines of programs that read images with values up to `max_value`.
 inline opencl::Defines image_defines(int max_value, opencl::Defines others = {}) {
   if (max_value != kMaxValue8) others["MAX_VALUE"] = std::to_string(max_value);
   return others;

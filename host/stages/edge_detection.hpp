@@ -13,8 +13,8 @@
 
 namespace quadedge::stages {
 
-/// Detects edges in images of one size. Owns its kernels and scratch memory; enqueues only, and may be used for one
-/// image after the other. All variants give the same bytes.
+/// Detects edges in images of one size. Owns its kernels and scratch memory and only enqueues commands, so that it can
+/// be used for one image after another. All variants give the same bytes.
 class EdgeDetection {
  public:
   /// `variants`: stage "edge_detection" (strip, tile...) and stage "scan". \throws UsageError for an unknown variant or
@@ -23,15 +23,15 @@ class EdgeDetection {
                 const std::map<std::string, std::string>& variants);
 
   /// Enqueues the detection in the image of `plane`, above `threshold` (one float on the device, grey levels per px).
-  /// At most config.max_edges edges; what does not fit is cut off at the end of the scan order and counted in
-  /// `edges.count`. Call edges.read_count() before the number is needed on the host.
+  /// At most config.max_edges edges are stored; the rest, at the end of the scan order, is counted in `edges.count`.
+  /// Call edges.read_count() before the number is needed on the host.
   void run(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold, DeviceEdges& edges);
 
   /// The first half of run(): the maxima of the gradient.
   void find_maxima(const PaddedPlane& plane, const opencl::Buffer<cl_float>& threshold);
-  /// What the first half found; a selection may take maxima away before the second.
+  /// The result of the first half. A selection can remove maxima before the second half.
   EdgeMaxima& maxima() { return maxima_; }
-  /// The second half: direction and position of the maxima.
+  /// The second half of run(): direction and position of the maxima.
   void take_directions(const PaddedPlane& plane, DeviceEdges& edges);
 
  private:

@@ -8,11 +8,11 @@
 
 namespace quadedge::stages {
 
-/// Takes the maxima of one camera's images away within edges.margin of hidden pixels. Without a mask it does nothing.
+/// Removes the maxima of one camera's images within edges.margin of hidden pixels. Does nothing without a mask.
 class EdgeMask {
  public:
   /// \param margin edges.margin [px]
-  /// \param maxima what run() is going to be given
+  /// \param maxima the argument of later calls of run()
   EdgeMask(opencl::Context& context, const PixelMask& mask, int margin, const EdgeMaxima& maxima);
 
   /// Enqueues only.

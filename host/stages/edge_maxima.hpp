@@ -12,10 +12,11 @@ struct EdgeMaxima {
   /// (kernels/edge_detection.cl). Room for every cell.
   opencl::Buffer<cl_float> winners;
   opencl::Buffer<cl_int> counts;   ///< maxima per row of the doubled grid
-  opencl::Buffer<cl_uchar> flags;  ///< 1 where a cell is a maximum; with `in_cells` alone
-  bool in_cells = false;  ///< winners stand at their cell's position, and `flags` says where; else packed in each row
+  opencl::Buffer<cl_uchar> flags;  ///< 1 for cells that are maxima; only with `in_cells`
+  bool in_cells =
+      false;  ///< maxima are stored at the position of their cell and marked in `flags`; otherwise rows are packed
 
-  /// What the kernels that thin out the maxima are built with.
+  /// Defines of the kernels that thin out the maxima.
   opencl::Defines defines() const { return in_cells ? opencl::Defines{{"IN_CELLS", "1"}} : opencl::Defines{}; }
 };
 

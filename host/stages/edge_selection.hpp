@@ -7,21 +7,21 @@
 
 namespace quadedge::stages {
 
-/// Thins out the maxima of a stereo pair to about edges.budget per image, where curves cross evenly spaced epipolar
-/// lines. Nothing waits: the spacing stays on the device.
+/// Reduces the maxima of a stereo pair to about edges.budget per image: those where curves cross evenly spaced epipolar
+/// lines. The spacing stays on the device, so the host does not wait.
 class EdgeSelection {
  public:
   /// \param left, right see selection_arguments()
-  /// \param maxima what run() is going to be given
+  /// \param maxima the argument of later calls of run()
   EdgeSelection(opencl::Context& context, const EdgesConfig& config, const SelectionArguments& left,
                 const SelectionArguments& right, const EdgeMaxima& maxima);
 
-  /// Enqueues the selection in both images. With edges.budget = 0 nothing happens.
+  /// Enqueues the selection in both images. Does nothing if edges.budget is 0.
   void run(EdgeMaxima& left, EdgeMaxima& right);
 
-  /// Copies the spacing to host_spacing(); it is there after the next read() of any buffer.
+  /// Copies the spacing to host_spacing(), which is valid after the next read() of any buffer.
   void request() { spacing_.read_later(&host_spacing_, 1); }
-  /// Distance of the lines between which edges were left out in the frame that run() was called for last [px]; 0: none.
+  /// Spacing of the lines in the last frame [px]; 0: all edges were kept.
   double host_spacing() const { return static_cast<double>(host_spacing_); }
 
  private:

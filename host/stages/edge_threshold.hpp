@@ -11,23 +11,23 @@
 
 namespace quadedge::stages {
 
-/// Measures contrast and noise of the images of one time and keeps the threshold on the device, where the edge
-/// detection reads it: nothing waits. With edges.threshold > 0 that is the threshold, and nothing is measured.
-/// Remembers the threshold of the frame before. All variants give the same bytes.
+/// Measures contrast and noise of a stereo pair. The threshold stays on the device, where the edge detection reads it,
+/// so the host does not wait. If edges.threshold > 0, it is used and nothing is measured. The threshold of the previous
+/// frame is kept. All variants give the same bytes.
 class EdgeThreshold {
  public:
   /// `variants`: stage "edge_threshold". \throws UsageError for an unknown variant.
   EdgeThreshold(opencl::Context& context, const EdgesConfig& config,
                 const std::map<std::string, std::string>& variants);
 
-  /// Enqueues the measuring of a frame: its left and right image, or of a single image it alone (`right` null).
+  /// Enqueues the measurement of a stereo pair, or of a single image (`right` null).
   void run(const PaddedPlane& left, const PaddedPlane* right);
 
-  /// {threshold [grey levels per px], standard deviation of the noise [grey levels], 0 where it is not measured} of the
-  /// frame that run() was called for last.
+  /// {threshold [grey levels per px], standard deviation of the noise [grey levels], 0 if not measured} of the last
+  /// frame.
   const opencl::Buffer<cl_float>& values() const { return values_; }
 
-  /// Copies them to host_threshold and host_noise; they are there after the next read() of any buffer.
+  /// Copies them to the host, where they are valid after the next read() of any buffer.
   void request() { values_.read_later(host_values_, 2); }
   double host_threshold() const { return static_cast<double>(host_values_[0]); }
   double host_noise() const { return static_cast<double>(host_values_[1]); }

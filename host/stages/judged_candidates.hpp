@@ -12,7 +12,7 @@ namespace quadedge::stages {
 struct JudgedCandidates {
   std::vector<std::int32_t> first, target;
   std::vector<std::uint8_t> state;  ///< alive, rejected by or represented: kernels/layouts.cl
-  std::vector<float> ncc, sift;     ///< similarity and distance; meaningless before a filter asks for them
+  std::vector<float> ncc, sift;     ///< similarity and distance; undefined where no filter has computed them
 
   /// Candidates that no filter of order <= `order` has rejected. `cue`: ncc, sift or null.
   CandidateLists alive_after(int order, const std::vector<float>* cue) const;

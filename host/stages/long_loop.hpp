@@ -7,11 +7,11 @@
 
 namespace quadedge::stages {
 
-/// Longer than the limits that drivers are known to set, and over in milliseconds.
+/// Longer than the limits of known drivers; takes milliseconds.
 constexpr cl_int kLongLoop = 1'000'000;
 
-/// Runs one work-item through so many rounds.
-/// \returns what is wrong, in one sentence; empty where nothing is \throws DeviceError
+/// Runs a loop of `rounds` iterations in one work-item.
+/// \returns one sentence on what is wrong; empty if the loop reaches its end \throws DeviceError
 std::string long_loop_difference(opencl::Context& context, cl_int rounds = kLongLoop);
 
 }  // namespace quadedge::stages

@@ -10,7 +10,7 @@
 
 namespace quadedge::stages {
 
-/// Where x, y [px] and direction [rad] of some edges stand in a buffer that another object owns.
+/// Positions of edges, x, y [px] and direction [rad], in a buffer that another object owns.
 struct PositionsView {
   const opencl::Buffer<cl_float>& packed;
   PackedPositions at;
@@ -19,8 +19,8 @@ struct PositionsView {
 /// Lists of edges in one buffer, each a block of x, one of y and one of direction.
 class DevicePositions {
  public:
-  /// Replaces what is there. The copy is done with the next read() of a buffer of the context, and no other call may
-  /// come before that.
+  /// Replaces the contents. The copy is complete after the next read() of a buffer of the context; do not call this
+  /// again before.
   void write(opencl::Context& context, std::initializer_list<EdgePositionsView> lists) {
     at_.clear();
     staged_.clear();

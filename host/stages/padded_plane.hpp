@@ -7,8 +7,8 @@
 
 namespace quadedge::stages {
 
-/// The plane and the taps of kernels/edge_detection.cl. One object per camera: it keeps an image until the next
-/// one, for all stages that look at its gradient.
+/// The plane and the taps of kernels/edge_detection.cl. One object per camera: it holds the image for all stages that
+/// use its gradient.
 class PaddedPlane {
  public:
   /// For images of width x height pixels with values to `max_value`. \throws UsageError for an empty one.

@@ -11,8 +11,8 @@
 
 namespace quadedge::stages {
 
-/// Cuts side patches on the device. One object per camera: it keeps the prepared image until the next one, so that
-/// patches can be cut anew at refined positions. Variants of the stage "patches".
+/// Cuts side patches on the device. One object per camera: it holds the prepared image, so that patches can be cut
+/// again at refined positions. Variants of the stage "patches".
 class Patches {
  public:
   /// For images of width x height pixels with values to `max_value`.

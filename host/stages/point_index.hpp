@@ -10,11 +10,11 @@
 
 namespace quadedge::stages {
 
-/// A point index with the positions that searches read, so that these stand together. kernels/indexed_points.cl reads
-/// it.
+/// A point index and the positions of its points in index order, so that searches read contiguous memory.
+/// kernels/indexed_points.cl reads it.
 class DevicePointIndex {
  public:
-  /// Of edges in an image of width x height px.
+  /// For edges in an image of width x height px.
   DevicePointIndex(int width, int height);
 
   /// Positions of the edges, in the order of the index.
@@ -24,7 +24,7 @@ class DevicePointIndex {
 
   const PackedPointIndex& layout() const { return layout_; }
   int cell_count() const { return layout_.columns * layout_.rows; }
-  /// Makes room for `count` edges; contents are lost.
+  /// Allocates room for `count` edges and discards the contents.
   void resize(opencl::Context& context, int count);
 
  private:

@@ -16,8 +16,8 @@ class Scan {
 
   /// Enqueues first[i] = min(counts[0] + ... + counts[i - 1], capacity) for i = 0 .. count, and total = {elements that
   /// fit, elements cut off}. `counts` holds at least `count` values that are not negative; their sum must fit an int.
-  /// `first` (count + 1) and `total` (2) are made large enough. The profile books it as "scan", and what follows again
-  /// as the stage that uses it.
+  /// `first` (count + 1) and `total` (2) grow as needed. Profiled as stage "scan"; afterwards the calling stage is
+  /// current again.
   void run(const opencl::Buffer<cl_int>& counts, int count, int capacity, opencl::Buffer<cl_int>& first,
            opencl::Buffer<cl_int>& total);
 

@@ -5,7 +5,7 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr int kFirstCapacityPerEdge = 24;  // grows on its own where a data set needs more
+constexpr int kFirstCapacityPerEdge = 24;  // initial; grows as needed
 
 }  // namespace
 

@@ -15,7 +15,7 @@
 
 namespace quadedge::stages {
 
-/// Who owns which right edge.
+/// Owners of the right edges.
 struct DeviceMutual {
   opencl::Buffer<cl_int> claimed;  ///< per right edge: the bits of the highest score offered
   opencl::Buffer<cl_int> owner;    ///< per right edge: the left edge that offers it
@@ -28,8 +28,8 @@ class StereoMutual {
   StereoMutual(opencl::Context& context, const StereoConfig& config,
                const std::map<std::string, std::string>& variants);
 
-  /// Fills the rows of `result`, waits for them, with a copy in `edges`, and then enqueues their right patches, which
-  /// nobody waits for. `right_patches` has the right image prepared.
+  /// Fills `result`, waits, copies it to `edges`, and enqueues the right patches without waiting for them.
+  /// `right_patches` must hold the prepared right image.
   void run(const DeviceEdges& left, const DeviceEdges& right, Patches& right_patches, const EpipolarGeometry& geometry,
            const DeviceClusters& clusters, const DeviceRelaxation& relaxation, DeviceMutual& mutual,
            DeviceStereoEdges& result, StereoEdges& edges);

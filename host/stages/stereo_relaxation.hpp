@@ -1,5 +1,5 @@
 #pragma once
-/// \file stereo_relaxation.hpp  Stage 5c: neighbouring edges vote on which candidate an edge takes.
+/// \file stereo_relaxation.hpp  Stage 5c: neighbouring edges vote on the candidates of an edge.
 
 #include <map>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace quadedge::stages {
 
-/// What the vote decided; beliefs and slopes in the rows of the candidates.
+/// Result of the vote; beliefs and slopes are stored in the rows of the candidates.
 struct DeviceRelaxation {
   opencl::Buffer<cl_float> prior, belief, next_belief;
   opencl::Buffer<cl_float> slopes;  ///< two blocks: change of the position on the line per px along x, along y

@@ -5,7 +5,7 @@
 namespace quadedge::stages {
 namespace {
 
-constexpr int kFirstCapacityPerRow = 48;  // grows on its own where a search needs more
+constexpr int kFirstCapacityPerRow = 48;  // initial; grows as needed
 
 }  // namespace
 

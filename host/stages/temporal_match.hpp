@@ -22,8 +22,8 @@ struct AliveRows {
   int left = 0, right = 0;
 };
 
-/// What a tap sees of a search: every candidate within the radius in either image. What the agreement rejected is
-/// marked in the left lists.
+/// A search as a tap sees it: every candidate within the radius in either image. Candidates rejected by the agreement
+/// are marked in the left lists.
 struct TappedMatch {
   JudgedCandidates left, right;
 };
@@ -34,10 +34,10 @@ class TemporalMatch {
   TemporalMatch(opencl::Context& context, const TemporalConfig& config,
                 const std::map<std::string, std::string>& variants);
 
-  /// Whether the chosen variant is a fused kernel at all, and the limits leave SIFT out.
+  /// True if the variant is a fused kernel and the search does not use SIFT.
   bool serves(const TemporalSearch& search) const { return fused_ && temporal_limits(config_, search).sift_max == 0; }
 
-  /// Builds the tap form, which is the same source, unless it is there.
+  /// Builds the form for taps, from the same source, unless it exists.
   void prepare_tap();
 
   /// Matches and reads the rows back into `matches`; `edges` holds the current stereo edges on the host. `predicted`:
@@ -75,7 +75,7 @@ class TemporalMatch {
   opencl::ReadBack read_back_;
   MatchKernel<> kernel_;
 
-  /// What only a tap needs.
+  /// Members for taps only.
   struct TapForm {
     Scan scan;
     opencl::Buffer<cl_int> counts, first, total, seen;

@@ -13,17 +13,17 @@
 
 namespace quadedge::stages {
 
-/// The closing of the circle and the choice of the best (doc/method.md section 4). Variants of the stage
+/// Agreement of both images and selection of the best candidate (doc/method.md section 4). Variants of the stage
 /// "temporal_quads".
 class TemporalQuads {
  public:
   TemporalQuads(opencl::Context& context, const TemporalConfig& config,
                 const std::map<std::string, std::string>& variants);
 
-  /// Enqueues the agreement: marks left candidates that the right list does not hold alive.
+  /// Enqueues the agreement: rejects left candidates that are not alive in the right list.
   void agree(DeviceCandidates& left, const DeviceCandidates& right);
-  /// Chooses, reads the rows back and returns the quads of the stereo edges `current`, which `edges` holds on the host.
-  /// \param predicted in the left image
+  /// Selects the best candidates, reads the rows back and returns the quads. `edges` holds the stereo edges `current`
+  /// on the host. \param predicted in the left image
   TemporalMatches collect(const DeviceStereoEdges& current, const StereoEdges& edges, const TemporalSearch& search,
                           const PositionsView& predicted, const DeviceCandidates& left);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file undistortion.hpp  Stage 1: the recorded image becomes a pinhole image on the device.
+/// \file undistortion.hpp  Stage 1: converts the recorded image to a pinhole image on the device.
 
 #include <map>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace quadedge::stages {
 
-/// Uploads one camera's images and undoes the lens distortion; without a table it only uploads.
+/// Uploads the images of one camera and removes lens distortion; without a table it only uploads.
 class Undistortion {
  public:
   /// `table` may be empty: the recorded images are pinhole images of width x height already. `max_value`: the largest

@@ -1,5 +1,6 @@
 #pragma once
-/// \file wide_description.hpp  What surrounds stereo edges, for finding them anywhere: kernels/wide_description.cl.
+/// \file wide_description.hpp  Descriptors of the surroundings of stereo edges, for global matching:
+/// kernels/wide_description.cl.
 
 #include <map>
 #include <string>
@@ -16,7 +17,7 @@ class WideDescription {
   WideDescription(opencl::Context& context, int width, int height, const std::map<std::string, std::string>& variants,
                   int max_value = kMaxValue8);
 
-  /// Keeps what a later description of edges in `image` (packed, height x width) needs.
+  /// Prepares `image` (packed, height x width) for the description of edges.
   void prepare(const opencl::Buffer<cl_uchar>& image, opencl::Buffer<cl_float>& small);
 
   /// Descriptors of every step-th stereo edge, 128 bytes each. \returns how many.

@@ -1,5 +1,5 @@
 #pragma once
-/// \file wide_matching.hpp  Finds stereo edges of an earlier rig anywhere in the current left image:
+/// \file wide_matching.hpp  Global matching of stereo edges of an earlier rig with the current left image:
 /// kernels/wide_matching.cl and kernels/wide_matching_blocks.cl.
 
 #include <map>
