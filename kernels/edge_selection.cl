@@ -10,8 +10,8 @@
 
 // The functions below for one maximum and for sixteen, with the same operations: T is float or float16, I int or int16.
 // crossing: the number of the epipolar line of a maximum; step: its difference between neighbouring maxima of the
-// curve; sine: of the angle between curve and line. The longer component of the tangent is 1, because neighbouring maxima are
-// half a pixel apart along it.
+// curve; sine: of the angle between curve and line. The longer component of the tangent is 1, because neighbouring
+// maxima are half a pixel apart along it.
 // density: where a curve meets the lines at a small angle, the lines are closer, so that edges keep their distance: 1,
 // 1/2, 1/4, 1/8 or 1/16 of the spacing.
 // meets: true for the maximum of a curve that is nearest to a line of the lattice. width: 1; with 1.5 every other line
