@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <fstream>
 #include <sstream>
 
@@ -146,7 +147,11 @@ void Context::flush() {
 void Context::finish_copies() noexcept {
   if (!copies_in_flight_) return;
   copies_done();
-  clFinish(queue_());
+  try {
+    queue().finish();
+  } catch (const std::exception&) {
+    return;  // the device is lost, or this is a forked process
+  }
 }
 
 void Context::account(std::ptrdiff_t bytes) {

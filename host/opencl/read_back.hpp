@@ -1,6 +1,9 @@
 #pragma once
 /// \file read_back.hpp  Results that the host reads once per frame.
 
+#include <cstddef>
+#include <exception>
+
 #include "opencl/buffer.hpp"
 
 namespace quadedge::opencl {
@@ -52,9 +55,12 @@ class ReadBack {
     capacity_ = wanted;
   }
   void release() noexcept {
-    if (pinned_ != nullptr) {
-      const cl_command_queue queue = context_->queue()();
-      if (clEnqueueUnmapMemObject(queue, memory_(), pinned_, 0, nullptr, nullptr) == CL_SUCCESS) clFinish(queue);
+    if (pinned_ == nullptr) return;
+    try {
+      context_->queue().enqueueUnmapMemObject(memory_, pinned_);
+      context_->queue().finish();
+    } catch (const std::exception&) {
+      // The device is lost, or this is a forked process: the memory goes with the context.
     }
     pinned_ = nullptr;
     capacity_ = 0;
