@@ -186,24 +186,31 @@ def disturbances(results):
 
 
 def beside(results):
-    """QuadEdge and the OpenCV baseline side by side, for the README."""
+    """Errors from frame to frame beside other systems, and frames per second, for the README."""
+    others = results["peers"]
     by_title = {}
     for row in results["accuracy"]["rows"]:
         if row["sequence"] != STEPS and not on_other_path(row):
-            by_title.setdefault(named(row), {})[row["system"]] = row
-    rows = []
-    for title, found in by_title.items():
-        cells = [title]
-        for system in ("default", "opencv"):
-            row = found.get(system, {})
-            judged = "rpe_translation_m" in row
-            error = f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if judged else "-"
-            cells += [error, drift(row)]
-        rows.append(cells)
+            by_title.setdefault(row["title"], {})[row["system"]] = row
+
+    def error(row):
+        judged = row and "rpe_translation_m" in row
+        return f"{number(row['rpe_rotation_deg'], 2)} / {number(1e3 * row['rpe_translation_m'], 2)}" if judged else "-"
+
+    rows = [
+        [named(found["default"]), error(found["default"]), error(others["libviso2"]["rows"].get(title)),
+         error(found.get("opencv"))]
+        for title, found in by_title.items()
+    ]
+    for title, timed in others["frames_per_second"].items():
+        own = [f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
+               if row["title"].startswith(title) and row.get("preset", "default") == "default"]
+        rows.append([f"frames/s, {title.removesuffix(', flight')}", *own[:1],
+                     *(timed.get(system, "-") for system in ("libviso2", "OpenCV"))])
+    commits = f"Commits {results['accuracy']['commit']} and {results['speed']['commit']} (speed)"
     return (
-        table(["recording", "QuadEdge: error per frame", "drift", "OpenCV SIFT + PnP: error per frame", "drift"], rows)
-        + "\n"
-        + stamp(results["accuracy"])
+        table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows)
+        + f"\n{commits}, {results['accuracy']['date']}. {others['timed']}\n"
     )
 
 
