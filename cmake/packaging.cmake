@@ -31,7 +31,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/quadedgeConfig.cmake ${CMAKE_CURRENT_B
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME quadedge)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "stereo visual odometry from edge quads")
-set(CPACK_PACKAGE_CONTACT "QuadEdge contributors <contributors@quadedge.invalid>")
+set(CPACK_PACKAGE_CONTACT "QuadEdge contributors <quadedge@users.noreply.github.com>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -45,9 +45,7 @@ matched between left and right and between two times, on any OpenCL device.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS pocl-opencl-icd)  # a device for machines without a GPU
 
-# What quadedgeConfig.cmake looks for.
-set(development_packages libeigen3-dev libtbb-dev ocl-icd-opencl-dev opencl-headers libopencv-imgcodecs-dev
-  libopencv-calib3d-dev nlohmann-json3-dev libyaml-cpp-dev libjpeg-dev libavformat-dev libavcodec-dev libswscale-dev)
+# What quadedgeConfig.cmake looks for: development_packages of cmake/dependencies.cmake.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libquadedge-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers, CMake configuration and examples.")
