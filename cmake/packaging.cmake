@@ -21,7 +21,7 @@ install(DIRECTORY include/quadedge DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPO
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(EXPORT quadedge_targets NAMESPACE quadedge:: DESTINATION ${package_folder} COMPONENT development)
 # python/CMakeLists.txt takes the library from here, too.
-export(TARGETS ${exported_targets} quadedge_options NAMESPACE quadedge::
+export(TARGETS ${shareable_targets} quadedge_options NAMESPACE quadedge::
   FILE ${CMAKE_BINARY_DIR}/quadedge_targets.cmake)
 configure_package_config_file(cmake/quadedgeConfig.cmake.in quadedgeConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(quadedgeConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -5,8 +5,9 @@ build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl
   nlohmann-json3-dev libyaml-cpp-dev libtomlplusplus-dev libxxhash-dev libavformat-dev libavcodec-dev
   libswscale-dev"
 python_packages="python3-dev python3-venv"  # for `pip install .`, besides those above
+wheel_packages="dpkg-dev nasm zlib1g-dev"  # for build_wheel.sh, besides those above
 test_packages="catch2 libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file groff-base oclgrind clang clang-19
-  libclc-19 clang-format p7zip-full munge slurmctld slurmd slurm-client"
+  debootstrap libclc-19 clang-format p7zip-full munge slurmctld slurmd slurm-client"
 
 # install_missing PACKAGE...: asks dpkg first, so that a machine that has everything needs neither network nor root.
 install_missing() {

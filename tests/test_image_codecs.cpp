@@ -76,7 +76,7 @@ TEST_CASE("image codecs: files written hold what was given, with the bytes that 
   }
   for (const int type : {CV_8UC1, CV_8UC3})
     CHECK(data::encode_jpeg(smooth(type), 75) == encoded(".jpg", smooth(type), {cv::IMWRITE_JPEG_QUALITY, 75}));
-  CHECK_THROWS_WITH(data::encode_png(cv::Mat()), Contains("width"));
+  CHECK_THROWS_WITH(data::encode_png(cv::Mat()), Contains("IHDR"));
 }
 
 TEST_CASE("image codecs: a damaged image is refused with the library's reason", "[dataset]") {

@@ -46,12 +46,14 @@ Image decode_grey_image(std::string_view bytes, const std::string& name) {
   try {
     samples = decode(kind, bytes, name);
   } catch (const std::runtime_error& problem) {
-    data::fail(name, std::string("a damaged ") + (kind == ImageKind::png ? "PNG" : "JPEG") + " (" + problem.what() + ")",
+    data::fail(name,
+               std::string("a damaged ") + (kind == ImageKind::png ? "PNG" : "JPEG") + " (" + problem.what() + ")",
                intact);
   } catch (const cv::Exception& problem) {
     data::fail(name, "an image that cannot be decoded (" + problem.err + ")", intact);
   }
-  if (samples.cols != size.width || samples.rows != size.height || (samples.depth() == CV_16U) != (size.max_value > kMaxValue8))
+  if (samples.cols != size.width || samples.rows != size.height ||
+      (samples.depth() == CV_16U) != (size.max_value > kMaxValue8))
     data::fail(name, "an image of another size or depth than its header says", intact);
   return data::grey_image(samples, size.max_value);
 }

@@ -98,9 +98,7 @@ bool encode(jpeg_compress_struct& encoder, Complaint& complaint, const cv::Mat& 
 
 }  // namespace
 
-cv::Mat decode_jpeg(std::string_view bytes) {
-  return Decoder().picture(bytes);
-}
+cv::Mat decode_jpeg(std::string_view bytes) { return Decoder().picture(bytes); }
 
 std::string encode_jpeg(const cv::Mat& picture, int quality) {
   cv::Mat rgb = picture;

@@ -105,9 +105,7 @@ bool encode(png_structp png, png_infop info, const cv::Mat& picture, png_bytepp 
 
 }  // namespace
 
-cv::Mat decode_png(std::string_view bytes) {
-  return Decoder(bytes).picture();
-}
+cv::Mat decode_png(std::string_view bytes) { return Decoder(bytes).picture(); }
 
 std::string encode_png(const cv::Mat& picture) {
   std::string bytes;
