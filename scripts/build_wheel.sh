@@ -24,8 +24,14 @@ rm -rf "$work/linked" "$work/repaired"
 CMAKE_PREFIX_PATH="$work/libav" CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
   "$venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps --wheel-dir "$work/linked" "$repository" \
   -C build-dir="$work/{wheel_tag}" -C cmake.define.QUADEDGE_UNITY=ON -C install.strip=true
-export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/libav/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
-auditwheel repair --strip --plat "manylinux_2_36_$(uname -m)" --wheel-dir "$work/repaired" "$work"/linked/quadedge-*.whl
+
+# Debian's OpenCV asks GLX for a window's OpenGL context. There is never one here, and the wheel shall not need X11.
+mkdir -p "$work/without_x11"
+for name in glXGetCurrentContext glXGetCurrentDisplay glXGetProcAddressARB; do echo "void* $name(void) { return 0; }"; done |
+  cc -x c -shared -fPIC -Wl,-soname,libGLX.so.0 -o "$work/without_x11/libGLX.so.0" -
+
+export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/without_x11:$work/libav/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+auditwheel repair --strip --only-plat --plat "manylinux_2_36_$(uname -m)" --wheel-dir "$work/repaired" "$work"/linked/quadedge-*.whl
 
 # The licences of the libraries beside them, under the names of the Debian packages that they come from.
 rm -rf "$work/unpacked"
@@ -35,7 +41,9 @@ licences="$content/quadedge.libs/licences"
 mkdir "$licences"
 for library in "$content"/quadedge.libs/*.so*; do
   name="$(basename "$library" | sed 's/-[0-9a-f]*\.so.*//')"  # auditwheel's names: libtbb-1a2b3c4d.so.12.8
-  if [ -e "$work/libav/lib/$name.so" ]; then
+  if [ "$name" = libGLX ]; then
+    continue
+  elif [ -e "$work/libav/lib/$name.so" ]; then
     cp "$work/libav_source/COPYING.LGPLv2.1" "$licences/ffmpeg"
   else
     file=(/usr/lib/*/"$name".so*)

@@ -41,6 +41,8 @@ void* open_loader() {
   void* const system = dlopen(kName, RTLD_NOW | RTLD_LOCAL);
   const char* const runtime = std::getenv("QUADEDGE_OPENCL_RUNTIME");
   if (runtime == nullptr || has_device(system)) return system;
+  // The driver first: it finds its libraries beside itself, and the loader, which cannot, then uses the same.
+  if (dlopen(runtime, RTLD_NOW | RTLD_LOCAL) == nullptr) return system;
   setenv("OCL_ICD_FILENAMES", runtime, 0);
   const std::string file = runtime;
   void* const loader = dlopen((file.substr(0, file.rfind('/') + 1) + kName).c_str(), RTLD_NOW | RTLD_LOCAL);
