@@ -96,10 +96,12 @@ TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
     CHECK(WTERMSIG(status) == SIGINT);
     const auto frames = read_lines(out + "/trajectory_kitti.txt").size();
     CHECK(frames < 60);
-    CHECK_THAT(read_text(folder / "log"),
-               Contains(out + " hold what was tracked, " + std::to_string(frames) + " of 60 frames") &&
-                   Contains("60 of 60 rendered frames are kept"));
+    CHECK_THAT(read_text(folder / "log"), Contains("interrupted after " + std::to_string(frames) +
+                                                   " of 60 frames; results of these frames are in " + out) &&
+                                              Contains("next       quadedge report") &&
+                                              Contains("60 of 60 rendered frames are kept"));
     CHECK(read_lines(out + "/frames.csv").size() == frames + 1);
-    CHECK_FALSE(fs::exists(out + "/report.json"));
+    CHECK_THAT(read_text(out + "/report.json"), Contains("\"ended_early\": \"interrupted after ") &&
+                                                    Contains("\"accuracy\": {") && Contains("\"frames\": 60"));
   }
 }

@@ -52,7 +52,7 @@ std::vector<std::string> interpreters() {
 }  // namespace
 
 int make_page(const std::vector<std::string>& arguments) {
-  setenv("PYTHONSAFEPATH", "1", 1);  // a folder named quadedge where the user stands is not the module
+  setenv("PYTHONSAFEPATH", "1", 1);  // a folder named quadedge in the current folder is not the module
   std::string tried;
   for (const auto& python : interpreters()) {
     if (run_program({python, "-c", "import quadedge.report"}, true) != 0) {
@@ -65,8 +65,8 @@ int make_page(const std::vector<std::string>& arguments) {
     return run_program(words, false);
   }
   std::fprintf(stderr,
-               "quadedge: no page: %s has no module quadedge.report; install it with `python3 -m pip install .` "
-               "in a clone of QuadEdge, or name another Python in %s\n",
+               "quadedge: no page: the Python module quadedge.report is not installed for %s; install it with "
+               "`python3 -m pip install .` in a clone of QuadEdge, or set %s to another Python\n",
                tried.c_str(), kVariable);
   return static_cast<int>(ExitCode::usage);
 }
