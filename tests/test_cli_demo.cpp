@@ -82,7 +82,7 @@ TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
     REQUIRE(WIFSIGNALED(status));
     CHECK(WTERMSIG(status) == SIGINT);
     CHECK_THAT(read_text(folder / "log"),
-               Contains("before the first frame") && Contains("of 60 rendered frames are kept in " + rendered));
+               Contains("before the first frame") && Contains("of 60 rendered frames are cached in " + rendered));
     CHECK_FALSE(fs::exists(out + "/config.toml"));
     CHECK_FALSE(fs::exists(out + "/trajectory.txt"));  // the next start needs no --force
   }
@@ -99,7 +99,7 @@ TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
     CHECK_THAT(read_text(folder / "log"), Contains("interrupted after " + std::to_string(frames) +
                                                    " of 60 frames; results of these frames are in " + out) &&
                                               Contains("next       quadedge report") &&
-                                              Contains("60 of 60 rendered frames are kept"));
+                                              Contains("60 of 60 rendered frames are cached"));
     CHECK(read_lines(out + "/frames.csv").size() == frames + 1);
     CHECK_THAT(read_text(out + "/report.json"), Contains("\"ended_early\": \"interrupted after ") &&
                                                     Contains("\"accuracy\": {") && Contains("\"frames\": 60"));
