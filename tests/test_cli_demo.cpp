@@ -44,7 +44,7 @@ TEST_CASE("demo: renders before it tracks, and only once", "[cli][device]") {
   CHECK_THAT(third.err, Contains("rendering 3/3"));
   std::ofstream(folder / "file") << "in the way";
   const auto fourth = demo("fourth", "XDG_CACHE_HOME='" + (folder / "file/cache") + "'");
-  CHECK_THAT(fourth.err, Contains("not kept") && Contains(folder / "file/cache"));
+  CHECK_THAT(fourth.err, Contains("not cached") && Contains(folder / "file/cache"));
   for (const char* out : {"second", "third", "fourth"}) {
     for (const char* name : {"/trajectory.txt", "/trajectory_kitti.txt"})
       CHECK(read_text(folder / (out + std::string(name))) == read_text(folder / ("first" + std::string(name))));
