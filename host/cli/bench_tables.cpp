@@ -20,7 +20,7 @@ void print_phases(const std::vector<report::StageSummary>& phases, double frame_
 /// Where the time of a frame goes, stage by stage.
 void print_shares(const bench::FrameShares& shares) {
   if (shares.stages.empty()) return;
-  std::printf("\nstages of a frame by OpenCL events, in a pass of their own (%.2f ms per frame), mean [ms]\n",
+  std::printf("\nstages of a frame by OpenCL events, in a separate pass (%.2f ms per frame), mean [ms]\n",
               shares.frame_ms);
   std::printf("  %-20s %9s %7s %9s %9s %9s %9s\n", "", "wall", "share", "kernels", "transfers", "starting", "launches");
   opencl::StageProfile sum;
@@ -51,9 +51,9 @@ double count(const report::RunRecord& run, const std::string& name) {
 void print_benchmark(const bench::BenchRecord& record) {
   const auto& run = record.run;
   std::printf("%s, %dx%d, on %s\n", run.input.name.c_str(), run.input.width, run.input.height, run.device.name.c_str());
-  std::printf("%d frames measured after the first and %d to get warm; %d of %zu tracked\n",
+  std::printf("measured frames: %d, after the first and %d for warm-up; tracked: %d of %zu\n",
               static_cast<int>(run.frames.size()) - 1, record.warm_up, run.tracked(), run.frames.size());
-  std::printf("threshold of edges %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
+  std::printf("edge threshold %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
               run.frames.back().result.edge_threshold, record.edges_wanted > 0 ? " (chosen)" : "",
               count(run, "edges_left"), count(run, "edges_right"), count(run, "stereo_edges"), count(run, "quads"));
   const auto latency = report::latency_summary(run.frames);
@@ -94,11 +94,11 @@ void print_comparison(const bench::BenchComparison& comparison, double noise_per
   }
   if (!comparison.has_yardsticks)
     std::printf(
-        "both times are absolute: measured with --baseline, results of a shared machine are compared by how much "
-        "slower OpenCV's SIFT was\n");
+        "times are compared as they are; on a shared machine, measure both with --baseline, so that they are scaled by "
+        "the time of OpenCV's SIFT\n");
   for (const auto& note : comparison.notes) std::printf("differs: %s\n", note.c_str());
   if (comparison.drift != 1) {
-    std::printf("times are compared after division by %.3f, as OpenCV's SIFT took so much longer\n", comparison.drift);
+    std::printf("times after are divided by %.3f, the change in the time of OpenCV's SIFT\n", comparison.drift);
   }
   std::printf("%s beyond the noise band of %g %%\n", comparison.regressed() ? "REGRESSION" : "no regression",
               noise_percent);

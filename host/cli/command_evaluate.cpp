@@ -38,7 +38,7 @@ Loaded load_file(const std::string& path) {
 void give_stamps(Trajectory& rows, const std::vector<std::int64_t>& stamps, const std::string& file,
                  const std::string& timed_file) {
   if (rows.size() != stamps.size()) {
-    throw DataError(file + ": found " + std::to_string(rows.size()) + " rows without time stamps, expected " +
+    throw DataError(file + ": found " + data::counted(rows.size(), "row") + " without time stamps, expected " +
                     std::to_string(stamps.size()) + ", one per frame of " + timed_file);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].stamp_ns = stamps[i];
@@ -60,15 +60,17 @@ class EvaluateTrajectoryCommand : public Command {
   }
   void declare(Options& options) override {
     options.positional("ESTIMATE", estimate_, "TUM or KITTI file");
-    options.positional("TRUTH", truth_, "TUM or KITTI file, or the folder of a sequence with ground truth");
-    options.number("--from-frame", from_frame_, "leave out the poses before this one of the estimate");
-    options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when TRUTH is a folder with several", "NAME");
-    options.flag("--steps", steps_,
-                 "also judge each step by itself: right below a limit + 10 % of the motion, and below an angle");
-    options.number("--step-metres", step_limits_.translation_m, "that limit [m]");
-    options.number("--step-degrees", step_limits_.rotation_deg, "and that angle [deg]");
-    options.text("--json", json_, "also write the errors, per pose too, to a file", "FILE");
-    options.flag("--force", force_, "replace the --json file");
+    options.positional("TRUTH", truth_, "TUM or KITTI file, or folder of a sequence with ground truth");
+    options.number("--from-frame", from_frame_, "ignore poses of the estimate before this one");
+    options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if TRUTH is a folder with several",
+                 "NAME");
+    options.flag(
+        "--steps", steps_,
+        "also classify each step: right if its errors are below a distance + 10 % of the motion and below an angle");
+    options.number("--step-metres", step_limits_.translation_m, "distance for --steps [m]");
+    options.number("--step-degrees", step_limits_.rotation_deg, "angle for --steps [deg]");
+    options.text("--json", json_, "also write the errors, including those of every pose, to a file", "FILE");
+    options.flag("--force", force_, "overwrite the --json file");
   }
 
   int run() override {

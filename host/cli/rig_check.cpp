@@ -23,7 +23,7 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
                   evidence.searched_residual, 100 * evidence.found_ratio, 100 * evidence.on_line_ratio);
     check.facts.push_back(frame + text);
   } else {
-    check.facts.push_back(frame + "no corners to check the calibration with");
+    check.facts.push_back(frame + "too little texture to test the calibration");
   }
   if (!findings.mismatch.empty()) check.warnings.push_back(frame + findings.mismatch);
   for (const auto& doubt : findings.doubts) check.warnings.push_back(frame + doubt);
@@ -43,7 +43,7 @@ void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {
 void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   if (!dataset_) {
     dataset_ = dataset;
-    dataset_->stream = nullptr;  // the pairs are another's
+    dataset_->stream = nullptr;  // which is read elsewhere
     check_numbers(dataset.rig, found_);
   }
   const auto middle = static_cast<int>(dataset.frames.size() / 2);

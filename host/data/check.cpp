@@ -72,6 +72,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
         decimals(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
   }
   for (const auto& note : dataset.notes) check.facts.push_back("note: " + note);
+  check.warnings.insert(check.warnings.end(), dataset.warnings.begin(), dataset.warnings.end());
 }
 
 /// Finds steps of more than twice the usual one.
@@ -96,7 +97,7 @@ void check_truth(const Dataset& dataset, DatasetCheck& check) {
         return std::abs(pose.stamp_ns - frame.stamp_ns) <= kToleranceNs;
       });
     });
-    const std::string coverage = std::to_string(covered) + " of " + std::to_string(dataset.frames.size()) + " frames";
+    const std::string coverage = std::to_string(covered) + " of " + counted(dataset.frames.size(), "frame");
     check.facts.push_back("ground truth: " + dataset.truth_file + ", " + coverage);
     if (static_cast<std::size_t>(covered) < dataset.frames.size()) {
       check.warnings.push_back(dataset.truth_file + ": covers " + coverage);

@@ -95,6 +95,15 @@ std::vector<std::int64_t> read_times(const std::string& file) {
   return stamps;
 }
 
+double usual_rate(const std::vector<std::int64_t>& stamps_ns) {
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i) periods.push_back(stamps_ns[i] - stamps_ns[i - 1]);
+  if (periods.empty()) return 0;
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle > 0 ? 1e9 / static_cast<double>(*middle) : 0;
+}
+
 CameraImages list_images(const fs::path& folder) {
   CameraImages images;
   std::vector<std::string> names = image_names(folder);
@@ -115,8 +124,8 @@ CameraImages list_images(const fs::path& folder) {
     images.stamps_from = times;
     images.stamps_ns = read_times(times);
     if (images.stamps_ns.size() != images.files.size()) {
-      fail(times, std::to_string(images.stamps_ns.size()) + " times",
-           "one for each of the " + std::to_string(images.files.size()) + " images in " + folder.string());
+      fail(times, counted(images.stamps_ns.size(), "time"),
+           "one per image, for the " + counted(images.files.size(), "image") + " in " + folder.string());
     }
     return images;
   }
