@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Makes an animated picture of a tracked sequence: edges and quads of every frame beside the path from above.
+"""Makes an animated image of a tracked sequence: edges and quads of every frame beside the path from above.
 
-    quadedge demo --draw 1 -o demo          any run with ground truth and a picture of every frame
-    scripts/animate.py demo doc/demo.webp   add --width, --every, --ms, --quality to change size and pace
+    quadedge demo --draw 1 -o demo          any run with ground truth and a drawing of every frame
+    scripts/animate.py demo doc/demo.webp   --width, --every, --ms and --quality change size and speed
 
-Needs Pillow 10.1 or newer; build/venv, which scripts/test.sh makes, has it. The format follows from the name: .webp,
-.gif, .png.
-Exit code: 0 done, 1 the results are not there or not complete, 2 wrong usage.
+Needs Pillow 10.1 or newer, which build/venv contains (scripts/test.sh). The file extension selects the format: .webp,
+.gif or .png.
+Exit code: 0 done, 1 results missing or incomplete, 2 wrong usage.
 """
 
 import argparse
@@ -27,7 +27,7 @@ def read_positions(file):
 
 
 def read_results(folder):
-    """Everything that is drawn."""
+    """Reads everything that is drawn."""
     with open(folder / "report.json", encoding="utf-8") as file:
         report = json.load(file)
     with open(folder / "errors.csv", encoding="utf-8", newline="") as file:
@@ -41,7 +41,7 @@ def read_results(folder):
 
 
 def to_panel(points, left, top, side, margin):
-    """Maps metres to pixels: both axes with one scale, z upwards."""
+    """Maps metres to pixels with the same scale for both axes, z upwards."""
     xs, zs = [x for x, _ in points], [z for _, z in points]
     scale = (side - 2 * margin) / max(max(xs) - min(xs), max(zs) - min(zs), 1e-9)
     middle_x, middle_z = (max(xs) + min(xs)) / 2, (max(zs) + min(zs)) / 2
@@ -52,12 +52,12 @@ def to_panel(points, left, top, side, margin):
 
 
 def draw_frame(frame, results, folder, width):
-    """One picture: the camera's view with edges and quads, the path beside it."""
+    """One frame of the animation: the camera's view with edges and quads, the path beside it."""
     report, estimate, truth, errors = results
     source = Image.open(folder / "pictures" / f"quads_{frame:06d}.png").convert("RGB")
     size = report["input"]
     view_height = round(width * size["height"] / size["width"])
-    # The legend below the view is cut off.
+    # Without the legend below the view.
     view = source.crop((0, 0, source.width, source.width * size["height"] // size["width"])).resize(
         (width, view_height), Image.LANCZOS
     )
@@ -89,12 +89,12 @@ def draw_frame(frame, results, folder, width):
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=Path, metavar="RUN", help="folder of a run with pictures of every frame")
+    parser.add_argument("run", type=Path, metavar="RUN", help="folder of a run with drawings of every frame")
     parser.add_argument("output", type=Path, metavar="OUT")
-    parser.add_argument("--width", type=int, default=560, help="of the camera's view [px]")
-    parser.add_argument("--every", type=int, default=1, help="only every N-th frame")
-    parser.add_argument("--ms", type=int, default=100, help="each picture stays so long")
-    parser.add_argument("--quality", type=int, default=40, help="of WebP, 0 to 100")
+    parser.add_argument("--width", type=int, default=560, help="width of the camera's view [px]")
+    parser.add_argument("--every", type=int, default=1, help="use every N-th frame")
+    parser.add_argument("--ms", type=int, default=100, help="duration of each frame [ms]")
+    parser.add_argument("--quality", type=int, default=40, help="quality of WebP, 0 to 100")
     return parser.parse_args()
 
 
@@ -107,7 +107,7 @@ def main():
     except (OSError, ValueError, KeyError) as problem:
         print(f"animate: {problem}", file=sys.stderr)
         return 1
-    # The last one stays for a while before it begins again.
+    # The last frame is held before the animation repeats.
     durations = [options.ms] * (len(pictures) - 1) + [20 * options.ms]
     more = {"quality": options.quality, "method": 6} if options.output.suffix == ".webp" else {}
     pictures[0].save(options.output, save_all=True, append_images=pictures[1:], duration=durations, loop=0, **more)

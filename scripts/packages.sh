@@ -8,7 +8,7 @@ python_packages="python3-dev python3-venv"  # for `pip install .`, besides those
 test_packages="curl ffmpeg file groff-base oclgrind clang clang-19 libclc-19 clang-format p7zip-full munge slurmctld
   slurmd slurm-client"
 
-# install_missing PACKAGE...: asks dpkg first, so that a machine that has everything needs neither network nor root.
+# install_missing PACKAGE...: asks dpkg first: a machine with all packages needs neither network nor root.
 install_missing() {
   local missing=() package root=()
   for package in "$@"; do
@@ -18,7 +18,7 @@ install_missing() {
   [ ${#missing[@]} -eq 0 ] && return 0
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
-      echo "These Debian packages are missing, and there is neither root nor sudo to install them: ${missing[*]}" >&2
+      echo "These Debian packages are missing; installing them needs root or sudo: ${missing[*]}" >&2
       return 1
     fi
     root=(sudo)
