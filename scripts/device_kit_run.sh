@@ -148,7 +148,9 @@ for sequence in $sequences; do
     part 12 "latency, $sequence, $preset" "$check" bench "$rows" "$sequence" "$preset" $((8 * total / 480))
   done
 done
-part 80 'kernel variants' "$check" variants "$rows" room
+variants_of=room  # the flight has lens distortion too
+[ ! -d "$kit/data/flight" ] || variants_of=flight
+part 80 'kernel variants' "$check" variants "$rows" "$variants_of"
 part 135 'device tests' sh "$0" device-tests "$kit" "$work"
 if [ -s "$DEVICE_KIT_TEST_LOG" ]; then
   awk -F '\t' '{ state[$2] = $1 == "started" ? "crashed or timed out" : $1 }

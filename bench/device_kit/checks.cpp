@@ -133,8 +133,8 @@ void compare_stages(const Options& options, const Sequence& sequence) {
                                 {"values", std::to_string(sum.values)},
                                 {"bytes", is_equal ? "equal" : std::to_string(sum.differing) + " values differ"},
                                 {"largest difference", std::isfinite(sum.largest) ? number(sum.largest) : "-"},
-                                {"of", sum.where},
-                                {"", sum.largest < kAllowed ? "passes" : "FAILS"}});
+                                {"largest in", sum.where},
+                                {"verdict", sum.largest < kAllowed ? "passes" : "FAILS"}});
   }
 }
 
@@ -166,7 +166,7 @@ void compare_poses(const Options& options, const Sequence& sequence, const std::
                              {"same status", std::to_string(same_status) + " of " + all},
                              {"equal bytes", std::to_string(equal) + " of " + all},
                              {"largest difference [m]", number(largest)},
-                             {"", largest < kAllowed && same_status == expected.size() ? "passes" : "FAILS"}});
+                             {"verdict", largest < kAllowed && same_status == expected.size() ? "passes" : "FAILS"}});
 }
 
 }  // namespace

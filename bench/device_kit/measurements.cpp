@@ -33,7 +33,7 @@ void variants_part(const Options& options) {
       const std::string mark = variant.name == result.best() ? "best" : "";
       options.rows.add("variants", {{"stage", stage},
                                     {"variant", variant.name},
-                                    {"", variant.is_default ? "default" : mark},
+                                    {"role", variant.is_default ? "default" : mark},
                                     {"bytes", !variant.runs    ? "cannot run"
                                               : variant.agrees ? "equal"
                                                                : "DIFFER"},

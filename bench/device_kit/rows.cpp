@@ -28,7 +28,8 @@ constexpr Section kSections[] = {
     {"tests", "Device tests that did not pass", ""},
     {"tests_total", "Device tests", ""},
     {"variants", "Kernel variants",
-     "Second frame of the room, default preset. Bytes are compared with those of the device's default variant, after "
+     "Second frame of EuRoC's flight, else of the room; default preset. Bytes are compared with those of the device's "
+     "default variant, after "
      "both agreed with the plain C++ reference on a small input. Ratio: time over the default's in the same "
      "repetition. Bandwidth and arithmetic: least work of the stage over the device's measured ceilings."},
     {"ceilings", "Ceilings", "Measured by a copy and by multiply-adds."},

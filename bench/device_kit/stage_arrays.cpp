@@ -46,11 +46,16 @@ class Arrays {
   std::vector<StageArray> arrays;
 };
 
-/// Stores what the stereo stages leave; with `only_sift` the SIFT distances alone.
+/// Stores the output of the stereo stages, or with `only_sift` only the SIFT distances.
 class StereoTap : public Tap {
  public:
   StereoTap(Arrays& arrays, bool only_sift) : arrays_(arrays), only_sift_(only_sift) {}
 
+  void edges(const EdgeSet& left, const EdgeSet& right) override {
+    if (only_sift_) return;
+    arrays_.add("edge_selection", "left", left);
+    arrays_.add("edge_selection", "right", right);
+  }
   void stereo_filter(StereoFilter filter, const CandidateLists& lists) override {
     if (only_sift_) {
       if (filter == StereoFilter::orientation) arrays_.add("sift", "distance", lists.cue);
@@ -113,8 +118,6 @@ void add_pair(const Sequence& sequence, Device& device, const Config& config, Ar
   frontend->set_tap(&tap);
   const auto now = frontend->process(sequence.frames.at(1).view());
   frontend->set_tap(nullptr);
-  arrays.add("edge_selection", "left", frontend->edges(Side::left));
-  arrays.add("edge_selection", "right", frontend->edges(Side::right));
   const StereoEdges& edges = now->edges;
   arrays.add("stereo_mutual", "left edge", edges.left_index);
   arrays.add("stereo_mutual", "right x [px]", edges.right_x);
