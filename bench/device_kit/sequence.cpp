@@ -26,7 +26,7 @@ std::string image_file(const std::string& folder, const char* side, std::size_t 
 }
 
 void write_pgm(const std::string& file, const Image& image) {
-  if (image.white != quadedge::kWhite8) throw std::runtime_error(file + ": images of more than 8 bits");
+  if (image.max_value != quadedge::kMaxValue8) throw std::runtime_error(file + ": images of more than 8 bits");
   auto stream = opened<std::ofstream>(file);
   stream << "P5\n" << image.width << ' ' << image.height << "\n255\n";
   stream.write(reinterpret_cast<const char*>(image.pixels.data()), static_cast<std::streamsize>(image.pixels.size()));
@@ -39,7 +39,7 @@ Image read_pgm(const std::string& file) {
   int width = 0, height = 0, largest = 0;
   stream >> magic >> width >> height >> largest;
   stream.get();
-  if (magic != "P5" || largest != quadedge::kWhite8 || width < 1 || height < 1)
+  if (magic != "P5" || largest != quadedge::kMaxValue8 || width < 1 || height < 1)
     throw std::runtime_error(file + ": expected a PGM file (P5) of 8 bits");
   Image image(width, height);
   stream.read(reinterpret_cast<char*>(image.pixels.data()), static_cast<std::streamsize>(image.pixels.size()));

@@ -129,7 +129,7 @@ void add_pair(const Sequence& sequence, Device& device, const Config& config, Ar
   };
   arrays.add("point_index, temporal_match", frontend->match(*base, search(false)));
   arrays.add("temporal_match, coarse", frontend->match(*base, search(true)));
-  arrays.add("wide_description, wide_matching", frontend->match_anywhere(*base));
+  arrays.add("wide_description, wide_matching", frontend->match_globally(*base));
 }
 
 /// The stages that run with SIFT alone.
