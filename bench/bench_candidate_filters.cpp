@@ -1,4 +1,4 @@
-/// \file bench_candidate_filters.cpp  NCC and nearly best over the candidates of a frame, in stereo and in time.
+/// \file bench_candidate_filters.cpp  NCC and nearly-best filters on the stereo and temporal candidates of a frame.
 #include "stage_bench.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-/// \file bench_edge_selection.cpp  Choosing the maxima of both images that become edges.
+/// \file bench_edge_selection.cpp  Selection of the maxima of both images that become edges.
 #include "stage_bench.hpp"
 
 namespace {

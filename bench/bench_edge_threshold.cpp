@@ -1,4 +1,4 @@
-/// \file bench_edge_threshold.cpp  The threshold of a frame's edges.
+/// \file bench_edge_threshold.cpp  The edge threshold of a frame.
 #include "stage_bench.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-/// \file bench_point_index.cpp  Sorting the stereo edges of both sides by cells.
+/// \file bench_point_index.cpp  Sorting of the stereo edges of both sides by cells.
 #include "stage_bench.hpp"
 
 namespace {

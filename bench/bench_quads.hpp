@@ -10,18 +10,18 @@
 
 namespace quadedge::bench {
 
-/// Quads between two frames, from the plain C++ reference, so that no OpenCL device is needed; repeated until there are
-/// as many as wanted, as a larger image would have them.
+/// Quads between two frames, from the plain C++ reference, so that no OpenCL device is needed. They are repeated up to
+/// the requested number, to simulate a larger image.
 struct BenchQuads {
   explicit BenchQuads(std::size_t wanted);
 
   SyntheticSequence sequence;
   Config config;
   pose::QuadObservations quads;
-  Eigen::Isometry3d motion;  ///< the true one, current_from_previous, metres
+  Eigen::Isometry3d motion;  ///< true motion, current_from_previous, metres
 };
 
-/// The same ones at every call.
+/// Returns the same quads at every call.
 const BenchQuads& quads_of(std::int64_t wanted);
 
 }  // namespace quadedge::bench

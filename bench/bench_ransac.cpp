@@ -1,4 +1,4 @@
-/// \file bench_ransac.cpp  The whole consensus search.
+/// \file bench_ransac.cpp  The complete RANSAC search.
 #include <benchmark/benchmark.h>
 #include <optional>
 

@@ -1,4 +1,4 @@
-/// \file bench_refinement.cpp  Least squares over all inliers.
+/// \file bench_refinement.cpp  Least squares on all inliers.
 #include <benchmark/benchmark.h>
 #include <optional>
 #include <vector>

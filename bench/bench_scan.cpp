@@ -1,4 +1,4 @@
-/// \file bench_scan.cpp  Exclusive prefix sums of as many counts as a frame has edges, by OpenCL events.
+/// \file bench_scan.cpp  Exclusive prefix sums of one count per edge of a frame, by OpenCL events.
 #include <benchmark/benchmark.h>
 
 #include "opencl/context.hpp"

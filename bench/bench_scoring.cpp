@@ -1,4 +1,4 @@
-/// \file bench_scoring.cpp  The cost of one motion over many quads.
+/// \file bench_scoring.cpp  The cost of one motion for many quads.
 #include <benchmark/benchmark.h>
 
 #include "bench_quads.hpp"

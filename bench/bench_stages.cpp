@@ -1,5 +1,5 @@
-/// \file bench_stages.cpp  Kernel times of all stages (bench_STAGE.cpp) on the device of QUADEDGE_DEVICE ("auto"
-/// without it): bench_stages --benchmark_filter=patches
+/// \file bench_stages.cpp  Kernel times of all stages (bench_STAGE.cpp) on the device QUADEDGE_DEVICE ("auto" if
+/// unset): bench_stages --benchmark_filter=patches
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <iostream>
@@ -40,7 +40,7 @@ const Scene& scene() {
   return made;
 }
 
-/// `variant` may be empty: the default.
+/// `variant`: empty for the default.
 void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant, const Prepare& prepare) {
   DeviceOptions profiling;
   profiling.profiling = true;

@@ -1,4 +1,4 @@
-/// \file bench_stereo_clusters.cpp  Refined candidates to clusters.
+/// \file bench_stereo_clusters.cpp  Clustering of refined candidates.
 #include "stage_bench.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-/// \file bench_stereo_mutual.cpp  The edges' choices to stereo edges.
+/// \file bench_stereo_mutual.cpp  Stereo edges from mutually best candidates.
 #include "stage_bench.hpp"
 
 namespace {

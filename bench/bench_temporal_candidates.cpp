@@ -1,4 +1,4 @@
-/// \file bench_temporal_candidates.cpp  Candidates in time, as lists.
+/// \file bench_temporal_candidates.cpp  Temporal candidates as lists.
 #include "stage_bench.hpp"
 
 namespace {

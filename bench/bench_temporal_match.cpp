@@ -1,5 +1,5 @@
-/// \file bench_temporal_match.cpp  The temporal cascade in one kernel; with the variant "lists" it has no time of its
-/// own.
+/// \file bench_temporal_match.cpp  The temporal cascade in one kernel; the variant "lists" runs other stages instead
+/// and has no time here.
 #include "stage_bench.hpp"
 
 namespace {

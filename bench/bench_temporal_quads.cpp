@@ -1,4 +1,4 @@
-/// \file bench_temporal_quads.cpp  Agreement and choice over candidate lists.
+/// \file bench_temporal_quads.cpp  Agreement and selection on candidate lists.
 #include "stage_bench.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-/// \file bench_wide_description.cpp  Wide descriptors of a part of the stereo edges.
+/// \file bench_wide_description.cpp  Wide descriptors of a subset of the stereo edges.
 #include "stage_bench.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-/// \file bench_wide_matching.cpp  Wide descriptors matched anywhere in the image.
+/// \file bench_wide_matching.cpp  Global matching of wide descriptors.
 #include "stage_bench.hpp"
 
 namespace {

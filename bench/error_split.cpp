@@ -1,6 +1,6 @@
-/// \file error_split.cpp  Where the error of a pose comes from: tracks a rendered scene, then estimates each motion
-/// again with one kind of measurement after the other replaced by the truth, or with one part of the method changed.
-/// Nothing true reaches the odometry that is run; its quads are taken and changed afterwards.
+/// \file error_split.cpp  Attributes the error of poses to its sources: tracks a rendered scene, then re-estimates each
+/// motion with one kind of measurement at a time replaced by ground truth, or with one part of the method changed. The
+/// odometry itself never uses ground truth; its quads are modified afterwards.
 ///
 ///   error_split room --frames 60          prints a Markdown table
 
@@ -21,10 +21,10 @@ using namespace quadedge;
 using evaluation::TruePositions;
 using evaluation::Visibility;
 
-constexpr double kWrong = 1.0;  // a quad farther than this from the truth across its edge, in any of its images [px]
+constexpr double kWrong = 1.0;  // limit on the distance of a quad from the truth across its edge, in any image [px]
 constexpr double kDegreesPerRadian = 57.295779513082320876798;
 
-/// Errors of one variant over the frames.
+/// Errors of one variant, summed over the frames.
 struct Errors {
   std::string name;
   int frames = 0;
@@ -50,7 +50,7 @@ struct Errors {
   }
 };
 
-/// Quads with rows of their own, so that each can be changed, and the true positions of their ends.
+/// Quads as separate rows, so that each can be modified, and the true positions of their ends.
 struct Quads {
   StereoEdges before, now;
   TruePositions before_right;         ///< of the earlier left edge in the earlier right image
@@ -111,7 +111,7 @@ Quads select(const Quads& all, const std::function<bool(const Quads&, std::size_
   return kept;
 }
 
-/// Right points where the truth has them.
+/// Replaces the right points by the true ones.
 void true_disparities(Quads& q) {
   for (std::size_t i = 0; i < q.size(); ++i) {
     q.before.right_x[i] = q.before_right.x[i];
@@ -121,7 +121,7 @@ void true_disparities(Quads& q) {
   }
 }
 
-/// Later left edges where the earlier ones truly went; each right point keeps its error.
+/// Replaces the later left edges by the true positions of the earlier ones; each right point keeps its error.
 void true_motion_of_edges(Quads& q) {
   for (std::size_t i = 0; i < q.size(); ++i) {
     q.now.right_x[i] += q.now_right.x[i] - q.now_own_right.x[i];
@@ -131,7 +131,7 @@ void true_motion_of_edges(Quads& q) {
   }
 }
 
-/// Disparities without their mean error, all frames' common bias.
+/// Removes the mean error of the disparities, the common bias of all frames.
 void unbiased_disparities(Quads& q) {
   const auto shift = [](std::vector<float>& found, const std::vector<float>& truth) {
     double sum = 0;
@@ -176,7 +176,7 @@ class Split {
     true_motion_of_edges(changed);
     estimate(6, changed, config_.pose);
     true_disparities(changed);
-    for (std::size_t i = 0; i < changed.size(); ++i) {  // of the position where the edge truly went
+    for (std::size_t i = 0; i < changed.size(); ++i) {  // of the true position of the edge
       changed.now.right_x[i] = changed.now_right.x[i];
       changed.now.right_y[i] = changed.now_right.y[i];
     }
@@ -237,7 +237,7 @@ class Split {
   std::uint64_t seed_ = 0;
 };
 
-/// What the odometry's poses are off, and what of it comes from the key rigs' own poses.
+/// The error of the odometry's poses, and the part of it that comes from the poses of the key rigs.
 struct KeyRigErrors {
   Errors step{"relative to the key rig"}, whole{"relative to the first frame"};
   int keys = 0;
@@ -259,7 +259,7 @@ KeyRigErrors track(const evaluation::MatchingSource& source, Device& device, con
                     0);
     errors.whole.add(result.world_from_left.inverse(), truths.back().world_from_left->inverse(), 0);
     if (split != nullptr) split->add(result, odometry.details(), before, truths.back());
-    // Only the maps of key rigs are asked for again.
+    // Only the maps of key rigs are evaluated again.
     for (int j = 0; j < i; ++j) {
       if (j != result.reference_frame)
         truths[static_cast<std::size_t>(j)].left = truths[static_cast<std::size_t>(j)].right = {};

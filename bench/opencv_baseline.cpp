@@ -9,20 +9,20 @@
 namespace quadedge::bench {
 namespace {
 
-constexpr float kRatio = 0.8F;             ///< Lowe's: best descriptor distance over the second best
-constexpr double kEpipolarDistance = 1.0;  ///< of a right key point from its line [px]
+constexpr float kRatio = 0.8F;             ///< Lowe's ratio: best descriptor distance over the second best
+constexpr double kEpipolarDistance = 1.0;  ///< of a right key point from its epipolar line [px]
 constexpr double kReprojection = 1.0;      ///< of a PnP inlier [px]
-constexpr int kIterations = 1000;          ///< of RANSAC at most
+constexpr int kIterations = 1000;          ///< limit for RANSAC
 constexpr double kConfidence = 0.999;
-constexpr int kMinInliers = 12;  ///< fewer are no pose, as in pose.min_inliers
+constexpr int kMinInliers = 12;  ///< as in pose.min_inliers
 
-/// Key points of one image with their descriptors, one row each.
+/// Key points of one image with their descriptors, one per row.
 struct Features {
   std::vector<cv::KeyPoint> points;
   cv::Mat descriptors;
 };
 
-/// Best matches that are clearly better than the second best. cv::Mat without rows gives none.
+/// Best matches that are clearly better than the second best. Returns none for a cv::Mat without rows.
 std::vector<cv::DMatch> match(const cv::Mat& from, const cv::Mat& to) {
   std::vector<cv::DMatch> kept;
   if (from.rows == 0 || to.rows < 2) return kept;
@@ -65,7 +65,7 @@ class OpencvBaseline::Implementation {
   BaselineResult track(const StereoFrame& frame);
 
  private:
-  /// The left features that have depth, in the left camera's frame.
+  /// The left features with depth, in the left camera's frame.
   struct StereoPoints {
     std::vector<cv::Point3d> points;
     cv::Mat descriptors;
@@ -73,7 +73,7 @@ class OpencvBaseline::Implementation {
 
   Features detect(const ImageView& recorded, const UndistortionTable& table) const;
   StereoPoints triangulate(const Features& left, const Features& right) const;
-  /// current_from_previous; false where PnP finds too few inliers.
+  /// current_from_previous; false if PnP finds too few inliers.
   bool find_motion(const Features& left, BaselineResult& result, Eigen::Isometry3d& motion) const;
 
   StereoRig rig_;

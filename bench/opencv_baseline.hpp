@@ -1,6 +1,6 @@
 #pragma once
-/// \file opencv_baseline.hpp  What a user would write with OpenCV in an afternoon: SIFT, stereo matching, PnP with
-/// RANSAC, from frame to frame. The yardstick that QuadEdge's accuracy is shown beside; no part of the product.
+/// \file opencv_baseline.hpp  A simple visual odometry with OpenCV: SIFT, stereo matching, PnP with RANSAC, from frame
+/// to frame. Its accuracy is compared with QuadEdge's; it is not part of the product.
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace quadedge::bench {
 
-/// The outcome of one frame.
+/// The result for one frame.
 struct BaselineResult {
-  bool tracked = false;  ///< the first frame is
-  /// Pose of the left camera in the frame of the first left camera. For a lost frame: the last motion repeated.
+  bool tracked = false;  ///< true for the first frame
+  /// Pose of the left camera in the frame of the first left camera. For a lost frame, the last motion is repeated.
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   int stereo_points = 0, matches = 0, inliers = 0;
 };
@@ -21,14 +21,14 @@ struct BaselineResult {
 /// Stereo visual odometry from frame to frame: SIFT key points of both images, brute-force matching with Lowe's ratio
 /// test both between left and right (kept near the epipolar line and in front of both cameras, then triangulated) and
 /// between the frames before and now (left images), cv::solvePnPRansac, and cv::solvePnPRefineLM over its inliers.
-/// OpenCV's defaults but for the constants in the source. The same frames give the same poses.
+/// Uses OpenCV's defaults except for the constants in the source. Deterministic.
 class OpencvBaseline {
  public:
   /// \throws DataError for an unusable rig.
   explicit OpencvBaseline(const StereoRig& rig);
   ~OpencvBaseline();
 
-  /// Processes the next frame; recorded images, undistorted here where the rig has tables.
+  /// Processes the next frame. Takes recorded images, which are undistorted here if the rig has tables.
   BaselineResult track(const StereoFrame& frame);
 
  private:

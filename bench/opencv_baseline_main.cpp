@@ -1,5 +1,5 @@
-/// \file opencv_baseline_main.cpp  The OpenCV baseline as a program: reads what `quadedge run` reads, or a rendered
-/// scene, and writes trajectories that `quadedge evaluate trajectory` judges.
+/// \file opencv_baseline_main.cpp  The OpenCV baseline as a program: tracks a sequence that `quadedge run` can
+/// read, or a rendered scene, and writes trajectories for `quadedge evaluate trajectory`.
 ///
 ///   opencv_baseline PATH -o OUT         a recorded sequence
 ///   opencv_baseline cables -o OUT       a rendered scene: room, cables, facade

@@ -9,20 +9,20 @@
 
 namespace stage_bench {
 
-/// The device to measure: QUADEDGE_DEVICE, "auto" without it.
+/// The device to measure: QUADEDGE_DEVICE, or "auto" if unset.
 std::string device_choice();
 
-/// What makes the built-in sequence run a stage that it would pass over.
+/// Changes a configuration or rig so that the built-in sequence runs a stage that it would skip.
 using Prepare = std::function<void(quadedge::Config&, quadedge::StereoRig&)>;
 
-/// Registers STAGE/VARIANT for every variant in the table, or STAGE alone where it has none. Each repetition takes the
-/// second frame of the built-in sequence and matches it with the first one, guided and anywhere; only the stage's
-/// kernels count. \returns true, so that a file can register while the program starts.
+/// Registers STAGE/VARIANT for every variant in the table, or STAGE if it has none. Each repetition processes the
+/// second frame of the built-in sequence and matches it with the first one, guided and globally; only the kernels of
+/// the stage count. \returns true, so that a file can register during static initialisation.
 bool register_stage(const std::string& stage, const Prepare& prepare = {});
 
-/// Lists in place of the fused kernel, which leaves out the stages that work on lists.
+/// Candidate lists instead of the fused kernel, which skips the stages that process lists.
 void match_by_lists(quadedge::Config& config, quadedge::StereoRig& rig);
-/// SIFT takes part in the stereo cascade, with the paper's limit.
+/// Enables SIFT in the stereo cascade, with the limit of the paper.
 void match_with_sift(quadedge::Config& config, quadedge::StereoRig& rig);
 
 }  // namespace stage_bench

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Runs two builds of the program on the same sequences and tells whether their results are the same bytes.
+"""Runs two builds of the program on the same sequences and compares their results byte by byte.
 
   scripts/compare_results.py OLD NEW [--data DIR] [--quick] [--work DIR]
 
-OLD and NEW are `quadedge` programs. DIR holds recorded data (default: QUADEDGE_DATA); without it only the built-in
-scenes run that both know. Compared are both trajectory files and the edges of one image byte by byte, and of frames.csv
-every column but the times; of a message only whether there is one, not its words.
-Results of OLD stay in the work folder and serve again.
-Exit code 0: all the same, 1: some differ, 2: a run failed.
+OLD and NEW are `quadedge` programs. DIR contains recorded data (default: QUADEDGE_DATA); without it, only the
+built-in scenes that both programs can render are run. Both trajectory files and the edges of one image are compared
+byte by byte, and every column of frames.csv except the times; of a message, only its presence is compared.
+The results of OLD are kept in the work folder and reused.
+Exit code: 0 identical, 1 some differ, 2 a run failed.
 """
 import argparse
 import csv
@@ -30,12 +30,12 @@ IMAGE = "kitti_odometry/sequences/06/image_0/000000.png"
 
 def scenes_of(program):
     """The built-in scenes that a program can render."""
-    told = subprocess.run([program, "demo", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
-    return {scene for scene in SCENES if scene in told}
+    help_text = subprocess.run([program, "demo", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return {scene for scene in SCENES if scene in help_text}
 
 
 def jobs(data, quick, scenes):
-    """Name and arguments of every run; each leaves a folder, or a CSV file of edges."""
+    """Name and arguments of every run; each writes a folder, or a CSV file of edges."""
     frames = ["--frames", "0:6"] if quick else []
     if data:
         for name, (folder, *options) in RECORDED.items():
@@ -46,7 +46,7 @@ def jobs(data, quick, scenes):
 
 
 def run(program, name, arguments, folder):
-    """0 and 5 (tracked few frames) are results; anything else stops."""
+    """Exit codes 0 and 5 (few frames tracked) are results; any other code ends the comparison."""
     done = subprocess.run([program, *arguments, str(folder / name)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                           text=True)
     if done.returncode not in (0, 5):
@@ -55,7 +55,7 @@ def run(program, name, arguments, folder):
 
 
 def untimed_rows(path):
-    """Rows of frames.csv by position, without the columns that hold milliseconds and without a message's words."""
+    """Rows of frames.csv without the columns in milliseconds; messages are replaced by whether there is one."""
     with open(path, newline="") as file:
         header, *rows = list(csv.reader(file))
     kept = [i for i, name in enumerate(header) if not name.endswith("_ms")]
@@ -93,7 +93,7 @@ def main():
         run(options.new, name, arguments, new)
         found = differences(old / name, new / name)
         different += bool(found)
-        print(f"{name:16} {'different: ' + ', '.join(found) if found else 'same bytes'}", flush=True)
+        print(f"{name:16} {'different: ' + ', '.join(found) if found else 'identical'}", flush=True)
     return 1 if different else 0
 
 

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Sweeps what disturbs a camera over rendered sequences, and plots the error as a function of it.
+"""Sweeps disturbances of the camera over rendered sequences and plots the error as a function of each.
 
-    disturbance_sweep.py OUT                                 all scenes, everything
+    disturbance_sweep.py OUT                                 all scenes and disturbances
     disturbance_sweep.py OUT --scenes room --kinds blur noise --frames 10 --size 640x332
     disturbance_sweep.py OUT --kinds mover --values 0.3 --scene-seed 11
 
-Swept are the light of every second frame (half to twice), the right camera's exposure (half to twice), motion blur (to
-5 px, with the camera in the hand: on the ellipse the image does not move that far in a frame), camera noise (to 8 grey
-levels) and the ratio of the image that a board moving on its own covers (to 40 %); where --kinds asks for them, too,
-the contrast of the picture (to a twentieth in 8 bits, to a hundredth in 16), the light of all frames (to 0.15, with
-noise of 8 grey levels) and the camera's gamma.
-OUT/disturbances.csv and .json hold one row per run, OUT/disturbances.svg the plots. A step is wrong where it is
-reported as tracked and is off by more than 5 mm + 10 % of the motion or by 0.25 degrees (`quadedge evaluate trajectory
---steps`). Needs matplotlib and the program `quadedge`.
+The disturbances are the light of every second frame (factor 0.5 to 2), the right camera's exposure (factor 0.5 to 2),
+motion blur (up to 5 px, with a handheld camera, because on the ellipse the image moves less than that per frame),
+camera noise (up to 8 grey levels) and the fraction of the image covered by an independently moving board (up to 40 %).
+On request (--kinds): image contrast (down to 0.05 with 8 bits, to 0.01 with 16 bits), the light of all frames (down to
+0.15, with noise of 8 grey levels) and the camera's gamma.
+OUT/disturbances.csv and .json have one row per run, OUT/disturbances.svg the plots. A step is wrong if it is reported
+as tracked and its error exceeds 5 mm + 10 % of the motion or 0.25 degrees (`quadedge evaluate trajectory --steps`).
+Needs matplotlib and the program `quadedge`.
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 
@@ -34,20 +34,20 @@ KINDS = {
     "noise": ("camera noise [grey levels]", (0, 1.5, 3, 5, 8), ()),
     "mover": ("ratio of the image covered by a moving board", (0, 0.1, 0.2, 0.3, 0.4), ()),
 }
-# The same, for what is dark or of little contrast; scripts/measure.py --only light
+# Low light and low contrast; scripts/measure.py --only light
 LIGHT = {
     "contrast": ("contrast", (1, 0.2, 0.1, 0.05), ()),
     "contrast16": ("contrast, 16 bits", (1, 0.1, 0.01), ("--bits", 16)),
     "light": ("light, noise 8", (1, 0.3, 0.15), ("--noise", 8)),
     "gamma": ("gamma", (0.45, 2.2), ()),
 }
-OPTIONS = {"contrast16": "contrast"}  # of kinds that are not called by their option
+OPTIONS = {"contrast16": "contrast"}  # of kinds that are not named after their option
 COLUMNS = ("scene", "kind", "value", "threshold", "edge_threshold", "edges", "frames", "tracked", "right", "wrong",
            "lost", "rpe_translation_m", "rpe_rotation_deg", "end_drift_percent")
 
 
 class Problem(Exception):
-    """Something that a user should read."""
+    """An error to report to the user."""
 
 
 def call(command, allowed=(0,)):
@@ -59,12 +59,12 @@ def call(command, allowed=(0,)):
 
 
 def measure(scene, kind, value, options, threshold=0):
-    """One run of the rendered sequence, with a threshold of edges or the automatic one (0): a row of the table."""
+    """Runs the rendered sequence with an edge threshold, 0 for the automatic one. Returns a row of the table."""
     output = options.out / "runs" / f"{scene}_{kind}_{value}_{threshold}"
     size = ["--size", options.size] if options.size else []
     device = ["--device", options.device] if options.device else []
     seed = ["--scene-seed", options.scene_seed] if options.scene_seed is not None else []
-    # Code 5, many frames lost, is a result too.
+    # Code 5, many lost frames, is a result as well.
     call([options.quadedge, "demo", "--scene", scene, "--frames", options.frames, f"--{OPTIONS.get(kind, kind)}",
           value, "-o", output, "--force", "--quiet", "--edges.threshold", threshold,
           *{**KINDS, **LIGHT}[kind][2], *size, *device, *seed], allowed=(0, 5))
@@ -93,11 +93,11 @@ def measure(scene, kind, value, options, threshold=0):
 
 
 def plot(rows, options):
-    """One picture per disturbance: the mean error of a step, and at the points how many steps are lost and wrong."""
+    """One plot per disturbance: the mean error of a step, with the numbers of lost and wrong steps at the points."""
     import matplotlib
 
     matplotlib.use("Agg")  # no window
-    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # the same bytes each run
+    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # reproducible bytes
     from matplotlib import pyplot
 
     kinds = [kind for kind in KINDS if any(row["kind"] == kind for row in rows)]
@@ -129,10 +129,10 @@ def parse():
     parser.add_argument("out", type=Path, metavar="OUT")
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
     parser.add_argument("--kinds", nargs="+", choices=[*KINDS, *LIGHT], default=list(KINDS))
-    parser.add_argument("--values", nargs="+", type=float, help="instead of each kind's own")
+    parser.add_argument("--values", nargs="+", type=float, help="instead of the default values of each kind")
     parser.add_argument("--frames", type=int, default=12)
     parser.add_argument("--scene-seed", type=int, help="as in `quadedge demo`")
-    parser.add_argument("--size", help="of the images, WxH; default 942x489")
+    parser.add_argument("--size", help="image size, WxH; default 942x489")
     parser.add_argument("--device", help="as in `quadedge run`")
     parser.add_argument("--quadedge", type=Path, default=REPOSITORY / "build" / "quadedge")
     return parser.parse_args()

@@ -3,17 +3,17 @@
 two-view pairs.
 
     download_eth3d.py TARGET                         everything; the sequences take tens of gigabytes
-    download_eth3d.py TARGET cables_1 cables_2       these sequences
-    download_eth3d.py TARGET --two-view              the pairs alone
-    download_eth3d.py TARGET --list                  what there is, and what TARGET has of it
+    download_eth3d.py TARGET cables_1 cables_2       two sequences
+    download_eth3d.py TARGET --two-view              only the pairs
+    download_eth3d.py TARGET --list                  lists what is published and what TARGET contains
 
-TARGET/slam/training/NAME, TARGET/two_view_training/NAME and TARGET/two_view_training_gt/NAME appear when they are
-complete; what is there is not loaded again. A transfer that breaks off goes on where it stopped, at once or when the
-script is started again. Every archive is checked: its size, the checksums inside it, and its SHA-256 where one is
-known, from --checksums or from an earlier download (TARGET/SHA256SUMS). `quadedge check TARGET` says what is there and
-what is missing, by the list in TARGET/eth3d_published.txt.
+TARGET/slam/training/NAME, TARGET/two_view_training/NAME and TARGET/two_view_training_gt/NAME are created when they are
+complete; existing folders are not downloaded again. An interrupted transfer is resumed, either immediately or when the
+script is started again. Each archive is verified by its size, its internal checksums, and its SHA-256 if one is known
+from --checksums or an earlier download (TARGET/SHA256SUMS). `quadedge check TARGET` reports what is present and
+missing, by the list in TARGET/eth3d_published.txt.
 Needs the program curl, and for the pairs 7z (Debian: p7zip-full).
-Exit code: 0 all is there, 1 something could not be loaded, 2 wrong usage.
+Exit code: 0 complete, 1 something could not be downloaded, 2 wrong usage.
 """
 
 import argparse
@@ -31,39 +31,39 @@ from pathlib import Path
 
 ADDRESS = "https://www.eth3d.net/data"
 SLAM_LIST = "slam/dataset_list_training.txt"
-SLAM_PARTS = ("mono", "stereo")  # rgb/ with its calibration and ground truth, then what the second camera adds
+SLAM_PARTS = ("mono", "stereo")  # rgb/ with calibration and ground truth, then the files of the second camera
 TWO_VIEW = ("two_view_training", "two_view_training_gt")
 
-# curl ends with the script, also with a killed one, so that two never write the same file. Without a buffer a kill
-# loses nothing that has arrived. A minute without a byte ends the attempt.
+# curl ends with the script, even if the script is killed, so that two never write the same file. Unbuffered, so that a
+# kill loses no received data. A minute without a byte ends the attempt.
 CURL = "setpriv --pdeathsig KILL curl --disable --fail --location --no-buffer --continue-at - --connect-timeout 60"
 CURL = (CURL + " --speed-limit 1 --speed-time 60 --write-out %{http_code}").split()
 
 
 class Problem(Exception):
-    """Something that a user should read."""
+    """An error to report to the user."""
 
 
 def transfer(url, part):
-    """One attempt of curl to complete `part`. Returns what went wrong, or nothing; what will not change with another
-    attempt is raised."""
+    """One attempt of curl to complete `part`. Returns the error, or None. Raises Problem for errors that another
+    attempt cannot fix."""
     progress = ["--progress-bar"] if sys.stderr.isatty() else ["--silent", "--show-error"]
     result = subprocess.run([*CURL, *progress, "--output", part, "--", url], stdout=subprocess.PIPE, text=True)
     status = int(result.stdout or 0)
-    # 416: the server has nothing behind what is there. Whether that is the whole file the archive's check will tell.
+    # 416: the server has no more data. The check of the archive decides whether the file is complete.
     if result.returncode == 0 or status == 416:
         return None
     if 400 <= status < 500:
         raise Problem(f"{url}: HTTP status {status}")
     if status >= 500:
         return f"HTTP status {status}"
-    if result.returncode == 33:  # a server that sends no parts
+    if result.returncode == 33:  # a server without support for partial transfers
         part.unlink(missing_ok=True)
     return f"the transfer broke off (curl's exit code {result.returncode})"
 
 
 def fetch(url, archive, attempts, wait):
-    """Loads a file completely, in as many attempts as it takes; those that bring something do not count."""
+    """Downloads a whole file; attempts that receive data do not count towards the limit."""
     part = archive.with_name(archive.name + ".part")
     size = lambda: part.stat().st_size if part.exists() else 0
     failures, before = 0, size()
@@ -93,7 +93,7 @@ def read_lines(path, name=None):
 
 
 def read_checksums(path):
-    """NAME -> SHA-256 from a file as sha256sum writes it."""
+    """NAME -> SHA-256, from a file in the format of sha256sum."""
     known = {}
     for number, line in enumerate(read_lines(path), 1):
         words = line.split()
@@ -105,12 +105,12 @@ def read_checksums(path):
     return known
 
 
-# What zipfile raises for archives that are cut, wrong, encrypted, or packed in a way that it does not know.
+# What zipfile raises for archives that are truncated, damaged, encrypted, or in an unsupported format.
 UNREADABLE = (zipfile.BadZipFile, zlib.error, OSError, ValueError, EOFError, RuntimeError)
 
 
 def damage(archive, known):
-    """What is wrong with an archive, or nothing."""
+    """The fault of an archive, or None."""
     if archive.name in known and (found := sha256(archive)) != known[archive.name]:
         return f"wrong checksum: SHA-256 {found}, expected {known[archive.name]}"
     if archive.suffix == ".zip":
@@ -147,7 +147,7 @@ class Downloader:
         return names
 
     def archive(self, place):
-        """A checked archive; loaded a second time where the first one is damaged."""
+        """A verified archive; downloaded a second time if the first one is damaged."""
         archive = self.archives / Path(place).name
         self.archives.mkdir(parents=True, exist_ok=True)
         for _ in range(2):
@@ -157,7 +157,7 @@ class Downloader:
             if problem is None:
                 self.note_checksum(archive)
                 return archive
-            print(f"{archive.name}: {problem}; it is thrown away", file=sys.stderr)
+            print(f"{archive.name}: {problem}; it is deleted", file=sys.stderr)
             archive.unlink()
         raise Problem(f"{self.address}/{place}: {problem}")
 
@@ -171,8 +171,8 @@ class Downloader:
         spare.rename(self.sums)
 
     def unpack(self, archives, place, top=None):
-        """Puts the archives together in a folder that appears when it is complete. `top`: what they hold lies in a
-        folder of this name, which is left out of the path, or directly in them."""
+        """Unpacks the archives into a folder that is created when it is complete. `top`: name of the top folder inside
+        the archives, which is removed from the paths; empty if there is none."""
         spare = place.with_name("." + place.name + ".part")
         shutil.rmtree(spare, ignore_errors=True)
         spare.mkdir(parents=True)
@@ -208,7 +208,7 @@ class Downloader:
 
 
 def write_published(target, sequences, pairs):
-    """What `quadedge check` looks for. Pairs are known once their archive is unpacked, and stay known."""
+    """Writes the list for `quadedge check`. Pairs are added once their archive is unpacked, and remain in it."""
     path = target / "eth3d_published.txt"
     before = read_lines(path) if path.exists() else []
     pairs = set(pairs) | {line for line in before if line.startswith(TWO_VIEW)}
@@ -220,23 +220,23 @@ def write_published(target, sequences, pairs):
 
 
 def parse_arguments():
-    """The options, with what follows from them, and the function that ends with a complaint about them."""
+    """The options with derived values, and the function that reports a usage error."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("target", type=Path, metavar="TARGET")
     parser.add_argument(
         "sequences", nargs="*", metavar="SEQUENCE", help="names of SLAM sequences; default: all of them"
     )
-    parser.add_argument("--slam", action="store_true", help="the SLAM sequences alone")
-    parser.add_argument("--two-view", action="store_true", help="the two-view pairs alone")
-    parser.add_argument("--list", action="store_true", help="print what there is, and load nothing")
-    parser.add_argument("--checksums", type=Path, metavar="FILE", help="SHA-256 of archives, as sha256sum writes them")
+    parser.add_argument("--slam", action="store_true", help="only the SLAM sequences")
+    parser.add_argument("--two-view", action="store_true", help="only the two-view pairs")
+    parser.add_argument("--list", action="store_true", help="list what is published; download nothing")
+    parser.add_argument("--checksums", type=Path, metavar="FILE", help="SHA-256 of archives (format of sha256sum)")
     parser.add_argument("--keep-archives", action="store_true", help="keep TARGET/archives after unpacking")
     parser.add_argument(
-        "--attempts", type=int, default=5, help="in a row without a byte before giving up (%(default)s)"
+        "--attempts", type=int, default=5, help="consecutive attempts without data before giving up (%(default)s)"
     )
     parser.add_argument("--wait", type=float, default=5, help="seconds between attempts (%(default)s)")
-    parser.add_argument("--address", default=ADDRESS, help="of the data (%(default)s)")
-    arguments = parser.parse_intermixed_args()  # options may stand between names
+    parser.add_argument("--address", default=ADDRESS, help="address of the data (%(default)s)")
+    arguments = parser.parse_intermixed_args()  # options may follow names
     if arguments.slam and arguments.two_view or arguments.sequences and arguments.two_view:
         parser.error("--two-view loads no sequence")
     arguments.with_slam = not arguments.two_view
@@ -300,5 +300,5 @@ if __name__ == "__main__":
         print(f"error: {problem}", file=sys.stderr)
         sys.exit(1)
     except KeyboardInterrupt:
-        print("interrupted; the same command goes on where this one stopped", file=sys.stderr)
+        print("interrupted; run the same command to resume", file=sys.stderr)
         sys.exit(130)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Drift over long rendered sequences, of several textures: what is left after 480 frames, and what all textures share.
+"""Measures the drift over long rendered sequences with several textures, and the part that all textures share.
 
     drift.py OUT                                     room and cables, seeds 1 to 3, 480 frames of 480x249
-    drift.py OUT --scenes room --seeds 11 12 -o FILE the same of others, and as JSON into FILE
-    drift.py OUT --before OLD ...                    beside the results of another program in OLD, same folders
+    drift.py OUT --scenes room --seeds 11 12 -o FILE other scenes and seeds, with the results as JSON in FILE
+    drift.py OUT --before OLD ...                    together with results of another program in OLD, in the same layout
 
-A run's folder is OUT/SCENE_SEED; one that is complete is not made again. Errors are those of the camera's position,
-the first pose made equal: at the end, and root mean square along the way. Needs the program build/quadedge.
+Each run has a folder OUT/SCENE_SEED; complete runs are not repeated. Errors are those of the camera position,
+origin-aligned: at the end, and the root mean square along the path. Needs the program build/quadedge.
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 
@@ -26,7 +26,7 @@ def rows(file):
 
 
 def errors(folder):
-    """End error and root mean square error of the positions [mm], the end error's parts, and the path's length [m]."""
+    """End error and RMS error of the positions [mm], components of the end error [mm], path length [m]."""
     truth = {round(row[0], 6): row[1:4] for row in rows(folder / "groundtruth.txt")}
     found = [(truth[round(row[0], 6)], row[1:4]) for row in rows(folder / "trajectory.txt")]
     parts = [[1e3 * (b - a) for a, b in zip(true, estimate)] for true, estimate in found]

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What clang makes of the kernels for GPUs: registers, stack, spills, local memory and occupancy of every kernel that
-runs there by default. No GPU is needed, and nothing is measured: a vendor's own compiler may do better or worse.
+"""Compiles the kernels that GPUs run by default, and prints registers, stack, spills, local memory and occupancy.
+Needs no GPU and measures nothing: a vendor's compiler may do better or worse than clang.
 
-    gpu_budget.py LIST_PROGRAMS            the figures, and what exceeds the budget; ends with 1 if something does
-    gpu_budget.py LIST_PROGRAMS --write    the same, and doc/results/gpu_budget.md
+    gpu_budget.py LIST_PROGRAMS            the figures and the kernels that exceed the budget; exit code 1 if any does
+    gpu_budget.py LIST_PROGRAMS --write    also writes doc/results/gpu_budget.md
 
 LIST_PROGRAMS is build/tests/list_programs. Needs clang 16 or later with libclc (Debian: clang-19, libclc-19), and for
-NVIDIA's figures ptxas of the CUDA toolkit, which is looked for in PATH and in /usr/local/cuda/bin. Ends with 77 where
-clang is missing, and leaves NVIDIA out, saying so, where ptxas is.
+NVIDIA's figures ptxas from the CUDA toolkit, in PATH or /usr/local/cuda/bin. Exit code 77 if clang is missing; without
+ptxas, NVIDIA's figures are omitted with a message.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 CLANGS = [f"clang-{version}" for version in range(22, 15, -1)]
 PTX_FEATURE = {"sm_75": "+ptx63", "sm_86": "+ptx71", "sm_90": "+ptx78"}
-LOWEST_OCCUPANCY = 32  # percent, of kernels that take more than a twentieth of a frame
+LOWEST_OCCUPANCY = 32  # percent, of kernels that may take more than 5 % of a frame
 BUILD_OPTIONS = ["-cl-std=CL1.2", "-cl-fp32-correctly-rounded-divide-sqrt"]  # as the host sets them
 
 
@@ -34,7 +34,7 @@ class Nvidia:
     warps: int
     groups: int
     shared_bytes: int
-    shared_of_group: int  # bytes that every group takes for itself
+    shared_of_group: int  # bytes reserved per group
     registers: int = 65536
 
 
@@ -58,14 +58,14 @@ class Figures:
 
 
 def group_of(defines: dict[str, str]) -> int:
-    """Work-items of a group, as the host chooses them from the same defines."""
+    """Work-items per group, as the host derives them from the same defines."""
     if "TILE_X" in defines:
         return int(defines["TILE_X"]) * int(defines["TILE_Y"])
     return int(defines.get("GROUP", defines.get("SCAN_LOCAL", "64")))
 
 
 def compile_program(clang: str, target: str, line: str, folder: Path) -> str:
-    """The assembly of a program for a target."""
+    """Compiles a program for a target. Returns the assembly."""
     words = line.split()
     defines = [word for word in words if word.startswith("-D")]
     files = ["common.cl", "layouts.cl"] + [word for word in words if word.endswith(".cl")]
@@ -130,7 +130,7 @@ def amd_figures(target: str, group: int, assembly: str) -> list[Figures]:
 
 
 def read_budget() -> dict[str, tuple[bool, bool, int]]:
-    """Kernel -> launched per edge or candidate, above a twentieth of a frame, most registers."""
+    """Kernel -> (launched per edge or candidate, may take more than 5 % of a frame, register limit)."""
     budget = {}
     for line in BUDGET_FILE.read_text().split("\n"):
         words = line.split("#")[0].split()
@@ -144,24 +144,24 @@ def findings(figures: list[Figures], budget: dict[str, tuple[bool, bool, int]]) 
     for row in figures:
         where = f"{row.kernel} on {row.target}"
         if row.kernel not in budget:
-            found.append(f"{where}: {BUDGET_FILE.name} does not name it")
+            found.append(f"{where}: missing in {BUDGET_FILE.name}")
             continue
         per_edge, heavy, registers = budget[row.kernel]
         if row.spills > 0:
-            found.append(f"{where}: {row.spills} registers or bytes are spilled, none may be")
+            found.append(f"{where}: {row.spills} registers or bytes are spilled; expected none")
         if per_edge and row.stack > 0:
-            found.append(f"{where}: {row.stack} bytes of stack, none may be")
+            found.append(f"{where}: {row.stack} bytes of stack; expected none")
         if row.target in NVIDIA and row.registers > registers:
-            found.append(f"{where}: {row.registers} registers, at most {registers}")
+            found.append(f"{where}: {row.registers} registers; expected at most {registers}")
         if heavy and row.occupancy < LOWEST_OCCUPANCY:
-            found.append(f"{where}: an occupancy of {row.occupancy:.0f} %, at least {LOWEST_OCCUPANCY}")
+            found.append(f"{where}: occupancy of {row.occupancy:.0f} %; expected at least {LOWEST_OCCUPANCY}")
     unknown = budget.keys() - {row.kernel for row in figures}
     found += [f"{BUDGET_FILE.name}: there is no kernel {name}" for name in unknown]
     return sorted(found)
 
 
 def table(figures: list[Figures], targets: list[str], heavy: set[str]) -> str:
-    """One row per kernel, of each target: registers, stack in bytes, occupancy in percent."""
+    """One row per kernel, and for each target: registers, stack in bytes, occupancy in percent."""
     cells: dict[str, dict[str, Figures]] = {}
     for row in figures:
         known = cells.setdefault(row.kernel, {}).setdefault(row.target, row)
@@ -176,11 +176,11 @@ def table(figures: list[Figures], targets: list[str], heavy: set[str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-PAGE = """# The kernels on GPUs, by their compilers
+PAGE = """# Compiled kernels for GPUs
 
-Estimates, not measurements: no GPU took part. Registers of a work-item, stack, and occupancy of every kernel that GPUs
-run by default, as {tools} compile it. No kernel spills. Kernels of more than a twentieth of a frame are bold.
-`scripts/gpu_budget.py build/tests/list_programs --write` makes this page; a test holds
+Registers per work-item, stack, and occupancy of every kernel that GPUs run by default, compiled with {tools}. These are
+properties of the compiled code, not measurements. No kernel spills. Kernels that may take more than 5 % of a frame are
+bold. `scripts/gpu_budget.py build/tests/list_programs --write` writes this page; a test enforces
 [the budget](../../scripts/gpu_budget.txt).
 
 """
@@ -193,12 +193,12 @@ def main() -> int:
     arguments = parser.parse_args()
     clang = next((name for name in CLANGS if shutil.which(name)), None)
     if clang is None or not Path("/usr/lib/clc/amdgcn--amdhsa.bc").exists():
-        print("skipped: neither clang 16 or later nor libclc (Debian: clang-19, libclc-19)")
+        print("skipped: needs clang 16 or later and libclc (Debian: clang-19, libclc-19)")
         return 77
     ptxas = shutil.which("ptxas") or shutil.which("ptxas", path="/usr/local/cuda/bin")
     targets = list(NVIDIA if ptxas else []) + list(AMD_WAVES)
     if not ptxas:
-        print("NVIDIA's figures are left out: there is no ptxas")
+        print("NVIDIA's figures are omitted: ptxas was not found")
     call = [arguments.list_programs, ROOT / "kernels", "gpu"]
     listed = subprocess.run(call, capture_output=True, text=True, check=True)
     programs = listed.stdout.strip().split("\n")
@@ -224,7 +224,7 @@ def main() -> int:
         tools = version + (" and ptxas" if ptxas else "")
         (ROOT / "doc" / "results" / "gpu_budget.md").write_text(PAGE.format(tools=tools) + text)
     found = findings(figures, budget)
-    print("\n".join(found) or "all kernels keep the budget")
+    print("\n".join(found) or "all kernels are within the budget")
     return 1 if found else 0
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Format, structure, kernels and clang-tidy of all code, as the tests hold them.
+# Checks format, structure, kernels and clang-tidy, as the tests do.
 #   scripts/lint.sh           format and structure: seconds
 #   scripts/lint.sh --all     clang-tidy and the kernels too: minutes; needs what scripts/test.sh builds
-#   scripts/lint.sh --fix     formats all code; with --all, clang-tidy mends what it can
+#   scripts/lint.sh --fix     formats all code; with --all, clang-tidy fixes what it can
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 fix="" all=""

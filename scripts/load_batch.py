@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Loads the results of `quadedge batch` into pandas tables and plots them; an example to start from.
+"""Loads the results of `quadedge batch` into pandas tables and plots them: an example to build on.
 
     load_batch.py OUT PLOT.png
 
@@ -18,13 +18,13 @@ TUM_COLUMNS = ["stamp_s", "tx", "ty", "tz", "qx", "qy", "qz", "qw"]
 
 
 def load_summary(output):
-    """One row per sequence, failed ones too; columns as in summary.csv (degrees, metres, milliseconds)."""
+    """One row per sequence, including failed ones; columns as in summary.csv (degrees, metres, milliseconds)."""
     table = pandas.read_csv(Path(output) / "summary.csv")
     return table[table["kind"] == "sequence"].drop(columns="kind").set_index("sequence")
 
 
 def load_per_sequence(output, name):
-    """The CSV files NAME of all sequences below one another, with the sequence in the first column."""
+    """The CSV files NAME of all sequences concatenated, with the sequence in the first column."""
     tables = {file.parent.name: pandas.read_csv(file) for file in sorted(Path(output).glob(f"sequences/*/{name}"))}
     return pandas.concat(tables, names=["sequence", "row"]).reset_index("row", drop=True).reset_index()
 
@@ -40,12 +40,12 @@ def load_errors(output):
 
 
 def load_trajectory(output, sequence, name="trajectory.txt"):
-    """The poses of the left camera, one row each; "groundtruth.txt" for the true ones."""
+    """The poses of the left camera, one per row; "groundtruth.txt" for the true poses."""
     return pandas.read_csv(Path(output) / "sequences" / sequence / name, sep=" ", comment="#", names=TUM_COLUMNS)
 
 
 def plot(output, file):
-    """Errors and latencies of all sequences in one picture."""
+    """Errors and latencies of all sequences in one plot."""
     import matplotlib
 
     matplotlib.use("Agg")  # no window

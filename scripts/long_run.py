@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Does a long run stay level? Memory and processor time per frame of `quadedge run` over 1100 rendered frames.
+"""Checks that memory and processor time per frame of `quadedge run` stay constant over 1100 rendered frames.
 
-    long_run.py FOLDER                               240x150, walked with the camera in the hand
-    long_run.py FOLDER --frames 2100 -- --device gpu the same over more frames, with options for `quadedge run`
+    long_run.py FOLDER                               240x150, handheld camera
+    long_run.py FOLDER --frames 2100 -- --device gpu more frames, with options for `quadedge run`
 
-FOLDER/sequence is rendered unless it is there; FOLDER/out is made anew. A line per hundred frames: resident memory when
-the last of them was done, processor time of all threads and the median latency per frame. Processor time is what the
-frames cost; latencies also tell what else the machine did.
+FOLDER/sequence is rendered unless it exists; FOLDER/out is replaced. Prints one line per hundred frames: resident
+memory after the last of them, processor time of all threads and median latency per frame. Processor time is the cost
+of the frames; latency also depends on what else runs on the machine.
 Needs Linux (/proc) and the program build/quadedge.
-Exit code: 0 level, 1 more than 5 MB of growth after frame 100 or more than a tenth more time per frame, 2 wrong usage.
+Exit code: 0 constant, 1 more than 5 MB of growth after frame 100 or more than 10 % more time per frame, 2 wrong usage.
 """
 
 import argparse
@@ -22,7 +22,7 @@ import time
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parent.parent
-BLOCK = 100  # frames of a line; the first block is not judged: buffers find their size
+BLOCK = 100  # frames per line; the first block is not judged, because buffers still grow
 GROWTH_MB, SLOWER = 5, 1.1  # at most
 TICKS = os.sysconf("SC_CLK_TCK")
 
@@ -41,7 +41,7 @@ def memory_and_time(process):
 
 
 def watch(program, frames_csv):
-    """(frames done, memory, time) whenever a frame was done, until the program ends."""
+    """(frames done, memory, time) after each frame, until the program ends."""
     samples, size, lines = [], 0, 0
     while program.poll() is None:
         time.sleep(0.005)
@@ -58,12 +58,12 @@ def watch(program, frames_csv):
 
 
 def at_frame(samples, frame):
-    """The first sample with so many frames done."""
+    """The first sample with at least `frame` frames done."""
     return next(sample for sample in samples if sample[0] >= frame)
 
 
 def report(samples, latencies):
-    """Prints the table; whether all was level."""
+    """Prints the table. Returns whether memory and time stayed constant."""
     print(f"{'frames':>12} {'memory':>10} {'cpu/frame':>10} {'latency':>10}")
     blocks = []
     for first in range(0, len(latencies) - BLOCK + 1, BLOCK):
@@ -87,10 +87,10 @@ def report(samples, latencies):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, metavar="FOLDER")
-    parser.add_argument("--frames", type=int, default=1100, help="to render (%(default)s)")
-    parser.add_argument("--size", default="240x150", help="of the images [px] (%(default)s)")
+    parser.add_argument("--frames", type=int, default=1100, help="number of frames to render (%(default)s)")
+    parser.add_argument("--size", default="240x150", help="image size [px] (%(default)s)")
     parser.add_argument("--quadedge", type=Path, default=REPOSITORY / "build" / "quadedge", help="the program")
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="of `quadedge run`")
+    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="options for `quadedge run`")
     options = parser.parse_args()
     sequence, out = options.folder / "sequence", options.folder / "out"
     if not sequence.is_dir():

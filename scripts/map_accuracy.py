@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""How far map points lie from the surfaces that they show: rendered scenes against their exact depth, recorded pairs
-against their disparities.
+"""Measures the distance of map points from the surfaces they lie on: for rendered scenes against exact depth, for
+recorded pairs against true disparities.
 
     scripts/map_accuracy.py build/quadedge [--data FOLDER] [--frames N] [--scene NAME...]
 
-FOLDER holds eth3d_two_view/ and middlebury_2003/, _2005/, _2014/ as published. Prints a Markdown table.
+FOLDER contains eth3d_two_view/ and middlebury_2003/, _2005/, _2014/ as published. Prints a Markdown table.
 
-Rendered: the distance of a point to the plane through the nearest point of any rendered depth map of a key rig. Pairs:
-stereo edges of `quadedge match` against the true disparity at their place, in pixels and as a part of the depth; at a
-step of the depth the nearer surface counts, since an occluding edge is its.
+Rendered scenes: distance of a point from the plane through the nearest point of a rendered depth map of a key rig.
+Pairs: stereo edges of `quadedge match` compared with the true disparity at their position, in pixels and relative to
+the depth. At a depth discontinuity the nearer surface counts, because an occluding edge belongs to it.
 """
 
 import argparse
@@ -140,10 +140,10 @@ def percentiles(values: numpy.ndarray) -> tuple[float, float]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--data", type=Path, help="recorded pairs")
-    parser.add_argument("--frames", type=int, default=60, help="of every rendered scene")
+    parser.add_argument("--data", type=Path, help="folder of recorded pairs")
+    parser.add_argument("--frames", type=int, default=60, help="frames per rendered scene")
     parser.add_argument("--scene", nargs="*", default=["room", "cables", "facade"])
-    parser.add_argument("--json", type=Path, help="write the figures, too")
+    parser.add_argument("--json", type=Path, help="also write the figures as JSON")
     arguments = parser.parse_args()
     figures = {}
     print("| what | points | distance: median | 95 % | of the depth: median | 95 % |")

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Measures what README and doc/ tell in figures: accuracy, matching, speed and disturbances, into doc/results.
+"""Measures the figures of README and doc/: accuracy, matching, speed and disturbances. Writes doc/results.
 
-    scripts/measure.py                         all parts, some minutes; --data or QUADEDGE_DATA is the recorded data
-    scripts/measure.py --only speed            one part; the others stay as they are
-    scripts/measure.py --keep                  goes on after an interruption: runs that are complete serve again
-    scripts/measure.py --frames 6 --out try    a quick look elsewhere
+    scripts/measure.py                         all parts, several minutes; recorded data from --data or QUADEDGE_DATA
+    scripts/measure.py --only speed            one part; the others remain unchanged
+    scripts/measure.py --keep                  resumes after an interruption: complete runs are reused
+    scripts/measure.py --frames 6 --out try    a quick test in another folder
 
-Every part is written to OUT/PART.json with commit, date and the command behind each figure; scripts/result_tables.py
-then writes the tables and the marked blocks of the documentation. The programs are those of build/, brought up to date
-first; the OpenCV baseline needs -DQUADEDGE_BENCHMARKS=ON there. With matplotlib (build/venv) also the paths over the
-rendered scenes are drawn.
+Each part is written to OUT/PART.json with commit, date and the command behind each figure; scripts/result_tables.py
+then writes the tables and the marked blocks of the documentation. The programs are those of build/, which is brought up
+to date first; the OpenCV baseline needs -DQUADEDGE_BENCHMARKS=ON. With matplotlib (build/venv), the paths through the
+rendered scenes are plotted as well.
 Exit code: 0 done, 1 a program failed, 2 wrong usage.
 """
 
@@ -31,7 +31,7 @@ def parse():
         "--data",
         type=Path,
         default=os.environ.get("QUADEDGE_DATA"),
-        help="folder with the recorded sequences; without: rendered ones alone",
+        help="folder with the recorded sequences; without it, only rendered sequences are measured",
     )
     parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *RENDERED), default=None)
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
@@ -39,18 +39,18 @@ def parse():
         "--frames",
         type=int,
         default=0,
-        help="only so many frames of each sequence; such figures are for --out elsewhere",
+        help="limit on the frames of each sequence; requires --out",
     )
-    parser.add_argument("--keep", action="store_true", help="use the runs that are complete in WORK")
+    parser.add_argument("--keep", action="store_true", help="reuse the complete runs in WORK")
     parser.add_argument("--out", type=Path, default=result_tables.RESULTS)
     parser.add_argument(
-        "--work", type=Path, default=REPOSITORY / "build" / "measure", help="where the runs are written to"
+        "--work", type=Path, default=REPOSITORY / "build" / "measure", help="folder of the runs"
     )
-    parser.add_argument("--quadedge", type=Path, help="another program than that of build/")
-    parser.add_argument("--baseline", type=Path, help="another OpenCV baseline than that of build/")
+    parser.add_argument("--quadedge", type=Path, help="program to use instead of the one in build/")
+    parser.add_argument("--baseline", type=Path, help="OpenCV baseline to use instead of the one in build/")
     options = parser.parse_args()
     if options.frames and options.out == result_tables.RESULTS:
-        parser.error("--frames needs --out: the documentation is about whole sequences")
+        parser.error("--frames needs --out: the documentation covers whole sequences")
     if options.sequences is None:
         options.sequences = [*(RECORDED if options.data else ()), *RENDERED]
     elif not options.data and any(name in RECORDED for name in options.sequences):
@@ -73,7 +73,7 @@ def main():
             programs.call(["cmake", "--build", REPOSITORY / "build", "--target", *missing])
         options.quadedge = options.quadedge or REPOSITORY / "build" / "quadedge"
         options.baseline = options.baseline or REPOSITORY / "build" / "bench" / "opencv_baseline"
-        measured = commit()  # of the programs, whatever is committed while they run
+        measured = commit()  # of the programs, independent of commits made while they run
         for part in options.only:
             rows = PARTS[part](programs)
             write(stamped({"rows": rows}, measured), options.out / f"{part}.json")
@@ -83,7 +83,7 @@ def main():
                         plot(scene, [row for row in rows if row["sequence"] == scene], options)
                 except ImportError:
                     print(
-                        "measure: matplotlib is missing, so the pictures of the paths stay as they were",
+                        "measure: matplotlib is missing; the plots of the paths remain unchanged",
                         file=sys.stderr,
                     )
     except Problem as problem:

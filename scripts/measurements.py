@@ -1,4 +1,4 @@
-"""What scripts/measure.py measures: accuracy, matching, speed and disturbances, in rows with their commands."""
+"""The measurements of scripts/measure.py: accuracy, matching, speed and disturbances, as rows with their commands."""
 
 import argparse
 import itertools
@@ -21,12 +21,12 @@ RECORDED = {
 }
 SCENES = disturbance_sweep.SCENES
 PATHS = ("handheld", "drive", "loop")  # besides the ellipse
-# Run -> scene and path; a run on the ellipse is called by its scene.
+# Run -> scene and path; a run on the ellipse has the name of its scene.
 RENDERED = {
     **{scene: (scene, "ellipse") for scene in SCENES},
     **{f"{scene}-{path}": (scene, path) for path in PATHS for scene in SCENES},
 }
-# Title, run, first frame that is judged
+# Title, run, first evaluated frame
 JUDGED = (
     ("KITTI 06", "kitti06", 0),
     ("KITTI 06, from frame 10", "kitti06", 10),
@@ -39,7 +39,8 @@ JUDGED = (
         for run, (scene, path) in RENDERED.items()
     ),
 )
-STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)  # steps of some cm: 5 cm would hide any error
+# Steps are a few cm: a limit of 5 cm would hide any error.
+STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)
 PRESETS = ("fast", "default", "accurate")
 SYSTEMS = ("default", "fast", "accurate", "paper", "opencv")
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
@@ -57,26 +58,26 @@ MATCHED = {
     "rendered cables": "cables",
     "rendered facade": "facade",
 }
-MATCHED_FRAMES = 3  # of a rendered scene
+MATCHED_FRAMES = 3  # per rendered scene
 TIMED = {
     "built-in room": "room",
     "built-in facade": "facade",
     "KITTI 06": RECORDED["kitti06"],
     "EuRoC MH_01, flight": RECORDED["flight"],
 }
-COMPLETE = "complete"  # empty file in the folder of a run that came to its end
+COMPLETE = "complete"  # empty file in the folder of a finished run
 
 
 class Problem(Exception):
-    """Something that a user should read."""
+    """An error to report to the user."""
 
 
 class Programs:
-    """Runs the programs; notes the commands as a reader would type them."""
+    """Runs the programs and records the commands as a reader would type them."""
 
     def __init__(self, options):
         self.options = options
-        self.tracked = set()  # folders of runs made now: two rows may judge one of them
+        self.tracked = set()  # folders of the runs of this call: two rows may evaluate the same run
 
     def call(self, command, allowed=(0,)):
         command = [str(part) for part in command]
@@ -88,7 +89,7 @@ class Programs:
             raise Problem(f"{shlex.join(command)}\nended with code {result.returncode}: {result.stderr.strip()}")
 
     def text(self, command):
-        """The command with DATA, OUT and the programs' plain names for the folders of this machine."""
+        """The command with DATA, OUT and plain program names instead of the paths of this machine."""
         names = {str(self.options.quadedge): "quadedge", str(self.options.baseline): "opencv_baseline"}
         parts = [names.get(str(part), str(part)) for part in command]
         short = {str(self.options.work): "OUT", str(self.options.data): "DATA", str(REPOSITORY): "."}
@@ -100,7 +101,7 @@ class Programs:
 
 
 def source_of(run, options):
-    """What `quadedge run` or `demo` takes."""
+    """Arguments of `quadedge run` or `demo`."""
     if run in RECORDED:
         frames = ["--frames", f"0:{options.frames}"] if options.frames else []
         return ["run", options.data / RECORDED[run], *frames]
@@ -135,7 +136,7 @@ def track(system, run, programs):
     if output not in programs.tracked and not (options.keep and (output / COMPLETE).exists()):
         print(f"{system}: {run}", file=sys.stderr, flush=True)
         shutil.rmtree(output, ignore_errors=True)
-        programs.call(command, allowed=(0, 5))  # 5: many frames lost, which is a result too
+        programs.call(command, allowed=(0, 5))  # 5: many frames lost, which is a result as well
         (output / COMPLETE).touch()
         programs.tracked.add(output)
     return output, truth, command
@@ -193,7 +194,7 @@ def measure_accuracy(programs):
 
 
 def matching_row(title, places, programs):
-    """Both pools of the last row of Table 1, and of the quads where there are poses."""
+    """Both pools of the last row of Table 1, and of the quads if there are poses."""
     options = programs.options
     frames = ["--frames", min(MATCHED_FRAMES, options.frames or MATCHED_FRAMES)] if isinstance(places, str) else []
     paths = [places] if isinstance(places, str) else [options.data / place for place in places]
@@ -276,7 +277,7 @@ def measure_speed(programs):
 
 
 def measure_disturbances(programs):
-    """Every disturbance in every scene; the plot too, where there is matplotlib."""
+    """Every disturbance in every scene, and the plot if matplotlib is installed."""
     options = programs.options
     sweep = argparse.Namespace(
         out=options.work / "disturbances",
@@ -299,12 +300,12 @@ def measure_disturbances(programs):
         sweep.out = options.out
         disturbance_sweep.plot(rows, sweep)
     except ImportError:
-        print("measure: matplotlib is missing, so the plot of the disturbances stays as it was", file=sys.stderr)
+        print("measure: matplotlib is missing; the plot of the disturbances remains unchanged", file=sys.stderr)
     return rows
 
 
 def measure_light(programs):
-    """Little contrast and light in two scenes, with the threshold of edges fixed as it once was, and automatic."""
+    """Low contrast and low light in two scenes, with the former fixed edge threshold and with the automatic one."""
     options = programs.options
     sweep = argparse.Namespace(
         out=options.work / "light",

@@ -9,7 +9,7 @@ wheel_packages="dpkg-dev nasm zlib1g-dev"  # for build_wheel.sh, besides those a
 test_packages="catch2 libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file groff-base oclgrind clang clang-19
   debootstrap libclc-19 clang-format p7zip-full munge slurmctld slurmd slurm-client"
 
-# install_missing PACKAGE...: asks dpkg first, so that a machine that has everything needs neither network nor root.
+# install_missing PACKAGE...: asks dpkg first: a machine with all packages needs neither network nor root.
 install_missing() {
   local missing=() package root=()
   for package in "$@"; do
@@ -19,7 +19,7 @@ install_missing() {
   [ ${#missing[@]} -eq 0 ] && return 0
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
-      echo "These Debian packages are missing, and there is neither root nor sudo to install them: ${missing[*]}" >&2
+      echo "These Debian packages are missing; installing them needs root or sudo: ${missing[*]}" >&2
       return 1
     fi
     root=(sudo)

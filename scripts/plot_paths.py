@@ -1,4 +1,4 @@
-"""Pictures of the paths over the rendered scenes, for scripts/measure.py. Needs matplotlib."""
+"""Plots of the paths through the rendered scenes, for scripts/measure.py. Needs matplotlib."""
 
 import json
 
@@ -7,11 +7,11 @@ from measurements import SYSTEMS
 
 
 def plot(scene, rows, options):
-    """The paths from above, and how far each pose is from the true one."""
+    """The paths from above, and the distance of each pose from the true one."""
     import matplotlib
 
     matplotlib.use("Agg")  # no window
-    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # the same bytes each run
+    matplotlib.rcParams["svg.hashsalt"] = "quadedge"  # reproducible bytes
     from matplotlib import pyplot
 
     def positions(file):
@@ -35,7 +35,7 @@ def plot(scene, rows, options):
         above.plot(*positions(folder / "trajectory.txt"), color=color, linewidth=1, label=name)
         if "end_drift_percent" not in row:
             continue
-        # The first pose, which the alignment makes equal, has no error.
+        # Skips the first pose, whose error is zero by the alignment.
         poses = json.loads((folder / "evaluation_0.json").read_text(encoding="utf-8"))["per_pose"][1:]
         away.plot(
             [pose["stamp_ns"] * 1e-9 for pose in poses],

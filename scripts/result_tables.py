@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the tables of doc/results/*.json into the documentation, so that no figure is typed twice.
+"""Writes the tables of doc/results/*.json into the documentation.
 
     scripts/result_tables.py            writes doc/results/PART.md and the marked blocks of README.md and doc/*.md
-    scripts/result_tables.py --check    changes nothing; exit code 1 where one of them differs from the JSON
+    scripts/result_tables.py --check    changes nothing; exit code 1 if a table differs from the JSON
 
-A block stands between <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py makes the JSON,
-except doc/results/peers.json, which is written by hand and states the origin of its figures.
+A block is enclosed by <!-- table: NAME --> and <!-- end of table -->. scripts/measure.py writes the JSON files, except
+doc/results/peers.json, which is written by hand and names the source of its figures.
 """
 
 import argparse
@@ -49,7 +49,7 @@ PAGES = {
         ("speed",),
     ),
 }
-# Parts that measure.py does not make, and the commands that make them.
+# Scripts that write the parts not written by measure.py.
 MADE_BY = {
     "drift": "scripts/drift.py",
     "truth": "scripts/truth_consistency.py",
@@ -58,7 +58,7 @@ NAMES = "DATA is the folder with the recorded sequences, OUT a folder for result
 
 
 def render(name, results):
-    """A table, or a note that it was not measured."""
+    """A table, or a note that it is missing."""
     part = PART_OF.get(name, name)
     if part in results:
         return TABLES[name](results)
@@ -80,7 +80,7 @@ def page(part, results):
 
 
 def wanted_texts(folder):
-    """Path -> expected text, for all files with tables from the JSON."""
+    """Path -> expected text, for every file with tables."""
     results = {file.stem: json.loads(file.read_text(encoding="utf-8")) for file in sorted(folder.glob("*.json"))}
     texts = {folder / f"{part}.md": page(part, results) for part in PAGES if part in results or folder == RESULTS}
     if folder == RESULTS:
@@ -115,7 +115,7 @@ def main():
     stale = [file for file, _ in differing(options.results)]
     for file in stale:
         print(
-            f"result_tables: {file} differs from the JSON beside it; scripts/result_tables.py writes it anew",
+            f"result_tables: {file} differs from its JSON; run scripts/result_tables.py",
             file=sys.stderr,
         )
     return 1 if stale else 0

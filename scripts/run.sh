@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the built-in sequence, or the recorded sequence in PATH.
+# Installs missing packages, builds, and runs the built-in sequence, or the recorded sequence in PATH.
 #   scripts/run.sh [PATH [OPTION...]]
 set -euo pipefail
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"

@@ -1,4 +1,4 @@
-"""What a measurement says of itself: the commit of the sources and the date (doc/results/*.json)."""
+"""The origin of a measurement: commit of the sources and date (doc/results/*.json)."""
 
 import datetime
 import json
@@ -9,7 +9,7 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 
 
 def commit():
-    """Of the sources, with a "+" where they have changed since; the documentation does not count."""
+    """Of the sources, followed by "+" if they have uncommitted changes outside the documentation."""
 
     def git(*arguments):
         return subprocess.run(
@@ -22,11 +22,11 @@ def commit():
 
 
 def stamped(result, measured=None):
-    """`result` with commit and date in front; `measured` is the commit where it was asked for before the work began."""
+    """`result` with commit and date in front. `measured`: the commit, if determined before a long measurement."""
     today = datetime.datetime.now(datetime.timezone.utc).date().isoformat()
     return {"commit": measured or commit(), "date": today, **result}
 
 
 def write(result, file):
-    """As JSON, `file` a path."""
+    """Writes `result` as JSON to the path `file`."""
     file.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs all tests. Recorded data is found through QUADEDGE_DATA; tests that need it
-# say so and pass where it is not set.
-#   scripts/test.sh [--all-runtimes] [CTEST OPTION...]      for example: scripts/test.sh -R edges
+# Installs missing packages, builds, and runs all tests. QUADEDGE_DATA names the folder of recorded data; without it,
+# tests that need recorded data print a message and pass.
+#   scripts/test.sh [--all-runtimes] [CTEST OPTION...]      example: scripts/test.sh -R edges
 # --all-runtimes first installs Intel's OpenCL for CPUs from PyPI into the virtual environment and runs the tests of
 # kernels, pipeline and recorded data on it as well (tests/run_other_runtime.sh).
 set -euo pipefail
@@ -35,5 +35,5 @@ fi
 
 if $all_runtimes; then "$repository/tests/run_other_runtime.sh" "$repository/build"; fi
 
-# Tests side by side: many of them, such as the simulator and everything on the plain C++ reference, use one processor.
+# In parallel: many tests use one processor, such as the simulator and everything on the plain C++ reference.
 exec ctest --test-dir "$repository/build" --output-on-failure --parallel "$(nproc)" "$@"

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Asks whether the errors of a recorded EuRoC sequence are its ground truth's or the estimate's.
+"""Determines how much of the error on a recorded EuRoC sequence is explained by its ground truth.
 
     truth_consistency.py SEQUENCE RESULTS [-o FILE]
 
-SEQUENCE holds mav0, RESULTS what `quadedge run` leaves of it (trajectory.txt, report.json). Printed, and written to
-FILE as JSON:
+SEQUENCE contains mav0, RESULTS the output of `quadedge run` (trajectory.txt, report.json). Prints, and writes to FILE
+as JSON:
 
-- the time offset between truth and images by rotation: the one that makes the angles from frame to frame agree best;
-- the errors of motions over 1 to 50 frames as they are, and after eight constants of the truth are fitted to them over
-  all step lengths at once: the scale of its positions, a turn between positions and orientations, a time offset of the
-  positions, and the arm from the tracked prism to the body's origin. What a prism, a tracker with its own clock and a
-  hand-eye calibration can leave, odometry cannot: its errors grow with the way.
-- the same with the constants found on one half of the sequence and judged on the other, both ways round;
-- what the covariances promise of these motions (report.json).
+- the time offset between ground truth and images that best aligns the rotation angles between frames;
+- the errors of motions over 1 to 100 frames, and the same errors after fitting eight constants of the ground truth over
+  all step lengths together: the scale of its positions, a rotation between positions and orientations, a time offset of
+  the positions, and the lever arm from the tracked prism to the origin of the body. A prism, a tracker with a separate
+  clock and a hand-eye calibration can cause such errors; odometry cannot, because its errors grow with the path length;
+- the same with the constants fitted on one half of the sequence and evaluated on the other, in both directions;
+- the errors predicted by the covariances (report.json).
 
 Needs numpy. Exit code: 0 done, 2 wrong usage.
 """
@@ -45,7 +45,7 @@ def rotations(quaternions):
 
 
 def angles(matrices):
-    """Rotation angles [rad], exact for small ones too."""
+    """Rotation angles [rad], accurate for small angles."""
     axis = [matrices[:, 2, 1] - matrices[:, 1, 2], matrices[:, 0, 2] - matrices[:, 2, 0],
             matrices[:, 1, 0] - matrices[:, 0, 1]]
     return np.arctan2(np.linalg.norm(axis, axis=0), np.trace(matrices, axis1=1, axis2=2) - 1)
@@ -82,7 +82,7 @@ def motions(rotation, position, steps):
 
 
 def rotation_offset(truth, time, rotation):
-    """Time [s] by which the truth's orientations are late, and the angles' root mean square difference [deg]."""
+    """Delay of the ground truth's orientations [s], and the RMS difference of the rotation angles [deg]."""
     found = angles(motions(rotation, np.zeros((len(time), 3)), 1)[0])
     offsets = np.arange(-LARGEST_OFFSET, LARGEST_OFFSET + OFFSET_STEP / 2, OFFSET_STEP)
     squares = []
@@ -95,7 +95,8 @@ def rotation_offset(truth, time, rotation):
 
 
 def errors_and_causes(truth, time, rotation, position, steps):
-    """Errors of the translations over `steps` frames [m], (n, 3), and what each constant makes of them, (n, 3, 8)."""
+    """Errors of the translations over `steps` frames [m], (n, 3), their derivatives by each constant, (n, 3, 8), and
+    the lengths of the true translations [m], (n)."""
     true_rotation, true_position = truth.at(time)
     turned, moved = motions(true_rotation, true_position, steps)
     _, found = motions(rotation, position, steps)
@@ -107,7 +108,7 @@ def errors_and_causes(truth, time, rotation, position, steps):
 
 
 def fit(steps, rows):
-    """The eight constants, by least squares over all step lengths, each counting the same."""
+    """The eight constants, by least squares over all step lengths with equal weights."""
     scaled = [(error[rows(error)] / np.sqrt((error**2).mean()), cause[rows(error)] / np.sqrt((error**2).mean()))
               for error, cause, _ in steps.values()]
     causes = np.concatenate([cause.reshape(-1, len(NAMES)) for _, cause in scaled])

@@ -6,15 +6,9 @@
 set -euo pipefail
 build="$(realpath "$1")"
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
-venv="$build/venv" kept="$build/other_runtime" requirements="$here/requirements_intel.txt"
-if ! cmp -s "$requirements" "$venv/requirements_intel.txt"; then
-  echo "Installing Intel's OpenCL runtime into $venv"
-  "$venv/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements" || {
-    echo "--all-runtimes: Intel's OpenCL runtime cannot be installed from PyPI, see above" >&2
-    exit 1
-  }
-  cp "$requirements" "$venv/requirements_intel.txt"
-fi
+venv="$build/venv" kept="$build/other_runtime"
+. "$here/intel_runtime.sh"
+install_intel_runtime "$venv"
 
 # Nothing is installed in the system: one folder has only this runtime, another the installed ones too. The program's
 # TBB (Debian's) is older than the runtime needs, and the one loaded first serves both.

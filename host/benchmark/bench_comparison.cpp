@@ -16,9 +16,9 @@ namespace {
 
 using report::Json;
 
-constexpr double kSmallShare = 0.05;  // of the frame: stages below it are shown, not judged
+constexpr double kSmallShare = 0.05;  // of the frame; smaller stages are printed but not judged
 
-/// A result and the file that it was read from.
+/// A result and its file.
 struct Result {
   std::string file;
   Json json;
@@ -44,8 +44,8 @@ Result read_result(const std::string& file) {
   return result;
 }
 
-/// A figure that every result has. \throws DataError where it is missing or no number of 0 or more: nothing can be said
-/// of a regression then.
+/// A figure that every result has. \throws DataError if it is missing or not a number of 0 or more, because a
+/// regression could not be detected then.
 double figure(const Result& result, const std::string& pointer) {
   const Json::json_pointer key(pointer);
   const Json value = result.json.contains(key) ? result.json.at(key) : Json("none");
@@ -53,7 +53,7 @@ double figure(const Result& result, const std::string& pointer) {
   data::fail(result.file, pointer.substr(1) + " " + value.dump(), "a number of 0 or more");
 }
 
-/// A time that others are compared with.
+/// A time used as a reference for others.
 double positive_figure(const Result& result, const std::string& pointer) {
   const double value = figure(result, pointer);
   if (!(value > 0)) data::fail(result.file, pointer.substr(1) + " 0", "more than 0");
@@ -79,7 +79,7 @@ class Figures {
   void size(const std::string& name, const std::string& pointer) {
     add(name, figure(before_, pointer), figure(after_, pointer), true, 1);
   }
-  /// The medians of every stage of a table.
+  /// Adds the medians of every stage of a table.
   void stages(const std::string& label, const std::string& table, double frame_ms) {
     std::set<std::string> names;
     for (const Json* json : {&before_.json, &after_.json}) {
@@ -96,7 +96,7 @@ class Figures {
   }
 
  private:
-  /// NaN for a stage that one of the results does not have.
+  /// NaN for a stage that is missing in one of the results.
   static double value(const Result& result, const std::string& pointer) {
     const bool there = result.json.contains(Json::json_pointer(pointer));
     return there ? figure(result, pointer) : std::numeric_limits<double>::quiet_NaN();

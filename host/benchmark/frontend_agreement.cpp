@@ -10,12 +10,12 @@
 namespace quadedge::bench {
 namespace {
 
-/// A position in the left image in hundredths of a pixel. Rows are compared by it: an edge more in one list shifts all
-/// numbers.
+/// A position in the left image in hundredths of a pixel. Rows are matched by position, because one additional edge in
+/// a list shifts all indices.
 using Key = std::pair<long, long>;
 Key key(float x, float y) { return {std::lround(100 * x), std::lround(100 * y)}; }
 
-/// Rows of `a` that `b` holds too: left positions and right column.
+/// Rows of `a` that `b` contains as well, by left position and right column.
 struct Shared {
   double fraction = 1;
   std::optional<std::size_t> first_missing;
@@ -43,7 +43,7 @@ Shared shared(const Rows& a, const Rows& b) {
   return result;
 }
 
-/// The smaller fraction of both ways. `first` tells the first row that one side lacks, unless it tells one already.
+/// The smaller fraction of both directions. Sets `first`, if empty, to the first row that one side lacks.
 template <class Rows>
 double both_ways(const char* what, const Rows& a, const Rows& b, std::string& first) {
   const Shared forth = shared(a, b), back = shared(b, a);
@@ -59,10 +59,10 @@ double both_ways(const char* what, const Rows& a, const Rows& b, std::string& fi
   return std::min(forth.fraction, back.fraction);
 }
 
-/// The first differing value of arrays that belong together.
+/// The first differing value of parallel arrays.
 class Difference {
  public:
-  /// \param stage that leaves the arrays \param row what a row of them is called
+  /// \param stage that writes the arrays \param row name of a row in messages
   Difference(const char* stage, const char* row, std::string& found) : stage_(stage), row_(row), found_(found) {}
 
   template <class T>

@@ -21,7 +21,7 @@ bool is_warm_up(std::size_t frame, const BenchRecord& record) {
   return frame >= 1 && frame <= static_cast<std::size_t>(record.warm_up);
 }
 
-/// Detects edges in single images of one size.
+/// Detects edges in single images of a fixed size.
 class Detector {
  public:
   Detector(opencl::Context& context, const ImageView& image, const Config& config)
@@ -31,7 +31,7 @@ class Detector {
         threshold_(context, config.edges, config.variants),
         detection_(context, image.width, image.height, config.edges, config.variants) {}
 
-  /// Returns after the device is done.
+  /// Returns after the device has finished.
   void run(const ImageView& image) {
     upload_.run(image, pixels_);
     plane_.prepare(pixels_);
@@ -117,7 +117,7 @@ void measure_edge_detection(const Subject& subject, int repetitions, BenchRecord
 }
 
 void measure_kernels(const Subject& subject, BenchRecord& record) {
-  const std::string prefix = "device ";  // the pipeline marks kernel times by it
+  const std::string prefix = "device ";  // of kernel times in the stages of a frame
   Device device = subject.open_device(true);
   if (device.is_reference()) return;
   StereoOdometry odometry(subject.rig, device, subject.config);
@@ -150,10 +150,10 @@ double threshold_for_edges(const FramePrefetcher::Frame& frame, int wanted, Devi
     }
     return sum / 2;
   };
-  double low = 1e-6, high = 255;  // more edges than wanted, fewer than wanted
+  double low = 1e-6, high = 255;  // thresholds with more and with fewer edges than wanted
   if (mean_count(low) <= wanted) return low;
   while (high - low > 0.01) {
-    // Edges thin out by ratios: the geometric mean, once there is a lower bound above zero.
+    // The number of edges depends on the ratio of thresholds: geometric mean once the lower bound is above zero.
     const double middle = low > 0 ? std::sqrt(low * high) : std::min(1.0, high / 2);
     const double count = mean_count(middle);
     if (std::abs(count - wanted) <= 0.01 * wanted) return middle;

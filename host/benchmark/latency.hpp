@@ -1,6 +1,6 @@
 #pragma once
-/// \file latency.hpp  Measures frames whose images lie in host memory (doc/design.md section 5: two kinds of time,
-/// never mixed).
+/// \file latency.hpp  Measures frames whose images are in host memory (doc/design.md section 5: latency and kernel time
+/// are measured in separate passes).
 
 #include <functional>
 #include <vector>
@@ -10,36 +10,36 @@
 
 namespace quadedge::bench {
 
-/// What is measured.
+/// The input of a measurement.
 struct Subject {
   const StereoRig& rig;
   const std::vector<FramePrefetcher::Frame>&
-      frames;            ///< the first one, record.warm_up to get warm, then the measured ones
+      frames;            ///< the first frame, record.warm_up warm-up frames, then the measured frames
   const Config& config;  ///< complete: with the largest disparity
   std::function<Device(bool profiling)> open_device;
   std::function<void(const char* pass, int done, int total)> progress;
 };
 
-/// Time to open the device and to build the pipeline, the program's first use of OpenCL; and what device and variants
-/// that are. `complete` may still change record.run.config to suit the device.
+/// Measures the time to open the device and build the pipeline, which is the program's first use of OpenCL, and records
+/// device and variants. `complete` may adapt record.run.config to the device.
 void measure_start(const StereoRig& rig, const std::function<Device()>& open_device,
                    const std::function<void(const Device&, Config&)>& complete, BenchRecord& record);
 
-/// Latency of every frame on a plain queue, memory, bytes moved.
+/// Measures the latency of every frame on a queue without profiling, memory and bytes moved.
 void measure_latency(const Subject& subject, BenchRecord& record);
 
-/// Edge detection of one left image alone, `repetitions` times after two to get warm. Does nothing on the reference
-/// device.
+/// Measures the edge detection of one left image, `repetitions` times after two warm-up runs. Does nothing on the
+/// reference device.
 void measure_edge_detection(const Subject& subject, int repetitions, BenchRecord& record);
 
-/// Kernel times of every frame by OpenCL events, on a profiling queue, which slows the device down. Does nothing on the
-/// reference device.
+/// Measures the kernel times of every frame by OpenCL events, on a profiling queue, which slows the device down. Does
+/// nothing on the reference device.
 void measure_kernels(const Subject& subject, BenchRecord& record);
 
-/// The value of edges.threshold with which the two images of the frame have about `wanted` edges each: bisection, until
-/// it is met within 1 % or the interval is shorter than 0.01. Images with fewer edges at every threshold give the
-/// smallest one. \throws UsageError on the reference device for the sake of time, or for more than edges.max_edges
-/// wanted.
+/// The value of edges.threshold for which the two images of the frame have about `wanted` edges each, by bisection
+/// until the number is met within 1 % or the interval is shorter than 0.01. Returns the smallest threshold if the
+/// images have fewer edges at every threshold. \throws UsageError on the reference device, which would take too long,
+/// or if `wanted` exceeds edges.max_edges.
 double threshold_for_edges(const FramePrefetcher::Frame& frame, int wanted, Device& device, const Config& config);
 
 }  // namespace quadedge::bench

@@ -50,14 +50,14 @@ StageWork threshold_work(const FrameSize& frame) {
   return {points * 9 * sizeof(float), points * (gradient + noise + bin)};
 }
 
-/// doc/method.md section 1: a maximum's line and angle, and whether it is the nearest; in the searched image for three
-/// angles. At least the edges that stay have been maxima.
+/// doc/method.md section 1: line and angle of a maximum, and whether it is the nearest; in the searched image for three
+/// angles. The number of maxima is at least the number of selected edges.
 StageWork selection_work(const FrameSize& frame) {
   const double maximum = 4 * sizeof(float), crossing = 35, nearest = 10;
   return {frame.edges * 2 * maximum, frame.edges * (crossing + 2 * nearest)};
 }
 
-/// One candidate's similarity: the better of two pairs of patches.
+/// Similarity of one candidate: the better of two pairs of patches.
 constexpr double kSimilarity = 2 * 2 * kPatchSamples + 5;
 constexpr double kTurned = 4;  // difference of two directions, compared
 
@@ -72,7 +72,7 @@ StageWork candidate_filters_work(const FrameSize& frame) {
           frame.stereo_candidates * (kSimilarity + 2)};
 }
 
-/// doc/method.md section 3, filter 8: one Gauss-Newton step and the similarity where it ends.
+/// doc/method.md section 3, filter 8: one Gauss-Newton step and the similarity at its result.
 StageWork stereo_refinement_work(const FrameSize& frame) {
   const double sample = 4 + 8 + 4 + 3 * 2;  // position, bilinear, gain and residual, two sums and the robust weight
   return {frame.pixels + frame.left_edges * kEdgePatchBytes + frame.refined * 3 * sizeof(float),
@@ -85,7 +85,7 @@ StageWork stereo_relaxation_work(const FrameSize& frame, const StereoConfig& con
           frame.clusters * config.relaxation_rounds * kRelaxationNeighbours * support};
 }
 
-/// The sorted positions with their numbers; a cell and a place per edge.
+/// The sorted positions with their indices; a cell and a position per edge.
 StageWork point_index_work(const FrameSize& frame) {
   const double edges = 2 * frame.stereo_edges;
   return {edges * (2 * kPlaceBytes + sizeof(int)), edges * 8};
@@ -119,13 +119,13 @@ StageWork wide_description_work(const FrameSize& frame) {
   return {frame.pixels + edges * (kPlaceBytes + kWideBytes), frame.pixels + edges * (samples + gradients + cells)};
 }
 
-/// Every descriptor of one side with every one of the other.
+/// Every descriptor of one side compared with every one of the other.
 StageWork wide_matching_work(const FrameSize& frame) {
   return {(frame.wide_edges + frame.wide_base_edges) * kWideBytes,
           frame.wide_edges * frame.wide_base_edges * (2 * kWideBytes + 2)};
 }
 
-/// Adds up the lists that the filters leave.
+/// Sums the lengths of the lists after the filters.
 class CountingTap : public Tap {
  public:
   void stereo_filter(StereoFilter filter, const CandidateLists& lists) override {

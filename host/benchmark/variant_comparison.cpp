@@ -6,13 +6,11 @@
 #include <limits>
 #include <memory>
 
-#include "benchmark/bench_record.hpp"
 #include "benchmark/frontend_agreement.hpp"
 #include "benchmark/stage_work.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/synthetic.hpp"
-#include "report/json_values.hpp"
 #include "report/statistics.hpp"
 
 namespace quadedge::bench {
@@ -22,13 +20,13 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kGuidedMatch = "temporal_match";  // one of its variants is a sequence of other stages
 constexpr double kWorthChanging = 0.97;                 // of the default's time
 
-/// The names under which the pipeline books the kernels of a stage with variants.
+/// The names under which the pipeline profiles the kernels of a stage with variants.
 std::vector<std::string> booked_as(const std::string& stage) {
   if (stage == kGuidedMatch) return {kGuidedMatch, "temporal_candidates", "candidate_filters", "temporal_quads"};
   return {stage};
 }
 
-/// One variant with a device and a pipeline of its own.
+/// One variant with a separate device and pipeline.
 struct Candidate {
   std::unique_ptr<Device> device;
   std::unique_ptr<frontend::Frontend> frontend;
@@ -40,7 +38,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 constexpr double kPaperSiftMax = 500;
 
-/// The configuration with a variant, changed where it would not run the stage at all.
+/// The configuration with a variant, modified so that it runs the stage.
 Config with_variant(Config config, const std::string& stage, const std::string& name) {
   if (stage == "sift" && config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;
   if (stage == "temporal_candidates" || stage == "temporal_quads") config.variants[kGuidedMatch] = "lists";
@@ -48,7 +46,7 @@ Config with_variant(Config config, const std::string& stage, const std::string& 
   return config;
 }
 
-/// Runs the second frame again; the stage's kernel time, NaN when none ran.
+/// Runs the second frame again. Returns the kernel time of the stage [ms], NaN if none ran.
 double measure_once(const std::string& stage, const VariantInput& input, Candidate& candidate) {
   auto& context = *candidate.device->context();
   context.take_profile();
@@ -180,7 +178,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
   for (int repetition = 0; repetition < input.repetitions; ++repetition) {
     progress("measuring " + stage);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-      // To and fro, so that no variant always comes after the same other one.
+      // In alternating order, so that no variant always follows the same other one.
       const std::size_t i = repetition % 2 == 0 ? k : candidates.size() - 1 - k;
       if (result.variants[i].agrees) candidates[i].times.push_back(measure_once(stage, input, candidates[i]));
     }
@@ -194,7 +192,7 @@ StageResult compare_variants(const std::string& stage, const VariantInput& input
     row.median_ms = report::median(candidates[i].times);
     row.p10_ms = report::percentile(candidates[i].times, 0.1);
     row.p90_ms = report::percentile(candidates[i].times, 0.9);
-    std::vector<double> ratios;  // of what was measured one after the other
+    std::vector<double> ratios;  // of consecutive measurements
     for (std::size_t k = 0; k < candidates[i].times.size(); ++k)
       ratios.push_back(candidates[i].times[k] / candidates[by_default].times[k]);
     row.ratio_to_default = report::median(ratios);
@@ -211,36 +209,6 @@ std::vector<std::string> stages_with_variants() {
     if (names.empty() || names.back() != variant.stage) names.push_back(variant.stage);
   }
   return names;
-}
-
-std::string comparison_json(const DeviceInfo& device, const Ceilings& ceilings, const std::vector<StageResult>& stages,
-                            const std::string& command) {
-  using report::Json;
-  using report::to_json;
-  Json json;
-  json["schema"] = kBenchSchema;
-  report::add_origin(json, command);
-  json["device"] = report::to_json(device);
-  json["ceilings"] = {{"bandwidth_gb_s", ceilings.bandwidth_gb_s}, {"arithmetic_gflop_s", ceilings.arithmetic_gflop_s}};
-  json["stages"] = Json::array();
-  for (const auto& stage : stages) {
-    Json rows = Json::array();
-    for (const auto& variant : stage.variants) {
-      rows.push_back({{"name", variant.name},
-                      {"default", variant.is_default},
-                      {"agrees", variant.agrees},
-                      {"why", variant.why},
-                      {"median_ms", to_json(variant.median_ms)},
-                      {"p10_ms", to_json(variant.p10_ms)},
-                      {"p90_ms", to_json(variant.p90_ms)},
-                      {"ratio_to_default", to_json(variant.ratio_to_default)},
-                      {"ratio_p90", to_json(variant.ratio_p90)},
-                      {"bandwidth_share", to_json(variant.bandwidth_share)},
-                      {"arithmetic_share", to_json(variant.arithmetic_share)}});
-    }
-    json["stages"].push_back({{"stage", stage.stage}, {"best", stage.best()}, {"variants", rows}});
-  }
-  return report::json_text(json);
 }
 
 }  // namespace quadedge::bench

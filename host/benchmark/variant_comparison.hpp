@@ -1,5 +1,5 @@
 #pragma once
-/// \file variant_comparison.hpp  Every kernel variant of a stage on the same input.
+/// \file variant_comparison.hpp  Compares all kernel variants of a stage on the same input.
 
 #include <functional>
 #include <map>
@@ -15,50 +15,50 @@
 
 namespace quadedge::bench {
 
-/// What became of one variant.
+/// The result for one variant.
 struct VariantResult {
   std::string name;
   bool is_default = false;
-  bool runs = true;      ///< false: the device refuses it; `why` says how
-  bool agrees = false;   ///< with the reference on a small input, and with the default's bytes on the measured one
-  std::string why;       ///< empty, or why there is no time
+  bool runs = true;     ///< false: the device cannot run it, for the reason in `why`
+  bool agrees = false;  ///< with the reference on a small input, and byte for byte with the default on the measured one
+  std::string why;      ///< the reason if there is no time, else empty
   double median_ms = 0;  ///< of the stage in one frame by OpenCL events; NaN without a time
   double p10_ms = 0, p90_ms = 0;
-  double ratio_to_default = 0;  ///< median over the repetitions, each with the default's time beside it
-  double ratio_p90 = 0;         ///< 90th percentile of the same: below 1 the variant wins beyond the noise
+  double ratio_to_default = 0;  ///< median over the repetitions of the ratio to the default's time
+  double ratio_p90 = 0;         ///< 90th percentile of the ratio; below 1, the gain exceeds the noise
   double bandwidth_share = 0,
-         arithmetic_share = 0;  ///< of the device's ceilings, for the least work; NaN without a time
+         arithmetic_share = 0;  ///< of the device's ceilings, for the lower bound of the work; NaN without a time
 };
 
 /// All variants of one stage.
 struct StageResult {
   std::string stage;
   std::vector<VariantResult> variants;
-  /// The fastest one that agrees; the default unless another is at least 3 % faster, and faster in nine of ten
-  /// repetitions. Empty where the input never runs the stage.
+  /// The fastest variant that agrees: the default unless another one is at least 3 % faster and faster in nine of ten
+  /// repetitions. Empty if the input never runs the stage.
   std::string best() const;
 };
 
-/// What is compared on.
+/// The input of a comparison.
 struct VariantInput {
   const StereoRig& rig;
   const FramePrefetcher::Frame& first;
   const FramePrefetcher::Frame& second;
-  Config config;                        ///< complete; its variants are those that all other stages run with
+  Config config;                        ///< complete; its variants are used by all other stages
   std::function<Device()> open_device;  ///< with profiling
   int repetitions = 9;
   FrameSize size;  ///< of the second frame, see count_frame()
 };
 
-/// A small input and what the plain C++ reference makes of it; serves all stages.
+/// A small input and its result by the plain C++ reference; used for all stages.
 class ReferenceCheck {
  public:
-  /// `config`: the method's constants; the search range becomes that of the small input.
+  /// `config`: constants of the method; the search range is set to that of the small input.
   explicit ReferenceCheck(const Config& config);
   ~ReferenceCheck();
   ReferenceCheck(const ReferenceCheck&) = delete;
   ReferenceCheck& operator=(const ReferenceCheck&) = delete;
-  /// Why the device with these variants sees something else; empty when it agrees. \throws DeviceError.
+  /// The difference between the device with these variants and the reference; empty if they agree. \throws DeviceError.
   std::string difference(Device& device, const std::map<std::string, std::string>& variants) const;
 
  private:
@@ -66,8 +66,8 @@ class ReferenceCheck {
   std::unique_ptr<Small> small_;
 };
 
-/// Checks, then measures in turn, all variants of a stage. `progress` gets the name of what is going on.
-/// \throws DeviceError when the default itself does not run.
+/// Checks all variants of a stage, then measures them alternately. `progress` is called with the current activity.
+/// \throws DeviceError if the default variant does not run.
 StageResult compare_variants(const std::string& stage, const VariantInput& input, const ReferenceCheck& check,
                              const Ceilings& ceilings, const std::function<void(const std::string&)>& progress);
 

@@ -18,7 +18,7 @@ constexpr const char* kContent = "quadedge kernel variants";
 constexpr int kSchema = 1;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw UsageError(path + ": " + why + "; remove the file, or make it again with `quadedge compare --save`");
+  throw UsageError(path + ": " + why + "; remove the file, or replace it with `quadedge compare --save`");
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void write_variants_file(const std::string& path, const DeviceInfo& device,
   json["variants"] = variants;
   std::error_code failed;
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), failed);
-  if (failed) throw DataError(path + ": its folder cannot be made: " + failed.message());
+  if (failed) throw DataError(path + ": its folder cannot be created: " + failed.message());
   data::write_atomically(path, report::json_text(json));
 }
 
@@ -56,19 +56,18 @@ std::map<std::string, std::string> read_variants_file(const std::string& path, c
   std::map<std::string, std::string> variants;
   try {
     const Json json = Json::parse(stream);
-    if (json.at("content") != kContent) refuse(path, "holds something else than kernel variants");
+    if (json.at("content") != kContent) refuse(path, "does not contain kernel variants");
     if (json.at("schema") != kSchema) {
       refuse(path, "has schema " + json.at("schema").dump() + ", this program reads " + std::to_string(kSchema));
     }
     const auto name = json.at("device").at("name").get<std::string>(),
                platform = json.at("device").at("platform").get<std::string>();
     if (name != device.name || platform != device.platform) {
-      refuse(path,
-             "was made on " + name + " (" + platform + "), this is " + device.name + " (" + device.platform + ")");
+      refuse(path, "belongs to " + name + " (" + platform + "), this is " + device.name + " (" + device.platform + ")");
     }
     variants = json.at("variants").get<std::map<std::string, std::string>>();
   } catch (const Json::exception& error) {
-    refuse(path, std::string("is no file of kernel variants (") + error.what() + ")");
+    refuse(path, std::string("is not a file of kernel variants (") + error.what() + ")");
   }
   try {
     opencl::check_variants(variants);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file yardsticks.hpp  What OpenCV needs for two computations of known size.
+/// \file yardsticks.hpp  The time OpenCV takes for two computations of fixed size, a baseline for other times.
 
 #include <functional>
 
@@ -8,8 +8,8 @@
 
 namespace quadedge::bench {
 
-/// Measures both yardsticks with `threads` threads on the recorded images of `frame`, `repetitions` times each, in
-/// turn, after one to get warm. `progress` is told after each. OpenCV's number of threads is put back.
+/// Measures both baselines with `threads` threads on the recorded images of `frame`, alternating, `repetitions` times
+/// each after one warm-up. `progress` is called after each. Restores OpenCV's number of threads.
 Yardsticks measure_yardsticks(const FramePrefetcher::Frame& frame, int threads, int repetitions,
                               const std::function<void(int done, int total)>& progress);
 

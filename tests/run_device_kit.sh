@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# The device kit is built, is small enough, and runs on PoCL and on Intel's OpenCL for CPUs where neither OpenCV nor
+# Debian's libtbb can be loaded. Nothing fails there: self-test, device tests, variants, stages and poses.
+#   run_device_kit.sh REPOSITORY BUILD      leaves the pages in BUILD/device_kit/results_RUNTIME
+set -euo pipefail
+repository="$1" build="$(realpath "$2")"
+kit="$build/device_kit/kit" minutes=40  # this machine is slower than a GPU, and other tests run beside
+. "$repository/tests/intel_runtime.sh"
+install_intel_runtime "$build/venv"
+rm -rf "$kit"
+"$repository/scripts/device_kit.sh" "$kit" "$build"
+
+# hidden COMMAND...: runs it where these libraries are empty files. Without the right to mount, what the page says of
+# loaded libraries has to do.
+hidden() {
+  if unshare -rm true 2>/dev/null; then
+    unshare -rm bash -c 'for file in $(ldconfig -p | sed -n "s/.*=> //p" | grep -E "/lib(opencv_|tbb)"); do
+      mount --bind /dev/null "$file"
+    done
+    exec "$@"' bash "$@"
+  else
+    "$@"
+  fi
+}
+
+# holds PAGE: every table is there, and nothing in it went wrong.
+holds() {
+  local heading
+  for heading in Parts Drivers Device Self-test 'Device tests' 'Building the programs' 'Kernel variants' Latency \
+    'Where a frame goes' 'Results of each stage' Poses; do
+    grep -qx "## $heading" "$1" || { echo "$1 lacks $heading" >&2; return 1; }
+  done
+  if grep -nE 'TIMED OUT|FAIL|DIFFER|cannot run|tests that did not pass|libopencv' "$1" >&2; then return 1; fi
+  python3 -c 'import json, sys; poses = json.load(open(sys.argv[1]))["poses"]; assert len(poses) % 3 == 0, poses' \
+    "${1%.md}.json"
+  [ "$(find "$(dirname "$1")" -type f | wc -l)" -le 8 ]
+}
+
+status=0
+for runtime in pocl intel; do
+  results="$build/device_kit/results_$runtime"
+  rm -rf "$results"
+  driver="$(cat /etc/OpenCL/vendors/pocl.icd)"
+  [ "$runtime" = pocl ] || driver="$build/venv/lib/libintelocl.so"
+  case "$driver" in /*) ;; *) driver="$(ldconfig -p | sed -n "s|.*[[:space:]]$driver .*=> ||p" | head -n 1)" ;; esac
+  DEVICE_KIT_DRIVER="$driver" hidden "$kit/run.sh" "$results" "$minutes"
+  if [ "$runtime" = pocl ]; then grep -q "^| libraries .*$kit/lib/libtbb" "$results/page.md" || status=1; fi
+  holds "$results/page.md" || status=1
+done
+exit $status

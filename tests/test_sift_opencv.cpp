@@ -1,0 +1,63 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "describing.hpp"
+#include "quadedge/pi.hpp"
+#include "reference/sift.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+/// Smoothed noise: structure at the scale that a recorded image has.
+Image smoothed_noise(int width, int height, unsigned seed) {
+  cv::Mat noise(height, width, CV_8U);
+  std::mt19937_64 random(seed);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) noise.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(random() >> 56);
+  }
+  cv::GaussianBlur(noise, noise, {}, 1.5);
+  cv::normalize(noise, noise, 0, 255, cv::NORM_MINMAX);
+  Image image(width, height);
+  std::copy(noise.begin<std::uint8_t>(), noise.end<std::uint8_t>(), image.pixels.begin());
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("sift: descriptors equal OpenCV's at the same key points", "[sift]") {
+  const int width = 200, height = 140, count = 2000;
+  const Image image = smoothed_noise(width, height, 1);
+  const EdgePositions points = random_edges(width, height, count, 2);
+  const auto map = reference::sift_gradients(image.view());
+  std::vector<cv::KeyPoint> key_points;
+  for (int k = 0; k < count; ++k) {
+    const double degrees = points.direction[k] * 180 / kPi;
+    const auto angle = static_cast<float>(degrees < 0 ? degrees + 360 : degrees);
+    key_points.emplace_back(points.x[k], points.y[k], 1.0f, angle, 0.0f, 0);
+  }
+  cv::Mat expected;
+  const cv::Mat pixels(height, width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
+  cv::SIFT::create()->compute(pixels, key_points, expected);
+  REQUIRE(expected.rows == count);
+  REQUIRE(expected.cols == kSiftBytes);
+
+  // OpenCV's arc tangent is good to 0.3 degrees. That moves up to 0.3 / 45 of a sample between neighbouring bins, at
+  // most sqrt(2) * 0.3 / 45 * 512 = 4.8 of the descriptor's norm; rounding to bytes on both sides adds at most 1 per
+  // byte and 128 * (1 / 6) in the mean of the square, 4.6 of the norm.
+  double sum = 0, largest = 0;
+  for (int k = 0; k < count; ++k) {
+    std::uint8_t descriptor[kSiftBytes];
+    reference::sift_descriptor(map, points.x[k], points.y[k], points.direction[k], descriptor);
+    double squares = 0;
+    for (int b = 0; b < kSiftBytes; ++b) squares += std::pow(descriptor[b] - expected.at<float>(k, b), 2);
+    sum += std::sqrt(squares);
+    largest = std::max(largest, std::sqrt(squares));
+  }
+  CAPTURE(sum / count, largest);
+  CHECK(sum / count < 2.0);
+  CHECK(largest < 9.4);
+}
