@@ -27,11 +27,14 @@ CMAKE_PREFIX_PATH="$work/libav" CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALL
 
 # Debian's OpenCV asks GLX for a window's OpenGL context. There is never one here, and the wheel shall not need X11.
 mkdir -p "$work/without_x11"
-for name in glXGetCurrentContext glXGetCurrentDisplay glXGetProcAddressARB; do echo "void* $name(void) { return 0; }"; done |
+for name in glXGetCurrentContext glXGetCurrentDisplay glXGetProcAddressARB; do
+  echo "void* $name(void) { return 0; }"
+done |
   cc -x c -shared -fPIC -Wl,-soname,libGLX.so.0 -o "$work/without_x11/libGLX.so.0" -
 
 export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/without_x11:$work/libav/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
-auditwheel repair --strip --only-plat --plat "manylinux_2_36_$(uname -m)" --wheel-dir "$work/repaired" "$work"/linked/quadedge-*.whl
+auditwheel repair --strip --only-plat --plat "manylinux_2_36_$(uname -m)" --wheel-dir "$work/repaired" \
+  "$work"/linked/quadedge-*.whl
 
 # The licences of the libraries beside them, under the names of the Debian packages that they come from.
 rm -rf "$work/unpacked"

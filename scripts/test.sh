@@ -1,15 +1,20 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds, and runs all tests. QUADEDGE_DATA names the folder of recorded data; without it,
+# Installs missing packages, builds, and runs the tests. QUADEDGE_DATA names the folder of recorded data; without it,
 # tests that need recorded data print a message and pass.
-#   scripts/test.sh [--all-runtimes] [CTEST OPTION...]      example: scripts/test.sh -R edges
+#   scripts/test.sh [--all] [--all-runtimes] [CTEST OPTION...]      example: scripts/test.sh -R edges
+# --all also runs the slow tests: attacks, oclgrind, sanitizers, clang-tidy, packages, the wheel and the device kit.
 # --all-runtimes first installs Intel's OpenCL for CPUs from PyPI into the virtual environment and runs the tests of
 # kernels, pipeline and recorded data on it as well (tests/run_other_runtime.sh).
 set -euo pipefail
-all_runtimes=false
-if [ "${1:-}" = --all-runtimes ]; then
-  all_runtimes=true
+all_runtimes=false slow=(--label-exclude slow)
+while :; do
+  case "${1:-}" in
+    --all) slow=() ;;
+    --all-runtimes) all_runtimes=true ;;
+    *) break ;;
+  esac
   shift
-fi
+done
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/packages.sh"
 
@@ -36,4 +41,4 @@ fi
 if $all_runtimes; then "$repository/tests/run_other_runtime.sh" "$repository/build"; fi
 
 # In parallel: many tests use one processor, such as the simulator and everything on the plain C++ reference.
-exec ctest --test-dir "$repository/build" --output-on-failure --parallel "$(nproc)" "$@"
+exec ctest --test-dir "$repository/build" --output-on-failure --parallel "$(nproc)" "${slow[@]}" "$@"
