@@ -18,7 +18,7 @@ COPY . .
 CMD ["scripts/run.sh"]
 
 FROM source AS build
-RUN cmake -S . -B build_package -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=OFF \
+RUN cmake -S . -B build_package -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_UNITY=ON \
   && cmake --build build_package && cpack --config build_package/CPackConfig.cmake -B /packages
 
 FROM debian:12-slim

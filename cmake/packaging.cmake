@@ -21,7 +21,7 @@ install(DIRECTORY include/quadedge DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPO
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(EXPORT quadedge_targets NAMESPACE quadedge:: DESTINATION ${package_folder} COMPONENT development)
 # python/CMakeLists.txt takes the library from here, too.
-export(TARGETS ${exported_targets} quadedge_options NAMESPACE quadedge::
+export(TARGETS ${shareable_targets} quadedge_options NAMESPACE quadedge::
   FILE ${CMAKE_BINARY_DIR}/quadedge_targets.cmake)
 configure_package_config_file(cmake/quadedgeConfig.cmake.in quadedgeConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(quadedgeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
@@ -31,7 +31,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/quadedgeConfig.cmake ${CMAKE_CURRENT_B
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME quadedge)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "stereo visual odometry from edge quads")
-set(CPACK_PACKAGE_CONTACT "QuadEdge contributors <contributors@quadedge.invalid>")
+set(CPACK_PACKAGE_CONTACT "QuadEdge contributors <quadedge@users.noreply.github.com>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -45,9 +45,7 @@ matched between left and right and between two times, on any OpenCL device.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS pocl-opencl-icd)  # a device for machines without a GPU
 
-# What quadedgeConfig.cmake looks for.
-set(development_packages libeigen3-dev libtbb-dev ocl-icd-opencl-dev opencl-headers libopencv-imgcodecs-dev
-  libopencv-calib3d-dev nlohmann-json3-dev libyaml-cpp-dev libjpeg-dev libavformat-dev libavcodec-dev libswscale-dev)
+# What quadedgeConfig.cmake looks for: development_packages of cmake/dependencies.cmake.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libquadedge-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers, CMake configuration and examples.")

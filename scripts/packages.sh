@@ -1,12 +1,13 @@
 # Installs Debian packages that are missing. Sourced by run.sh, test.sh and the Dockerfile.
 
 build_packages="build-essential cmake ninja-build pocl-opencl-icd ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers
-  libeigen3-dev libtbb-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libcli11-dev catch2
-  nlohmann-json3-dev libyaml-cpp-dev libjpeg-dev libtomlplusplus-dev libxxhash-dev libavformat-dev
-  libavcodec-dev libswscale-dev"
+  libeigen3-dev libtbb-dev libopencv-features2d-dev libpng-dev libjpeg-dev libcli11-dev
+  nlohmann-json3-dev libyaml-cpp-dev libtomlplusplus-dev libxxhash-dev libavformat-dev libavcodec-dev
+  libswscale-dev"
 python_packages="python3-dev python3-venv"  # for `pip install .`, besides those above
-test_packages="curl ffmpeg file groff-base oclgrind clang clang-19 libclc-19 clang-format p7zip-full munge slurmctld
-  slurmd slurm-client"
+wheel_packages="dpkg-dev nasm zlib1g-dev"  # for build_wheel.sh, besides those above
+test_packages="catch2 libopencv-imgcodecs-dev libopencv-calib3d-dev curl ffmpeg file groff-base oclgrind clang clang-19
+  debootstrap libclc-19 clang-format p7zip-full munge slurmctld slurmd slurm-client"
 
 # install_missing PACKAGE...: asks dpkg first, so that a machine that has everything needs neither network nor root.
 install_missing() {

@@ -7,7 +7,7 @@ repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/python_packages.sh"
 
 install_missing $build_packages python3-venv
-cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release
+cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_UNITY=ON
 cmake --build "$repository/build" --target quadedge_program
 install_for_pages "$repository/build/venv" || echo "There will be no pages." >&2
 

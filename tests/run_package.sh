@@ -34,18 +34,18 @@ expect "$program" Version "^${version//./\\.}$"
 expect "$program" Architecture "^$(dpkg --print-architecture)$"
 expect "$program" Maintainer '<.+@.+>'
 expect "$program" Description 'stereo visual odometry'
-expect "$program" Depends 'libc6 \(>= ' 'ocl-icd-libopencl1|libopencl1' libtbb12 libopencv-imgcodecs \
-  libyaml-cpp libjpeg
+expect "$program" Depends 'libc6 \(>= ' 'ocl-icd-libopencl1|libopencl1' libtbb12 libopencv-imgproc \
+  libyaml-cpp libpng libjpeg
 expect "$program" Recommends pocl-opencl-icd
-if dpkg-deb --field "$program" Depends | grep -q -- -dev; then
-  echo "$program: depends on a development package" >&2
+if dpkg-deb --field "$program" Depends | grep -qe -dev -e imgcodecs; then
+  echo "$program: depends on a development package or on OpenCV's imgcodecs" >&2
   exit 1
 fi
 holds "$program" usr/bin/quadedge usr/share/quadedge/paper.toml \
   usr/share/man/man1/quadedge.1 usr/share/bash-completion/completions/quadedge \
   usr/share/doc/quadedge/{LICENSE,README.md,CHANGELOG.md,doc/method.md}
-expect "$development" Depends libeigen3-dev libtbb-dev ocl-icd-opencl-dev libopencv-calib3d-dev libyaml-cpp-dev \
-  libjpeg-dev
+expect "$development" Depends libeigen3-dev libtbb-dev ocl-icd-opencl-dev libopencv-features2d-dev libpng-dev \
+  libyaml-cpp-dev libjpeg-dev
 holds "$development" usr/include/quadedge/odometry.hpp 'usr/lib/.*libquadedge.a' 'usr/lib/.*libquadedge_core.a' \
   'usr/lib/.*cmake/quadedge/quadedgeConfig.cmake' usr/share/doc/quadedge/examples/01_track_recording.cpp
 

@@ -6,6 +6,7 @@
 set -euo pipefail
 repository="$1" build="$2/sanitize"
 cmake -S "$repository" -B "$build" -G Ninja -DQUADEDGE_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug \
+  -DQUADEDGE_TESTS=ON -DQUADEDGE_UNITY=ON -DQUADEDGE_WARNINGS_AS_ERRORS=ON \
   -DCMAKE_CXX_FLAGS_DEBUG="-O1" -DQUADEDGE_TEST_OBJECTS="$2/tests/CMakeFiles/quadedge_tests.dir"
 cmake --build "$build" --target quadedge_tests
 printf 'leak:libpocl\nleak:libLLVM\nleak:libOpenCL\n' >"$build/leaks_of_drivers"

@@ -1,10 +1,10 @@
 #include "data/eth3d_slam_writer.hpp"
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
 #include "data/atomic_file.hpp"
 #include "data/float_map.hpp"
+#include "data/png_codec.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -24,9 +24,7 @@ void make_folder(const fs::path& folder) {
 void write_png(const fs::path& file, const Image& image) {
   const cv::Mat pixels(image.height, image.width, image.max_value > kMaxValue8 ? CV_16U : CV_8U,
                        const_cast<std::uint8_t*>(image.pixels.data()));
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", pixels, bytes)) throw DataError(file.string() + ": the image could not be encoded as PNG");
-  data::write_atomically(file.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  data::write_atomically(file.string(), data::encode_png(pixels));
 }
 
 std::string camera_row(const PinholeCamera& camera) {

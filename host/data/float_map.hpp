@@ -1,5 +1,5 @@
 #pragma once
-/// \file float_map.hpp  Depth or disparity maps in PFM files, one 32-bit float per pixel, read and written by OpenCV.
+/// \file float_map.hpp  Depth or disparity maps in PFM files, one 32-bit float per pixel.
 
 #include <string>
 #include <vector>

@@ -3,17 +3,10 @@
 #include <cctype>
 #include <cstdint>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
-#include "data/jpeg_damage.hpp"
 #include "data/text.hpp"
-#include "quadedge/dataset.hpp"
-#include "quadedge/decode_image.hpp"
-#include "quadedge/error.hpp"
 
-namespace quadedge {
-namespace data {
+namespace quadedge::data {
 namespace {
 
 using namespace std::string_view_literals;
@@ -76,7 +69,9 @@ ImageSize check_jpeg(std::string_view bytes, const std::string& file) {
   }
 }
 
-ImageSize check_pnm(std::string_view bytes, const std::string& file) {
+}  // namespace
+
+PnmHeader read_pnm_header(std::string_view bytes, const std::string& file) {
   std::size_t at = 2;
   const auto next_number = [&] {
     while (at < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
@@ -91,29 +86,28 @@ ImageSize check_pnm(std::string_view bytes, const std::string& file) {
   const int width = next_number(), height = next_number(), largest = next_number();
   if (largest < 1 || largest > kMaxValue16)
     fail(file, "a PNM with the largest value " + std::to_string(largest), "1 to 65535");
-  const ImageSize size{width, height, largest};
-  const std::size_t per_pixel = (bytes[1] == '6' ? 3U : 1U) * bytes_per_pixel(largest);
-  const std::size_t needed = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * per_pixel;
-  if (bytes.size() < at + 1 + needed) truncated(file, bytes, "PNM", "all pixels announced by its header");
-  return size;
+  const PnmHeader header{{width, height, largest}, bytes[1] == '6' ? 3 : 1, at + 1};
+  const std::size_t per_pixel = static_cast<std::size_t>(header.channels) * bytes_per_pixel(largest);
+  const std::size_t needed = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * per_pixel;
+  if (bytes.size() < header.pixels + needed) truncated(file, bytes, "PNM", "all pixels announced by its header");
+  return header;
 }
-
-}  // namespace
 
 std::string to_string(ImageSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
 
+ImageKind image_kind(std::string_view bytes, const std::string& file) {
+  if (bytes.substr(0, kPngSignature.size()) == kPngSignature) return ImageKind::png;
+  if (bytes.substr(0, 2) == "\xFF\xD8"sv) return ImageKind::jpeg;
+  if (bytes.substr(0, 2) == "P5"sv || bytes.substr(0, 2) == "P6"sv) return ImageKind::pnm;
+  fail(file, bytes.empty() ? "an empty file" : "bytes that start with " + in_quotes(bytes.substr(0, 8)),
+       "a PNG, JPEG or binary PGM/PPM image");
+}
+
 ImageSize check_complete(std::string_view bytes, const std::string& file) {
-  ImageSize size;
-  if (bytes.substr(0, kPngSignature.size()) == kPngSignature) {
-    size = check_png(bytes, file);
-  } else if (bytes.substr(0, 2) == "\xFF\xD8"sv) {
-    size = check_jpeg(bytes, file);
-  } else if (bytes.substr(0, 2) == "P5"sv || bytes.substr(0, 2) == "P6"sv) {
-    size = check_pnm(bytes, file);
-  } else {
-    fail(file, bytes.empty() ? "an empty file" : "bytes that start with " + in_quotes(bytes.substr(0, 8)),
-         "a PNG, JPEG or binary PGM/PPM image");
-  }
+  const ImageKind kind = image_kind(bytes, file);
+  const ImageSize size = kind == ImageKind::png    ? check_png(bytes, file)
+                         : kind == ImageKind::jpeg ? check_jpeg(bytes, file)
+                                                   : read_pnm_header(bytes, file).size;
   if (size.width <= 0 || size.height <= 0 || size.width > kLargestImageSide || size.height > kLargestImageSide) {
     fail(file, "an image of " + to_string(size) + " pixels", "sides between 1 and 65536");
   }
@@ -129,33 +123,4 @@ bool is_image_name(const std::string& name) {
          extension == ".ppm";
 }
 
-}  // namespace data
-
-Image read_grey_image(const std::string& path) { return decode_grey_image(data::read_bytes(path), path); }
-
-Image decode_grey_image(std::string_view bytes, const std::string& name) {
-  const data::ImageSize size = data::check_complete(bytes, name);
-  if (const std::string damage = data::jpeg_damage(bytes); !damage.empty())
-    data::fail(name, "a damaged JPEG (" + damage + ")", "an intact " + data::to_string(size) + " image");
-  cv::Mat decoded;
-  try {
-    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    // The recorded pixel grid: a rotation by EXIF data would contradict the calibration.
-    decoded = cv::imdecode(encoded, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& problem) {
-    data::fail(name, "an image that cannot be decoded (" + problem.err + ")",
-               "an intact " + data::to_string(size) + " image");
-  }
-  if (decoded.empty())
-    data::fail(name, "an image that cannot be decoded", "an intact " + data::to_string(size) + " image");
-  if (decoded.channels() == 3) cv::cvtColor(decoded, decoded, cv::COLOR_BGR2GRAY);
-  const int type = size.max_value > kMaxValue8 ? CV_16UC1 : CV_8UC1;
-  if (decoded.type() != type) data::fail(name, "an unusual pixel type", "8 or 16 bit grey or colour");
-  cv::min(decoded, size.max_value, decoded);  // pixels may exceed the largest value of the header
-  Image image(decoded.cols, decoded.rows, size.max_value);
-  const cv::Mat target(image.height, image.width, type, image.pixels.data());
-  decoded.copyTo(target);
-  return image;
-}
-
-}  // namespace quadedge
+}  // namespace quadedge::data

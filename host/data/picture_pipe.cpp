@@ -8,12 +8,12 @@
 #include <cstring>
 #include <exception>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <poll.h>
 #include <unistd.h>
 #include <vector>
 
 #include "data/image_file.hpp"
+#include "data/samples.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
 
@@ -136,17 +136,8 @@ class PipeReader : public PairReader {
       have += part;
       at_ += part;
     }
-    if (deep) {  // the first byte is the more significant one
-      auto* words = reinterpret_cast<std::uint16_t*>(samples.data);
-      for (std::size_t i = 0; i < needed / 2; ++i) {
-        words[i] = static_cast<std::uint16_t>(samples.data[2 * i] << 8 | samples.data[2 * i + 1]);
-      }
-    }
-    if (channels == 3) cv::cvtColor(samples, samples, cv::COLOR_RGB2GRAY);
-    cv::min(samples, size.max_value, samples);  // pixels may exceed the largest value of the header
-    Image image(size.width, size.height, size.max_value);
-    std::memcpy(image.pixels.data(), samples.data, image.pixels.size());
-    return image;
+    from_big_endian(samples);
+    return grey_image(samples, size.max_value);
   }
 
   int descriptor_;

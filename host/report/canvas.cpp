@@ -2,13 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <string_view>
-#include <vector>
 
 #include "data/atomic_file.hpp"
-#include "quadedge/error.hpp"
+#include "data/jpeg_codec.hpp"
+#include "data/png_codec.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -20,13 +18,6 @@ int scale_for(int width) {
   int scale = 1;
   while (scale < kLargestScale && width * scale < kSmallestWidth) ++scale;
   return scale;
-}
-
-void write_encoded(const std::string& path, const cv::Mat& picture, const std::string& extension,
-                   const std::vector<int>& options) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(extension, picture, bytes, options)) throw DataError(path + ": the picture cannot be encoded");
-  data::write_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace
@@ -69,10 +60,13 @@ std::string fixed(double value, int decimals) {
   return text;
 }
 
-void write_png(const std::string& path, const cv::Mat& picture) { write_encoded(path, picture, ".png", {}); }
+void write_png(const std::string& path, const cv::Mat& picture) {
+  data::write_atomically(path, data::encode_png(picture));
+}
 
 void write_jpeg(const std::string& path, const cv::Mat& picture) {
-  write_encoded(path, picture, ".jpg", {cv::IMWRITE_JPEG_QUALITY, 75});
+  constexpr int kQuality = 75;
+  data::write_atomically(path, data::encode_jpeg(picture, kQuality));
 }
 
 void write_image(const std::string& path, const ImageView& image) {
