@@ -13,8 +13,9 @@ fi
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 . "$repository/scripts/packages.sh"
 
-install_missing $build_packages $python_packages $test_packages
-cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON
+install_missing $build_packages $python_packages $wheel_packages $test_packages
+cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON \
+  -DQUADEDGE_UNITY=ON -DQUADEDGE_WARNINGS_AS_ERRORS=ON
 cmake --build "$repository/build"
 
 # One virtual environment with evo, the reference for trajectory errors, Snakemake and pandas; made anew when the list
@@ -29,7 +30,8 @@ fi
 
 # The Python package, from the library that is built already; only its bindings are compiled.
 "$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation "$repository" \
-  -C cmake.source-dir=python -C build-dir="$repository/build/python" -C cmake.define.quadedge_DIR="$repository/build"
+  -C cmake.source-dir=python -C build-dir="$repository/build/python" -C cmake.define.quadedge_DIR="$repository/build" \
+  -C cmake.define.QUADEDGE_WARNINGS_AS_ERRORS=ON
 
 if $all_runtimes; then "$repository/tests/run_other_runtime.sh" "$repository/build"; fi
 

@@ -1,7 +1,9 @@
 #include "cli/batch_plan.hpp"
 
 #include <algorithm>
+#include <dlfcn.h>
 #include <filesystem>
+#include <link.h>
 #include <thread>
 
 #include "cli/child_process.hpp"
@@ -18,12 +20,21 @@ namespace quadedge::cli {
 namespace fs = std::filesystem;
 namespace {
 
+/// The file that holds the program's code: a library where the Python package runs it, else the program itself.
+std::string code_file() {
+  Dl_info about{};
+  link_map* file = nullptr;
+  const bool found =
+      dladdr1(reinterpret_cast<void*>(&code_file), &about, reinterpret_cast<void**>(&file), RTLD_DL_LINKMAP) != 0;
+  return found && *file->l_name != '\0' ? file->l_name : kProgramFile;
+}
+
 /// Fingerprint of what all sequences of a batch share: program (version and file), configuration, kernels, device, and
 /// which pictures and measurements are made.
 std::string common_key(const MethodOptions& method, const DeviceInfo& device, const BatchOptions& options) {
   data::ContentHash hash;
   hash.add(std::string_view(QUADEDGE_VERSION));
-  hash.add(data::file_hash(kProgramFile));
+  hash.add(data::file_hash(code_file()));
   hash.add(report::config_toml(method.config(), ""));
   for (const auto& text : {device.platform, device.name, device.driver, device.opencl}) hash.add(text);
   if (!method.kernel_folder().empty()) {

@@ -39,9 +39,8 @@ class DevicesCommand : public Command {
                 "plain C++ on one core; needs no OpenCL, slow");
     if (devices.empty()) {
       std::printf(
-          "\nno OpenCL device was found. For a CPU install PoCL (Debian: apt-get install pocl-opencl-icd), for a GPU "
-          "its\n"
-          "vendor's OpenCL driver; `clinfo -l` then lists it.\n");
+          "\nno OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install\n"
+          "pocl-opencl-icd` installs one for CPUs, and a GPU needs its vendor's driver; `clinfo -l` lists devices\n");
     }
     return 0;
   }

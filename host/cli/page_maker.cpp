@@ -65,8 +65,8 @@ int make_page(const std::vector<std::string>& arguments) {
     return run_program(words, false);
   }
   std::fprintf(stderr,
-               "quadedge: no page: %s has no module quadedge.report; install it with `python3 -m pip install .` "
-               "in a clone of QuadEdge, or name another Python in %s\n",
+               "quadedge: no page: %s has no module quadedge.report; install it in a virtual environment "
+               "(`python3 -m venv venv && venv/bin/pip install .` in a clone of QuadEdge) and set %s to its Python\n",
                tried.c_str(), kVariable);
   return static_cast<int>(ExitCode::usage);
 }

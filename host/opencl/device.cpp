@@ -112,9 +112,9 @@ std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const
 
 std::string no_match_message(const std::vector<FoundDevice>& devices, const std::string& choice) {
   if (devices.empty()) {
-    return "no OpenCL device was found. For a CPU install PoCL (Debian: apt-get install pocl-opencl-icd), for a GPU "
-           "its "
-           "vendor's OpenCL driver; `clinfo -l` then lists it. `--device reference` runs without OpenCL, slowly.";
+    return "no OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
+           "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
+           "(device=\"reference\" in Python) runs without OpenCL, slowly";
   }
   std::string message = "no OpenCL device matches '" + choice + "'; there are:";
   for (const auto& device : devices) {

