@@ -24,7 +24,7 @@ if [ -n "$all" ] && [ -n "$fix" ]; then
   "$python" tests/lint_tidy.py . build --fix || status=1
 fi
 if [ -n "$fix" ]; then
-  git ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' '*.cl' | xargs -0 clang-format -i
+  git ls-files -z '*.cpp' '*.hpp' '*.cl' | xargs -0 clang-format -i
 else
   tests/lint_format.sh . || status=1
 fi

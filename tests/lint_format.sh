@@ -3,5 +3,5 @@
 #   lint_format.sh REPOSITORY
 set -euo pipefail
 cd "$1"
-git ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' '*.cl' |
+git ls-files -z '*.cpp' '*.hpp' '*.cl' |
   xargs -0 -P "$(nproc)" -n 32 clang-format --dry-run --Werror

@@ -20,11 +20,11 @@ LAYERS = ("include/quadedge", "host", "bench", "tests", "examples", "python")
 
 
 class Tree:
-    """The tracked and new files of a repository, and their texts."""
+    """The files of a repository that git tracks, and their texts."""
 
     def __init__(self, root: Path):
         self.root = root
-        call = ["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard"]
+        call = ["git", "-C", root, "ls-files"]
         names = subprocess.run(call, check=True, capture_output=True, text=True).stdout.split("\n")
         self.files = sorted(name for name in names if name and (root / name).is_file())
         self.base_names = {Path(name).name for name in self.files}
@@ -175,17 +175,18 @@ def check_references(tree: Tree) -> list[str]:
                 if not known:
                     findings.append(f"{name}:{number}: there is no file {found}")
         if name.endswith(".md"):
-            findings += broken_links(tree, name, text)
+            findings += broken_links(tree.root, name, text)
     return findings
 
 
-def broken_links(tree: Tree, name: str, text: str) -> list[str]:
+def broken_links(root: Path, name: str, text: str) -> list[str]:
+    """Links of a page, named from the root, that lead to no file or no heading."""
     findings = []
     for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"```.*?```", "", text, flags=re.DOTALL)):
         if re.match(r"[a-z]+:", target):
             continue
         file, _, anchor = target.partition("#")
-        linked = (tree.root / name).parent / file if file else tree.root / name
+        linked = (root / name).parent / file if file else root / name
         if not linked.exists():
             findings.append(f"{name}: the link {target} leads nowhere")
         elif anchor and linked.suffix == ".md" and anchor not in anchors(linked.read_text(encoding="utf-8")):
