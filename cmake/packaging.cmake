@@ -8,17 +8,21 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/quadedge)
 if(TARGET quadedge_program)
   install(TARGETS quadedge_program)
 endif()
-if(TARGET quadedge_pages)
+if(DEFINED manual_page)
   install(FILES ${manual_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${bash_completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME quadedge)
 endif()
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/quadedge FILES_MATCHING PATTERN *.toml)
-install(FILES README.md LICENSE CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN *.md EXCLUDE)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" \"-DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}\"
+  \"-DDOCUMENTS=\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}\"
+  \"-DPRESETS=\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/quadedge\"
+  -P \"${CMAKE_CURRENT_SOURCE_DIR}/cmake/install_pages.cmake\" COMMAND_ERROR_IS_FATAL ANY)")
 
 install(TARGETS ${exported_targets} EXPORT quadedge_targets COMPONENT development)
 install(DIRECTORY include/quadedge DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(EXPORT quadedge_targets NAMESPACE quadedge:: DESTINATION ${package_folder} COMPONENT development)
 # python/CMakeLists.txt takes the library from here, too.
 export(TARGETS ${shareable_targets} quadedge_options NAMESPACE quadedge::

@@ -12,6 +12,12 @@ for file in bin/quadedge include/quadedge/odometry.hpp share/quadedge/paper.toml
   "$documents"/{LICENSE,examples/CMakeLists.txt} "$documents"/doc/{accuracy,design,matching,method}.md; do
   [ -f "$prefix/$file" ] || { echo "not installed: $file" >&2; exit 1; }
 done
+python3 "$(dirname "${BASH_SOURCE[0]}")/lint_links.py" "$prefix/$documents"
+# What scripts/run.sh builds is enough to install.
+ninja -C "$build" -t commands quadedge_program >"$build/program_commands"
+for page in man bash; do
+  grep -q "generate $page" "$build/program_commands" || { echo "quadedge_program does not generate $page" >&2; exit 1; }
+done
 cmake -S "$source" -B "$work" -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
 cmake --build "$work"
 

@@ -43,11 +43,11 @@ if dpkg-deb --field "$program" Depends | grep -qe -dev -e imgcodecs; then
 fi
 holds "$program" usr/bin/quadedge usr/share/quadedge/paper.toml \
   usr/share/man/man1/quadedge.1 usr/share/bash-completion/completions/quadedge \
-  usr/share/doc/quadedge/{LICENSE,README.md,CHANGELOG.md,doc/method.md}
+  usr/share/doc/quadedge/{LICENSE,README.md,CHANGELOG.md,doc/method.md,examples/01_track_recording.cpp}
 expect "$development" Depends libeigen3-dev libtbb-dev ocl-icd-opencl-dev libopencv-features2d-dev libpng-dev \
   libyaml-cpp-dev libjpeg-dev
 holds "$development" usr/include/quadedge/odometry.hpp 'usr/lib/.*libquadedge.a' 'usr/lib/.*libquadedge_core.a' \
-  'usr/lib/.*cmake/quadedge/quadedgeConfig.cmake' usr/share/doc/quadedge/examples/01_track_recording.cpp
+  'usr/lib/.*cmake/quadedge/quadedgeConfig.cmake'
 
 root="$work/root"
 dpkg-deb --extract "$program" "$root"
