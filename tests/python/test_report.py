@@ -99,7 +99,8 @@ def test_page_of_a_run_says_where_it_comes_from_and_what_the_files_hold(tmp_path
     assert page.facts["Input"] == "a/street (kitti), 12 frames of 640 x 480 px"
     assert page.facts["Command"] == ORIGIN["command"]
     assert page.facts["Frames tracked"] == "11 of 12 (91.7 %)"
-    assert page.facts["Frames lost"] == "1 lost_no_consensus"
+    assert page.facts["Frames lost"] == "1 no consensus"
+    assert page.tables["Lost frames"][1:] == [["7", "0.700", "no consensus", ""]]
     rows = page.tables["Errors against the ground truth"]
     assert rows[2] == ["", "APE translation", "mm", "50.00", "25.00", "55.00", "150.0"]
     assert rows[4] == ["", "RPE translation", "mm", "4.000", "2.000", "4.400", "12.00"]
@@ -123,6 +124,50 @@ def test_page_of_a_run_says_where_it_comes_from_and_what_the_files_hold(tmp_path
     spatial = page.figure("_trajectory")["data"][0]
     assert spatial["type"] == "scatter3d" and len(spatial["z"]) == 12
     assert content["config_changed"]
+
+
+def test_a_page_names_why_frames_were_lost_and_what_was_doubtful(tmp_path):
+    content = write_run(tmp_path / "run", 12)
+    file = tmp_path / "run/frames.csv"
+    heading, *rows = file.read_text().splitlines()
+    messages = {3: "12 stereo edges", 4: "9 stereo edges", 9: '"4 quads, of 20"'}
+    for number, message in messages.items():
+        status = "lost_too_few_quads" if number == 9 else "lost_too_few_edges"
+        rows[number] = rows[number].replace("tracked", status) + "," + message
+    rows = [row if number in messages else row + "," for number, row in enumerate(rows)]
+    file.write_text("\n".join([heading + ",message", *rows]) + "\n")
+    content["warnings"] = [{"frame": None, "text": "--fps 30 contradicts"}, {"frame": 2, "text": "dim images"}]
+    content["input"]["dropped"] = 90
+    (tmp_path / "run/report.json").write_text(json.dumps(content))
+    page = page_of(tmp_path / "run")
+    assert page.facts["Frames lost"] == "2 too few edges, 1 too few quads"
+    assert page.facts["Pairs dropped"].startswith("90 of a pipe")
+    assert page.tables["Lost frames"][1:] == [["3 to 4", "0.300", "too few edges", "12 stereo edges"],
+                                              ["9", "0.900", "too few quads", "4 quads, of 20"]]
+    assert "Frame 2: dim images" in page.text and "Frame None" not in page.text
+    assert "--fps 30 contradicts" in page.text
+
+
+def test_an_interrupted_or_killed_run_has_a_page_of_what_is_there(tmp_path):
+    content = write_run(tmp_path / "interrupted", 12)
+    content["input"]["frames"], content["ended_early"] = 60, "interrupted after 12 of 60 frames"
+    (tmp_path / "interrupted/report.json").write_text(json.dumps(content))
+    page = page_of(tmp_path / "interrupted")
+    assert "The run ended early: interrupted after 12 of 60 frames." in page.text
+    write_run(tmp_path / "killed", 12, lost=7)
+    for name in ("report.json", "errors.csv", "groundtruth.txt"):  # are written in the end
+        (tmp_path / "killed" / name).unlink()
+    for name in ("frames.csv", "poses.csv", "trajectory.txt"):  # the disk was full
+        with open(tmp_path / "killed" / name, "a") as stream:
+            stream.write("12,1.2")
+    page = page_of(tmp_path / "killed")
+    assert "The run ended early: killed after 12 frames" in page.text
+    assert page.facts["Frames tracked"] == "11 of 12 (91.7 %)"
+    assert page.facts["Frames lost"] == "1 no consensus"
+    assert len(page.figure("from_above")["data"][0]["x"]) == 11
+    (tmp_path / "killed/frames.csv").write_text((tmp_path / "killed/frames.csv").read_text().splitlines()[0] + "\n")
+    with pytest.raises(report.DamagedResults, match="frames.csv: no frame"):
+        report.make_page(tmp_path / "killed")
 
 
 def test_a_straight_road_is_shown_from_beside_and_a_bent_one_is_not(tmp_path):

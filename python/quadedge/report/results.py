@@ -1,53 +1,15 @@
 """What a run leaves behind, read back (doc/usage.md, "Output of a run")."""
 
-import csv
-import json
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
 
-from ..errors import DataError
+from ..result_files import DamagedResults, numbers, read_columns, read_json, whole_lines
 
 STAMP_TOLERANCE_S = 0.01  # as the evaluation of trajectories matches poses
-
-
-class DamagedResults(DataError):
-    """A file that is missing, cut or no such file; names it, what was found and what was expected."""
-
-
-def read_json(file: Path, expected: str) -> dict:
-    """The object in a JSON file. Raises DamagedResults."""
-    try:
-        content = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as problem:
-        raise DamagedResults(f"{file}: {problem}; expected {expected}") from None
-    if not isinstance(content, dict):
-        raise DamagedResults(f"{file}: no JSON object; expected {expected}")
-    return content
-
-
-def read_columns(file: Path) -> dict[str, list[str]]:
-    """The columns of a CSV file with a heading, as texts. Raises DamagedResults for rows of another length."""
-    try:
-        with open(file, encoding="utf-8", errors="replace", newline="") as stream:
-            rows = list(csv.reader(stream))
-    except OSError as problem:
-        raise DamagedResults(f"{file}: {problem.strerror}") from None
-    if not rows:
-        raise DamagedResults(f"{file}: an empty file; expected a heading")
-    for number, row in enumerate(rows, 1):
-        if len(row) != len(rows[0]):
-            raise DamagedResults(f"{file}:{number}: {len(row)} fields; expected {len(rows[0])} as in the heading")
-    return {name: [row[column] for row in rows[1:]] for column, name in enumerate(rows[0])}
-
-
-def numbers(texts: list[str], file: Path) -> np.ndarray:
-    """Texts as numbers, NaN for empty ones. Raises DamagedResults."""
-    try:
-        return np.array([float(text) if text else np.nan for text in texts])
-    except ValueError as problem:
-        raise DamagedResults(f"{file}: {problem}") from None
 
 
 @dataclass
@@ -62,12 +24,12 @@ class Trajectory:
         return len(self.stamps)
 
 
-def read_tum(file: Path) -> Trajectory:
-    """A trajectory in TUM format. Raises DamagedResults."""
+def read_tum(file: Path, *, may_be_cut: bool = False) -> Trajectory:
+    """A trajectory in TUM format. Raises DamagedResults. `may_be_cut`: as for whole_lines()."""
+    lines = [line.split() for line in whole_lines(file, may_be_cut=may_be_cut)]
     try:
-        lines = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
         rows = [[float(word) for word in line] for line in lines if line and not line[0].startswith("#")]
-    except (OSError, ValueError) as problem:
+    except ValueError as problem:
         raise DamagedResults(f"{file}: {problem}; expected a trajectory in TUM format") from None
     for number, row in enumerate(rows, 1):
         if len(row) != 8 or abs(np.linalg.norm(row[4:]) - 1) > 1e-3:
@@ -151,6 +113,14 @@ class Run:
     def count(self) -> int:
         return len(self.frames["stamp_s"])
 
+    def losses(self) -> Iterator[tuple[range, str, str]]:
+        """Frames lost one after the other for the same reason: their numbers, the reason, the first one's message."""
+        messages = self.frames.get("message") or [""] * self.count()
+        for status, group in groupby(range(self.count()), key=lambda number: self.frames["status"][number]):
+            lost = list(group)
+            if is_lost(status):
+                yield range(lost[0], lost[-1] + 1), reason_of(status), messages[lost[0]]
+
 
 REQUIRED_COLUMNS = ("stamp_s", "status", "new_key_rig", "latency_ms", "edges_left", "edges_right", "stereo_edges",
                     "quads", "inliers")
@@ -158,15 +128,20 @@ REQUIRED_COLUMNS = ("stamp_s", "status", "new_key_rig", "latency_ms", "edges_lef
 
 def read_run(folder: Path, name: str = "") -> Run:
     """Everything of one run's folder. Raises DamagedResults for what a finished run must have; errors.csv, poses.csv
-    and pictures may be missing."""
-    report = read_json(folder / "report.json", "the report of a run")
-    if "frames_tracked" not in report or "input" not in report:
-        raise DamagedResults(f"{folder / 'report.json'}: no `frames_tracked`; expected the report of a run")
-    frames = read_columns(folder / "frames.csv")
+    and pictures may be missing. A run that was killed left no report.json: its last rows may be cut."""
+    killed = not (folder / "report.json").is_file()
+    if killed and not (folder / "frames.csv").is_file():
+        raise DamagedResults(f"{folder}: no report.json or frames.csv; expected the folder of a run")
+    frames = read_columns(folder / "frames.csv", may_be_cut=killed)
     for column in REQUIRED_COLUMNS:
         if column not in frames:
             raise DamagedResults(f"{folder / 'frames.csv'}: no column {column}; expected a frames.csv of a run")
-    estimate = read_tum(folder / "trajectory.txt")
+    if not frames["stamp_s"]:
+        raise DamagedResults(f"{folder / 'frames.csv'}: no frame; expected those of a run")
+    report = report_of_killed(folder, frames) if killed else read_json(folder / "report.json", "the report of a run")
+    if "frames_tracked" not in report or "input" not in report:
+        raise DamagedResults(f"{folder / 'report.json'}: no `frames_tracked`; expected the report of a run")
+    estimate = read_tum(folder / "trajectory.txt", may_be_cut=killed)
     truth = read_tum(folder / "groundtruth.txt") if (folder / "groundtruth.txt").is_file() else None
     match = first_match(estimate, truth) if truth else None
     if match:
@@ -180,7 +155,7 @@ def read_run(folder: Path, name: str = "") -> Run:
                                  "rpe_translation_m")]
         run.errors = Errors(*values)
     if (folder / "poses.csv").is_file():
-        columns = read_columns(folder / "poses.csv")
+        columns = read_columns(folder / "poses.csv", may_be_cut=killed)
         if "covariance_x_x" in columns:
             parts = [numbers(columns[f"covariance_{axis}_{axis}"], folder / "poses.csv") for axis in "xyz"]
             run.stated_error_m = numbers(columns["stamp_s"], folder / "poses.csv"), np.sqrt(sum(parts))
@@ -189,5 +164,24 @@ def read_run(folder: Path, name: str = "") -> Run:
     return run
 
 
+def report_of_killed(folder: Path, frames: dict[str, list[str]]) -> dict:
+    """What report.json would say of a run that was killed, as far as its other files tell. Raises DamagedResults."""
+    latency = numbers(frames["latency_ms"], folder / "frames.csv")
+    steady = latency[1:] if len(latency) > 1 else latency
+    return {"input": {"name": folder.resolve().name, "frames": len(latency)},
+            "ended_early": f"killed after {len(latency)} frames, before it could write report.json",
+            "frames_tracked": sum(not is_lost(status) for status in frames["status"]),
+            "key_rigs": frames["new_key_rig"].count("1"),
+            "warnings": [{"frame": number, "text": text} for number, text in enumerate(frames.get("warning", []))
+                         if text],
+            "latency_ms": {"first": latency[0], "max": steady.max()} | dict(zip(
+                ("median", "p90", "p99"), np.percentile(steady, (50, 90, 99)).tolist()))}
+
+
 def is_lost(status: str) -> bool:
     return status.startswith("lost")
+
+
+def reason_of(status: str) -> str:
+    """"no consensus" of the status "lost_no_consensus"."""
+    return status.removeprefix("lost_").replace("_", " ")

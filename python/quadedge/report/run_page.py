@@ -5,22 +5,24 @@ from .figure import FEWEST_FRAMES
 from .numbers import DASH, count, exists, length_text, length_unit, share_of, significant
 from .origin import configuration_rows, device_text, origin
 from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
-from .results import Run, is_lost
+from .results import Run
 from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
 from .table import Cell, Table
 
 QUADS_CAPTION = ("Dots: stereo edges, brighter ones have larger disparities. Lines: motion of quads since the frame "
                  "that they were matched with, white for inliers, red for others, one per cell of 16 px.")
+MOST_LOSSES = 30  # rows of a table
 LATENCY = ("median", "p90", "p99", "max", "first")
 
 
 def run_page(run: Run, detail: Detail) -> Page:
     """The page of one run."""
     report = run.report
-    facts = Facts(origin(report, device_text(report["device"]), recording_text(report)))
+    device = device_text(report["device"]) if "device" in report else ""
+    facts = Facts(origin(report, device, recording_text(report)))
     facts.entries += facts_of(run)
     page = Page(f"QuadEdge: {run.name}", facts)
-    sections = [Section("Results", [latency_table(run), *accuracy_tables(run), *warnings(run)])]
+    sections = [Section("Results", [*warnings(run), latency_table(run), *accuracy_tables(run), *loss_tables(run)])]
     page.sections += sections + plot_sections(run, [], detail)
     pictures = picture_blocks(run, detail)
     if pictures:
@@ -28,12 +30,15 @@ def run_page(run: Run, detail: Detail) -> Page:
     stages = stage_table(report)
     if stages.rows:
         page.sections.append(Section("Time of the stages", [stages]))
-    page.sections.append(Section("Configuration", [configuration_table(report)], fold=True))
+    if "config" in report:
+        page.sections.append(Section("Configuration", [configuration_table(report)], fold=True))
     return page
 
 
 def recording_text(report: dict) -> str:
     given = report["input"]
+    if "path" not in given:
+        return ""
     return f"{given['path']} ({given['format']}), {given['frames']} frames of {given['width']} x {given['height']} px"
 
 
@@ -43,24 +48,48 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
     facts = [("Frames tracked", share_of(report["frames_tracked"], report["input"]["frames"])),
              ("Key stereo rigs", str(report["key_rigs"]))]
     reasons: dict[str, int] = {}
-    for status in run.frames["status"]:
-        if is_lost(status):
-            reasons[status] = reasons.get(status, 0) + 1
+    for frames, reason, _ in run.losses():
+        reasons[reason] = reasons.get(reason, 0) + len(frames)
     if reasons:
         facts.append(("Frames lost", ", ".join(f"{number} {reason}" for reason, number in reasons.items())))
+    if report["input"].get("dropped"):
+        facts.append(("Pairs dropped", f"{report['input']['dropped']} of a pipe that was faster than tracking"))
     accuracy = report.get("accuracy")
     if accuracy:
         drift = significant(accuracy["end_drift_percent"], 2)
         facts.append(("Path", f"{length_text(accuracy['path_length_m'])}, drift at its end {drift} %"))
         truth = accuracy.get("truth_file", DASH)
         facts.append(("Ground truth", f"{truth}, {accuracy['matched_poses']} poses compared"))
-    memory = report["memory_mb"]
-    facts.append(("Memory", f"{memory['host_peak']:.0f} MB on the host, {memory['device_peak']:.0f} MB on the device"))
+    elif "path_length_m" in report:
+        facts.append(("Path", f"{length_text(report['path_length_m'])} (estimated)"))
+    memory = report.get("memory_mb")
+    if memory:
+        facts.append(("Memory",
+                      f"{memory['host_peak']:.0f} MB on the host, {memory['device_peak']:.0f} MB on the device"))
     return facts
 
 
-def warnings(run: Run) -> list:
-    return [Text(f"Frame {warning['frame']}: {warning['text']}", warns=True) for warning in run.report["warnings"]]
+def warnings(run: Run) -> list[Text]:
+    """Why the run ended early, and what was doubtful about its recording or its frames."""
+    texts = [f"The run ended early: {run.report['ended_early']}."] if run.report.get("ended_early") else []
+    for warning in run.report["warnings"]:
+        frame = warning["frame"]
+        texts.append(warning["text"] if frame is None else f"Frame {frame}: {warning['text']}")
+    return [Text(text, warns=True) for text in texts]
+
+
+def loss_tables(run: Run) -> list[Table]:
+    """Which frames were lost, when and why; none for a run that kept all."""
+    losses = list(run.losses())
+    if not losses:
+        return []
+    table = Table("lost", "Lost frames", ["frames", "from [s]", "reason", "message"], text_columns=4)
+    for frames, reason, message in losses[:MOST_LOSSES]:
+        numbers = str(frames[0]) if len(frames) == 1 else f"{frames[0]} to {frames[-1]}"
+        table.add(numbers, f"{run.times[frames[0]]:.3f}", reason, message)
+    if len(losses) > MOST_LOSSES:
+        table.notes.append(f"The first {MOST_LOSSES} of {len(losses)}; frames.csv has all.")
+    return [table]
 
 
 def latency_table(run: Run) -> Table:

@@ -1,0 +1,58 @@
+"""Files that the program writes, read by the names of their keys and columns."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+
+from .errors import DataError
+
+
+class DamagedResults(DataError):
+    """A file that is missing, cut off, or of another kind; names it, what was found and what was expected."""
+
+
+def read_json(file: Path, expected: str) -> dict:
+    """The object in a JSON file. Raises DamagedResults."""
+    try:
+        content = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as problem:
+        raise DamagedResults(f"{file}: {problem}; expected {expected}") from None
+    if not isinstance(content, dict):
+        raise DamagedResults(f"{file}: no JSON object; expected {expected}")
+    return content
+
+
+def whole_lines(file: Path, *, may_be_cut: bool = False) -> list[str]:
+    """The lines of a text file. `may_be_cut`: a last line without a line end is left out. Raises DamagedResults."""
+    try:
+        with open(file, encoding="utf-8", errors="replace", newline="") as stream:
+            text = stream.read()
+    except OSError as problem:
+        raise DamagedResults(f"{file}: {problem.strerror}") from None
+    if may_be_cut:
+        text = text[:text.rfind("\n") + 1]
+    return text.splitlines()
+
+
+def read_columns(file: Path, *, may_be_cut: bool = False) -> dict[str, list[str]]:
+    """The columns of a CSV file with a heading, as texts. Raises DamagedResults for rows of another length.
+
+    `may_be_cut`: as for whole_lines().
+    """
+    rows = list(csv.reader(whole_lines(file, may_be_cut=may_be_cut)))
+    if not rows:
+        raise DamagedResults(f"{file}: an empty file; expected a heading")
+    for number, row in enumerate(rows, 1):
+        if len(row) != len(rows[0]):
+            raise DamagedResults(f"{file}:{number}: {len(row)} fields; expected {len(rows[0])} as in the heading")
+    return {name: [row[column] for row in rows[1:]] for column, name in enumerate(rows[0])}
+
+
+def numbers(texts: list[str], file: Path) -> np.ndarray:
+    """Texts as numbers, NaN for empty ones. Raises DamagedResults."""
+    try:
+        return np.array([float(text) if text else np.nan for text in texts])
+    except ValueError as problem:
+        raise DamagedResults(f"{file}: {problem}") from None
