@@ -42,15 +42,18 @@ def memory_and_time(process):
 
 def watch(program, frames_csv):
     """(frames done, memory, time) whenever a frame was done, until the program ends."""
-    samples, size = [], 0
+    samples, size, lines = [], 0, 0
     while program.poll() is None:
         time.sleep(0.005)
         if not frames_csv.exists() or frames_csv.stat().st_size == size:
             continue
-        text = frames_csv.read_bytes()  # all of it: a new column writes the file anew
-        size = len(text)
+        with open(frames_csv, "rb") as file:
+            file.seek(size)
+            text = file.read()
+        size += len(text)
+        lines += text.count(b"\n")
         if sample := memory_and_time(program.pid):
-            samples.append((text.count(b"\n") - 1, *sample))
+            samples.append((lines - 1, *sample))  # without the heading
     return samples
 
 

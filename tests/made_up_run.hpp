@@ -51,7 +51,7 @@ inline void write_member(const std::string& output, const std::string& name, con
   dataset_files::write_text(folder + "/report.json", quadedge::report::report_json(run));
   dataset_files::write_text(folder + "/member.json",
                             quadedge::report::member_json({name, run.input.path, "eth3d-slam", "key", 0, "", 1}));
-  quadedge::report::FramesCsv frames(folder + "/frames.csv");
+  quadedge::report::FrameRows frames(folder + "/frames.csv", quadedge::report::frames_csv_columns());
   quadedge::Trajectory estimate, truth;
   for (const auto& frame : run.frames) {
     frames.add(frame.result);

@@ -9,7 +9,6 @@
 #include "made_up_run.hpp"
 #include "report/batch_summary.hpp"
 #include "report/frames_csv.hpp"
-#include "report/frames_table.hpp"
 #include "report/statistics.hpp"
 #include "temporary_folder.hpp"
 
@@ -131,26 +130,30 @@ TEST_CASE("batch summary: the exit code for too few tracked frames ranks between
   CHECK(report::worse_exit_code(1, 4) == 1);
 }
 
-TEST_CASE("frames table: reads back what a run writes, including messages with commas and quotes", "[report]") {
+TEST_CASE("frames.csv: reads back what a run writes, whichever frame has the first warning or message", "[report]") {
   const TemporaryFolder folder;
   auto run = made_up_run(3, 0.01);
-  run.frames[1].result.message = "a \"quoted\", cut message";
+  run.frames[0].result.warning = "images, or their calibration, \"drift\"";  // before any frame reached a later stage
+  run.frames[0].result.stages = {{"stereo", 4}};
+  run.frames[1].result.message = "a \"quoted\", cut\nmessage";
   run.frames[2].result.stages.push_back({"pose", 1.5});
   run.frames[2].result.new_key_rig = true;
   {
-    report::FramesCsv csv(folder / "frames.csv");
-    for (const auto& frame : run.frames) csv.add(frame.result);
+    report::FrameRows rows(folder / "frames.csv", report::frames_csv_columns());
+    for (const auto& frame : run.frames) rows.add(frame.result);
   }
-  const auto table = report::read_frames_table(folder / "frames.csv");
-  CHECK(table.stamp_s == std::vector<double>{0, 0.1, 0.2});
-  CHECK(table.status == std::vector<std::string>{"first", "tracked", "tracked"});
-  CHECK(table.new_key_rig == std::vector<bool>{false, false, true});
-  CHECK(table.counts[0].first == "edges_left");
-  CHECK(table.counts[0].second == std::vector<double>{100, 101, 102});
-  REQUIRE(table.stages_ms.size() == 3);
-  CHECK(table.stages_ms[2].first == "pose");
-  CHECK(std::isnan(table.stages_ms[2].second[0]));
-  CHECK(table.stages_ms[2].second[2] == 1.5);
-  write_text(folder / "other.csv", "a,b\n1,2\n");
-  CHECK_THROWS_WITH(report::read_frames_table(folder / "other.csv"), Catch::Matchers::Contains("other.csv"));
+  const auto table = report::read_frames_csv(folder / "frames.csv");
+  CHECK(table.numbers("stamp_s") == std::vector<double>{0, 0.1, 0.2});
+  CHECK(table.texts("status") == std::vector<std::string>{"first", "tracked", "tracked"});
+  CHECK(table.texts("new_key_rig") == std::vector<std::string>{"0", "0", "1"});
+  CHECK(table.numbers("edges_left") == std::vector<double>{100, 101, 102});
+  CHECK(table.texts("warning") == std::vector<std::string>{run.frames[0].result.warning, "", ""});
+  CHECK(table.texts("message") == std::vector<std::string>{"", "a \"quoted\", cut message", ""});
+  CHECK(table.texts("temporal_ms") == std::vector<std::string>{"", "3.000", "3.000"});
+  CHECK(std::isnan(table.numbers("pose_ms")[0]));
+  CHECK(table.numbers("pose_ms")[2] == 1.5);
+  CHECK_THROWS_WITH(table.texts("segment"), Catch::Matchers::Contains("no column segment"));
+  write_text(folder / "cut.csv", "a,b\n1,2\n3\n");
+  CHECK_THROWS_WITH(report::read_frames_csv(folder / "cut.csv"),
+                    Catch::Matchers::Contains("cut.csv:3: found 1 fields"));
 }

@@ -5,6 +5,7 @@
 #include "made_up_run.hpp"
 #include "quadedge/error.hpp"
 #include "report/errors_csv.hpp"
+#include "report/poses_csv.hpp"
 #include "report/whole_results.hpp"
 #include "temporary_folder.hpp"
 
@@ -22,9 +23,10 @@ TEST_CASE("whole results: every file that is cut, damaged or missing is named", 
   write_kitti(place + "/trajectory_kitti.txt", poses);
   write_text(place + "/errors.csv", report::errors_csv(*run.accuracy));
   write_text(place + "/config.toml", "seed = 42\n");
-  std::string rows = "frame,stamp_s\n";
-  for (std::size_t i = 0; i < run.frames.size(); ++i) rows += std::to_string(i) + ",0\n";
-  write_text(place + "/poses.csv", rows);
+  {
+    report::FrameRows rows(place + "/poses.csv", report::poses_csv_columns());
+    for (const auto& frame : run.frames) rows.add(frame.result);
+  }
   REQUIRE_NOTHROW(report::check_whole(place));
   const auto check = [&](const std::string& name, const std::string& text) {
     INFO(name << ": " << text.size() << " bytes");

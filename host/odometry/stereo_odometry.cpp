@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "common/host_stages.hpp"
 #include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
 #include "odometry/constant_velocity.hpp"
@@ -123,7 +124,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   process(frame, result);
   const odometry::RigFindings findings = rig_watch_.judge(frame, current_->edges, result.counts.edges_left, result.rig);
   for (const auto& doubt : findings.doubts) warn(doubt, result);
-  result.stages.push_back({"stereo", clock.lap()});
+  result.stages.push_back({kStereoStage, clock.lap()});
   if (result.counts.stereo_edges < config_.pose.min_inliers) {
     lose(FrameStatus::lost_too_few_edges, std::to_string(result.counts.stereo_edges) + " stereo edges", result);
   } else if (!findings.mismatch.empty()) {
@@ -133,13 +134,13 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   } else {
     step_ = search(result);
     const double pose_ms = motion_search_.take_pose_ms();
-    result.stages.push_back({"temporal", clock.lap() - pose_ms});
+    result.stages.push_back({kTemporalStage, clock.lap() - pose_ms});
     if (step_->ok()) {
       locate(*step_, result);
     } else {
       lose(lost_status(step_->motion.status), pose::to_string(step_->motion.status), result);
     }
-    result.stages.push_back({"pose", pose_ms + clock.lap()});
+    result.stages.push_back({kPoseStage, pose_ms + clock.lap()});
   }
   state_.world_from_last = result.world_from_left;
   result.latency_ms = latency.lap();

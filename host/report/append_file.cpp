@@ -7,24 +7,16 @@
 
 namespace quadedge::report {
 
-AppendFile::AppendFile(std::string path) : path_(std::move(path)) { open(); }
+AppendFile::AppendFile(std::string path) : path_(std::move(path)), stream_(std::fopen(path_.c_str(), "wb")) {
+  if (stream_ == nullptr) fail("opened for writing");
+}
 
 AppendFile::~AppendFile() {
   if (stream_ != nullptr) std::fclose(stream_);
 }
 
-void AppendFile::open() {
-  stream_ = std::fopen(path_.c_str(), "wb");
-  if (stream_ == nullptr) fail("opened for writing");
-}
-
 void AppendFile::append(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fflush(stream_) != 0) fail("written");
-}
-
-void AppendFile::clear() {
-  std::fclose(stream_);
-  open();
 }
 
 void AppendFile::fail(const char* what) const {

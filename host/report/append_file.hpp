@@ -6,7 +6,7 @@
 
 namespace quadedge::report {
 
-/// Truncates the file on opening and flushes after each append, so that a run that dies keeps what it has finished.
+/// Truncates the file on opening and flushes after each append, so that a run that dies keeps all finished rows.
 class AppendFile {
  public:
   /// \throws DataError with path and reason when the file cannot be opened.
@@ -17,12 +17,9 @@ class AppendFile {
 
   /// \throws DataError with path and reason (full disk) when the text cannot be written.
   void append(const std::string& text);
-  /// Starts over with an empty file.
-  void clear();
 
  private:
   [[noreturn]] void fail(const char* what) const;
-  void open();
   std::string path_;
   std::FILE* stream_ = nullptr;
 };

@@ -8,7 +8,7 @@
 
 #include "common/numeric.hpp"
 #include "quadedge/error.hpp"
-#include "report/frames_table.hpp"
+#include "report/frames_csv.hpp"
 #include "report/statistics.hpp"
 
 namespace quadedge::report {
@@ -131,10 +131,10 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
   for (const auto& name : names) {
     const std::string folder = member_folder(output, name);
     SummaryRow& row = summary.rows.emplace_back(read_summary_row(folder, name, min_tracked));
-    FramesTable table;
+    std::vector<double> frame_latencies;
     if (row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked) {
       try {
-        table = read_frames_table(folder + "/frames.csv");
+        frame_latencies = read_frames_csv(folder + "/frames.csv").numbers("latency_ms");
       } catch (const DataError& problem) {
         row = damaged(row, problem.what());
       }
@@ -148,9 +148,9 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
     }
     summary.frames += row.frames;
     summary.tracked += row.tracked;
-    if (table.latency_ms.empty()) continue;
-    firsts.push_back(table.latency_ms.front());
-    latencies.insert(latencies.end(), table.latency_ms.begin() + 1, table.latency_ms.end());
+    if (frame_latencies.empty()) continue;
+    firsts.push_back(frame_latencies.front());
+    latencies.insert(latencies.end(), frame_latencies.begin() + 1, frame_latencies.end());
   }
   summary.latency = summary_of(latencies, firsts);
   if (const auto parts = accuracies(summary.rows); !parts.empty()) {

@@ -1,18 +1,21 @@
 #include "report/edges_csv.hpp"
 
-#include <cstdio>
+#include "report/csv_table.hpp"
+#include "report/number_text.hpp"
 
 namespace quadedge::report {
 
 std::string edges_csv(const EdgeSet& edges) {
-  std::string text = "x,y,direction_rad,strength\n";
-  char row[160];
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    std::snprintf(row, sizeof row, "%.6f,%.6f,%.6f,%.6f\n", static_cast<double>(edges.x[i]),
-                  static_cast<double>(edges.y[i]), static_cast<double>(edges.direction[i]),
-                  static_cast<double>(edges.strength[i]));
-    text += row;
-  }
+  std::vector<CsvColumn<std::size_t>> columns;
+  const auto add = [&](const char* name, const std::vector<float>& values) {
+    columns.push_back({name, [&values](std::size_t i) { return six_decimals(static_cast<double>(values[i])); }});
+  };
+  add("x", edges.x);
+  add("y", edges.y);
+  add("direction_rad", edges.direction);
+  add("strength", edges.strength);
+  std::string text = csv_heading(columns);
+  for (std::size_t i = 0; i < edges.size(); ++i) text += csv_row(columns, i);
   return text;
 }
 

@@ -1,29 +1,32 @@
 #include "report/matches_csv.hpp"
 
-#include <cstdio>
+#include "report/csv_table.hpp"
+#include "report/number_text.hpp"
 
 namespace quadedge::report {
 
 std::string matches_csv(const StereoMatches& matches, bool depths) {
-  std::string text = "left_x,left_y,left_direction_rad,right_x,right_y,right_direction_rad,ncc,x_m,y_m,z_m\n";
+  std::vector<CsvColumn<std::size_t>> columns;
+  const auto add = [&](const char* name, const std::vector<float>& values) {
+    columns.push_back({name, [&values](std::size_t i) { return six_decimals(static_cast<double>(values[i])); }});
+  };
   const StereoEdges& edges = matches.edges;
-  char row[240];
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    for (const float value : {edges.left_x[i], edges.left_y[i], edges.left_direction[i], edges.right_x[i],
-                              edges.right_y[i], edges.right_direction[i]}) {
-      std::snprintf(row, sizeof row, "%.6f,", static_cast<double>(value));
-      text += row;
-    }
-    std::snprintf(row, sizeof row, "%.6f", static_cast<double>(edges.ncc[i]));
-    text += row;
-    if (depths && matches.points[i]) {
-      const Eigen::Vector3d& point = matches.points[i]->position;
-      std::snprintf(row, sizeof row, ",%.6f,%.6f,%.6f\n", point.x(), point.y(), point.z());
-      text += row;
-    } else {
-      text += ",,,\n";
-    }
+  add("left_x", edges.left_x);
+  add("left_y", edges.left_y);
+  add("left_direction_rad", edges.left_direction);
+  add("right_x", edges.right_x);
+  add("right_y", edges.right_y);
+  add("right_direction_rad", edges.right_direction);
+  add("ncc", edges.ncc);
+  const char* const names[] = {"x_m", "y_m", "z_m"};
+  for (int axis = 0; axis < 3; ++axis) {
+    columns.push_back({names[axis], [&matches, depths, axis](std::size_t i) {
+                         const auto& point = matches.points[i];
+                         return depths && point ? six_decimals(point->position[axis]) : std::string();
+                       }});
   }
+  std::string text = csv_heading(columns);
+  for (std::size_t i = 0; i < edges.size(); ++i) text += csv_row(columns, i);
   return text;
 }
 

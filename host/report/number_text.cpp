@@ -24,6 +24,12 @@ std::string significant(double value) {
   return text.find_first_of("123456789") == std::string::npos ? "0" : text;
 }
 
+std::string six_decimals(double value) {
+  char text[400];
+  std::snprintf(text, sizeof text, "%.6f", value);
+  return text;
+}
+
 std::string share_text(int part, int whole) {
   if (whole == 0) return "-";
   char text[64];

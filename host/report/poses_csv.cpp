@@ -7,56 +7,64 @@
 namespace quadedge::report {
 namespace {
 
+using Value = std::optional<double>;
+
 constexpr std::array<const char*, 7> kPose = {"x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr std::array<const char*, 6> kErrorNames = {"x", "y", "z", "rx", "ry", "rz"};
 
-std::string pose_header(const std::string& prefix) {
-  std::string text;
-  for (const char* name : kPose) text += "," + prefix + name;
-  return text;
-}
-
-std::string covariance_header(const std::string& prefix) {
-  std::string text;
-  for (std::size_t i = 0; i < kErrorNames.size(); ++i) {
-    for (std::size_t j = i; j < kErrorNames.size(); ++j) text += "," + prefix + kErrorNames[i] + "_" + kErrorNames[j];
-  }
-  return text;
-}
-
-std::string pose_fields(const Eigen::Isometry3d& pose) {
+/// Element `i` of kPose.
+double pose_value(const Eigen::Isometry3d& pose, std::size_t i) {
+  if (i < 3) return pose.translation()[static_cast<Eigen::Index>(i)] + 0.0;  // no negative zero
   Eigen::Quaterniond rotation(pose.linear());
   rotation.normalize();
   if (rotation.w() < 0) rotation.coeffs() *= -1;
-  std::string text;
-  for (int i = 0; i < 3; ++i) text += "," + data::format_exact(pose.translation()[i] + 0.0);  // no negative zero
-  for (int i = 0; i < 4; ++i) text += "," + data::format_exact(rotation.coeffs()[i]);
-  return text;
+  return rotation.coeffs()[static_cast<Eigen::Index>(i - 3)];
 }
 
-std::string covariance_fields(const std::optional<PoseCovariance>& covariance) {
-  std::string text;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) text += "," + (covariance ? data::format_exact((*covariance)(i, j)) : std::string());
+FrameColumns columns_of_poses() {
+  FrameColumns columns;
+  const auto add = [&](const std::string& name, std::function<Value(const FrameResult&)> value) {
+    columns.push_back({name, [value = std::move(value)](const NumberedFrame& frame) {
+                         const Value found = value(frame.result);
+                         return found ? data::format_exact(*found) : std::string();
+                       }});
+  };
+  const auto add_covariance = [&](const std::string& prefix, std::optional<PoseCovariance> FrameResult::*covariance) {
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) {
+        add(prefix + kErrorNames[static_cast<std::size_t>(i)] + "_" + kErrorNames[static_cast<std::size_t>(j)],
+            [=](const FrameResult& result) {
+              const auto& matrix = result.*covariance;
+              return matrix ? Value((*matrix)(i, j)) : Value();
+            });
+      }
+    }
+  };
+  columns.push_back({"frame", [](const NumberedFrame& frame) { return std::to_string(frame.number); }});
+  columns.push_back(
+      {"stamp_s", [](const NumberedFrame& frame) { return data::format_seconds(frame.result.stamp_ns); }});
+  columns.push_back({"status", [](const NumberedFrame& frame) { return to_string(frame.result.status); }});
+  columns.push_back(
+      {"reference_frame", [](const NumberedFrame& frame) { return std::to_string(frame.result.reference_frame); }});
+  for (std::size_t i = 0; i < kPose.size(); ++i)
+    add(kPose[i], [i](const FrameResult& result) { return Value(pose_value(result.world_from_left, i)); });
+  for (std::size_t i = 0; i < kPose.size(); ++i) {
+    add(std::string("reference_") + kPose[i], [i](const FrameResult& result) {
+      return is_tracked(result.status) ? Value(pose_value(result.current_from_reference.inverse(), i)) : Value();
+    });
   }
-  return text;
+  add_covariance("covariance_", &FrameResult::covariance_in_world);
+  add_covariance("reference_covariance_", &FrameResult::covariance_in_reference);
+  return columns;
 }
 
 }  // namespace
 
-PosesCsv::PosesCsv(const std::string& path) : file_(path) {
-  file_.append("frame,stamp_s,status,reference_frame" + pose_header("") + pose_header("reference_") +
-               covariance_header("covariance_") + covariance_header("reference_covariance_") + "\n");
+const FrameColumns& poses_csv_columns() {
+  static const FrameColumns all = columns_of_poses();
+  return all;
 }
 
-void PosesCsv::add(const FrameResult& result) {
-  std::string text = std::to_string(frames_++) + "," + data::format_seconds(result.stamp_ns) + "," +
-                     to_string(result.status) + "," + std::to_string(result.reference_frame);
-  text += pose_fields(result.world_from_left);
-  text +=
-      is_tracked(result.status) ? pose_fields(result.current_from_reference.inverse()) : std::string(kPose.size(), ',');
-  text += covariance_fields(result.covariance_in_world) + covariance_fields(result.covariance_in_reference);
-  file_.append(text + "\n");
-}
+CsvTable read_poses_csv(const std::string& file) { return {file, "a poses.csv of `quadedge run`"}; }
 
 }  // namespace quadedge::report

@@ -4,7 +4,9 @@
 #include "quadedge/error.hpp"
 #include "quadedge/trajectory.hpp"
 #include "report/batch_summary.hpp"
-#include "report/frames_table.hpp"
+#include "report/errors_csv.hpp"
+#include "report/frames_csv.hpp"
+#include "report/poses_csv.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -17,7 +19,7 @@ void check_end(const std::string& file) {
 
 void check_count(const std::string& file, std::size_t found, int expected) {
   if (found == static_cast<std::size_t>(expected)) return;
-  data::fail(file, std::to_string(found) + " rows", std::to_string(expected) + " as report.json says");
+  data::fail(file, std::to_string(found) + " rows", std::to_string(expected) + " as in report.json");
 }
 
 }  // namespace
@@ -31,14 +33,13 @@ void check_whole(const std::string& folder) {
   for (const auto* file : {&tum, &kitti, &frames, &poses, &config}) check_end(*file);
   check_count(tum, read_tum(tum).size(), row.tracked);
   check_count(kitti, read_kitti(kitti).size(), row.frames);
-  check_count(frames, read_frames_table(frames).stamp_s.size(), row.frames);
-  // One line more than frames, or than poses: the heading.
-  check_count(poses, data::data_lines(poses).size(), row.frames + 1);
+  check_count(frames, read_frames_csv(frames).rows(), row.frames);
+  check_count(poses, read_poses_csv(poses).rows(), row.frames);
   if (!row.accuracy) return;
   check_end(truth);
   read_tum(truth);
   check_end(errors);
-  check_count(errors, data::data_lines(errors).size(), row.accuracy->matched + 1);
+  check_count(errors, read_errors_csv(errors).rows(), row.accuracy->matched);
 }
 
 }  // namespace quadedge::report
