@@ -98,6 +98,23 @@ TEST_CASE("evaluation: an almost straight or stationary path leaves the rotation
   CHECK(std::isfinite(still.origin_aligned.ape_rotation_deg.mean));
 }
 
+TEST_CASE("evaluation: an estimate that turns around keeps its APE rotation under both alignments", "[evaluation]") {
+  // From the middle on, the estimate faces and moves the wrong way: a half turn about y.
+  const Trajectory truth = curve(30);
+  Trajectory estimate = truth;
+  const Eigen::Isometry3d at = truth[15].world_from_left;
+  for (std::size_t i = 15; i < estimate.size(); ++i) {
+    estimate[i].world_from_left =
+        at * Eigen::Isometry3d(turn(180, {0, 1, 0})) * at.inverse() * truth[i].world_from_left;
+  }
+  const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth);
+  CHECK(result.origin_aligned.ape_rotation_deg.max == Approx(180));
+  CHECK(result.se3_open_rotation.empty());
+  // Under any alignment the rotation errors of the two halves add up to a half turn or more.
+  CHECK(result.se3_aligned.ape_rotation_deg.mean >= 89.999);
+  CHECK(result.se3_aligned.ape_rotation_deg.max <= 180.001);
+}
+
 TEST_CASE("evaluation: the SE(3) alignment distributes errors that the origin alignment accumulates", "[evaluation]") {
   // Every pose but the first is displaced: the origin alignment has an error at all others, the least-squares alignment
   // almost none.

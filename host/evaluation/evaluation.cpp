@@ -116,9 +116,11 @@ std::string length_text(double metres) {
 
 /// Explains why the rotation of the alignment is undetermined; empty if it is determined. The second of the three root
 /// mean square extents measures the extent of the positions off the main direction of the path; errors of a quarter of
-/// it rotate the alignment by about 14 degrees.
-std::string open_rotation(const std::vector<Match>& matches, double residual) {
+/// it rotate the alignment by about 14 degrees. If the estimate itself is rotated by more than that
+/// (`rotation_error_deg`, root mean square, origin-aligned), its rotation errors are meaningful all the same.
+std::string open_rotation(const std::vector<Match>& matches, double residual, double rotation_error_deg) {
   constexpr double kLargestRatio = 0.25;
+  if (rotation_error_deg > std::atan(kLargestRatio) * kDegreesPerRadian) return {};
   const auto count = static_cast<Eigen::Index>(matches.size());
   Eigen::Matrix3Xd truth(3, count);
   for (Eigen::Index i = 0; i < count; ++i) truth.col(i) = matches[static_cast<std::size_t>(i)].truth.translation();
@@ -165,7 +167,8 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
   const auto alignment = se3_alignment(matches);
   evaluation.se3_aligned = alignment ? Errors(matches, *alignment).summary() : undefined();
   evaluation.se3_open_rotation =
-      alignment ? open_rotation(matches, evaluation.se3_aligned.ape_translation_m.rmse)
+      alignment ? open_rotation(matches, evaluation.se3_aligned.ape_translation_m.rmse,
+                                evaluation.origin_aligned.ape_rotation_deg.rmse)
                 : std::string("the positions lie on a straight line, so that the rotation is undetermined");
   if (!evaluation.se3_open_rotation.empty()) evaluation.se3_aligned.ape_rotation_deg = {kNan, kNan, kNan, kNan};
   for (std::size_t i = 0; i < matches.size(); ++i) {
