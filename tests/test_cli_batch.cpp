@@ -172,7 +172,7 @@ TEST_CASE("batch: asked to end it ends its children, removes what they had begun
   REQUIRE(program.wait_until([&] { return fs::exists(out + "/unfinished/second/frames.csv"); }));
   const auto locked = run_program(batch);
   CHECK(locked.code == 2);
-  CHECK_THAT(locked.err, Contains("is writing there") && Contains(out));
+  CHECK_THAT(locked.err, Contains("is writing to this folder") && Contains(out));
   const int status = program.end_by(SIGINT);
   REQUIRE(WIFSIGNALED(status));
   CHECK(WTERMSIG(status) == SIGINT);

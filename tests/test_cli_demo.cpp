@@ -44,7 +44,7 @@ TEST_CASE("demo: renders before it tracks, and only once", "[cli][device]") {
   CHECK_THAT(third.err, Contains("rendering 3/3"));
   std::ofstream(folder / "file") << "in the way";
   const auto fourth = demo("fourth", "XDG_CACHE_HOME='" + (folder / "file/cache") + "'");
-  CHECK_THAT(fourth.err, Contains("not kept") && Contains(folder / "file/cache"));
+  CHECK_THAT(fourth.err, Contains("not cached") && Contains(folder / "file/cache"));
   for (const char* out : {"second", "third", "fourth"}) {
     for (const char* name : {"/trajectory.txt", "/trajectory_kitti.txt"})
       CHECK(read_text(folder / (out + std::string(name))) == read_text(folder / ("first" + std::string(name))));
@@ -82,7 +82,7 @@ TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
     REQUIRE(WIFSIGNALED(status));
     CHECK(WTERMSIG(status) == SIGINT);
     CHECK_THAT(read_text(folder / "log"),
-               Contains("before the first frame") && Contains("of 60 rendered frames are kept in " + rendered));
+               Contains("before the first frame") && Contains("of 60 rendered frames are cached in " + rendered));
     CHECK_FALSE(fs::exists(out + "/config.toml"));
     CHECK_FALSE(fs::exists(out + "/trajectory.txt"));  // the next start needs no --force
   }
@@ -96,10 +96,12 @@ TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
     CHECK(WTERMSIG(status) == SIGINT);
     const auto frames = read_lines(out + "/trajectory_kitti.txt").size();
     CHECK(frames < 60);
-    CHECK_THAT(read_text(folder / "log"),
-               Contains(out + " hold what was tracked, " + std::to_string(frames) + " of 60 frames") &&
-                   Contains("60 of 60 rendered frames are kept"));
+    CHECK_THAT(read_text(folder / "log"), Contains("interrupted after " + std::to_string(frames) +
+                                                   " of 60 frames; results of these frames are in " + out) &&
+                                              Contains("next       quadedge report") &&
+                                              Contains("60 of 60 rendered frames are cached"));
     CHECK(read_lines(out + "/frames.csv").size() == frames + 1);
-    CHECK_FALSE(fs::exists(out + "/report.json"));
+    CHECK_THAT(read_text(out + "/report.json"), Contains("\"ended_early\": \"interrupted after ") &&
+                                                    Contains("\"accuracy\": {") && Contains("\"frames\": 60"));
   }
 }

@@ -79,6 +79,23 @@ TEST_CASE("run: too few tracked frames end with code 5 after everything is writt
   CHECK(run_program({"run", sequence.path(), "-o", folder / "out", "--force", "--min-tracked", "25"}).code == 0);
 }
 
+TEST_CASE("run: --quiet keeps warnings, reasons of loss and the cause of the exit code", "[cli][device]") {
+  const DamagedSequence sequence;
+  for (const std::size_t frame : {1, 2, 3}) blacken(sequence, frame);
+  const TemporaryFolder folder;
+  const auto loud = run_program({"run", sequence.path(), "-o", folder / "loud"});
+  const auto quiet = run_program({"run", sequence.path(), "-o", folder / "quiet", "--quiet"});
+  CHECK(loud.code == 5);
+  CHECK(quiet.code == 5);
+  CHECK_THAT(loud.err, Contains("frame 4/4"));
+  CHECK_THAT(quiet.err, !Contains("frame 4/4") && !Contains("kernels"));
+  for (const auto& err : {loud.err, quiet.err}) {
+    CHECK_THAT(err, Contains("warning: frame 1: lost: 0 stereo edges") && !Contains("frame 2: lost"));
+    CHECK_THAT(err, Contains("tracked 1 of 4 frames") && Contains("lost: 3 too few edges"));
+  }
+  for (const auto& out : {loud.out, quiet.out}) CHECK_THAT(out, Contains("lost       3 too few edges"));
+}
+
 TEST_CASE("run: the same frame twice gives no motion", "[cli][device]") {
   const DamagedSequence sequence;
   for (const char* camera : {"rgb", "rgb2"}) {

@@ -1,6 +1,7 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "program.hpp"
+#include "on_terminal.hpp"
 
 using Catch::Matchers::Contains;
 
@@ -19,6 +20,55 @@ TEST_CASE("command line: every command's help shows two examples", "[cli]") {
   CHECK(evaluate.code == 0);
   CHECK_THAT(evaluate.out, Contains("Examples:") && Contains("ESTIMATE") && Contains("--from-frame"));
   CHECK_THAT(run_program({"--help"}).out, Contains("evaluate") && Contains("Exit codes"));
+}
+
+TEST_CASE("command line: help and version are commands, too", "[cli]") {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{}, {"run"}, {"evaluate", "trajectory"}}) {
+    auto words = command, options = command;
+    words.insert(words.begin(), "help");
+    options.push_back("--help");
+    const auto result = run_program(words);
+    CHECK(result.code == 0);
+    CHECK(result.out == run_program(options).out);
+    CHECK_THAT(result.out, Contains("--help"));
+  }
+  const auto version = run_program({"version"});
+  CHECK(version.code == 0);
+  CHECK(version.out == run_program({"--version"}).out);
+  CHECK(run_program({"help", "rnu"}).code == 2);
+}
+
+TEST_CASE("command line: help fits the terminal, or what COLUMNS says", "[cli]") {
+  const auto fits = [](const std::string& text, std::size_t columns) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_example = line.rfind("  quadedge ", 0) == 0;
+      INFO(line);
+      CHECK((is_example || line.size() - (!line.empty() && line.back() == '\r' ? 1 : 0) <= columns));
+    }
+  };
+  for (const unsigned short columns : {60, 80, 132}) {
+    const std::string help = run_on_terminal({"run", "--help-all"}, columns, "TERM=xterm");
+    CHECK_THAT(help, Contains("--stereo.ncc_min"));
+    fits(help, columns);
+    fits(run_program({"run", "--help"}, "COLUMNS=" + std::to_string(columns)).out, columns);
+  }
+  // Nothing but blanks and line ends changes.
+  const auto letters = [](std::string text) {
+    text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\n'; }), text.end());
+    return text;
+  };
+  CHECK(letters(run_program({"run", "--help-all"}, "COLUMNS=72").out) ==
+        letters(run_program({"run", "--help-all"}, "env -u COLUMNS").out));
+}
+
+TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> run = {"run", small_sequence(), "--device", "reference",   "--frames",
+                                        "0:1", "--force",        "-o",       folder / "out"};
+  CHECK_THAT(run_on_terminal(run, 80, "TERM=xterm"), Contains("\x1b[K") && Contains("frame 1/1"));
+  for (const char* environment : {"TERM=dumb", "-u TERM"})
+    CHECK_THAT(run_on_terminal(run, 80, environment), !Contains("\x1b") && Contains("frame 1/1"));
 }
 
 TEST_CASE("command line: misuse ends with code 2 and names what is wrong", "[cli]") {
@@ -45,7 +95,7 @@ TEST_CASE("command line: misuse ends with code 2 and names what is wrong", "[cli
     CHECK_THAT(result.err, Contains("seed"));
   }
   CHECK_THAT(run_program({"edges", "x.png", "--edges.sigma", ""}).err,
-             Contains("edges.sigma") && Contains("no number"));
+             Contains("edges.sigma") && Contains("not a number"));
   const auto range = run_program({"edges", "x.png", "--stereo.ncc_min", "1.5"});
   CHECK(range.code == 2);
   CHECK_THAT(range.err, Contains("stereo.ncc_min") && Contains("1.5") && Contains("0.01 to 1"));

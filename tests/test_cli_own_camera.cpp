@@ -54,11 +54,42 @@ TEST_CASE("run: folders, a video and a pipe of the same pictures give the same t
   CHECK(read_text(folder / "video/trajectory.txt") == expected);
 
   const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
-                           "' run - --fps 20 --queue 0 --quiet --calibration '" + camera().calibration + "' -o '" +
+                           "' run - --fps 20 --quiet --calibration '" + camera().calibration + "' -o '" +
                            (folder / "pipe") + "' >/dev/null";
   CHECK(std::system(pipe.c_str()) == 0);
   CHECK(read_text(folder / "pipe/trajectory.txt") == expected);
   CHECK_THAT(read_text(folder / "pipe/report.json"), Contains("\"dropped\": 0") && Contains("\"frames\": 4"));
+}
+
+TEST_CASE("run: nanosecond names stay the stamps with --fps, which only has to agree with them", "[cli][device]") {
+  const TemporaryFolder folder;
+  for (const char* side : {"left", "right"}) fs::create_directory(folder / side);
+  constexpr std::int64_t kFirst = 1403715273262142976;
+  std::vector<std::string> stamps;
+  const auto& frames = own_camera::small_dataset().frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::string name = std::to_string(kFirst + 50'000'000 * static_cast<std::int64_t>(i));
+    fs::copy(frames[i].left, folder / ("left/" + name + ".png"));
+    fs::copy(frames[i].right, folder / ("right/" + name + ".png"));
+    stamps.push_back(name.substr(0, 10) + "." + name.substr(10));
+  }
+  const auto run = [&](const std::string& fps, const std::string& out) {
+    return run_program({"run", "--left", folder / "left", "--right", folder / "right", "--fps", fps, "--quiet",
+                        "--calibration", camera().calibration, "-o", folder / out});
+  };
+  const auto agreeing = run("20", "agreeing");
+  INFO(agreeing.err);
+  REQUIRE(agreeing.code == 0);
+  CHECK_THAT(agreeing.err, !Contains("warning"));
+  const auto rows = read_lines(folder / "agreeing/trajectory.txt");
+  REQUIRE(rows.size() == 1 + stamps.size());
+  for (std::size_t i = 0; i < stamps.size(); ++i) CHECK(rows[i + 1].rfind(stamps[i] + " ", 0) == 0);
+
+  const auto contradicting = run("30", "contradicting");
+  CHECK(contradicting.code == 0);
+  CHECK_THAT(contradicting.err, Contains("warning: --fps 30 contradicts the timestamps, whose rate is 20 Hz"));
+  CHECK(read_text(folder / "contradicting/trajectory.txt") == read_text(folder / "agreeing/trajectory.txt"));
+  CHECK_THAT(read_text(folder / "contradicting/report.json"), Contains("--fps 30 contradicts"));
 }
 
 TEST_CASE("match: a pair of a pipe is matched as the same pair of folders", "[cli][device]") {
@@ -69,26 +100,34 @@ TEST_CASE("match: a pair of a pipe is matched as the same pair of folders", "[cl
   INFO(of_folders.err);
   REQUIRE(of_folders.code == 0);
   const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
-                           "' match - --frame 1 --fps 20 --queue 0 --quiet --calibration '" + camera().calibration +
-                           "' --csv '" + (folder / "pipe.csv") + "'";
+                           "' match - --frame 1 --fps 20 --quiet --calibration '" + camera().calibration + "' --csv '" +
+                           (folder / "pipe.csv") + "'";
   CHECK(std::system(pipe.c_str()) == 0);
   CHECK(read_text(folder / "pipe.csv") == read_text(folder / "folders.csv"));
   CHECK(read_lines(folder / "pipe.csv").size() > 100);
   CHECK(run_program({"match", "-", "right.png"}).code == 2);
 }
 
-TEST_CASE("run: pairs that a pipe brings too fast are counted in the report", "[cli][device]") {
+TEST_CASE("run: a pipe is read whole; with --live, pairs that come too fast are dropped and counted", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string all = own_camera::pgm_stream_of_small();
   own_camera::write_bytes(folder / "many.pgm", all + all + all + all + all);
-  const std::string pipe = "cat '" + (folder / "many.pgm") + "' | " + environment_of_tests() + " '" + program_path() +
-                           "' run - --fps 20 --queue 2 --quiet --min-tracked 0 --calibration '" + camera().calibration +
-                           "' -o '" + (folder / "out") + "' >/dev/null";
-  REQUIRE(std::system(pipe.c_str()) == 0);
-  // All pairs arrive while kernels are built or read: two wait.
-  const auto frames = read_lines(folder / "out/frames.csv").size() - 1;
-  CHECK((frames >= 2 && frames < 20));
-  CHECK_THAT(read_text(folder / "out/report.json"), Contains("\"dropped\": " + std::to_string(20 - frames)));
+  const auto run = [&](const std::string& options, const std::string& out) {
+    const std::string pipe = "cat '" + (folder / "many.pgm") + "' | " + environment_of_tests() + " '" + program_path() +
+                             "' run - --fps 20 --quiet --min-tracked 0 " + options + " --calibration '" +
+                             camera().calibration + "' -o '" + (folder / out) + "' >'" + (folder / "summary") + "'";
+    REQUIRE(std::system(pipe.c_str()) == 0);
+    return read_lines(folder / (out + "/frames.csv")).size() - 1;
+  };
+  CHECK(run("", "whole") == 20);
+  CHECK_THAT(read_text(folder / "whole/report.json"), Contains("\"dropped\": 0"));
+  CHECK_THAT(read_text(folder / "summary"), !Contains("dropped"));
+  // All pairs arrive while kernels are built or read: four wait.
+  const auto frames = run("--live", "live");
+  CHECK((frames >= 4 && frames < 20));
+  const std::string dropped = std::to_string(20 - frames);
+  CHECK_THAT(read_text(folder / "live/report.json"), Contains("\"dropped\": " + dropped));
+  CHECK_THAT(read_text(folder / "summary"), Contains("dropped    " + dropped + " pairs"));
 }
 
 TEST_CASE("run: frames and the map of a video that ends early are kept, with exit code 3", "[cli][device]") {
@@ -99,7 +138,8 @@ TEST_CASE("run: frames and the map of a video that ends early are kept, with exi
   arguments.insert(arguments.end(), {"--map", folder / "map.ply", "--map-min-views", "1"});
   const auto result = run_program(arguments);
   CHECK(result.code == 3);
-  CHECK_THAT(result.err, Contains("cut.mkv") && Contains("finished frames"));
+  CHECK_THAT(result.err, Contains("cut.mkv") && Contains("finished frame"));
+  CHECK_THAT(read_text(folder / "out/report.json"), Contains("ended_early") && Contains("cut.mkv"));
   CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() >= 2);
   CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
 }
@@ -108,8 +148,8 @@ TEST_CASE("run: a signal ends a run that waits for a pipe, and keeps its frames 
   const TemporaryFolder folder;
   REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
   const int held = open((folder / "fifo").c_str(), O_RDWR);  // nobody sees its end
-  BackgroundProgram program({"run", "-", "--fps", "20", "--queue", "0", "--calibration", camera().calibration, "-o",
-                             folder / "out", "--map", folder / "map.ply", "--map-min-views", "1"},
+  BackgroundProgram program({"run", "-", "--fps", "20", "--calibration", camera().calibration, "-o", folder / "out",
+                             "--map", folder / "map.ply", "--map-min-views", "1"},
                             folder / "log", "sh -c 'exec \"$0\" \"$@\" <" + (folder / "fifo") + "'");
   const std::string bytes = own_camera::pgm_stream_of_small();
   std::thread writer([&] {
@@ -123,7 +163,10 @@ TEST_CASE("run: a signal ends a run that waits for a pipe, and keeps its frames 
   writer.join();
   const int status = program.end_by(SIGINT);
   CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT));
-  CHECK_THAT(read_text(folder / "log"), Contains("hold what was tracked, 4 frames"));
+  CHECK_THAT(read_text(folder / "log"), Contains("tracked    4 of 4 frames") && Contains("path       ") &&
+                                            Contains("interrupted after 4 frames; results of these frames are in"));
+  CHECK_THAT(read_text(folder / "out/report.json"),
+             Contains("\"ended_early\": \"interrupted after 4 frames\"") && Contains("\"frames_tracked\": 4"));
   CHECK(read_lines(folder / "out/trajectory.txt").size() == 5);
   CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
   close(held);

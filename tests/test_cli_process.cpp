@@ -56,7 +56,7 @@ TEST_CASE("process: two runs never write into one folder", "[cli][device]") {
     arguments.insert(arguments.end(), more.begin(), more.end());
     const auto second = run_program(arguments);
     CHECK(second.code == 2);
-    CHECK_THAT(second.err, Contains(out) && Contains("is writing there"));
+    CHECK_THAT(second.err, Contains(out) && Contains("is writing to this folder"));
   }
   kill(first.process(), SIGCONT);
   REQUIRE_FALSE(first.wait_until([] { return false; }));

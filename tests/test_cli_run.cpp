@@ -1,4 +1,7 @@
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +38,26 @@ TEST_CASE("run: leaves every documented file behind", "[cli][device]") {
   }
   CHECK_FALSE(fs::exists(run.out("pictures/edges_000001.png")));
   CHECK_THAT(run.result.out, Contains("tracked") && Contains("origin-aligned") && Contains("latency"));
+}
+
+TEST_CASE("run: the summary has the length of the path and the next command", "[cli][device]") {
+  const TemporaryFolder folder;
+  const auto result = run_program({"run", small_sequence(), "-o", folder / "my results"});
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("next       quadedge report '" + (folder / "my results") + "'"));
+  std::istringstream rows(read_text(folder / "my results/trajectory.txt"));
+  double length = 0;
+  std::array<double, 8> pose{}, before{};
+  std::string heading;
+  std::getline(rows, heading);
+  for (int i = 0; i < 4; ++i, before = pose) {
+    for (auto& value : pose) REQUIRE(rows >> value);
+    if (i > 0) length += std::hypot(pose[1] - before[1], pose[2] - before[2], pose[3] - before[3]);
+  }
+  REQUIRE(length > 0);
+  char text[48];
+  std::snprintf(text, sizeof text, "path       %.3f m", length);
+  CHECK_THAT(result.out, Contains(text));
 }
 
 TEST_CASE("run: trajectories begin at the identity and have one row per tracked or per input frame", "[cli][device]") {

@@ -202,6 +202,15 @@ TEST_CASE("own camera: missing and contradictory options are reported", "[data]"
   CHECK_THAT(complaint(source), Contains("sideways"));
   source.split = "top-bottom";  // 640 x 100 views, unlike the calibration
   CHECK_THAT(complaint(source), Contains("640 x 100") && Contains("320 x 200"));
+  source = recording().folders();
+  source.left = "n\xc3\xb6";
+  CHECK_THAT(complaint(source), Contains("n\xc3\xb6: found no such file or folder") && Contains("folder of images"));
+  source = recording().folders();
+  source.right = recording().file("right.mkv");
+  CHECK_THAT(complaint(source), Contains("right.mkv: found a file, expected a folder"));
+  source = recording().folders();
+  source.live = true;
+  CHECK_THAT(complaint(source), Contains("--live"));
   StereoSource pipe;
   pipe.pipe = true;
   pipe.calibration = recording().file("rig.yaml");

@@ -34,7 +34,7 @@ class BatchProgress {
 
   /// `sequences`, `pixels`: of all that has to be run now; `already`: sequences that were finished before.
   BatchProgress(bool quiet, int sequences, int already, double pixels);
-  /// A sequence is over, whichever way; `sentence` says how.
+  /// A sequence has ended; `sentence` describes how.
   void finished(const std::string& name, int frames, double pixels, const std::string& sentence);
   /// `pixels`: of the finished frames of all running sequences.
   void update(const std::vector<Running>& running, double pixels);

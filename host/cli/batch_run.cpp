@@ -207,7 +207,7 @@ int run_batch(const std::vector<BatchMember>& plan, const MethodOptions& method,
     }
     while (next < waiting.size() && runner.running() < static_cast<std::size_t>(jobs)) runner.start(*waiting[next++]);
     std::this_thread::sleep_for(kPoll);
-    if (interruption.signal() != 0) continue;  // Ctrl-C reaches the children, too: their end is no result
+    if (interruption.signal() != 0) continue;  // Ctrl-C also ends the children, which is not a result
     runner.reap();
     runner.show_progress();
   }

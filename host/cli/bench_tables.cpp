@@ -20,7 +20,7 @@ void print_phases(const std::vector<report::StageSummary>& phases, double frame_
 /// Where the time of a frame goes, stage by stage.
 void print_shares(const bench::FrameShares& shares) {
   if (shares.stages.empty()) return;
-  std::printf("\nstages of a frame by OpenCL events, in a pass of their own (%.2f ms per frame), mean [ms]\n",
+  std::printf("\nstages of a frame by OpenCL events, in a separate pass (%.2f ms per frame), mean [ms]\n",
               shares.frame_ms);
   std::printf("  %-20s %9s %7s %9s %9s %9s %9s\n", "", "wall", "share", "kernels", "transfers", "starting", "launches");
   opencl::StageProfile sum;
@@ -94,11 +94,11 @@ void print_comparison(const bench::BenchComparison& comparison, double noise_per
   }
   if (!comparison.has_yardsticks)
     std::printf(
-        "both times are absolute: measured with --baseline, results of a shared machine are compared by how much "
-        "slower OpenCV's SIFT was\n");
+        "times are compared as they are; on a shared machine, measure both with --baseline, so that they are scaled by "
+        "the time of OpenCV's SIFT\n");
   for (const auto& note : comparison.notes) std::printf("differs: %s\n", note.c_str());
   if (comparison.drift != 1) {
-    std::printf("times are compared after division by %.3f, as OpenCV's SIFT took so much longer\n", comparison.drift);
+    std::printf("times after are divided by %.3f, the change in the time of OpenCV's SIFT\n", comparison.drift);
   }
   std::printf("%s beyond the noise band of %g %%\n", comparison.regressed() ? "REGRESSION" : "no regression",
               noise_percent);

@@ -11,6 +11,7 @@
 #include "cli/folder_lock.hpp"
 #include "cli/page_maker.hpp"
 #include "data/atomic_file.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
 #include "report/config_toml.hpp"
@@ -31,24 +32,23 @@ class BatchCommand : public Command {
   }
 
   void declare(Options& options) override {
-    options.positional(
-        "ROOT|LIST", input_,
-        "folder with sequences anywhere below it, or a file with a folder, or a camera of your own, per line");
-    options.text("-o,--output", batch_.output, "folder for all results; default: quadedge_batch here", "OUT");
-    options.number("--jobs", batch_.jobs, "sequences at the same time; 0: as many as suit the device");
+    options.positional("ROOT|LIST", input_,
+                       "folder with sequences at any depth, or a file with one folder, or one camera source, per line");
+    options.text("-o,--output", batch_.output, "output folder; default: quadedge_batch in the current folder", "OUT");
+    options.number("--jobs", batch_.jobs, "number of sequences tracked in parallel; 0: chosen by device");
     options.flag("--timing", batch_.timing,
-                 "latencies count: one sequence at a time, redoing those that ran beside others");
-    options.flag("--profile", batch_.profile, "measure kernel times in a second pass over every sequence");
-    options.number("--draw", batch_.draw_every, "pictures of the edges and quads of every N-th frame");
+                 "measure latencies: track one sequence at a time, and repeat those that ran in parallel");
+    options.flag("--profile", batch_.profile, "measure kernel times of every sequence in a second pass");
+    options.number("--draw", batch_.draw_every, "draw the edges and quads of every N-th frame");
     options.number("--min-tracked", batch_.min_tracked,
-                   "fewer tracked frames in a sequence give exit code 5 [percent]");
-    options.flag("--force", batch_.force, "repeat sequences that are finished already");
-    options.flag("--quiet", batch_.quiet, "no progress");
-    options.group("One step of a batch, for schedulers");
-    options.flag("--list", list_, "print name and folder of every sequence and run none");
-    options.text("--only", only_,
-                 "run this sequence of the batch alone, without summary; OUT may be shared with others", "NAME");
-    options.flag("--gather", gather_, "run nothing, summarise what is there");
+                   "exit with code 5 if fewer frames of a sequence are tracked [percent]");
+    options.flag("--force", batch_.force, "repeat finished sequences");
+    options.flag("--quiet", batch_.quiet, "hide progress; warnings and the summary remain");
+    options.group("Single steps of a batch, for schedulers");
+    options.flag("--list", list_, "print name and folder of every sequence; track none");
+    options.text("--only", only_, "track only this sequence, without a summary; several processes may share OUT",
+                 "NAME");
+    options.flag("--gather", gather_, "track nothing; summarise the results that exist");
     method_.declare(options);
   }
 
@@ -62,7 +62,7 @@ class BatchCommand : public Command {
     if (!(batch_.min_tracked >= 0 && batch_.min_tracked <= 100))
       throw UsageError("--min-tracked: expected 0 to 100 percent");
     if (list_ + gather_ + !only_.empty() > 1) throw UsageError("--list, --only and --gather exclude one another");
-    method_.config();  // complain about options before reading data
+    method_.config();  // reports wrong options before data is read
     const auto sequences = data::find_sequences(input_);
     if (list_) return print_list(sequences);
     if (!only_.empty()) return run_one(sequences);
@@ -80,7 +80,7 @@ class BatchCommand : public Command {
   void prepare() const {
     std::error_code error;
     fs::create_directories(output() / "sequences", error);
-    if (error) throw DataError(batch_.output + ": the output folder cannot be made: " + error.message());
+    if (error) throw DataError(batch_.output + ": cannot create the output folder: " + error.message());
   }
   /// The configuration that all runs read.
   void write_config() const {
@@ -90,8 +90,7 @@ class BatchCommand : public Command {
 
   /// The plan of some sequences, for the device that will run them.
   std::vector<BatchMember> plan(const std::vector<data::FoundSequence>& sequences) {
-    const DeviceInfo device =
-        method_.open_device().info();  // a missing device ends the batch here, not every run on its own
+    const DeviceInfo device = method_.open_device().info();  // a missing device ends the batch here, not in every run
     if (batch_.jobs == 0) batch_.jobs = default_jobs(device, batch_);
     return plan_batch(sequences, method_, device, batch_);
   }
@@ -106,15 +105,14 @@ class BatchCommand : public Command {
     note_progress(members);
     const bool complete =
         std::all_of(members.begin(), members.end(), [](const auto& member) { return member.finished; });
-    if (!complete) remove_summary();  // it would not belong to what is there from now on
+    if (!complete) remove_summary();  // it would not match the new results
     const auto before =
         std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
     const auto finished = before + run_batch(members, method_, batch_, interruption);
     remove_unfinished();
     if (interruption.signal() != 0) {
-      note(batch_.quiet, "interrupted; " + std::to_string(finished) + " of " + std::to_string(members.size()) +
-                             " sequences are finished and kept in " + (output() / "sequences").string() +
-                             "; the same command goes on with the others");
+      note("interrupted; " + std::to_string(finished) + " of " + data::counted(members.size(), "sequence") +
+           " finished, results in " + (output() / "sequences").string() + "; repeat the command to go on");
       interruption.end_process();
     }
     return summarise(sequences);
@@ -124,7 +122,7 @@ class BatchCommand : public Command {
     const auto found =
         std::find_if(sequences.begin(), sequences.end(), [&](const auto& sequence) { return sequence.name == only_; });
     if (found == sequences.end())
-      throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list shows all");
+      throw UsageError("--only " + only_ + ": " + input_ + " has no such sequence; --list prints all");
     prepare();
     const FolderLock lock((output() / ".lock").string(), true, batch_.output);
     const Interruption interruption;
@@ -148,8 +146,7 @@ class BatchCommand : public Command {
     for (const char* name : {"summary.csv", "summary.json", "summary.md", "report.html"}) {
       std::error_code error;
       fs::remove(output() / name, error);
-      if (error)
-        throw DataError((output() / name).string() + ": the old summary cannot be removed: " + error.message());
+      if (error) throw DataError((output() / name).string() + ": cannot remove the old summary: " + error.message());
     }
   }
 
@@ -157,13 +154,13 @@ class BatchCommand : public Command {
     const auto finished =
         std::count_if(members.begin(), members.end(), [](const auto& member) { return member.finished; });
     std::string sentence =
-        std::to_string(members.size()) + " sequences, " + std::to_string(finished) + " finished already";
+        data::counted(members.size(), "sequence") + ", " + std::to_string(finished) + " finished already";
     if (static_cast<std::size_t>(finished) < members.size())
-      sentence += ", " + std::to_string(batch_.jobs) + " at the same time";
-    note(batch_.quiet, sentence);
+      sentence += ", " + std::to_string(batch_.jobs) + " in parallel";
+    if (!batch_.quiet) note(sentence);
   }
 
-  /// Writes the summary of what is there, and its page where Python can make it; the worst exit code.
+  /// Writes the summary of all results, and its page if Python can make it. Returns the worst exit code.
   int summarise(const std::vector<data::FoundSequence>& sequences) const {
     std::vector<std::string> names;
     for (const auto& sequence : sequences) names.push_back(sequence.name);
@@ -175,7 +172,7 @@ class BatchCommand : public Command {
     data::write_atomically((output() / "summary.json").string(), report::summary_json(summary));
     data::write_atomically((output() / "summary.md").string(), report::summary_markdown(summary));
     print_summary(summary);
-    // Nobody asked for the page: where Python is missing, the line that says so is enough.
+    // The page is an extra: without Python, the message of make_page() is enough.
     const int page = make_page({batch_.output, "--output", (output() / "report.html").string(), "--quiet"});
     const bool made = page == 0 || page == static_cast<int>(ExitCode::usage);
     return made ? summary.exit_code : report::worse_exit_code(summary.exit_code, page);

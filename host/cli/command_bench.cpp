@@ -17,6 +17,7 @@
 #include "cli/scene_options.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/json.hpp"
 
@@ -37,25 +38,24 @@ class BenchCommand : public Command {
   }
 
   void declare(Options& options) override {
-    source_.declare_path(options,
-                         "recorded sequence; without it the built-in one. With --compare also a result to compare");
-    options.choice("--scene", scene_.scene, synthetic_scenes(), "of the built-in sequence");
+    source_.declare_path(options, "recorded sequence; default: the built-in one. With --compare also a result file");
+    options.choice("--scene", scene_.scene, synthetic_scenes(), "built-in scene");
     declare_view(options, scene_, size_);
-    options.number("--scene-seed", scene_.seed, "of the built-in sequence");
+    options.number("--scene-seed", scene_.seed, "seed of the built-in sequence");
     options.number("--edges", edges_,
-                   "choose edges.threshold for so many edges per image; 0: as configured; -1: 50000 for the built-in "
-                   "sequence, as configured for a recorded one");
-    options.number("--frames", frames_, "frames to measure");
-    options.number("--warm-up", warm_up_, "frames before them, after the first one");
+                   "choose edges.threshold for this number of edges per image; 0: as configured; -1: 50000 for the "
+                   "built-in sequence, as configured for a recorded one");
+    options.number("--frames", frames_, "number of measured frames");
+    options.number("--warm-up", warm_up_, "number of frames between the first and the measured ones");
     options.flag("--baseline", baseline_,
-                 "measure two yardsticks with OpenCV as well: SIFT on both images, nine filters of 35 taps");
+                 "also time two OpenCV yardsticks: SIFT on both images, nine filters of 35 taps");
     options.text("--json", json_, "write all figures", "FILE");
     options.text("--trace", trace_, "write the stages of every frame in Chrome's trace format", "FILE");
-    options.text("--compare", compare_, "print the differences to an older result; exit code 6 for a regression",
+    options.text("--compare", compare_, "print the differences from an older result; exit code 6 for a regression",
                  "OLD.json");
-    options.number("--noise", noise_, "so much more counts as equal in a comparison [percent]");
-    options.flag("--force", force_, "replace files that exist");
-    options.flag("--quiet", quiet_, "no progress");
+    options.number("--noise", noise_, "noise band: increases up to this count as equal [percent]");
+    options.flag("--force", force_, "overwrite existing files");
+    options.flag("--quiet", quiet_, "hide progress");
     source_.declare(options);
     method_.declare(options);
   }
@@ -86,10 +86,9 @@ class BenchCommand : public Command {
     const SyntheticOptions usual;
     if (source_.is_given() &&
         (!size_.empty() || scene_.scene != usual.scene || scene_.path != usual.path || scene_.seed != usual.seed))
-      throw UsageError(
-          "--size, --scene, --path and --scene-seed are for the built-in sequence; a recorded one has its own");
+      throw UsageError("--size, --scene, --path and --scene-seed are for the built-in sequence");
     if (!compare_.empty() && !std::filesystem::is_regular_file(path_) && json_.empty()) {
-      throw UsageError("--compare: name a second result, or --json FILE for what is measured now");
+      throw UsageError("--compare: expected a second result file, or --json FILE for this measurement");
     }
     method_.config();
   }
@@ -111,9 +110,9 @@ class BenchCommand : public Command {
   /// \throws DataError for fewer frames than one to measure needs.
   void check_length(const report::InputFacts& input) const {
     if (input.frames >= warm_up_ + 2) return;
-    throw DataError(input.path + ": has " + std::to_string(input.frames) + " frames; expected at least " +
+    throw DataError(input.path + ": found " + data::counted(input.frames, "frame") + "; expected at least " +
                     std::to_string(warm_up_ + 2) + ": the first, " + std::to_string(warm_up_) +
-                    " to get warm, one to measure");
+                    " for warm-up, one to measure");
   }
 
   bench::BenchRecord measure() {

@@ -8,6 +8,7 @@
 #include "cli/rig_check.hpp"
 #include "cli/source_options.hpp"
 #include "data/check_tree.hpp"
+#include "data/text.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/error.hpp"
 
@@ -30,11 +31,11 @@ class CheckCommand : public Command {
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
     options.choice("--format", options_.format, formats, "layout of the data; auto recognises it");
-    options.text("--sequence", options_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
+    options.text("--sequence", options_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
     options.text("--write-calibration", calibration_,
                  "write the cameras in the program's own format, for --calibration", "FILE");
     options.flag("--force", force_, "replace the file that --write-calibration names");
-    options.flag("--quiet", quiet_, "errors only");
+    options.flag("--quiet", quiet_, "errors and warnings only");
     source_.declare(options);
   }
   int run() override {
@@ -74,18 +75,20 @@ class CheckCommand : public Command {
   int print(const DatasetCheck& check) const {
     if (!quiet_) {
       for (const auto& fact : check.facts) std::printf("%s\n", fact.c_str());
-      for (const auto& warning : check.warnings) std::printf("warning: %s\n", warning.c_str());
     }
+    for (const auto& warning : check.warnings) std::printf("warning: %s\n", warning.c_str());
     for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
-    if (!quiet_) std::printf("%zu errors, %zu warnings\n", check.errors.size(), check.warnings.size());
+    if (!quiet_)
+      std::printf("%s, %s\n", data::counted(check.errors.size(), "error").c_str(),
+                  data::counted(check.warnings.size(), "warning").c_str());
     return static_cast<int>(check.errors.empty() ? ExitCode::done : ExitCode::data);
   }
 
-  /// Is PATH a folder of recordings instead of one? (KITTI's folder with a single sequence stands for that sequence.)
+  /// Is PATH a folder of recordings instead of one? (A KITTI folder with a single sequence counts as that sequence.)
   bool is_tree() {
     std::error_code ignored;
-    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() || source_.tells_cameras() ||
-        !std::filesystem::is_directory(path_, ignored))
+    if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() ||
+        source_.has_camera_options() || !std::filesystem::is_directory(path_, ignored))
       return false;
     if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList, ignored)) return true;
     const auto members = data::find_members(path_);

@@ -57,14 +57,14 @@ class CompareCommand : public Command {
   std::string examples() const override { return "  quadedge compare --stage edge_detection"; }
 
   void declare(Options& options) override {
-    options.text("--stage", stage_, "only this stage (`quadedge variants`)", "STAGE");
-    options.text("--size", size_, "images of the built-in sequence that is measured on [px]; default 942x489", "WxH");
-    options.number("--edges", edges_, "choose edges.threshold for so many edges per image; 0: as configured");
-    options.number("--repetitions", repetitions_, "measurements of each variant, in turn with the others");
-    options.flag("--save", save_, "keep the fastest variants for this device; `run`, `demo` and `bench` then use them");
+    options.text("--stage", stage_, "compare this stage only (`quadedge variants` lists them)", "STAGE");
+    options.text("--size", size_, "size of the rendered images [px]; default 942x489", "WxH");
+    options.number("--edges", edges_, "choose edges.threshold for this number of edges per image; 0: as configured");
+    options.number("--repetitions", repetitions_, "measurements per variant, interleaved");
+    options.flag("--save", save_, "save the fastest variants for this device, for `run`, `demo` and `bench`");
     options.text("--json", json_, "write all figures", "FILE");
-    options.flag("--force", force_, "replace a file that exists");
-    options.flag("--quiet", quiet_, "no progress");
+    options.flag("--force", force_, "overwrite an existing file");
+    options.flag("--quiet", quiet_, "hide progress");
     method_.declare(options);
   }
 
@@ -78,7 +78,7 @@ class CompareCommand : public Command {
     if (device.is_reference()) throw UsageError("the reference device has no kernel variants");
     const DeviceInfo info = device.info();
     const std::string file = saved_variants_path(info);
-    if (save_ && file.empty()) throw UsageError("--save: neither XDG_CONFIG_HOME nor HOME says where");
+    if (save_ && file.empty()) throw UsageError("--save: neither XDG_CONFIG_HOME nor HOME is set");
 
     SyntheticOptions scene;
     scene.frames = 2;
@@ -90,8 +90,8 @@ class CompareCommand : public Command {
     const bench::ReferenceCheck check(config);
     if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, device, config);
     const bench::Ceilings ceilings = bench::measure_ceilings(*device.context());
-    std::printf("%s\n%.1f GB/s, %.1f GFLOP/s: the ceilings, measured by a copy and by multiply-adds\n",
-                info.name.c_str(), ceilings.bandwidth_gb_s, ceilings.arithmetic_gflop_s);
+    std::printf("%s\nceilings: %.1f GB/s (copy), %.1f GFLOP/s (multiply-add)\n", info.name.c_str(),
+                ceilings.bandwidth_gb_s, ceilings.arithmetic_gflop_s);
     std::printf("\n%-20s %-10s %-8s %12s %9s %9s %7s %7s %10s %10s\n", "stage", "variant", "", "median", "p10", "p90",
                 "ratio", "p90", "bandwidth", "arithmetic");
 
@@ -119,18 +119,18 @@ class CompareCommand : public Command {
     if (std::find(stages.begin(), stages.end(), stage_) == stages.end()) {
       std::string names;
       for (const auto& name : stages) names += " " + name;
-      throw UsageError("--stage " + stage_ + ": there is no such stage with variants; stages:" + names);
+      throw UsageError("--stage " + stage_ + ": no such stage with variants; there are:" + names);
     }
     return {stage_};
   }
 
-  /// What was saved for other stages stays, unless that file is not fit: then it is replaced, as its message advises.
+  /// Variants saved for other stages are kept, unless the file is for another device or program; it is then replaced.
   void save(const std::string& file, const DeviceInfo& info, const std::vector<bench::StageResult>& results) const {
     std::map<std::string, std::string> variants;
     try {
       variants = bench::read_variants_file(file, info);
     } catch (const UsageError& error) {
-      note(quiet_, std::string("replacing ") + error.what());
+      note(std::string("warning: replacing ") + error.what());
     }
     for (const auto& stage : results) {
       if (!stage.best().empty()) variants[stage.stage] = stage.best();
@@ -139,7 +139,7 @@ class CompareCommand : public Command {
     std::printf("\nsaved in %s\n", file.c_str());
   }
 
-  /// A variant with another result is a mistake of the program.
+  /// A variant with a different result is a bug.
   static int exit_code(const std::vector<bench::StageResult>& results) {
     for (const auto& stage : results) {
       for (const auto& variant : stage.variants) {

@@ -26,7 +26,7 @@ class DemoCommand : public Command {
                    "pictures of the edges and quads of every N-th frame; 0: of the middle frame");
     options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");
     options.flag("--force", run_.force, "replace the results in OUT");
-    options.flag("--quiet", run_.quiet, "no progress");
+    options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     options.number("--scene-seed", scene_.seed, "of textures, cable shapes and camera noise");
     declare_scene(options, scene_, texts_);
     method_.assume_exact_rig();

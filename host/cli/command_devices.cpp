@@ -9,10 +9,10 @@
 namespace quadedge::cli {
 namespace {
 
-/// What is known of a device with the kernels that it takes by itself.
+/// Result of the self-test of a device with its default kernels.
 std::string soundness(const DeviceInfo& device) {
   const auto verdict = kept_verdict(device, {});
-  if (!verdict) return "not yet, the first use does";
+  if (!verdict) return "not run yet; runs at first use";
   return verdict->passed() ? "passed" : "FAILED at " + verdict->stage + ": " + verdict->difference;
 }
 
@@ -36,7 +36,7 @@ class DevicesCommand : public Command {
       std::printf("%-9s  self-test: %s\n", "", soundness(device).c_str());
     }
     std::printf("%-9s  %-11s  %5d  %9s  %s\n", "reference", "reference", 1, "-",
-                "plain C++ on one core; needs no OpenCL, slow");
+                "plain C++ on one core, without OpenCL; slow");
     if (devices.empty()) {
       std::printf(
           "\nno OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install\n"

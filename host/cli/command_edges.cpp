@@ -28,12 +28,13 @@ class EdgesCommand : public Command {
            "  quadedge edges image.png --edges.threshold 4 --csv strong.csv";
   }
   void declare(Options& options) override {
-    source_.declare_path(options, "image file; colour becomes grey", "IMAGE");
-    options.number("--frame", frame_, "of --left and --right, --video or -: which pair, from 0; its pinhole image");
-    options.text("--csv", csv_, "write x,y,direction_rad,strength of every edge", "FILE");
-    options.text("--draw", draw_, "write a picture of the edges (PNG)", "FILE");
-    options.flag("--force", force_, "replace files that exist");
-    options.flag("--quiet", quiet_, "no summary");
+    source_.declare_path(options, "image file; colour is converted to grey", "IMAGE");
+    options.number("--frame", frame_,
+                   "with --left and --right, --video or -: number of the pair, from 0; its left pinhole image is used");
+    options.text("--csv", csv_, "write x, y, direction_rad and strength of every edge", "FILE");
+    options.text("--draw", draw_, "draw the edges to a PNG file", "FILE");
+    options.flag("--force", force_, "overwrite existing files");
+    options.flag("--quiet", quiet_, "hide the summary");
     source_.declare(options);
     method_.declare(options);
   }

@@ -60,15 +60,17 @@ class EvaluateTrajectoryCommand : public Command {
   }
   void declare(Options& options) override {
     options.positional("ESTIMATE", estimate_, "TUM or KITTI file");
-    options.positional("TRUTH", truth_, "TUM or KITTI file, or the folder of a sequence with ground truth");
-    options.number("--from-frame", from_frame_, "leave out the poses before this one of the estimate");
-    options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when TRUTH is a folder with several", "NAME");
-    options.flag("--steps", steps_,
-                 "also judge each step by itself: right below a limit + 10 % of the motion, and below an angle");
-    options.number("--step-metres", step_limits_.translation_m, "that limit [m]");
-    options.number("--step-degrees", step_limits_.rotation_deg, "and that angle [deg]");
-    options.text("--json", json_, "also write the errors, per pose too, to a file", "FILE");
-    options.flag("--force", force_, "replace the --json file");
+    options.positional("TRUTH", truth_, "TUM or KITTI file, or folder of a sequence with ground truth");
+    options.number("--from-frame", from_frame_, "ignore poses of the estimate before this one");
+    options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if TRUTH is a folder with several",
+                 "NAME");
+    options.flag(
+        "--steps", steps_,
+        "also classify each step: right if its errors are below a distance + 10 % of the motion and below an angle");
+    options.number("--step-metres", step_limits_.translation_m, "distance for --steps [m]");
+    options.number("--step-degrees", step_limits_.rotation_deg, "angle for --steps [deg]");
+    options.text("--json", json_, "also write the errors, including those of every pose, to a file", "FILE");
+    options.flag("--force", force_, "overwrite the --json file");
   }
 
   int run() override {

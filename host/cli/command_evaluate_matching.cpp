@@ -33,24 +33,27 @@ class EvaluateMatchingCommand : public Command {
            "  quadedge evaluate matching room --frames 5 --sweep stereo.ncc_min=0.4:0.9:0.05";
   }
   void declare(Options& options) override {
-    options.positionals(
-        "PATH", paths_,
-        "pairs with disparities, sequences with depth (`quadedge synth`), folders of those, or a built-in scene: room, "
-        "cables, facade");
-    options.number("--frames", frames_, "only the first N frames of each sequence; 0: all, of a built-in scene 10");
+    options.positionals("PATH", paths_,
+                        "stereo pairs with disparities, sequences with depth (`quadedge synth`), folders of these, or "
+                        "a built-in scene: "
+                        "room, cables, facade");
+    options.number("--frames", frames_,
+                   "evaluate only the first N frames of each sequence; 0: all, 10 of a built-in scene");
     declare_view(options, scene_, size_);
-    options.number("--scene-seed", scene_.seed, "of the built-in scenes");
-    options.number("--tolerance", tolerance_.position, "a match this near to the true position is veridical [px]");
-    options.text("--sweep", sweep_, "only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
+    options.number("--scene-seed", scene_.seed, "seed of the built-in scenes");
+    options.number("--tolerance", tolerance_.position,
+                   "maximum distance of a veridical match from the true position [px]");
+    options.text("--sweep", sweep_, "print only the trade-off of one constant: SECTION.FIELD=FIRST:LAST:STEP", "RANGE");
     options.text("--json", json_, "also write the tables to a file", "FILE");
-    options.text("--html", html_,
-                 "also make a page with tables, plots and drawings; its figures and drawings are kept beside it, as "
-                 "--json and --draw write them",
-                 "FILE");
-    options.text("--draw", draw_, "also write drawings of the last frame of each pair or sequence to a folder, as PNG",
+    options.text(
+        "--html", html_,
+        "also make an HTML page with tables, plots and drawings; its data is written beside it, as by --json and "
+        "--draw",
+        "FILE");
+    options.text("--draw", draw_, "also write PNG drawings of the last frame of each pair or sequence to a folder",
                  "DIR");
-    options.flag("--force", force_, "replace files that exist");
-    options.flag("--quiet", quiet_, "no progress");
+    options.flag("--force", force_, "overwrite existing files");
+    options.flag("--quiet", quiet_, "hide progress");
     method_.declare(options);
   }
 
@@ -59,7 +62,7 @@ class EvaluateMatchingCommand : public Command {
     if (!(tolerance_.position > 0 && tolerance_.position <= 100))
       throw UsageError("--tolerance: expected more than 0 and at most 100 px");
     if (!sweep_.empty() && !(json_.empty() && html_.empty() && draw_.empty())) {
-      throw UsageError("--sweep prints lines only; run without it for --json, --html or --draw");
+      throw UsageError("--sweep excludes --json, --html and --draw");
     }
     check_output_file(html_, force_);
     place_data_of_page();
@@ -81,13 +84,14 @@ class EvaluateMatchingCommand : public Command {
   }
 
  private:
-  /// A page is made from files: where the user names none, they stand beside it.
+  /// A page is made from files; by default they are beside it.
   void place_data_of_page() {
     if (html_.empty()) return;
     const std::filesystem::path page = html_;
     if (json_.empty()) json_ = std::filesystem::path(page).replace_extension(".json").string();
     if (draw_.empty()) draw_ = (page.parent_path() / (page.stem().string() + "_drawings")).string();
-    if (json_ == html_) throw UsageError("--html " + html_ + ": that is where its figures go; expected a name.html");
+    if (json_ == html_)
+      throw UsageError("--html " + html_ + ": this file will hold the figures; expected a name ending in .html");
   }
 
   void open_sources() {
@@ -104,7 +108,7 @@ class EvaluateMatchingCommand : public Command {
       for (const auto& dataset : evaluation::find_true_datasets(path, skipped)) {
         sources_.push_back(evaluation::make_recorded_source(dataset));
       }
-      for (const auto& folder : skipped) note(quiet_, folder + ": left out, it has no ground truth of edges");
+      for (const auto& folder : skipped) note("warning: " + folder + ": skipped, no ground truth for edges");
     }
   }
 
@@ -122,7 +126,7 @@ class EvaluateMatchingCommand : public Command {
       const auto& frames = results.back().frames;
       for (std::size_t f = 0; f < frames.size(); ++f) {
         if (!frames[f].message.empty())
-          note(quiet_, source->name() + ", frame " + std::to_string(f) + ": " + frames[f].message);
+          note("warning: " + source->name() + ", frame " + std::to_string(f) + ": " + frames[f].message);
       }
     }
     return results;

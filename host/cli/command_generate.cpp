@@ -13,7 +13,7 @@ class GenerateCommand : public Command {
 
   std::string name() const override { return "generate"; }
   std::string about() const override {
-    return "print the manual page, the shell completion, the table of constants or the self-test";
+    return "print the manual page, the shell completion, the table of constants or the self-test record";
   }
   std::string examples() const override {
     return "  quadedge generate man | man -l -\n"
@@ -23,7 +23,7 @@ class GenerateCommand : public Command {
   void declare(Options& options) override {
     options.positional("WHAT", what_,
                        "man (quadedge.1), bash (completion script), configuration (doc/configuration.md) or self-test "
-                       "(host/frontend/self_test.rows, by the plain C++ reference)");
+                       "(host/frontend/self_test.rows, from the C++ reference)");
   }
 
   int run() override {

@@ -37,28 +37,29 @@ class MatchCommand : public Command {
   }
   void declare(Options& options) override {
     options.positional("LEFT", left_,
-                       "left image file; without --calibration both are rectified already; -: pictures from a pipe",
+                       "left image file; without --calibration both images must be rectified; -: images from a pipe",
                        false);
     options.positional("RIGHT", right_, "right image file", false);
-    options.number("--frame", frame_, "of --left and --right, --video or -: which pair, from 0");
-    options.text("--csv", csv_, "write positions and directions on both sides, ncc, and the point", "FILE");
-    options.text("--ply", ply_, "write the points as a binary PLY file; needs a calibration", "FILE");
-    options.text("--draw", draw_, "write a picture of the stereo edges (PNG)", "FILE");
-    options.flag("--force", force_, "replace files that exist");
-    options.flag("--quiet", quiet_, "no summary");
+    options.number("--frame", frame_, "with --left and --right, --video or -: number of the pair, from 0");
+    options.text("--csv", csv_, "write positions and directions in both images, NCC and 3D point of every stereo edge",
+                 "FILE");
+    options.text("--ply", ply_, "write the 3D points as a binary PLY file; needs --calibration", "FILE");
+    options.text("--draw", draw_, "draw the stereo edges to a PNG file", "FILE");
+    options.flag("--force", force_, "overwrite existing files");
+    options.flag("--quiet", quiet_, "hide the summary");
     source_.declare(options);
     method_.declare(options);
   }
   int run() override {
     if (left_ == "-") {
-      if (!right_.empty()) throw UsageError("-: pictures from a pipe hold both views, or follow one another; no RIGHT");
+      if (!right_.empty()) throw UsageError("-: the pipe has both views; RIGHT is not allowed");
       left_.clear();
       source_.read_pipe();
     }
     Config config = method_.config();
     for (const auto& file : {csv_, ply_, draw_}) check_output_file(file, force_);
     const Pair pair = read_pair();
-    if (!ply_.empty() && !pair.is_calibrated) throw UsageError("--ply: points need a --calibration");
+    if (!ply_.empty() && !pair.is_calibrated) throw UsageError("--ply needs --calibration");
     if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
       config.stereo.max_disparity = pair.max_disparity;
     Device device = method_.open_device();
@@ -74,7 +75,7 @@ class MatchCommand : public Command {
   Pair read_pair() const {
     Pair pair;
     if (source_.is_given()) {
-      if (!left_.empty()) throw UsageError("LEFT and RIGHT, or --left and --right: not both");
+      if (!left_.empty()) throw UsageError("LEFT and RIGHT exclude --left and --right");
       PairOfSource read = source_.pair(frame_);
       return {std::move(read.pair.left), std::move(read.pair.right), std::move(read.dataset.rig),
               read.dataset.max_disparity, true};

@@ -18,36 +18,39 @@ namespace {
 class ReportCommand : public Command {
  public:
   std::string name() const override { return "report"; }
-  std::string about() const override { return "make a page of the results of a run, a batch or a matching evaluation"; }
+  std::string about() const override {
+    return "make an HTML page of the results of a run, a batch or a matching evaluation";
+  }
   std::string examples() const override {
     return "  quadedge report results --latex tables --figures figures\n"
            "  quadedge report results --baseline yesterday --peer ORB-SLAM3=trajectories/orbslam3 -o comparison.html";
   }
   void declare(Options& options) override {
-    options.positional("OUT", results_, "folder of a run or of a batch, or a file of `evaluate matching --json`");
-    options.text("--baseline", baseline_, "another batch; differences to it stand beside each figure", "OTHER");
+    options.positional("OUT", results_, "folder of a run or a batch, or a file written by `evaluate matching --json`");
+    options.text("--baseline", baseline_, "another batch; the page shows the differences from it", "OTHER");
     options.repeated("--peer", peers_,
-                     "another system's trajectories of the left camera, FOLDER/SEQUENCE.txt (TUM); repeatable",
+                     "left-camera trajectories of another system, FOLDER/SEQUENCE.txt (TUM); repeatable",
                      "NAME=FOLDER");
     options.text("-o,--output", output_,
-                 "file of the page; default: OUT/report.html, or OUT with .html in place of .json, which is replaced",
+                 "HTML file; default: OUT/report.html, or OUT with .html instead of .json; the default is overwritten",
                  "FILE");
-    options.text("--csv", csv_, "also write every table as CSV", "DIR");
-    options.text("--latex", latex_, "also write every table for LaTeX (booktabs)", "DIR");
-    options.text("--figures", figures_, "also write every figure as SVG and PDF", "DIR");
+    options.text("--csv", csv_, "also write each table as CSV", "DIR");
+    options.text("--latex", latex_, "also write each table for LaTeX (booktabs)", "DIR");
+    options.text("--figures", figures_, "also write each figure as SVG and PDF", "DIR");
     options.flag("--force", force_, "replace FILE");
   }
   int run() override {
     const bool is_batch = fs::is_regular_file(fs::path(results_) / "summary.json");
     const bool is_file = fs::is_regular_file(results_);
-    if (!is_batch && !is_file && !fs::is_regular_file(fs::path(results_) / "report.json")) {
+    const auto holds = [&](const char* name) { return fs::is_regular_file(fs::path(results_) / name); };
+    if (!is_batch && !is_file && !holds("report.json") && !holds("frames.csv")) {
       throw DataError(results_ +
-                      ": neither summary.json nor report.json; expected the folder of a batch or of a run, " +
+                      ": no summary.json, report.json or frames.csv; expected the folder of a batch or of a run, "
                       "or a file of `evaluate matching --json`");
     }
     const auto peers = named_peers();
     const bool compares = !peers.empty() || !baseline_.empty();
-    if (compares && !is_batch) throw UsageError("--baseline and --peer compare batches, and " + results_ + " is none");
+    if (compares && !is_batch) throw UsageError("--baseline and --peer need a batch, and " + results_ + " is not one");
     check_output_file(output_, force_);
     const fs::path page = output_.empty() ? default_page(is_file) : fs::path(output_);
     std::vector<std::string> arguments = {results_, "--output", page.string()};
@@ -71,7 +74,7 @@ class ReportCommand : public Command {
   fs::path data_beside(const fs::path& page) const {
     const fs::path figures = fs::path(page).replace_extension(".json");
     if (figures == page)
-      throw UsageError("--output " + output_ + ": that is where its figures go; expected a name.html");
+      throw UsageError("--output " + output_ + ": this file will hold the figures; expected a name ending in .html");
     check_output_file(figures.string(), force_);
     return figures;
   }
@@ -82,7 +85,7 @@ class ReportCommand : public Command {
       const report::Peer peer = named_peer(text);
       const auto same = [&](const report::Peer& other) { return other.name == peer.name; };
       if (peer.name == "QuadEdge" || peer.name == "baseline" || std::any_of(peers.begin(), peers.end(), same))
-        throw UsageError("--peer " + text + ": the name is taken");
+        throw UsageError("--peer " + text + ": this name is already used");
       peers.push_back(peer);
     }
     return peers;
@@ -94,7 +97,7 @@ class ReportCommand : public Command {
     report::Peer peer{text.substr(0, equals), text.substr(equals + 1)};
     std::error_code ignored;
     if (!fs::is_directory(peer.folder, ignored))
-      throw DataError("--peer " + text + ": " + peer.folder + " is no folder");
+      throw DataError("--peer " + text + ": " + peer.folder + " is not a folder");
     return peer;
   }
 

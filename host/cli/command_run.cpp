@@ -11,14 +11,13 @@
 namespace quadedge::cli {
 namespace {
 
-/// One side of "A:B"; `missing` where it is left out.
+/// One side of "A:B"; `missing` where it is omitted.
 int frame_number(const std::string& text, int missing, const std::string& whole) {
   if (text.empty()) return missing;
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value < 0) {
-    throw UsageError("--frames " + whole +
-                     ": expected A:B, the first frame and the one after the last, for example 10:50");
+    throw UsageError("--frames " + whole + ": expected A:B, the first frame and the one after the last, such as 10:50");
   }
   return value;
 }
@@ -35,20 +34,20 @@ class RunCommand : public Command {
   }
 
   void declare(Options& options) override {
-    source_.declare_path(options, "folder of the sequence");
-    options.text("-o,--output", run_.output, "folder for the results; default: quadedge_NAME here", "OUT");
+    source_.declare_path(options, "folder of a recorded sequence");
+    options.text("-o,--output", run_.output, "output folder; default: quadedge_NAME in the current folder", "OUT");
     auto formats = dataset_formats();
     formats.insert(formats.begin(), "auto");
-    options.choice("--format", dataset_.format, formats, "layout of the data; auto recognises it");
-    options.text("--sequence", dataset_.sequence, "KITTI: which sequence, when PATH holds several", "NAME");
-    options.text("--frames", frames_, "frames A up to but without B; either side may be left out", "A:B");
+    options.choice("--format", dataset_.format, formats, "dataset layout; auto: recognised");
+    options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
+    options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
     options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
-    options.number("--draw", run_.draw_every, "pictures of the edges and quads of every N-th frame");
-    options.number("--thumbnails", run_.thumbnails, "so many small pictures of quads, spread over the sequence");
-    options.number("--min-tracked", min_tracked_, "fewer tracked frames end with exit code 5 [percent]");
-    options.flag("--force", run_.force, "replace the results in OUT");
-    options.flag("--quiet", run_.quiet, "no progress");
+    options.number("--draw", run_.draw_every, "draw the edges and quads of every N-th frame");
+    options.number("--thumbnails", run_.thumbnails, "number of quad thumbnails, spread evenly over the sequence");
+    options.number("--min-tracked", min_tracked_, "exit with code 5 if fewer frames are tracked [percent]");
+    options.flag("--force", run_.force, "replace results in OUT");
+    options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.map.declare(options);
     source_.declare(options);
     method_.declare(options);
@@ -60,7 +59,7 @@ class RunCommand : public Command {
     if (run_.thumbnails < 0)
       throw UsageError("--thumbnails " + std::to_string(run_.thumbnails) + ": expected 0 (none) or more");
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
-    method_.config();  // complain about options before reading data
+    method_.config();  // reports wrong options before data is read
     if (!frames_.empty()) {
       const auto colon = frames_.find(':');
       if (colon == std::string::npos) frame_number("?", 0, frames_);
@@ -69,7 +68,7 @@ class RunCommand : public Command {
     }
     Dataset dataset = source_.open(dataset_);
     if (run_.profile && dataset.format == "pipe")
-      throw UsageError("--profile reads everything twice; a pipe cannot be");
+      throw UsageError("--profile reads the recording twice, which a pipe does not allow");
     if (run_.output.empty()) run_.output = default_output_folder(dataset.name);
     const Interruption interruption;
     const auto source = make_recorded_source(std::move(dataset), [&] { return interruption.signal() != 0; });

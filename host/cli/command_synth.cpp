@@ -7,6 +7,7 @@
 #include "cli/frame_source.hpp"
 #include "cli/scene_options.hpp"
 #include "data/eth3d_slam_writer.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
@@ -25,9 +26,9 @@ class SynthCommand : public Command {
   }
   void declare(Options& options) override {
     options.positional("OUT", output_, "folder for the sequence");
-    options.number("--seed", scene_.seed, "of textures and camera noise");
-    options.flag("--force", force_, "replace the sequence in OUT");
-    options.flag("--quiet", quiet_, "no progress");
+    options.number("--seed", scene_.seed, "seed of textures and camera noise");
+    options.flag("--force", force_, "replace a sequence in OUT");
+    options.flag("--quiet", quiet_, "hide progress and the summary");
     declare_scene(options, scene_, texts_);
   }
   int run() override {
@@ -37,8 +38,9 @@ class SynthCommand : public Command {
     Progress progress(quiet_, "frames");
     write_eth3d_slam(output_, sequence, [&](int done, int all) { progress.update("rendering", done, all); });
     if (!quiet_) {
-      std::printf("%d frames of %d x %d px in %s; largest disparity %.1f px\n", sequence.frames(),
-                  sequence.rig().left.width, sequence.rig().left.height, output_.c_str(), sequence.max_disparity());
+      std::printf("%s of %d x %d px in %s; largest disparity %.1f px\n",
+                  data::counted(sequence.frames(), "frame").c_str(), sequence.rig().left.width,
+                  sequence.rig().left.height, output_.c_str(), sequence.max_disparity());
     }
     return 0;
   }
@@ -53,7 +55,7 @@ class SynthCommand : public Command {
       if (!std::filesystem::exists(folder / name, error)) continue;
       if (!force_)
         throw UsageError(output_ + ": the folder holds a sequence (" + name +
-                         "); choose another, or --force to replace it");
+                         "); choose another folder, or replace it with --force");
       std::filesystem::remove_all(folder / name, error);
       if (error) throw DataError((folder / name).string() + ": cannot be removed: " + error.message());
     }

@@ -4,8 +4,10 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
-#include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "cli/terminal.hpp"
+#include "data/text.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -16,12 +18,19 @@ constexpr std::chrono::milliseconds kTerminalInterval{100};  // between two upda
 void print_errors(const char* title, const PoseErrors& errors) {
   std::printf("\n%s\n", title);
   if (!std::isfinite(errors.ape_translation_m.mean)) {
-    std::printf("not defined: all positions lie on one line\n");
+    std::printf("undefined: all positions lie on one line\n");
     return;
   }
   std::printf("%-22s %12s %12s %12s %12s\n", "", "mean", "std", "rmse", "max");
   const auto row = [](const char* name, const ErrorStatistics& error) {
-    std::printf("%-22s %12.7f %12.7f %12.7f %12.7f\n", name, error.mean, error.std, error.rmse, error.max);
+    std::printf("%-22s", name);
+    for (const double value : {error.mean, error.std, error.rmse, error.max}) {
+      if (std::isfinite(value))
+        std::printf(" %12.7f", value);
+      else
+        std::printf(" %12s", "-");
+    }
+    std::printf("\n");
   };
   row("APE rotation [deg]", errors.ape_rotation_deg);
   row("APE translation [m]", errors.ape_translation_m);
@@ -49,9 +58,10 @@ std::string rate_and_rest(int done, int total, const std::string& unit, std::chr
 /// Errors beside what was promised of them, over motions of several lengths.
 void print_consistency(const std::vector<evaluation::StepConsistency>& steps) {
   std::printf(
-      "\nerrors of motions and what was promised, root mean squares; their ratio squared per degree of freedom:\n");
-  std::printf("by the edges' covariances alone, and with the uncertainty of the rig (pose.rig_sigma_*)\n");
-  std::printf("%-8s %11s %11s %11s %11s %9s %9s\n", "frames", "error [mm]", "promised", "error [deg]", "promised",
+      "\nerrors of motions and their standard deviations by the covariances (root mean squares), and normalised error\n"
+      "squared per degree of freedom (1: consistent),");
+  std::printf(" by edge noise alone and with the uncertainty of the rig (pose.rig_sigma_*)\n");
+  std::printf("%-8s %11s %11s %11s %11s %9s %9s\n", "frames", "error [mm]", "predicted", "error [deg]", "predicted",
               "edges", "with rig");
   for (const auto& step : steps) {
     std::printf("%-8d %11.3f %11.3f %11.4f %11.4f %9.2f %9.2f\n", step.frames, 1e3 * step.error_m,
@@ -63,7 +73,8 @@ void print_consistency(const std::vector<evaluation::StepConsistency>& steps) {
   const bool metres = ten->error_m < 2 * steps.front().error_m, degrees = ten->error_deg < 2 * steps.front().error_deg;
   if (metres || degrees) {
     std::printf(
-        "the %s hardly with the length of the motion: noise of single poses decides, that of the ground truth's too\n",
+        "the %s little with the length of the motion: the noise of single poses dominates, including the ground "
+        "truth's\n",
         metres && degrees ? "errors grow"
         : metres          ? "translation's error grows"
                           : "rotation's error grows");
@@ -73,7 +84,7 @@ void print_consistency(const std::vector<evaluation::StepConsistency>& steps) {
 }  // namespace
 
 StatusLine::StatusLine(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), shown_(std::chrono::steady_clock::now()) {}
+    : quiet_(quiet), terminal_(has_escape_codes(STDERR_FILENO)), shown_(std::chrono::steady_clock::now()) {}
 
 StatusLine::~StatusLine() { end_line(); }
 
@@ -96,9 +107,9 @@ void StatusLine::show(const std::string& text, bool last) {
     return;
   }
   // A longer line would wrap, and only its end would be written over.
-  winsize window{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;
-  std::fprintf(stderr, "\r%s\x1b[K", known ? text.substr(0, window.ws_col - 1U).c_str() : text.c_str());
+  const int width = terminal_width(STDERR_FILENO);
+  std::fprintf(stderr, "\r%s\x1b[K",
+               width > 1 ? text.substr(0, static_cast<std::size_t>(width) - 1).c_str() : text.c_str());
   line_open_ = true;
   if (last) end_line();
 }
@@ -136,19 +147,28 @@ std::string duration_text(double seconds) {
   return text;
 }
 
-void note(bool quiet, const std::string& sentence) {
-  if (!quiet) std::fprintf(stderr, "quadedge: %s\n", sentence.c_str());
+void note(const std::string& sentence) {
+  // Replaces the progress line, which is shown again with the next frame.
+  std::fprintf(stderr, "%squadedge: %s\n", has_escape_codes(STDERR_FILENO) ? "\r\x1b[K" : "", sentence.c_str());
 }
 
 void print_run(const report::RunRecord& run, const std::string& output) {
   const int frames = static_cast<int>(run.frames.size());
   int key_rigs = 0;
   for (const auto& frame : run.frames) key_rigs += frame.result.new_key_rig ? 1 : 0;
-  std::printf("sequence   %s (%s), %d frames of %d x %d\n", run.input.name.c_str(), run.input.format.c_str(), frames,
-              run.input.width, run.input.height);
+  std::printf("sequence   %s (%s), %s of %d x %d\n", run.input.name.c_str(), run.input.format.c_str(),
+              data::counted(frames, "frame").c_str(), run.input.width, run.input.height);
   std::printf("device     %s (%s, %s)\n", run.device.name.c_str(), run.device.platform.c_str(),
               run.device.type.c_str());
-  std::printf("tracked    %d of %d frames, %d key stereo rigs\n", run.tracked(), frames, key_rigs);
+  std::printf("tracked    %d of %s, %s\n", run.tracked(), data::counted(frames, "frame").c_str(),
+              data::counted(key_rigs, "key stereo rig").c_str());
+  const std::string lost = report::lost_reasons(run.frames);
+  if (!lost.empty()) std::printf("lost       %s\n", lost.c_str());
+  if (run.input.dropped > 0) {
+    std::printf("dropped    %s from the pipe, which came faster than they were tracked\n",
+                data::counted(run.input.dropped, "pair").c_str());
+  }
+  std::printf("path       %.3f m (estimated)\n", report::path_length_m(run.frames));
   const auto latency = report::latency_summary(run.frames);
   std::printf("latency    median %s, p90 %s, p99 %s, max %s; first frame %s\n", milliseconds(latency.median).c_str(),
               milliseconds(latency.p90).c_str(), milliseconds(latency.p99).c_str(), milliseconds(latency.max).c_str(),
@@ -156,7 +176,7 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   std::printf("counts    ");
   for (const auto& [name, value] : report::count_medians(run.frames)) std::printf(" %s %.0f", name.c_str(), value);
   std::printf(" (medians)\n");
-  std::printf("start      %s, of it kernel builds %s\n", milliseconds(run.start_ms).c_str(),
+  std::printf("start      %s, including %s of kernel builds\n", milliseconds(run.start_ms).c_str(),
               milliseconds(run.kernel_build_ms).c_str());
   std::printf("memory     host %.0f MB, device %.0f MB (peaks)\n", run.host_peak_mb, run.device_peak_mb);
   if (!run.kernel_times.empty()) {
@@ -167,7 +187,7 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   }
   if (run.accuracy) print_evaluation(*run.accuracy);
   if (!run.step_consistency.empty()) print_consistency(run.step_consistency);
-  std::printf("\nresults in %s\n", output.c_str());
+  std::printf("\nresults in %s\nnext       quadedge report %s\n", output.c_str(), data::shell_word(output).c_str());
 }
 
 void print_evaluation(const TrajectoryEvaluation& evaluation) {
@@ -175,6 +195,8 @@ void print_evaluation(const TrajectoryEvaluation& evaluation) {
               evaluation.estimate_poses, evaluation.path_length_m, evaluation.end_drift_percent);
   print_errors("origin-aligned (the first compared poses made equal)", evaluation.origin_aligned);
   print_errors("SE(3)-aligned (least squares over all positions, no scale)", evaluation.se3_aligned);
+  if (std::isfinite(evaluation.se3_aligned.ape_translation_m.mean) && !evaluation.se3_open_rotation.empty())
+    std::printf("no APE rotation: %s\n", evaluation.se3_open_rotation.c_str());
 }
 
 }  // namespace quadedge::cli

@@ -9,19 +9,19 @@
 
 namespace quadedge::cli {
 
-/// What a long command is doing, on stderr: one updating line on a terminal, else a plain line every few seconds, or
-/// nothing.
+/// What a long command is doing, on stderr: one updating line on a terminal, else a plain line every few seconds;
+/// nothing with --quiet.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
   ~StatusLine();
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
-  /// Is it time for the next text? Always for the `last` one.
+  /// Whether to show the next text now. Always true for the `last` one.
   bool due(bool last = false) const;
-  /// The text of now; the next one takes its place on a terminal, unless it is the `last`.
+  /// Shows a text, which the next one replaces on a terminal unless it is the `last`.
   void show(const std::string& text, bool last = false);
-  /// A line of its own that stays.
+  /// Prints a line that is not replaced.
   void say(const std::string& text);
 
  private:
@@ -31,14 +31,14 @@ class StatusLine {
   std::chrono::steady_clock::time_point shown_;
 };
 
-/// Progress of a command that counts.
+/// Progress of a command that counts its work.
 class Progress {
  public:
-  /// \param unit  of what is counted, for the rate: "frames"
+  /// \param unit  what is counted, for the rate: "frames"
   explicit Progress(bool quiet, std::string unit = {})
       : status_(quiet), unit_(std::move(unit)), start_(std::chrono::steady_clock::now()), updated_(start_) {}
-  /// `done` of `total` (0: nobody knows) are finished, which also gives rate and remaining time; `note` is a short text
-  /// behind the numbers. Another `what` is another step, whose time begins with the end of the one before.
+  /// `done` of `total` (0: unknown) are finished, which also gives rate and remaining time; `note` is appended to the
+  /// numbers. A new `what` starts a new step, whose time begins with the end of the previous one.
   void update(const std::string& what, int done, int total, const std::string& note = "");
 
  private:
@@ -50,10 +50,10 @@ class Progress {
 /// "47 s", "2 min 05 s", "1 h 03 min".
 std::string duration_text(double seconds);
 
-/// A sentence on stderr that the user should see; nothing with `quiet`.
-void note(bool quiet, const std::string& sentence);
+/// A sentence on stderr that the user should see, also with --quiet.
+void note(const std::string& sentence);
 
-/// The results of a run on stdout. `output` is the folder that holds its files.
+/// The results of a run on stdout, and the command that shows them. `output` is the folder that holds its files.
 void print_run(const report::RunRecord& run, const std::string& output);
 
 /// The tables of an evaluation on stdout.

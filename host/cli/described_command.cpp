@@ -74,9 +74,9 @@ class Recorder : public Options {
   void environment(const std::string& variable) override { list_.back().environment = variable; }
   void group(const std::string& heading, bool) override { heading_ = heading; }
   void config_file() override {
-    add("--preset", "WORD", "fast, default or accurate: so many edges take part", "default");
+    add("--preset", "WORD", "accuracy against speed: accurate uses all edges, fast half as many as default", "default");
     list_.back().choices = data::preset_names();
-    add("--config", "FILE", "options from a TOML file, same names as here", "");
+    add("--config", "FILE", "TOML file with options, named as here; the command line overrides it", "");
   }
 
  private:

@@ -13,10 +13,10 @@ struct DescribedOption {
   std::vector<std::string> names;  ///< "-o", "--output"; of a positional argument its name in capitals
   std::string placeholder;         ///< "FILE"; empty for a flag
   std::string help;
-  std::string default_text;          ///< empty: none worth telling
-  std::string heading;               ///< of the group that it stands in
-  std::string environment;           ///< variable that is read where the option is not given
-  std::vector<std::string> choices;  ///< the words allowed, if only some are
+  std::string default_text;          ///< empty: not shown
+  std::string heading;               ///< of its group
+  std::string environment;           ///< variable that sets the default
+  std::vector<std::string> choices;  ///< allowed words; empty: any text
   bool positional = false;
   bool required = false;
   bool repeated = false;
@@ -30,7 +30,7 @@ struct DescribedCommand {
   std::vector<DescribedOption> options;
 };
 
-/// Declares the command's options anew and lists them.
+/// Lists the options that a command declares.
 DescribedCommand describe(Command& command);
 
 }  // namespace quadedge::cli

@@ -16,21 +16,21 @@ FolderLock::FolderLock(std::string file, bool shared, const std::string& what)
   do {
     if (file_ >= 0) close(file_);
     file_ = open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) throw DataError(name_ + ": cannot be made: " + std::strerror(errno));
+    if (file_ < 0) throw DataError(name_ + ": cannot be created: " + std::strerror(errno));
     if (flock(file_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(file_);
-      throw UsageError(what + ": another run or batch is writing there");
+      throw UsageError(what + ": another run or batch is writing to this folder");
     }
   } while (is_removed());
 }
 
 FolderLock::~FolderLock() {
   if (file_ < 0) return;
-  if (!shared_) unlink(name_.c_str());  // before the lock ends: nobody else can hold it yet
+  if (!shared_) unlink(name_.c_str());  // before the lock ends, so no other process holds it yet
   close(file_);
 }
 
-/// Has its last holder removed the file between open() and flock()? Then others lock another one of this name.
+/// Whether its last holder removed the file between open() and flock(); other processes then lock a new file.
 bool FolderLock::is_removed() const {
   struct stat held {
   }, named{};

@@ -6,11 +6,12 @@
 
 namespace quadedge::cli {
 
-/// A lock that ends with its object or its process. Who holds it alone removes the file in the end.
+/// A lock that ends with its object or its process. An exclusive lock removes its file.
 class FolderLock {
  public:
-  /// `shared`: others may hold it shared as well. `what`: the folder, for the message. \throws UsageError when somebody
-  /// else holds it, DataError when the file cannot be made. A file system without locks is used without.
+  /// `shared`: other processes may hold it shared as well. `what`: the folder, for the message. \throws UsageError when
+  /// another process holds it, DataError when the file cannot be created. On file systems without locks it does
+  /// nothing.
   FolderLock(std::string file, bool shared, const std::string& what);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept

@@ -15,8 +15,11 @@ class RecordedSource : public FrameSource {
   }
   const StereoRig& rig() const override { return dataset_.rig; }
   report::InputFacts facts() const override {
-    return {dataset_.path,           dataset_.format,         dataset_.name, static_cast<int>(dataset_.frames.size()),
-            dataset_.rig.left.width, dataset_.rig.left.height};
+    report::InputFacts facts{dataset_.path,           dataset_.format,
+                             dataset_.name,           static_cast<int>(dataset_.frames.size()),
+                             dataset_.rig.left.width, dataset_.rig.left.height};
+    facts.warnings = dataset_.warnings;
+    return facts;
   }
   double max_disparity() const override { return dataset_.max_disparity; }
   std::optional<FramePrefetcher::Frame> next() override { return prefetcher_->next(); }
@@ -47,7 +50,7 @@ class SyntheticSource : public FrameSource {
   double max_disparity() const override { return frames_.sequence().max_disparity(); }
   std::string prepare() override {
     frames_.prepare();
-    return frames_.cache_error().empty() ? "" : "rendered frames are not kept: " + frames_.cache_error();
+    return frames_.cache_error().empty() ? "" : "rendered frames are not cached: " + frames_.cache_error();
   }
   std::optional<FramePrefetcher::Frame> next() override { return frames_.next(); }
   void rewind() override { frames_.rewind(); }
@@ -56,7 +59,7 @@ class SyntheticSource : public FrameSource {
   std::string kept() const override {
     if (frames_.kept() == 0) return {};
     return std::to_string(frames_.kept()) + " of " + std::to_string(frames_.progress().frames) +
-           " rendered frames are kept in " + frames_.folder();
+           " rendered frames are cached in " + frames_.folder();
   }
 
  private:

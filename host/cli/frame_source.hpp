@@ -13,7 +13,7 @@
 
 namespace quadedge::cli {
 
-/// A sequence that can be run. Ground truth is kept apart: only evaluation and pictures ask for it.
+/// A sequence that can be run. Only evaluation and drawings use its ground truth.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -21,7 +21,7 @@ class FrameSource {
   virtual report::InputFacts facts() const = 0;
   /// Default for the largest disparity [px].
   virtual double max_disparity() const = 0;
-  /// Makes the next frames ready where that takes long. Returns what the user should know of it, or nothing.
+  /// Prepares the frames where that takes long. Returns a warning for the user, or nothing.
   virtual std::string prepare() { return {}; }
   /// The next frame, or nothing at the end. \throws DataError for a frame that cannot be read.
   virtual std::optional<FramePrefetcher::Frame> next() = 0;
@@ -31,17 +31,17 @@ class FrameSource {
   virtual const Trajectory& truth() const = 0;
   /// Where they come from.
   virtual std::string truth_name() const = 0;
-  /// Pairs left out so far since they came faster than they were taken.
+  /// Pairs dropped so far because they came faster than they were taken.
   virtual int dropped() const { return 0; }
-  /// What prepare() has kept for another run, as a sentence for the user; empty: nothing.
+  /// What prepare() has cached for later runs, as a sentence for the user; empty: nothing.
   virtual std::string kept() const { return {}; }
 };
 
-/// A recorded sequence, or a camera of one's own; images are read ahead on another thread. `stop`: as FramePrefetcher.
+/// A recorded sequence or the user's own cameras; images are read ahead on another thread. `stop`: as FramePrefetcher.
 std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop = {});
 
-/// The built-in sequence, rendered ahead and kept in the user's cache (see data::RenderedFrames). `watch`: told while
-/// frames are made ready. \throws UsageError for options that cannot be rendered.
+/// The built-in sequence, rendered ahead and kept in the user's cache (see data::RenderedFrames). `watch`: called while
+/// frames are prepared. \throws UsageError for options that cannot be rendered.
 std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options,
                                                    data::RenderedFrames::Watch watch = {});
 

@@ -15,9 +15,9 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// The signal that came; 0: none.
+  /// The signal received; 0: none.
   int signal() const;
-  /// Ends this process by the signal that came, so that whoever started it sees why.
+  /// Ends this process by the signal received, so that its parent sees why.
   [[noreturn]] void end_process() const;
 
  private:

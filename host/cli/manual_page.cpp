@@ -15,19 +15,20 @@ quadedge \- stereo visual odometry from quadruplets of third-order edges
 .RI [ ARGUMENTS ]
 .RI [ OPTIONS ]
 .SH DESCRIPTION
-Stereo images in, camera trajectory out: third-order edges are matched between left and right and between two times,
-on any OpenCL device, GPU or CPU. Every command has
-.B \-\-help
-with examples;
+Estimates the trajectory of a stereo camera: third-order edges are matched between left and right images and between
+frames, on any OpenCL device, GPU or CPU.
+.B quadedge help
+.I COMMAND
+shows the options of a command, with examples;
 .B \-\-help\-all
-adds every constant of the method.
+adds all constants of the method.
 .SH COMMANDS
 )";
 
 constexpr const char* kManualTail = R"(.SH CONFIGURATION FILE
 .B \-\-config
 .I FILE
-reads a TOML file. Its keys are the names of options without dashes; constants stand in tables:
+reads a TOML file. Its keys are the names of options without dashes; constants are in tables:
 .PP
 .EX
 seed = 7
@@ -35,16 +36,15 @@ seed = 7
 ncc_min = 0.5
 .EE
 .PP
-The command line wins over the environment, and that over the file. An unknown key is an error.
+The command line overrides the environment, which overrides the file. Unknown keys are errors.
 .SH ENVIRONMENT
 .TP
 .B QUADEDGE_DEVICE
-what
+default of
 .B \-\-device
-says where it is not given
 .TP
 .B QUADEDGE_PYTHON
-the Python that makes pages; it must have the module quadedge.report
+the Python that makes HTML pages; it must have the module quadedge.report
 .TP
 .B XDG_CONFIG_HOME
 folder of the kernel variants that
@@ -103,7 +103,7 @@ std::string command_section(const DescribedCommand& command) {
 std::string constant_section(const std::vector<DescribedCommand>& commands) {
   const auto command = std::find_if(commands.begin(), commands.end(), has_constants);
   if (command == commands.end()) return "";
-  std::string text = ".SH CONSTANTS\nOptions of every command that computes.\n", heading;
+  std::string text = ".SH CONSTANTS\nOptions of every computing command.\n", heading;
   for (const auto& option : command->options) {
     if (!option.is_constant) continue;
     if (option.heading != heading) text += ".SS \"" + escaped(option.heading) + "\"\n";

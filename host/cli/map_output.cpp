@@ -25,9 +25,9 @@ void write_image(const std::string& folder, const char* side, int frame, const I
 
 void MapFiles::declare(Options& options) {
   options.group("Map");
-  options.text("--map", ply, "write the edges of all key stereo rigs in space, a binary PLY file", "FILE");
-  options.text("--map-colmap", colmap, "write cameras, images and points as COLMAP reads them", "DIR");
-  options.number("--map-min-views", min_views, "key stereo rigs that have to see a point of the map");
+  options.text("--map", ply, "write the 3D edges of all key stereo rigs as a binary PLY file", "FILE");
+  options.text("--map-colmap", colmap, "write cameras, images and points as a COLMAP model", "DIR");
+  options.number("--map-min-views", min_views, "minimum number of key stereo rigs that see a point of the map");
 }
 
 void MapFiles::check(bool force) const {
@@ -38,7 +38,7 @@ void MapFiles::check(bool force) const {
   std::error_code error;
   for (const char* folder : {"/images", "/sparse/0"}) {
     std::filesystem::create_directories(colmap + folder, error);
-    if (error) throw DataError(colmap + folder + ": the folder cannot be made: " + error.message());
+    if (error) throw DataError(colmap + folder + ": cannot create the folder: " + error.message());
   }
   check_output_file(colmap + "/sparse/0/points3D.txt", force);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// \file map_output.hpp  The map that a run leaves behind.
+/// \file map_output.hpp  The map that a run writes.
 
 #include <memory>
 #include <optional>
@@ -21,11 +21,12 @@ struct MapFiles {
   /// --map, --map-colmap, --map-min-views.
   void declare(Options& options);
   bool is_wanted() const { return !ply.empty() || !colmap.empty(); }
-  /// Before long work. \throws UsageError, DataError for what could not be written, or exists without `force`.
+  /// Checks the files before long work. \throws UsageError, DataError for files that cannot be written, or that exist
+  /// without `force`.
   void check(bool force) const;
 };
 
-/// Collects the map of a run and writes it in the end; does nothing where none is wanted.
+/// Collects the map of a run and writes it at the end; does nothing if no map is requested.
 class MapOutput {
  public:
   MapOutput(const MapFiles& files, const Config& config);
@@ -33,12 +34,12 @@ class MapOutput {
   void add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry);
   /// Writes what has been collected; nothing before the first key stereo rig. \throws DataError.
   void write();
-  /// What was written; nothing where no map is wanted.
+  /// What was written; nothing if no map is requested.
   std::optional<report::MapFacts> facts() const { return facts_; }
 
  private:
   MapFiles files_;
-  std::unique_ptr<EdgeMap> map_;  ///< null where none is wanted
+  std::unique_ptr<EdgeMap> map_;  ///< null if no map is requested
   StereoRig rig_;
   std::optional<report::MapFacts> facts_;
 };

@@ -23,7 +23,7 @@ std::string heading(const std::string& section) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// The verdict on a device. With kernels from a folder it is found anew: they are being worked on.
+/// The verdict on a device; not cached for kernels from a folder, which are being worked on.
 SelfTestResult verdict(Device& device, const std::map<std::string, std::string>& variants, bool own_kernels) {
   if (device.is_reference()) return {};
   const auto kept = own_kernels ? kept_verdict(device.info(), variants) : std::nullopt;
@@ -37,13 +37,14 @@ SelfTestResult verdict(Device& device, const std::map<std::string, std::string>&
 
 void MethodOptions::declare(Options& options) {
   options.group(kShared);
-  options.text("--device", device_, "auto, cpu, gpu, reference, a number of `quadedge devices`, or a part of a name",
+  options.text("--device", device_, "auto, cpu, gpu, reference, a number from `quadedge devices`, or part of a name",
                "DEVICE");
   options.environment("QUADEDGE_DEVICE");
-  options.flag("--trust", trusts_, "go on with a device that fails the self-test");
+  options.flag("--trust", trusts_, "use a device even if it fails the self-test");
   options.config_file();
-  options.repeated("--variant", variants_, "kernel variant of a stage (`quadedge variants`), repeatable", "STAGE=NAME");
-  options.text("--kernels", kernels_, "read the kernels from this folder instead of the built-in ones", "DIR");
+  options.repeated("--variant", variants_, "kernel variant of a stage (`quadedge variants` lists them); repeatable",
+                   "STAGE=NAME");
+  options.text("--kernels", kernels_, "read the kernels from this folder instead of the program", "DIR");
   for (const Constant& constant : constants()) {
     const std::string shorter = constant.key() == "stereo.max_disparity" ? "--max-disparity," : "";
     options.group(heading(constant.section), !constant.basic);
@@ -78,8 +79,8 @@ Device MethodOptions::open_device(const std::string& choice, const DeviceOptions
   if (test != nullptr) *test = result;
   if (!result.passed() && !trusts_) {
     throw DeviceError(device.info().name + " (" + device.info().platform + ", " + device.info().driver +
-                      ") computes wrongly, stage " + result.stage + ": " + result.difference +
-                      ". Expected another device or driver (`quadedge devices`), or --trust to go on with this one");
+                      ") fails the self-test at stage " + result.stage + ": " + result.difference +
+                      ". Choose another device or driver (`quadedge devices`), or use this one with --trust");
   }
   return device;
 }

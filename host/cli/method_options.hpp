@@ -16,7 +16,7 @@ class MethodOptions {
  public:
   /// --device, --trust, --config, --variant, --kernels, --max-disparity, and --KEY for every constant.
   void declare(Options& options);
-  /// Before declare(): what is rendered has a rig without errors, unless an option says otherwise.
+  /// To be called before declare(): rendered sequences have a rig without errors, unless options state one.
   void assume_exact_rig();
   /// The checked configuration. \throws UsageError for a value out of range, an unknown stage or variant.
   Config config() const;
@@ -24,11 +24,11 @@ class MethodOptions {
   /// device that fails is skipped with a warning as long as there is another. \param test receives the verdict
   /// \throws DeviceError for a device that computes wrongly, unless --trust is given.
   Device open_device(bool profiling = false, SelfTestResult* test = nullptr) const;
-  /// What --device says.
+  /// The value of --device.
   const std::string& device_choice() const { return device_; }
-  /// What --trust says.
+  /// Whether --trust is given.
   bool trusts() const { return trusts_; }
-  /// What --kernels says; empty for the built-in ones.
+  /// The value of --kernels; empty: the built-in kernels.
   const std::string& kernel_folder() const { return kernels_; }
 
  private:

@@ -27,20 +27,20 @@ FolderLock prepare_output_folder(const std::string& path, bool force) {
   const fs::path folder(path);
   std::error_code error;
   fs::create_directories(folder / "pictures", error);
-  if (error) throw DataError(path + ": the output folder cannot be made: " + error.message());
+  if (error) throw DataError(path + ": cannot create the output folder: " + error.message());
   FolderLock lock((folder / ".lock").string(), false, path);
   for (const char* name : kResultFiles) {
     if (!fs::exists(folder / name, error)) continue;
     if (!force)
       throw UsageError(path + ": the folder holds results (" + name +
-                       "); choose another -o, or --force to replace them");
+                       "); choose another folder with -o, or replace them with --force");
     fs::remove(folder / name, error);
-    if (error) throw DataError((folder / name).string() + ": the old result cannot be removed: " + error.message());
+    if (error) throw DataError((folder / name).string() + ": cannot remove the old result: " + error.message());
   }
   for (const auto& entry : fs::directory_iterator(folder / "pictures", error)) {
     if (is_picture(entry.path())) fs::remove(entry.path(), error);
   }
-  if (error) throw DataError((folder / "pictures").string() + ": old pictures cannot be removed: " + error.message());
+  if (error) throw DataError((folder / "pictures").string() + ": cannot remove old pictures: " + error.message());
   return lock;
 }
 
@@ -48,7 +48,7 @@ void check_output_file(const std::string& path, bool force) {
   if (path.empty()) return;
   std::error_code error;
   if (!force && fs::is_regular_file(path, error)) {
-    throw UsageError(path + ": the file exists; choose another name, or --force to replace it");
+    throw UsageError(path + ": the file exists; choose another name, or overwrite it with --force");
   }
   data::check_writable(path);
 }
@@ -57,8 +57,7 @@ void refuse_full_folder(const std::string& path, bool force) {
   std::error_code error;
   if (force || path.empty() || !std::filesystem::is_directory(path, error) || std::filesystem::is_empty(path, error))
     return;
-  throw UsageError(path +
-                   ": the folder holds files; choose another one, or --force to replace those of the same names");
+  throw UsageError(path + ": the folder is not empty; choose another one, or overwrite files in it with --force");
 }
 
 std::string default_output_folder(const std::string& sequence) { return "quadedge_" + data::plain_name(sequence); }

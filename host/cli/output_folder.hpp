@@ -7,7 +7,7 @@
 
 namespace quadedge::cli {
 
-/// Makes the folder, checks that it can be written, and locks it. A folder that holds results is refused without
+/// Creates the folder, checks that it can be written, and locks it. A folder with results is refused without
 /// `force`; with it, the old results (and nothing else) are removed, so that no stale file stays among the new ones.
 /// \throws UsageError for a refused folder and for one that another run writes to, DataError (naming the path) for one
 /// that cannot be made or written.

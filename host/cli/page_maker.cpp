@@ -52,7 +52,7 @@ std::vector<std::string> interpreters() {
 }  // namespace
 
 int make_page(const std::vector<std::string>& arguments) {
-  setenv("PYTHONSAFEPATH", "1", 1);  // a folder named quadedge where the user stands is not the module
+  setenv("PYTHONSAFEPATH", "1", 1);  // a folder named quadedge in the current folder is not the module
   std::string tried;
   for (const auto& python : interpreters()) {
     if (run_program({python, "-c", "import quadedge.report"}, true) != 0) {

@@ -8,8 +8,10 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <unistd.h>
 #include <utility>
 
+#include "cli/terminal.hpp"
 #include "common/nearest_word.hpp"
 #include "data/presets.hpp"
 #include "quadedge/error.hpp"
@@ -20,14 +22,14 @@ namespace {
 
 /// Refuses an empty text, which CLI11 reads as 0.
 const CLI::Validator kNumber(
-    [](const std::string& text) -> std::string { return text.empty() ? "'' is no number" : ""; }, "");
+    [](const std::string& text) -> std::string { return text.empty() ? "'' is not a number" : ""; }, "");
 
 /// Refuses "010" and "0x10" as well, which CLI11 reads as octal and hexadecimal.
 const CLI::Validator kDecimal(
     [](const std::string& text) -> std::string {
       const std::size_t digits = text.find_first_not_of("+-");
       const bool other_base = digits != std::string::npos && text[digits] == '0' && digits + 1 < text.size();
-      return digits == std::string::npos || other_base ? "'" + text + "' is no whole number in decimal digits" : "";
+      return digits == std::string::npos || other_base ? "'" + text + "' is not a decimal integer" : "";
     },
     "");
 
@@ -99,19 +101,20 @@ class ParserOptions : public Options {
     has_full_help_ = has_full_help_ || only_in_full_help;
   }
   void config_file() override {
-    app_.add_option("--preset", preset_, "how many edges take part: all of them with accurate, half as many with fast")
+    app_.add_option("--preset", preset_,
+                    "accuracy against speed: accurate uses all edges, fast half as many as default")
         ->check(CLI::IsMember(data::preset_names()).description(""))
         ->type_name(joined(data::preset_names()) + "=default")
         ->group(group_);
-    last_ =
-        app_.add_option("--config", config_file_, "options from a TOML file, same names as here; the command line wins")
-            ->group(group_)
-            ->type_name("FILE");
+    last_ = app_.add_option("--config", config_file_,
+                            "TOML file with options, named as here; the command line overrides it")
+                ->group(group_)
+                ->type_name("FILE");
   }
 
   bool has_full_help() const { return has_full_help_; }
 
-  /// Sets the options that the configuration file names and nobody has set yet; checks the others.
+  /// Sets the options of the configuration file that are not set yet; checks the others.
   void apply_config_file() const {
     if (!preset_.empty()) apply(data::read_preset(preset_));
     if (!config_file_.empty()) apply(data::read_toml(config_file_));
@@ -130,7 +133,7 @@ class ParserOptions : public Options {
     }
   }
 
-  /// Sets an option to an entry's value; `keep`: only checks it, for command line or environment have set it.
+  /// Sets an option to an entry's value; `keep`: only checks it, as the command line or the environment has set it.
   using SetFromFile = std::function<void(const data::TomlEntry& entry, bool keep)>;
   struct FileSetting {
     const CLI::Option* option;
@@ -153,7 +156,7 @@ class ParserOptions : public Options {
   void add_choice(const std::string& names, std::string& value, const std::vector<std::string>& allowed,
                   const std::string& help) {
     CLI::Validator member = CLI::IsMember(allowed);
-    add(names, value, help)->check(member.description(""))->type_name(joined(allowed));  // the type says it already
+    add(names, value, help)->check(member.description(""))->type_name(joined(allowed));  // the type name lists them
   }
 
   /// The option declared last takes values of its type from the file.
@@ -207,7 +210,7 @@ const CLI::App& named_command(const CLI::App& program) {
   return *app;
 }
 
-/// What is wrong with the command line: an unknown command or option with the most similar one, else what CLI11 says.
+/// The error in the command line: an unknown command or option with the most similar known one, else CLI11's message.
 std::string complaint(const CLI::App& app, const CLI::Error& error) {
   const std::vector<std::string> unknown = app.remaining();
   if (unknown.empty()) return error.what();
@@ -223,7 +226,7 @@ std::string complaint(const CLI::App& app, const CLI::Error& error) {
   return error.what() + did_you_mean(unknown.front(), names);
 }
 
-/// Prints what is wrong and where help is.
+/// Prints the error and how to get help.
 int refuse(const CLI::App& program, const CLI::Error& error) {
   const CLI::App& app = named_command(program);
   std::cerr << "quadedge: " << complaint(app, error) << "\n";
@@ -231,23 +234,43 @@ int refuse(const CLI::App& program, const CLI::Error& error) {
   for (const CLI::App* part = &app; part != nullptr; part = part->get_parent()) {
     name = part->get_name() + (name.empty() ? "" : " ") + name;
   }
-  std::cerr << "`" << name << " --help` shows what is possible\n";
+  std::cerr << "`" << name << " --help` lists the options\n";
   return static_cast<int>(ExitCode::usage);
+}
+
+/// `quadedge help [COMMAND...]` and `quadedge version` as the options of those names.
+std::vector<const char*> with_options_for_words(int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2) return words;
+  if (std::strcmp(argv[1], "version") == 0) words[1] = "--version";
+  if (std::strcmp(argv[1], "help") == 0) {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
+  return words;
+}
+
+/// Prints the requested help, wrapped to the width of the terminal, or the version.
+int answer(const CLI::App& program, const CLI::Success& request) {
+  std::ostringstream text;
+  const int code = program.exit(request, text, std::cerr);
+  std::cout << wrapped(text.str(), terminal_width(STDOUT_FILENO));
+  return code;
 }
 
 }  // namespace
 
 Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_ptr<Command>>& commands) {
-  bool short_help = false;
-  for (int i = 1; i < argc; ++i) {
-    short_help = short_help || std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0;
-  }
+  const std::vector<const char*> words = with_options_for_words(argc, argv);
+  const bool short_help = std::any_of(words.begin() + 1, words.end(), [](const char* word) {
+    return std::strcmp(word, "--help") == 0 || std::strcmp(word, "-h") == 0;
+  });
 
   CLI::App program("Stereo visual odometry from quadruplets of third-order edges", "quadedge");
   program.set_version_flag("--version", "quadedge " QUADEDGE_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Each command has its own --help with examples, for example: quadedge run --help\n"
+      "quadedge help COMMAND (or quadedge COMMAND --help) shows a command's options, with examples.\n"
       "Exit codes: 0 done, 1 internal error, 2 usage or configuration, 3 data, 4 device or kernel build,\n"
       "5 finished but tracked too few frames, 6 regression found by bench --compare");
   std::map<std::string, CLI::App*> groups;
@@ -259,13 +282,14 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
     options.push_back(std::make_unique<ParserOptions>(*apps.back(), short_help));
     command->declare(*options.back());
     if (options.back()->has_full_help()) {
-      apps.back()->set_help_all_flag("--help-all", "this help with every constant of the method");
+      apps.back()->set_help_all_flag("--help-all", "this help with all constants of the method");
     }
   }
   try {
-    program.parse(argc, argv);
+    program.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::Success& request) {  // --help, --help-all, --version
-    return {nullptr, program.exit(request)};
+    const bool is_known = program.remaining().empty();  // CLI11 answers `rnu --help`, too
+    return {nullptr, is_known ? answer(program, request) : refuse(program, request)};
   } catch (const CLI::Error& error) {
     return {nullptr, refuse(program, error)};
   }

@@ -43,7 +43,7 @@ void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {
 void RigEvidenceCollector::see(const Dataset& dataset, const StereoPair& pair) {
   if (!dataset_) {
     dataset_ = dataset;
-    dataset_->stream = nullptr;  // the pairs are another's
+    dataset_->stream = nullptr;  // which is read elsewhere
     check_numbers(dataset.rig, found_);
   }
   const auto middle = static_cast<int>(dataset.frames.size() / 2);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file rig_check.hpp  Whether the images of a data set belong to its calibration.
+/// \file rig_check.hpp  Whether the images of a dataset fit its calibration.
 
 #include <optional>
 
@@ -7,22 +7,22 @@
 
 namespace quadedge::cli {
 
-/// Numbers of the calibration that hardly any rig has become warnings.
+/// Adds a warning for each implausible value of the calibration.
 void check_numbers(const StereoRig& rig, DatasetCheck& check);
 
-/// Asks one frame: adds a fact, and what speaks against the calibration to the warnings.
+/// Tests the calibration on one frame: adds the figures, and warnings where it does not fit.
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check);
 
-/// Asks the first, the middle and the last frame of a data set of files, and checks the numbers.
+/// Tests the first, the middle and the last frame of a dataset of files, and the values of the calibration.
 void check_rig_evidence(const Dataset& dataset, DatasetCheck& check);
 
-/// The same over pairs that come one by one. Where their number is unknown there is no middle.
+/// The same for pairs that arrive one by one. Without a known number of pairs there is no middle one.
 class RigEvidenceCollector {
  public:
   void see(const Dataset& dataset, const StereoPair& pair);
-  /// What the pairs are of, without them. After at least one.
+  /// The dataset of the pairs, without its stream. Valid after the first see().
   const Dataset& dataset() const { return dataset_.value(); }
-  /// Adds what was found. To be called once.
+  /// Adds the findings. To be called once.
   void finish(DatasetCheck& check);
 
  private:

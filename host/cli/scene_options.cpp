@@ -12,24 +12,25 @@ namespace quadedge::cli {
 
 void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts) {
   options.choice("--scene", scene.scene, synthetic_scenes(),
-                 "room; cables: thin curves before a plain wall; facade: siding, brick, a fence and shrubs");
-  options.number("--frames", scene.frames, "length of the sequence");
+                 "room; cables: thin curves in front of a plain wall; facade: siding, brick, a fence and shrubs");
+  options.number("--frames", scene.frames, "number of frames");
   declare_view(options, scene, texts.size);
   options.choice("--lens", scene.lens, synthetic_lenses(),
-                 "of both cameras; wide ones see more than the pinhole camera");
+                 "lens of both cameras; wide ones see more than the pinhole camera");
   options.text("--right-rotation", texts.right_rotation,
-               "turns the right camera: rotation vector in the left one's axes [degrees]", "X,Y,Z");
-  options.group("What disturbs the rendered camera");
+               "rotation vector of the right camera, in the axes of the left one [degrees]", "X,Y,Z");
+  options.group("Disturbances of the rendered images");
   options.number("--noise", scene.noise, "standard deviation of the camera noise [grey levels]");
-  options.number("--gain", scene.gain, "factor on the light of every second frame");
-  options.number("--right-gain", scene.right_gain, "factor on the right camera's exposure");
-  options.number("--light", scene.light, "factor on the light of all frames");
+  options.number("--gain", scene.gain, "light factor of every second frame");
+  options.number("--right-gain", scene.right_gain, "exposure factor of the right camera");
+  options.number("--light", scene.light, "light factor of all frames");
   options.number("--gamma", scene.gamma, "grey levels become 255 (v / 255)^(1 / gamma)");
-  options.number("--bits", scene.bits, "of a pixel: 8, 12 or 16");
-  options.number("--contrast", scene.contrast, "of the finished picture, noise included, around grey level 128");
+  options.number("--bits", scene.bits, "bits per pixel: 8, 12 or 16");
+  options.number("--contrast", scene.contrast,
+                 "contrast factor around grey level 128, applied to the finished image, noise included");
   options.number("--blur", scene.blur,
-                 "length of the motion blur, on average over the path [px]; what the path moves per frame at most");
-  options.number("--mover", scene.mover, "ratio of the image that a board moving on its own covers, 0 to 0.6");
+                 "mean length of the motion blur along the path [px]; at most the motion between frames");
+  options.number("--mover", scene.mover, "fraction of the image covered by a board that moves independently, 0 to 0.6");
 }
 
 void set_texts(SyntheticOptions& scene, const SceneTexts& texts) {
@@ -45,10 +46,11 @@ void set_texts(SyntheticOptions& scene, const SceneTexts& texts) {
 }
 
 void declare_view(Options& options, SyntheticOptions& scene, std::string& size) {
-  options.choice("--path", scene.path, synthetic_paths(),
-                 "how the camera of a built-in scene moves; drive: as far as the scene goes, 61 frames, facade 103; "
-                 "loop: the last frame is back at the first one's pose");
-  options.text("--size", size, "size of the images of built-in scenes [px]; default 942x489", "WxH");
+  options.choice(
+      "--path", scene.path, synthetic_paths(),
+      "camera path in a built-in scene; drive: to the end of the scene (61 frames, facade: 103); loop: returns "
+      "to the first pose");
+  options.text("--size", size, "image size of built-in scenes [px]; default 942x489", "WxH");
 }
 
 bool is_scene(const std::string& path) {

@@ -9,6 +9,7 @@
 #include "cli/saved_variants.hpp"
 #include "common/run_cost.hpp"
 #include "data/atomic_file.hpp"
+#include "data/text.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencl/context.hpp"
 #include "quadedge/error.hpp"
@@ -31,8 +32,8 @@ class GrowingFiles {
   explicit GrowingFiles(const std::string& folder)
       : tum_(folder + "/trajectory.txt"),
         kitti_(folder + "/trajectory_kitti.txt"),
-        frames_(folder + "/frames.csv"),
-        poses_(folder + "/poses.csv") {
+        frames_(folder + "/frames.csv", report::frames_csv_columns()),
+        poses_(folder + "/poses.csv", report::poses_csv_columns()) {
     tum_.append(data::tum_header());
   }
   void add(const FrameResult& result) {
@@ -45,11 +46,10 @@ class GrowingFiles {
 
  private:
   report::AppendFile tum_, kitti_;
-  report::FramesCsv frames_;
-  report::PosesCsv poses_;
+  report::FrameRows frames_, poses_;
 };
 
-/// Is this frame one of `count` that lie evenly among the frames after the first?
+/// Whether this frame is one of `count` that are spread evenly over the frames after the first.
 bool is_thumbnail(int frame, int frames, int count) {
   for (int i = 1; i <= count; ++i) {
     if (frame > 0 && frame == static_cast<int>(static_cast<std::int64_t>(frames) * i / (count + 1))) return true;
@@ -57,8 +57,7 @@ bool is_thumbnail(int frame, int frames, int count) {
   return false;
 }
 
-/// Draws edges and quads of the frame that was tracked last, if it is one of the chosen. `frames`: length of the
-/// sequence.
+/// Draws edges and quads of the frame tracked last, if it is a chosen one. `frames`: length of the sequence.
 void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig& rig, const StereoOdometry& odometry,
                 const SequenceRunOptions& options) {
   const bool large =
@@ -66,7 +65,7 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
   const bool small = is_thumbnail(frame.number, frames, options.thumbnails);
   if (!large && !small) return;
   const FrameDetails details = odometry.details();
-  // Edges live in the pinhole image; a recorded image with distortion would not lie under them.
+  // Edges refer to the pinhole image, not to the recorded one with distortion.
   const auto& table = rig.left_undistortion;
   const Image left = table.empty() ? frame.left : reference::undistort(frame.left.view(), table);
   char number[16];
@@ -78,7 +77,7 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
   report::draw_quads(options.output + "/pictures/quads_" + number + ".png", left.view(), details);
 }
 
-/// Kernel times among the stages of a profiled frame, which the pipeline marks by this prefix.
+/// Kernel times of a profiled frame; the pipeline marks them by this prefix.
 std::vector<StageTime> kernel_stages(const std::vector<StageTime>& stages) {
   const std::string prefix = "device ";
   std::vector<StageTime> kernels;
@@ -88,13 +87,13 @@ std::vector<StageTime> kernel_stages(const std::vector<StageTime>& stages) {
   return kernels;
 }
 
-/// The largest disparity comes from the data where the configuration leaves it open.
+/// Takes the maximum disparity from the data if the configuration has none.
 void complete(Config& config, const FrameSource& source) {
   if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
     config.stereo.max_disparity = source.max_disparity();
 }
 
-/// Builds the pipeline and says so: where the driver keeps no kernels from an earlier run this takes a while.
+/// Builds the pipeline and reports it: where the driver keeps no kernels from an earlier run this takes a while.
 std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet,
                                                report::RunRecord& run) {
   StatusLine status(quiet);
@@ -108,30 +107,21 @@ std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& dev
   return odometry;
 }
 
-/// After a signal: says what stays of the run, and ends the process.
-void end_if_interrupted(const Interruption& interruption, const FrameSource& source, const SequenceRunOptions& options,
-                        const report::RunRecord& run) {
+/// After a signal before the first frame: ends the process.
+void end_if_interrupted(const Interruption& interruption, const FrameSource& source) {
   if (interruption.signal() == 0) return;
-  const std::string all = run.input.frames > 0 ? " of " + std::to_string(run.input.frames) : "";
-  const std::string frames = std::to_string(run.frames.size()) + all + " frames";
+  note("interrupted before the first frame was tracked");
   const std::string kept = source.kept();
-  if (!run.frames.empty()) {
-    note(options.quiet, "interrupted; trajectory.txt, trajectory_kitti.txt, frames.csv and poses.csv in " +
-                            options.output + " hold what was tracked, " + frames);
-  } else {
-    note(options.quiet, "interrupted before the first frame was tracked");
-  }
-  if (!kept.empty()) note(options.quiet, kept);
+  if (!kept.empty()) note(kept);
   interruption.end_process();
 }
 
-/// Says what is doubtful about the recording, and why its first frame does not fit the calibration.
-void tell(const FrameResult& result, bool quiet, const report::RunRecord& run) {
-  const std::string frame = "frame " + std::to_string(run.frames.size()) + ": ";
-  if (!result.warning.empty()) note(quiet, "warning: " + frame + result.warning);
-  const bool is_mismatch = result.status == FrameStatus::lost_rig_mismatch;
-  if (is_mismatch && (run.frames.empty() || run.frames.back().result.status != FrameStatus::lost_rig_mismatch))
-    note(quiet, "warning: " + frame + result.message);
+/// Reports doubts about the recording, and why a frame was lost where the one before was not lost for the same reason.
+void report_doubts(const FrameResult& result, const report::RunRecord& run) {
+  const std::string warning = "warning: frame " + std::to_string(run.frames.size()) + ": ";
+  if (!result.warning.empty()) note(warning + result.warning);
+  const bool is_new = run.frames.empty() || run.frames.back().result.status != result.status;
+  if (!is_tracked(result.status) && is_new) note(warning + "lost: " + result.message);
 }
 
 /// First pass: poses and latencies.
@@ -142,8 +132,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   Device device = method.open_device(false, &test);
   run.self_test = {device.is_reference() ? "not needed" : test.passed() ? "passed" : "failed", test};
   if (!test.passed()) {
-    note(options.quiet, "warning: the device fails the self-test at stage " + test.stage + " (" + test.difference +
-                            "), and is trusted");
+    note("warning: the device fails the self-test at stage " + test.stage + " (" + test.difference +
+         "); it is used because of --trust");
   }
   add_saved_variants(device, run.config);
   const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
@@ -152,8 +142,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   run.device = device.info();
   run.variants = odometry.variants();
   const std::string warning = source.prepare();
-  if (!warning.empty()) note(options.quiet, warning);
-  end_if_interrupted(interruption, source, options, run);  // OUT holds nothing yet that would refuse the next start
+  if (!warning.empty()) note("warning: " + warning);
+  end_if_interrupted(interruption, source);  // OUT has no results yet, so the next start needs no --force
   data::write_atomically(options.output + "/config.toml", report::config_toml(run.config, method.device_choice()));
   GrowingFiles files(options.output);
   const auto start = Clock::now();
@@ -164,7 +154,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     record.start_ms = milliseconds_since(start);
     record.result = odometry.track(frame->view());
     files.add(record.result);
-    tell(record.result, options.quiet, run);
+    report_doubts(record.result, run);
     draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
     map.add(*frame, record.result, odometry);
     lost += is_tracked(record.result.status) ? 0 : 1;
@@ -174,7 +164,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
     if (interruption.signal() != 0) break;
   }
-  if (run.input.frames == 0 && interruption.signal() == 0) run.input.frames = static_cast<int>(run.frames.size());
+  if (run.input.frames == 0) run.input.frames = static_cast<int>(run.frames.size());
   run.input.dropped = source.dropped();
   const std::size_t device_peak = device.is_reference() ? 0 : device.context()->peak_bytes();
   run.device_peak_mb = static_cast<double>(std::max(device_peak, odometry.device_bytes())) / (1024.0 * 1024.0);
@@ -219,13 +209,11 @@ Trajectory truth_of_the_run(const Trajectory& truth, const report::RunRecord& ru
   return kept;
 }
 
-/// Compares with the ground truth, where there is one. Truth that misses most frames is no reason to fail a finished
-/// run.
+/// Compares with the ground truth, if any. Ground truth that misses most frames does not make a finished run fail.
 void evaluate(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
   if (source.truth().empty()) return;
   run.truth_file = source.truth_name();
   write_tum(options.output + "/groundtruth.txt", truth_of_the_run(source.truth(), run));
-  const bool quiet = options.quiet;
   try {
     run.accuracy = evaluate_trajectory(tracked_poses(run), source.truth());
     std::vector<FrameResult> results;
@@ -235,12 +223,47 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
     data::write_atomically(options.output + "/errors.csv", report::errors_csv(*run.accuracy));
     const int missing = run.accuracy->estimate_poses - run.accuracy->matched;
     if (missing > 0) {
-      note(quiet, run.truth_file + ": ground truth covers " + std::to_string(run.accuracy->matched) + " of " +
-                      std::to_string(run.accuracy->estimate_poses) + " tracked frames; the accuracy is of those alone");
+      note("warning: " + run.truth_file + ": ground truth covers " + std::to_string(run.accuracy->matched) + " of " +
+           std::to_string(run.accuracy->estimate_poses) + " tracked frames; accuracy is given for those alone");
     }
   } catch (const DataError& error) {
-    note(quiet, std::string("no accuracy: ") + error.what());
+    note(std::string("warning: no accuracy: ") + error.what());
   }
+}
+
+/// Writes what depends on all frames: accuracy, the drawing of the trajectory, report.json and the trace.
+void write_results(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
+  evaluate(source, options, run);
+  report::draw_trajectory(options.output + "/pictures/trajectory.png", tracked_poses(run), source.truth(),
+                          run.input.name + ", left camera from above");
+  data::write_atomically(options.output + "/report.json", report::report_json(run));
+  if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
+}
+
+/// The recording ended with an error: keeps what is finished. \throws DataError with what happened.
+[[noreturn]] void end_with_error(const DataError& error, const FrameSource& source, const SequenceRunOptions& options,
+                                 MapOutput& map, report::RunRecord& run) {
+  map.write();
+  if (run.frames.empty()) throw error;
+  run.ended_early = error.what();
+  run.map = map.facts();
+  try {
+    write_results(source, options, run);
+  } catch (const DataError&) {  // a full disk, which `error` reports already
+  }
+  throw DataError(run.ended_early + "\n" + data::counted(run.frames.size(), "finished frame") + " in " +
+                  options.output);
+}
+
+/// Prints the summary of an interrupted run and ends the process by the signal.
+[[noreturn]] void end_by_signal(const Interruption& interruption, const FrameSource& source,
+                                const SequenceRunOptions& options, const report::RunRecord& run) {
+  print_run(run, options.output);
+  std::fflush(stdout);
+  note(run.ended_early + "; results of these frames are in " + options.output);
+  const std::string kept = source.kept();
+  if (!kept.empty()) note(kept);
+  interruption.end_process();
 }
 
 }  // namespace
@@ -259,29 +282,29 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   try {
     track_frames(source, method, options, interruption, map, run);
   } catch (const DataError& error) {
-    map.write();
-    if (run.frames.empty()) throw;
-    throw DataError(std::string(error.what()) + "\n" + std::to_string(run.frames.size()) + " finished frames are in " +
-                    options.output);
+    end_with_error(error, source, options, map, run);
   }
+  if (run.frames.empty()) end_if_interrupted(interruption, source);
   map.write();
   run.map = map.facts();
-  end_if_interrupted(interruption, source, options, run);
-  if (options.profile) profile_frames(source, method, options, interruption, run);
-  end_if_interrupted(interruption, source, options, run);
-  evaluate(source, options, run);
-  report::draw_trajectory(options.output + "/pictures/trajectory.png", tracked_poses(run), source.truth(),
-                          run.input.name + ", left camera from above");
-  data::write_atomically(options.output + "/report.json", report::report_json(run));
-  if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
+  if (options.profile && interruption.signal() == 0) profile_frames(source, method, options, interruption, run);
+  if (interruption.signal() != 0) {
+    const bool knows_all = run.input.frames > static_cast<int>(run.frames.size());
+    run.ended_early = "interrupted after " + (knows_all ? std::to_string(run.frames.size()) + " of " : "") +
+                      data::counted(knows_all ? run.input.frames : static_cast<int>(run.frames.size()), "frame");
+  }
+  write_results(source, options, run);
+  if (interruption.signal() != 0) end_by_signal(interruption, source, options, run);
   return run;
 }
 
 int exit_code(const report::RunRecord& run, double min_tracked) {
   const double tracked = run.frames.empty() ? 0 : 100.0 * run.tracked() / static_cast<double>(run.frames.size());
   if (tracked >= min_tracked) return static_cast<int>(ExitCode::done);
-  std::fprintf(stderr, "quadedge: tracked %d of %zu frames, fewer than --min-tracked %g %%\n", run.tracked(),
-               run.frames.size(), min_tracked);
+  const std::string lost = report::lost_reasons(run.frames);
+  std::fprintf(stderr, "quadedge: tracked %d of %s, fewer than --min-tracked %g %%%s%s\n", run.tracked(),
+               data::counted(run.frames.size(), "frame").c_str(), min_tracked,
+               lost.empty() ? "" : "; lost: ", lost.c_str());
   return static_cast<int>(ExitCode::too_few_tracked);
 }
 

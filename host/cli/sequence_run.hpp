@@ -15,17 +15,18 @@ namespace quadedge::cli {
 struct SequenceRunOptions {
   std::string output;    ///< folder
   std::string trace;     ///< file of the Chrome trace; empty: none
-  bool profile = false;  ///< a second pass that measures kernel times
+  bool profile = false;  ///< measure kernel times in a second pass
   bool quiet = false, force = false;
-  /// Pictures of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).
+  /// Drawings of edges and quads: of every `draw_every`-th frame (0: none), or of `draw_frame` alone (-1: none).
   int draw_every = 0;
   int draw_frame = -1;
   MapFiles map;
-  int thumbnails = 0;  ///< number of small pictures of quads, spread evenly over the frames after the first
+  int thumbnails = 0;  ///< number of quad thumbnails, spread evenly over the frames after the first
 };
 
-/// Tracks all frames, writing every finished one at once, then the report, the configuration and the pictures. After a
-/// signal it says what is kept and ends the process by it. \throws Error; what was finished before stays on disk.
+/// Tracks all frames, writing every finished one at once, then the accuracy, the pictures and the report. After a
+/// signal or a DataError these are written for the frames so far: a signal then prints them and ends the process, an
+/// error is thrown on. \throws Error.
 report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
                                const Interruption& interruption);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file source_options.hpp  Options that say what to read: a recorded sequence, or a camera of one's own. Shared by
+/// \file source_options.hpp  Options for the input: a recorded sequence or the user's own cameras. Shared by
 /// all commands that read stereo pairs.
 
 #include <string>
@@ -16,34 +16,34 @@ struct PairOfSource {
   FramePrefetcher::Frame pair;
 };
 
-/// PATH, which is a recorded sequence or "-", and the options of a camera of one's own.
+/// PATH, which is a recorded sequence or "-", and the options for the user's own cameras.
 class SourceOptions {
  public:
   /// Declares PATH, or what else the command calls it. `help` describes it.
   void declare_path(Options& options, const std::string& help, const std::string& name = "PATH");
   /// Pictures from a pipe, for a command whose positional arguments are something else.
   void read_pipe() { path_ = "-"; }
-  /// --left, --right, --video, --split, --calibration, --fps, --times, --queue, --fov, --mask, as a group.
+  /// --left, --right, --video, --split, --calibration, --fps, --times, --live, --fov, --mask, as a group.
   void declare(Options& options);
 
   /// Whether anything is given.
   bool is_given() const { return !path_.empty() || own_.is_given(); }
-  /// Whether the pairs come from a camera of one's own, not from a published layout.
+  /// Whether the pairs come from the user's own cameras, not from a published layout.
   bool is_own_camera() const { return path_ == "-" || own_.is_given(); }
   const std::string& path() const { return path_; }
   bool has_calibration() const { return !own_.calibration.empty(); }
-  /// \throws UsageError for any of these options: what the command reads has its own cameras and times, or none.
+  /// \throws UsageError for any of these options, for inputs that they do not apply to.
   void refuse_all() const;
   /// Whether calibration, field of view or mask are given.
-  bool tells_cameras() const { return has_calibration() || own_.fov != 0 || !own_.mask.empty(); }
-  /// Two image files with what is said of their cameras. \throws as open_stereo_source().
+  bool has_camera_options() const { return has_calibration() || own_.fov != 0 || !own_.mask.empty(); }
+  /// Two image files with these camera options. \throws as open_stereo_source().
   Dataset still_pair(const std::string& left, const std::string& right) const;
-  /// The source of one's own. \throws UsageError where PATH is given too.
+  /// The user's own source. \throws UsageError if PATH is given as well.
   StereoSource own_camera() const;
-  /// The options of a recorded sequence with what is said of its cameras. \throws UsageError for options that are for
-  /// cameras of one's own alone.
+  /// The options of a recorded sequence with these camera options. \throws UsageError for options that only apply to
+  /// the user's own cameras.
   DatasetOptions layout(DatasetOptions options) const;
-  /// Opens what is given. `options`: format, sequence and range of frames; of one's own camera the range alone counts.
+  /// Opens what is given. `options`: format, sequence and range of frames; only the range applies to own cameras.
   /// \throws UsageError where nothing or too much is given, and as open_dataset() and open_stereo_source() do.
   Dataset open(const DatasetOptions& options = {}) const;
   /// Opens what is given and reads one pair. \throws UsageError for a number that it does not have.

@@ -3,7 +3,7 @@
 
 namespace quadedge::cli {
 
-/// Puts something in the place of closed standard streams, so that no file of the program gets their numbers, and with
+/// Replaces closed standard streams, so that no file of the program gets their numbers, and with
 /// them what is printed. Input is at its end, errors go nowhere, and printing fails as it does into a closed stream.
 /// Before anything opens a file.
 void occupy_standard_streams();

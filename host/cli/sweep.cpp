@@ -82,7 +82,7 @@ Config with_value(Config config, const std::string& key, double value) {
   } else if (auto* const* whole = std::get_if<int*>(&field)) {
     **whole = static_cast<int>(std::lround(value));
   } else {
-    throw UsageError("--sweep: no constant with a numeric value is called '" + key + "'; --help-all lists all of them");
+    throw UsageError("--sweep: no numeric constant '" + key + "'; --help-all lists all constants");
   }
   check_config(config);
   return config;

@@ -12,11 +12,11 @@ namespace quadedge::cli {
 struct Sweep {
   std::string key;
   std::vector<double> values;        ///< FIRST, FIRST + STEP, ... up to LAST
-  std::vector<int> stereo_orders;    ///< rows of Table 1 that the constant decides about, and the last one
+  std::vector<int> stereo_orders;    ///< rows of Table 1 that the constant affects, and the last one
   std::vector<int> temporal_orders;  ///< rows of Table 2
 };
 
-/// \throws UsageError for a text of another form, an unknown key, or one that holds no number.
+/// \throws UsageError for malformed text, an unknown key, or a constant that is not a number.
 Sweep parse_sweep(const std::string& text);
 
 /// The configuration with one constant changed. \throws UsageError for a value out of its range.

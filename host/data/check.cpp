@@ -72,6 +72,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
         decimals(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
   }
   for (const auto& note : dataset.notes) check.facts.push_back("note: " + note);
+  check.warnings.insert(check.warnings.end(), dataset.warnings.begin(), dataset.warnings.end());
 }
 
 /// Finds steps of more than twice the usual one.

@@ -31,6 +31,9 @@ struct CameraImages {
 /// or a times.txt of another length
 CameraImages list_images(const std::filesystem::path& folder);
 
+/// Rate of timestamps, by their median period [Hz]; 0 for fewer than two.
+double usual_rate(const std::vector<std::int64_t>& stamps_ns);
+
 /// Natural order: digits in names are compared as numbers.
 bool comes_before(const std::string& a, const std::string& b);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <unistd.h>
 #include <utility>
 
@@ -23,6 +24,8 @@ namespace data {
 namespace {
 
 constexpr double kNanoseconds = 1e9;  // per second
+constexpr int kLiveQueue = 4;         // pairs that wait at most: a fifth of a second at 20 Hz
+constexpr double kSameRate = 0.05;    // relative difference up to which two rates agree
 
 std::int64_t stamp_at(int number, double fps) { return std::llround(number / fps * kNanoseconds); }
 
@@ -99,7 +102,7 @@ void check_partners(const CameraImages& left, const CameraImages& right) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (2 * std::abs(a[i] - b[i]) < period) continue;
     fail(right.files[i], "timestamp " + format_seconds(b[i]) + " (" + right.stamps_from + ")",
-         format_seconds(a[i]) + " as of its counterpart " + left.files[i]);
+         format_seconds(a[i]) + " as of its counterpart " + left.files[i] + ", or --times FILE");
   }
 }
 
@@ -109,12 +112,38 @@ void check_count(const std::string& shorter_or_equal, std::size_t found, const s
   fail(shorter_or_equal, std::to_string(found) + " " + what, "the " + std::to_string(expected) + " of " + other);
 }
 
-/// The timestamps of --times or --fps for `pairs` pairs; empty if neither is given.
-std::vector<std::int64_t> given_stamps(const StereoSource& source, std::size_t pairs) {
-  if (!source.times.empty()) return read_times(source.times);
+/// A warning if `fps` differs from the rate of the timestamps, which are used nevertheless; otherwise empty.
+std::string rate_warning(double fps, const CameraImages& images) {
+  const double rate = usual_rate(images.stamps_ns);
+  if (!(fps > 0 && rate > 0) || std::abs(fps - rate) <= kSameRate * rate) return {};
+  char text[96];
+  std::snprintf(text, sizeof text, "--fps %g contradicts the timestamps, whose rate is %.4g Hz; ", fps, rate);
+  return text + ("those of " + images.stamps_from) + " are used, unless --times FILE replaces them";
+}
+
+/// The timestamps of the pairs: those of --times, otherwise of the images, otherwise of --fps.
+/// \throws DataError if there are none
+std::vector<std::int64_t> stamps_of_images(const StereoSource& source, const CameraImages& left,
+                                           const CameraImages& right, std::vector<std::string>& warnings) {
+  const std::size_t pairs = left.files.size();
+  if (!source.times.empty()) {
+    const auto stamps = read_times(source.times);
+    check_count(source.times, stamps.size(), "times", pairs, source.left);
+    return stamps;
+  }
+  const CameraImages& stamped = left.stamps_ns.empty() ? right : left;
+  if (!stamped.stamps_ns.empty()) {
+    check_partners(left, right);
+    const std::string warning = rate_warning(source.fps, stamped);
+    if (!warning.empty()) warnings.push_back(warning);
+    return stamped.stamps_ns;
+  }
   std::vector<std::int64_t> stamps;
-  if (source.fps > 0)
-    for (std::size_t i = 0; i < pairs; ++i) stamps.push_back(stamp_at(static_cast<int>(i), source.fps));
+  for (std::size_t i = 0; source.fps > 0 && i < pairs; ++i) stamps.push_back(stamp_at(static_cast<int>(i), source.fps));
+  if (stamps.empty()) {
+    fail(source.left, "images whose names are not timestamps, such as " + fs::path(left.files.front()).filename().string(),
+         "--fps N, --times FILE, or a times.txt or data.csv beside them");
+  }
   return stamps;
 }
 
@@ -130,18 +159,8 @@ Dataset open_images(const StereoSource& source, Findings& findings) {
     check_count(source.right, right.files.size(), "images", left.files.size(), source.left);
   }
   check_count(source.left, left.files.size(), "images", right.files.size(), source.right);
-  std::vector<std::int64_t> stamps = given_stamps(source, left.files.size());
-  if (!source.times.empty()) check_count(source.times, stamps.size(), "times", left.files.size(), source.left);
-  if (stamps.empty()) {
-    stamps = left.stamps_ns.empty() ? right.stamps_ns : left.stamps_ns;
-    check_partners(left, right);
-  }
-  if (stamps.empty()) {
-    fail(source.left,
-         "images whose names are not timestamps, such as " + fs::path(left.files.front()).filename().string(),
-         "--fps N, --times FILE, or a times.txt or data.csv beside them");
-  }
   Dataset dataset;
+  const auto stamps = stamps_of_images(source, left, right, dataset.warnings);
   dataset.format = "images";
   dataset.path = source.left;
   dataset.name = source_name(source);
@@ -185,7 +204,8 @@ Dataset open_pipe(const StereoSource& source) {
   Dataset dataset;
   dataset.format = dataset.name = "pipe";
   dataset.path = "standard input";
-  dataset.stream = make_picture_pipe(STDIN_FILENO, {parse_split(source.split), source.fps, source.queue});
+  dataset.stream =
+      make_picture_pipe(STDIN_FILENO, {parse_split(source.split), source.fps, source.live ? kLiveQueue : 0});
   return dataset;
 }
 
@@ -200,8 +220,7 @@ void check_source(const StereoSource& source) {
   if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected frames per second, above 0");
   if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
   if (source.pipe && source.fps == 0) throw UsageError("images in a pipe have no timestamps: give --fps N");
-  if (source.queue < 0)
-    throw UsageError("--queue " + std::to_string(source.queue) + ": expected 0 (wait for every pair) or more");
+  if (source.live && !source.pipe) throw UsageError("--live applies to a pipe (-) only; files are read whole");
 }
 
 ImageSize size_of(const Image& image) { return {image.width, image.height, image.max_value}; }
@@ -216,8 +235,22 @@ void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const 
   dataset.max_disparity = default_max_disparity(dataset.rig);
 }
 
+/// \throws DataError for files and folders that do not exist, and for a folder beside a file.
+void check_places(const StereoSource& source) {
+  for (const auto* place : {&source.left, &source.right, &source.video}) {
+    if (place->empty() || fs::exists(*place)) continue;
+    fail(*place, "no such file or folder",
+         place == &source.video ? "a video" : "a folder of images, an image or a video");
+  }
+  if (source.left.empty() || fs::is_directory(source.left) == fs::is_directory(source.right)) return;
+  const bool left_is_folder = fs::is_directory(source.left);
+  fail(source.right, left_is_folder ? "a file" : "a folder",
+       (left_is_folder ? "a folder as " : "a file as ") + source.left + " is");
+}
+
 Dataset read_source(const StereoSource& source, Findings& findings) {
   check_source(source);
+  check_places(source);
   const auto holds_images = [](const std::string& place) { return fs::is_directory(place) || is_image_name(place); };
   const bool are_files = !source.left.empty() && holds_images(source.left) && holds_images(source.right);
   Dataset dataset = source.pipe ? open_pipe(source) : are_files ? open_images(source, findings) : open_videos(source);
@@ -255,7 +288,7 @@ DatasetCheck check_stereo_source(const StereoSource& source,
   data::Findings findings(true);
   DatasetCheck check;
   StereoSource waiting = source;
-  waiting.queue = 0;  // no pair may be dropped
+  waiting.live = false;  // no pair may be dropped
   try {
     return data::check_opened(data::read_source(waiting, findings), findings, seen);
   } catch (const DataError& problem) {

@@ -1,5 +1,7 @@
 #include "data/text.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -86,6 +88,23 @@ std::string in_quotes(std::string_view text) {
     result += character >= ' ' && character < 127 ? character : '?';
   }
   return result + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string counted(int count, const std::string& noun) { return counted(static_cast<std::size_t>(count), noun); }
+
+std::string shell_word(const std::string& word) {
+  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c >= 0x80 ||
+           std::string_view("-_./+:,=@%").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 double parse_number(const std::string& token, const std::string& file, int line, const std::string& what) {

@@ -39,6 +39,13 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
 /// The text in quotes for a message; long texts are shortened, unprintable bytes replaced.
 std::string in_quotes(std::string_view text);
 
+/// "1 frame", "3 frames".
+std::string counted(std::size_t count, const std::string& noun);
+std::string counted(int count, const std::string& noun);
+
+/// A word of a command line for a shell: in single quotes where it needs some.
+std::string shell_word(const std::string& word);
+
 /// Parses a finite number that fills the whole token. \throws DataError; `what` names the quantity
 double parse_number(const std::string& token, const std::string& file, int line, const std::string& what);
 

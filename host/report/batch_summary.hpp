@@ -19,7 +19,7 @@ const char* to_string(MemberStatus status);
 /// The accuracy of a run, or of several together.
 struct SummaryAccuracy {
   PoseErrors origin_aligned, se3_aligned;  ///< NaN where an alignment is not defined
-  std::string se3_open_rotation;           ///< as TrajectoryEvaluation says it; of one run
+  std::string se3_open_rotation;           ///< as in TrajectoryEvaluation; only of single runs
   int matched = 0;                         ///< poses compared
   double path_length_m = 0, end_drift_percent = 0;
 };
@@ -72,7 +72,7 @@ std::string summary_json(const BatchSummary& summary);
 /// summary.md: the paper's Table 4 (origin-aligned), the SE(3)-aligned errors, tracked frames and latencies, failures.
 std::string summary_markdown(const BatchSummary& summary);
 
-/// What OUT/summary.json says of the batch itself.
+/// What OUT/summary.json states about the batch.
 struct SummarisedBatch {
   std::vector<std::string> names;  ///< of the sequences, in the order of the batch
   double min_tracked = 0;          ///< as summarise() got it [percent]

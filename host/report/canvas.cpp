@@ -11,7 +11,7 @@
 namespace quadedge::report {
 namespace {
 
-constexpr int kSmallestWidth = 1000;  // px; narrower images are enlarged so that strokes can be told apart
+constexpr int kSmallestWidth = 1000;  // px; narrower images are enlarged so that strokes can be distinguished
 constexpr int kLargestScale = 4;
 
 int scale_for(int width) {

@@ -18,7 +18,7 @@ bool ran(const SummaryRow& row) {
   return row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked;
 }
 
-/// The file of a peer's trajectory; empty where there is none.
+/// The file of a peer's trajectory; empty if there is none.
 std::string peer_file(const Peer& peer, const std::string& name) {
   const fs::path folder(name), of_batch = fs::path("sequences") / name;
   for (const fs::path& file : {fs::path(name + ".txt"), folder / "trajectory.txt", of_batch / "trajectory.txt"}) {
@@ -102,7 +102,7 @@ class Comparison {
     }
   }
 
-  /// False where the file cannot be read; its note says why.
+  /// False if the file cannot be read; a note states why.
   bool add_system(const std::string& system, const std::string& file, const Trajectory& truth) {
     Trajectory poses;
     try {
@@ -142,7 +142,7 @@ class Comparison {
 std::string comparison_json(const std::string& output, const std::string& baseline, const std::vector<Peer>& peers,
                             const std::string& command) {
   const SummarisedBatch batch = summarised_batch(output);
-  if (!baseline.empty()) summarised_batch(baseline);  // complain where it is no batch
+  if (!baseline.empty()) summarised_batch(baseline);  // throws for a folder without a batch
   Json json;
   json["schema"] = kComparisonSchema;
   add_origin(json, command);

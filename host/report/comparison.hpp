@@ -19,7 +19,7 @@ struct Peer {
 /// errors of every pose against the ground truth of the batch), and `notes` on what could not be compared. `all` has
 /// the accuracy of each system over its sequences, every pose counting the same; that of the baseline where it has all
 /// sequences of the batch alone. `baseline`: folder of the other batch, or empty.
-/// \throws DataError where `output` or `baseline` is no batch.
+/// \throws DataError if `output` or `baseline` is not a batch.
 std::string comparison_json(const std::string& output, const std::string& baseline, const std::vector<Peer>& peers,
                             const std::string& command);
 

@@ -41,7 +41,7 @@ std::string meaning(MatchClass kind, double tolerance, double wrong) {
   return {};
 }
 
-/// A colour of its own for every correspondence: hues a golden section of the circle apart.
+/// A distinct colour for every correspondence: hues a golden section of the circle apart.
 cv::Scalar own_colour(std::size_t index) {
   const double turn = static_cast<double>(index) * 0.6180339887498949;
   const double hue = 6 * (turn - std::floor(turn));

@@ -11,7 +11,7 @@ namespace quadedge::report {
 
 /// The correspondences of one class over both images side by side, with up to three zoomed details below, whose
 /// positions the images show as numbered frames. Correct ones are coloured by their disparity; of the others every one
-/// has a colour of its own, the same in both views, and is linked, in the right view, with a ring at their true
+/// has its own colour, the same in both views, and is linked, in the right view, with a ring at their true
 /// position. `tolerance` and `wrong`: limits of the classes [px].
 cv::Mat draw_match_class(const evaluation::DrawnFrame& frame, evaluation::MatchClass kind, const std::string& name,
                          double tolerance, double wrong);

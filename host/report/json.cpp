@@ -62,12 +62,15 @@ std::string report_json(const RunRecord& run) {
   report["input"] = {{"path", run.input.path},      {"format", run.input.format}, {"name", run.input.name},
                      {"frames", run.input.frames},  {"width", run.input.width},   {"height", run.input.height},
                      {"dropped", run.input.dropped}};
+  if (!run.ended_early.empty()) report["ended_early"] = run.ended_early;
   report["frames_tracked"] = run.tracked();
   report["frames_lost"] = static_cast<int>(run.frames.size()) - run.tracked();
   report["frames_overflowed"] = overflows;
   report["key_rigs"] = key_rigs;
   report["frames_ambiguous"] = ambiguous;
+  report["path_length_m"] = path_length_m(run.frames);
   report["warnings"] = Json::array();
+  for (const auto& warning : run.input.warnings) report["warnings"].push_back({{"frame", nullptr}, {"text", warning}});
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const std::string& warning = run.frames[i].result.warning;
     if (!warning.empty()) report["warnings"].push_back({{"frame", i}, {"text", warning}});

@@ -58,7 +58,7 @@ inline Json to_json(const DeviceInfo& device) {
           {"type", device.type},     {"single_precision", to_json(device.single_precision)}};
 }
 
-/// Adds what every result says of where it comes from: `version`, `commit` (null outside a checkout), `date` (UTC) and
+/// Adds the origin of a result: `version`, `commit` (null outside a checkout), `date` (UTC) and
 /// `command`.
 void add_origin(Json& json, const std::string& command);
 
@@ -84,7 +84,7 @@ inline LatencySummary to_latency(const Json& json) {
           to_number(json.at("first"))};
 }
 
-/// The text of a file. Names of files may hold bytes that are no UTF-8; they are replaced instead of failing.
+/// The text of a file. File names may contain bytes that are not UTF-8; these are replaced.
 inline std::string json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

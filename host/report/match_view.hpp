@@ -1,5 +1,5 @@
 #pragma once
-/// \file match_view.hpp  The parts of a drawing of matches: views of image regions, and where they stand in the
+/// \file match_view.hpp  The parts of a drawing of matches: views of image regions, and their place in the
 /// picture.
 
 #include <opencv2/core.hpp>
@@ -39,7 +39,7 @@ class MatchView {
   double scale_;
 };
 
-/// Where the two images of a pair and the details below them stand.
+/// Places of the two images of a pair and of the details below them.
 class PairLayout {
  public:
   PairLayout(int left_width, int left_height, int right_width, int right_height, int text_lines);

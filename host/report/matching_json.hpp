@@ -13,7 +13,7 @@ namespace quadedge::report {
 /// Version of the document; grows when a key changes its meaning.
 constexpr int kMatchingSchema = 1;
 
-/// What the document says about its making.
+/// Origin of the results.
 struct MatchingFacts {
   std::string command;              ///< line that started the evaluation
   std::vector<std::string> inputs;  ///< as the command names them

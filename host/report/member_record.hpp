@@ -11,17 +11,17 @@ namespace quadedge::report {
 struct MemberRecord {
   std::string name;    ///< in the batch
   std::string path;    ///< of the recording
-  std::string format;  ///< layout; empty where the folder is none
+  std::string format;  ///< layout; empty if none is recognised
   std::string key;  ///< fingerprint of input, configuration, device and program; empty where the input cannot be opened
   int exit_code = 0;    ///< of the run, as README lists them; 1 where a signal ended it
   std::string message;  ///< why it failed; empty where it did not
   int jobs = 1;  ///< sequences that ran at the same time: with more than one, latencies are not those of a lone run
 };
 
-/// Text of member.json. It holds no times: two runs of the same input give the same bytes.
+/// Text of member.json. It has no times, so that two runs of the same input give the same bytes.
 std::string member_json(const MemberRecord& record);
 
-/// Reads FOLDER/member.json; nothing where there is none or where it is damaged (then the sequence counts as not run).
+/// Reads FOLDER/member.json; nothing if it is missing or damaged; the sequence then counts as not run.
 std::optional<MemberRecord> read_member(const std::string& folder);
 
 }  // namespace quadedge::report

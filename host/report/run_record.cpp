@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "report/statistics.hpp"
 
@@ -56,6 +57,33 @@ std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& 
   std::vector<std::vector<StageTime>> times;
   for (const auto& frame : frames) times.push_back(frame.result.stages);
   return times;
+}
+
+std::string lost_reasons(const std::vector<FrameRecord>& frames) {
+  std::map<FrameStatus, int> counts;
+  for (const auto& frame : frames) {
+    if (!is_tracked(frame.result.status)) ++counts[frame.result.status];
+  }
+  std::string text;
+  for (const auto& [status, count] : counts) {
+    std::string reason = to_string(status);  // lost_no_consensus
+    reason = reason.substr(reason.find('_') + 1);
+    std::replace(reason.begin(), reason.end(), '_', ' ');
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+  }
+  return text;
+}
+
+double path_length_m(const std::vector<FrameRecord>& frames) {
+  double length = 0;
+  const FrameResult* last = nullptr;
+  for (const auto& frame : frames) {
+    if (!is_tracked(frame.result.status)) continue;
+    if (last != nullptr)
+      length += (frame.result.world_from_left.translation() - last->world_from_left.translation()).norm();
+    last = &frame.result;
+  }
+  return length;
 }
 
 std::vector<std::pair<std::string, int>> named_counts(const FrameCounts& counts) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file run_record.hpp  Everything that one run leaves behind, before it becomes files.
+/// \file run_record.hpp  All results of one run, before they become files.
 
 #include <map>
 #include <optional>
@@ -18,9 +18,10 @@ namespace quadedge::report {
 /// Where the frames came from.
 struct InputFacts {
   std::string path, format, name;
-  int frames = 0;             ///< 0 while nobody knows: a pipe's, a video's that does not say
-  int width = 0, height = 0;  ///< of the left pinhole image [px]
-  int dropped = 0;            ///< pairs of a pipe that came too fast and were left out
+  int frames = 0;                          ///< 0 while unknown: of a pipe, of a video that does not say
+  int width = 0, height = 0;               ///< of the left pinhole image [px]
+  int dropped = 0;                         ///< pairs of a pipe that came faster than they were tracked, with --live
+  std::vector<std::string> warnings = {};  ///< options that contradict the data
 };
 
 /// One processed frame.
@@ -29,7 +30,7 @@ struct FrameRecord {
   double start_ms = 0;  ///< when track() was called, since the start of the run (steady clock)
 };
 
-/// What is known of the device's soundness.
+/// Result of the self-test of the device.
 struct DeviceTrust {
   std::string verdict;  ///< passed | failed: --trust was given | not needed: the reference
   SelfTestResult test;
@@ -38,13 +39,14 @@ struct DeviceTrust {
 /// The map that a run wrote.
 struct MapFacts {
   std::size_t points = 0;
-  std::size_t views = 0;    ///< key stereo rigs that it was made of
-  std::size_t dropped = 0;  ///< points that gave way since memory was full
+  std::size_t views = 0;    ///< key stereo rigs that it was made from
+  std::size_t dropped = 0;  ///< points dropped because memory was full
 };
 
 /// One run.
 struct RunRecord {
-  std::string command;  ///< line that started it
+  std::string command;      ///< its command line
+  std::string ended_early;  ///< why not all frames were tracked: a signal, an error; empty for a whole run
   InputFacts input;
   DeviceInfo device;
   DeviceTrust self_test;
@@ -69,7 +71,7 @@ struct RunRecord {
   }
 };
 
-/// Latencies of a run [ms]; the first frame stands apart. NaN where there are no frames.
+/// Latencies of a run [ms]; the first frame is separate. NaN without frames.
 struct LatencySummary {
   double median = 0, p90 = 0, p99 = 0, max = 0, first = 0;
 };
@@ -84,6 +86,12 @@ std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>
 
 /// The host-side stage times of every frame.
 std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& frames);
+
+/// Why frames were lost: "5 no consensus, 2 too few quads"; empty where none was.
+std::string lost_reasons(const std::vector<FrameRecord>& frames);
+
+/// Length of the estimated path, from each tracked frame to the next [m].
+double path_length_m(const std::vector<FrameRecord>& frames);
 
 /// Medians of the counts over all frames but the first, in the order of FrameCounts.
 std::vector<std::pair<std::string, double>> count_medians(const std::vector<FrameRecord>& frames);

@@ -44,6 +44,7 @@ struct Dataset {
   double disparity_truth_scale =
       1;  ///< px of this image per unit stored in `disparity_truth` (in 8-bit files 0 means unknown)
   std::vector<std::string> notes;  ///< remarks for the user: nominal calibration, assumed timestamps, skipped images
+  std::vector<std::string> warnings;  ///< options that contradict the data
 };
 
 /// Options of open_dataset().

@@ -8,9 +8,6 @@
 
 namespace quadedge {
 
-/// Default length of the queue of a pipe, in pairs: a fifth of a second at 20 Hz.
-constexpr int kDefaultPipeQueue = 4;
-
 /// A source of pairs. Exactly one of: `left` and `right`; `video`; `pipe`.
 struct StereoSource {
   std::string left, right;  ///< two folders of images (in natural order of their names), image files or video files
@@ -20,11 +17,14 @@ struct StereoSource {
   std::string calibration;  ///< files of read_calibration()
   double fov = 0;           ///< see make_rig()
   std::string mask;         ///< files of mask_rig(); empty: none
-  double fps = 0;           ///< timestamps are 0, 1 / fps ...; 0: from `times` or the source
-  std::string times;  ///< file with one row per pair: seconds, or EuRoC's data.csv; empty: a file next to the images
-  /// For a pipe: maximum number of waiting pairs, beyond which a new pair replaces the oldest; 0: the writer has to
-  /// wait.
-  int queue = kDefaultPipeQueue;
+  /// Pairs per second: timestamps are 0, 1 / fps ... for a pipe and for images without timestamps, and replace those of
+  /// a video. Images with timestamps (names, data.csv, times.txt) keep them; a rate that contradicts them is one of
+  /// Dataset::warnings. 0: the timestamps of the source.
+  double fps = 0;
+  std::string times;  ///< file with one row per pair, seconds or EuRoC's data.csv, that replaces all other timestamps
+  /// For a pipe: whether the oldest of the waiting pairs is dropped when pairs arrive faster than they are read.
+  /// Otherwise the writer waits, and every pair is read.
+  bool live = false;
   int first_frame = 0;  ///< first pair of the range, see DatasetOptions
   int last_frame = -1;
 
