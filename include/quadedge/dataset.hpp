@@ -43,7 +43,7 @@ struct Dataset {
   std::string disparity_truth;  ///< file with the disparities of the left view; empty if there is none
   double disparity_truth_scale =
       1;  ///< px of this image per unit stored in `disparity_truth` (in 8-bit files 0 means unknown)
-  std::vector<std::string> notes;  ///< remarks for the user: nominal calibration, assumed timestamps, skipped images
+  std::vector<std::string> notes;     ///< remarks for the user: nominal calibration, assumed timestamps, skipped images
   std::vector<std::string> warnings;  ///< options that contradict the data
 };
 
