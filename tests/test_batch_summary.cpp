@@ -154,6 +154,5 @@ TEST_CASE("frames.csv: reads back what a run writes, whichever frame has the fir
   CHECK(table.numbers("pose_ms")[2] == 1.5);
   CHECK_THROWS_WITH(table.texts("segment"), Catch::Matchers::Contains("no column segment"));
   write_text(folder / "cut.csv", "a,b\n1,2\n3\n");
-  CHECK_THROWS_WITH(report::read_frames_csv(folder / "cut.csv"),
-                    Catch::Matchers::Contains("cut.csv:3: found 1 fields"));
+  CHECK_THROWS_WITH(report::read_frames_csv(folder / "cut.csv"), Catch::Matchers::Contains("cut.csv:3: found 1 field"));
 }

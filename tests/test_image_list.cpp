@@ -63,7 +63,7 @@ TEST_CASE("image list: what does not fit is named", "[data]") {
     }
   };
   dataset_files::write_text(folder / "a/times.txt", "0\n1\n");
-  CHECK_THAT(complaint(), Contains("a/times.txt") && Contains("2 times") && Contains("1 images"));
+  CHECK_THAT(complaint(), Contains("a/times.txt") && Contains("2 times") && Contains("the 1 image in"));
   dataset_files::write_text(folder / "a/times.txt", "0 1\n");
   CHECK_THAT(complaint(), Contains("times.txt:1"));
   dataset_files::write_text(folder / "a/data.csv", "5,2.png\n");

@@ -12,6 +12,7 @@
 #include "cli/folder_lock.hpp"
 #include "data/atomic_file.hpp"
 #include "data/source_line.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
 
@@ -166,7 +167,7 @@ class BatchRunner {
   std::string outcome(const std::string& folder, const report::MemberRecord& record) const {
     if (record.exit_code != 0) return "failed: " + record.message;
     const auto row = report::read_summary_row(folder, record.name, options_.min_tracked);
-    std::string text = std::to_string(row.tracked) + " of " + std::to_string(row.frames) + " frames tracked";
+    std::string text = std::to_string(row.tracked) + " of " + data::counted(row.frames, "frame") + " tracked";
     if (row.accuracy) {
       char errors[96];
       std::snprintf(errors, sizeof errors, ", APE %.3f deg, %.4f m", row.accuracy->origin_aligned.ape_rotation_deg.mean,

@@ -51,9 +51,9 @@ double count(const report::RunRecord& run, const std::string& name) {
 void print_benchmark(const bench::BenchRecord& record) {
   const auto& run = record.run;
   std::printf("%s, %dx%d, on %s\n", run.input.name.c_str(), run.input.width, run.input.height, run.device.name.c_str());
-  std::printf("%d frames measured after the first and %d to get warm; %d of %zu tracked\n",
+  std::printf("measured frames: %d, after the first and %d for warm-up; tracked: %d of %zu\n",
               static_cast<int>(run.frames.size()) - 1, record.warm_up, run.tracked(), run.frames.size());
-  std::printf("threshold of edges %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
+  std::printf("edge threshold %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
               run.frames.back().result.edge_threshold, record.edges_wanted > 0 ? " (chosen)" : "",
               count(run, "edges_left"), count(run, "edges_right"), count(run, "stereo_edges"), count(run, "quads"));
   const auto latency = report::latency_summary(run.frames);

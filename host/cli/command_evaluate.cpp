@@ -38,7 +38,7 @@ Loaded load_file(const std::string& path) {
 void give_stamps(Trajectory& rows, const std::vector<std::int64_t>& stamps, const std::string& file,
                  const std::string& timed_file) {
   if (rows.size() != stamps.size()) {
-    throw DataError(file + ": found " + std::to_string(rows.size()) + " rows without time stamps, expected " +
+    throw DataError(file + ": found " + data::counted(rows.size(), "row") + " without time stamps, expected " +
                     std::to_string(stamps.size()) + ", one per frame of " + timed_file);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].stamp_ns = stamps[i];

@@ -6,6 +6,7 @@
 #include "cli/output_folder.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/match_stereo.hpp"
 #include "reference/undistortion.hpp"
@@ -89,7 +90,7 @@ class MatchCommand : public Command {
     pair.left = read_grey_image(left_);
     pair.right = read_grey_image(right_);
     if (pair.left.max_value != pair.right.max_value || pair.left.height != pair.right.height)
-      throw DataError(right_ + ": found " + std::to_string(pair.right.height) + " rows and values to " +
+      throw DataError(right_ + ": found " + data::counted(pair.right.height, "row") + " and values to " +
                       std::to_string(pair.right.max_value) + ", expected " + std::to_string(pair.left.height) +
                       " and " + std::to_string(pair.left.max_value) + " as in " + left_);
     pair.rig = rectified_images(pair.left.width, pair.left.height, pair.right.width, pair.right.height);

@@ -97,7 +97,7 @@ void check_truth(const Dataset& dataset, DatasetCheck& check) {
         return std::abs(pose.stamp_ns - frame.stamp_ns) <= kToleranceNs;
       });
     });
-    const std::string coverage = std::to_string(covered) + " of " + std::to_string(dataset.frames.size()) + " frames";
+    const std::string coverage = std::to_string(covered) + " of " + counted(dataset.frames.size(), "frame");
     check.facts.push_back("ground truth: " + dataset.truth_file + ", " + coverage);
     if (static_cast<std::size_t>(covered) < dataset.frames.size()) {
       check.warnings.push_back(dataset.truth_file + ": covers " + coverage);

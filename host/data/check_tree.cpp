@@ -44,7 +44,7 @@ std::string one_line(const DatasetCheck& check) {
     add("ground truth of " + truth.substr(truth.rfind(", ") + 2));
   }
   if (!value_of("disparity of the left view").empty()) add("ground-truth disparity");
-  if (!check.warnings.empty()) add(std::to_string(check.warnings.size()) + " warnings");
+  if (!check.warnings.empty()) add(counted(check.warnings.size(), "warning"));
   return line;
 }
 

@@ -19,15 +19,14 @@ constexpr double kNearestDepth = 0.5;
 
 PinholeCamera read_camera(const std::string& file) {
   const auto lines = data_lines(file);
-  if (lines.size() != 1) fail(file, std::to_string(lines.size()) + " rows", "one row: fx fy cx cy");
+  if (lines.size() != 1) fail(file, counted(lines.size(), "row"), "one row: fx fy cx cy");
   const auto values = parse_row(lines[0], file, 4, "fx fy cx cy");
   return {values[0], values[1], values[2], values[3], 0, 0};
 }
 
 Eigen::Isometry3d read_extrinsics(const std::string& file) {
   const auto lines = data_lines(file);
-  if (lines.size() != 3)
-    fail(file, std::to_string(lines.size()) + " rows", "three rows of four numbers, camera1_from_camera2");
+  if (lines.size() != 3) fail(file, counted(lines.size(), "row"), "three rows of four numbers, camera1_from_camera2");
   Eigen::Isometry3d camera1_from_camera2 = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d rotation;
   for (int row = 0; row < 3; ++row) {
@@ -66,7 +65,7 @@ void read_frames(Dataset& dataset, const fs::path& folder, bool first_is_left, F
     add_frame(dataset, stamp, first_is_left ? one : two, first_is_left ? two : one, findings);
   }
   if (second != list.size()) {
-    findings.error((folder / "rgb2").string(), std::to_string(second) + " images",
+    findings.error((folder / "rgb2").string(), counted(second, "image"),
                    std::to_string(list.size()) + " as in " + (fs::exists(folder / "rgb.txt") ? "rgb.txt" : "rgb"));
   }
 }

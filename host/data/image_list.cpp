@@ -124,8 +124,8 @@ CameraImages list_images(const fs::path& folder) {
     images.stamps_from = times;
     images.stamps_ns = read_times(times);
     if (images.stamps_ns.size() != images.files.size()) {
-      fail(times, std::to_string(images.stamps_ns.size()) + " times",
-           "one for each of the " + std::to_string(images.files.size()) + " images in " + folder.string());
+      fail(times, counted(images.stamps_ns.size(), "time"),
+           "one per image, for the " + counted(images.files.size(), "image") + " in " + folder.string());
     }
     return images;
   }

@@ -91,7 +91,7 @@ void read_frames(Dataset& dataset, std::vector<std::size_t>& rows, const fs::pat
       if (!fs::exists(right / name))
         findings.error((right / name).string(), "no such file", "the right image of " + name);
     }
-    findings.error(right.string(), std::to_string(right_names.size()) + " images",
+    findings.error(right.string(), counted(right_names.size(), "image"),
                    std::to_string(names.size()) + " as in " + left.filename().string());
   }
   const auto times = data_lines(times_file);
@@ -99,7 +99,7 @@ void read_frames(Dataset& dataset, std::vector<std::size_t>& rows, const fs::pat
     const long number = number_of(names[i]);
     const std::size_t row = number >= 0 ? static_cast<std::size_t>(number) : i;
     if (row >= times.size()) {
-      findings.error(times_file, std::to_string(times.size()) + " rows", "a time for the image " + names[i]);
+      findings.error(times_file, counted(times.size(), "row"), "a time for the image " + names[i]);
       return;
     }
     const std::size_t before = dataset.frames.size();

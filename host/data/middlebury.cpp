@@ -58,7 +58,7 @@ Dataset read_2005_or_2006(const fs::path& folder, Findings& findings) {
     if (fs::exists(file)) {
       const auto lines = data_lines(file);
       if (lines.size() != 1)
-        fail(file, std::to_string(lines.size()) + " rows", "one number, the smallest disparity in full-size pixels");
+        fail(file, counted(lines.size(), "row"), "one number, the smallest disparity in full-size pixels");
       offset = parse_row(lines[0], file, 1, "the smallest disparity in full-size pixels")[0];
     } else {
       dataset.notes.push_back("no dmin.txt: disparity offset assumed to be zero, depths are nominal");

@@ -66,7 +66,7 @@ class PartOfStream : public PairStream {
         const auto number = static_cast<std::size_t>(read_);
         const std::size_t stamps = part_.stamps_ns.size();
         if (stamps > 0 && !stopped_ && (pair ? number >= stamps : number < stamps))
-          fail(part_.stamps_from, std::to_string(stamps) + " times",
+          fail(part_.stamps_from, counted(stamps, "time"),
                pair ? "one for every pair" : std::to_string(read_) + ", one for every pair");
         if (!pair) return std::nullopt;
         if (stamps > 0) pair->stamp_ns = part_.stamps_ns[number];
@@ -141,7 +141,8 @@ std::vector<std::int64_t> stamps_of_images(const StereoSource& source, const Cam
   std::vector<std::int64_t> stamps;
   for (std::size_t i = 0; source.fps > 0 && i < pairs; ++i) stamps.push_back(stamp_at(static_cast<int>(i), source.fps));
   if (stamps.empty()) {
-    fail(source.left, "images whose names are not timestamps, such as " + fs::path(left.files.front()).filename().string(),
+    fail(source.left,
+         "images whose names are not timestamps, such as " + fs::path(left.files.front()).filename().string(),
          "--fps N, --times FILE, or a times.txt or data.csv beside them");
   }
   return stamps;
@@ -177,7 +178,7 @@ int promised_pairs(const VideoPair& videos) {
   if (left == 0 || right == 0) return 0;
   const bool right_is_short = right < left;
   if (std::abs(left - right) > 1) {  // the duration may refer to the start or the end of the last frame
-    fail(right_is_short ? videos.right : videos.left, std::to_string(std::min(left, right)) + " frames",
+    fail(right_is_short ? videos.right : videos.left, counted(std::min(left, right), "frame"),
          "the " + std::to_string(std::max(left, right)) + " of " + (right_is_short ? videos.left : videos.right));
   }
   return std::min(left, right);

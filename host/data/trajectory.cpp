@@ -55,7 +55,7 @@ void write_tum(const std::string& path, const Trajectory& trajectory) {
 Trajectory read_kitti(const std::string& path, const std::vector<std::int64_t>& stamps_ns) {
   const auto lines = data::data_lines(path);
   if (!stamps_ns.empty() && stamps_ns.size() != lines.size()) {
-    data::fail(path, std::to_string(lines.size()) + " poses", std::to_string(stamps_ns.size()) + ", one per timestamp");
+    data::fail(path, data::counted(lines.size(), "pose"), std::to_string(stamps_ns.size()) + ", one per timestamp");
   }
   Trajectory trajectory;
   for (const auto& line : lines) {

@@ -205,7 +205,7 @@ std::optional<VideoFile::Picture> VideoFile::Implementation::next() {
   if (!decode()) {
     // The duration may refer to the start or the end of the last frame.
     if (decoded_ + 1 < promised_)
-      refuse("the end after " + std::to_string(decoded_) + " frames",
+      refuse("the end after " + counted(decoded_, "frame"),
              "the " + std::to_string(promised_) + " announced by its header");
     return std::nullopt;
   }

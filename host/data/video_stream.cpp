@@ -37,7 +37,7 @@ class VideoReader : public PairReader {
 
  private:
   [[noreturn]] void end_early(const std::string& file, const std::string& other) const {
-    fail(file, "the end after " + std::to_string(number_) + " frames", "as many as in " + other);
+    fail(file, "the end after " + counted(number_, "frame"), "as many as in " + other);
   }
   /// Checks that the frames of a pair differ by less than half a period in time.
   void check_times(std::int64_t left, std::int64_t right) const {

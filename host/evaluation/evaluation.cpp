@@ -142,7 +142,7 @@ PoseErrors undefined() {
 
 std::string stamp_range(const Trajectory& trajectory) {
   if (trajectory.empty()) return "none";
-  return std::to_string(trajectory.size()) + " poses from " + data::format_seconds(trajectory.front().stamp_ns) +
+  return data::counted(trajectory.size(), "pose") + " from " + data::format_seconds(trajectory.front().stamp_ns) +
          " to " + data::format_seconds(trajectory.back().stamp_ns) + " s";
 }
 
@@ -154,7 +154,7 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
   const Trajectory kept(estimate.begin() + static_cast<std::ptrdiff_t>(first), estimate.end());
   const auto matches = match_by_stamp(kept, truth, max_stamp_difference_ns);
   if (matches.size() < 2) {
-    throw DataError("trajectories: found " + std::to_string(matches.size()) + " poses whose timestamps agree within " +
+    throw DataError("trajectories: found " + data::counted(matches.size(), "pose") + " whose timestamps agree within " +
                     data::format_seconds(max_stamp_difference_ns) + " s, expected at least 2; estimate: " +
                     stamp_range(kept) + " (from frame " + std::to_string(first) + "), truth: " + stamp_range(truth));
   }

@@ -50,7 +50,7 @@ CsvTable::CsvTable(std::string file, std::string expected) : file_(std::move(fil
   for (std::size_t i = 1; i < lines.size(); ++i) {
     rows_.push_back({lines[i].number, csv_fields(lines[i].text)});
     if (rows_.back().fields.size() != names_.size()) {
-      data::fail(file_, lines[i].number, std::to_string(rows_.back().fields.size()) + " fields",
+      data::fail(file_, lines[i].number, data::counted(rows_.back().fields.size(), "field"),
                  std::to_string(names_.size()) + " as in the heading");
     }
   }

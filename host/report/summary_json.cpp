@@ -78,7 +78,7 @@ SummaryRow read_summary_row(const std::string& folder, const std::string& name, 
   row.status = enough ? MemberStatus::done : MemberStatus::too_few_tracked;
   if (!enough) {
     row.member.exit_code = static_cast<int>(ExitCode::too_few_tracked);
-    row.member.message = "tracked " + std::to_string(row.tracked) + " of " + std::to_string(row.frames) + " frames";
+    row.member.message = "tracked " + std::to_string(row.tracked) + " of " + data::counted(row.frames, "frame");
   }
   return row;
 }

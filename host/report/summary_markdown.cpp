@@ -1,4 +1,5 @@
 /// \file summary_markdown.cpp  summary.md of a batch: tables to read and to paste.
+#include "data/text.hpp"
 #include "report/batch_summary.hpp"
 #include "report/number_text.hpp"
 
@@ -47,7 +48,7 @@ std::string latency_cells(const LatencySummary& latency) {
 }  // namespace
 
 std::string summary_markdown(const BatchSummary& summary) {
-  std::string text = "# QuadEdge " QUADEDGE_VERSION ", " + std::to_string(summary.rows.size()) + " sequences\n";
+  std::string text = "# QuadEdge " QUADEDGE_VERSION ", " + data::counted(summary.rows.size(), "sequence") + "\n";
   std::string failures;
   bool shared = false;
   for (const auto& row : summary.rows) {

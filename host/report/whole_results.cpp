@@ -19,7 +19,7 @@ void check_end(const std::string& file) {
 
 void check_count(const std::string& file, std::size_t found, int expected) {
   if (found == static_cast<std::size_t>(expected)) return;
-  data::fail(file, std::to_string(found) + " rows", std::to_string(expected) + " as in report.json");
+  data::fail(file, data::counted(found, "row"), std::to_string(expected) + " as in report.json");
 }
 
 }  // namespace
