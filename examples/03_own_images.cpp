@@ -1,5 +1,5 @@
-/// \file 03_own_images.cpp  Tracks images that are already in memory, as from a camera driver. The rendered room stands
-/// for the camera here.
+/// \file 03_own_images.cpp  Tracks images in memory, as a camera driver delivers them. A rendered room replaces the
+/// camera.
 
 #include <cmath>
 #include <cstdio>
@@ -14,8 +14,8 @@ int main() try {
   options.focal = 184.0;  // px
   const quadedge::SyntheticSequence camera(options);
 
-  // The calibration of a rectified camera: the same pinhole left and right, the right one 6 cm to the right. Rigs
-  // that are not rectified have a rotation in right_from_left as well, and distorted images a table each.
+  // The calibration of a rectified stereo camera: two equal pinhole cameras, the right one 6 cm to the right. An
+  // unrectified rig also has a rotation in right_from_left, and an undistortion table per camera.
   const double baseline = camera.rig().baseline();  // m
   quadedge::StereoRig rig;
   rig.left.fx = rig.left.fy = 184.0;
@@ -26,7 +26,7 @@ int main() try {
   rig.right = rig.left;
   rig.right_from_left.translation() = Eigen::Vector3d(-baseline, 0, 0);
 
-  // Nothing stands nearer than half a metre: the disparity is at most focal length x baseline / depth.
+  // Nothing is nearer than half a metre: the disparity is at most focal length x baseline / depth.
   quadedge::Config config;
   config.stereo.max_disparity = rig.left.fx * baseline / 0.5;
 
@@ -35,14 +35,14 @@ int main() try {
   for (int i = 0; i < camera.frames(); ++i) {
     const quadedge::Image left = camera.render(i, quadedge::Side::left).image,
                           right = camera.render(i, quadedge::Side::right).image;
-    // A view of 8-bit grey pixels that someone else owns: pointer, width, height, bytes per row. It must stay valid
-    // until track() returns.
+    // A non-owning view of 8-bit grey pixels: pointer, width, height, bytes per row. It must stay valid until track()
+    // returns.
     const quadedge::ImageView left_view{left.pixels.data(), left.width, left.height, left.width};
     const quadedge::ImageView right_view{right.pixels.data(), right.width, right.height, right.width};
     const quadedge::FrameResult result = odometry.track({camera.stamp_ns(i), left_view, right_view});
 
-    // Metres; x right, y down, z forward of the first left camera. The covariance is that of the motion since the
-    // reference frame: rotation first, then translation.
+    // Position [m] in the frame of the first left camera: x right, y down, z forward. The covariance is that of the
+    // motion since the reference frame: rotation first, then translation.
     const Eigen::Vector3d position = result.world_from_left.translation();
     const double deviation = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());  // m
     std::printf("%s at %.4f %.4f %.4f m, +- %.5f m\n", to_string(result.status), position.x(), position.y(),

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the wheel of the Python package, with the program and the libraries that both need inside: OpenCV's and TBB of
-# Debian, and an FFmpeg that only reads videos (FFmpeg's source package; Debian's own libraries would add 100 MB of
+# Debian, and an FFmpeg that only reads videos (FFmpeg's source package; Debian's own libraries would add 33 MB of
 # encoders and the GPL).
 #   scripts/build_wheel.sh OUT [BUILD]       BUILD (default: build/wheel) keeps FFmpeg and the objects for the next call
 # PYTHON=python3.12 scripts/build_wheel.sh OUT makes it for another Python that is installed with its headers.
@@ -27,9 +27,7 @@ CMAKE_PREFIX_PATH="$work/libav" CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALL
 
 # Debian's OpenCV asks GLX for a window's OpenGL context. There is never one here, and the wheel shall not need X11.
 mkdir -p "$work/without_x11"
-for name in glXGetCurrentContext glXGetCurrentDisplay glXGetProcAddressARB; do
-  echo "void* $name(void) { return 0; }"
-done |
+printf 'void* %s(void) { return 0; }\n' glXGetCurrentContext glXGetCurrentDisplay glXGetProcAddressARB |
   cc -x c -shared -fPIC -Wl,-soname,libGLX.so.0 -o "$work/without_x11/libGLX.so.0" -
 
 export PATH="$venv/bin:$PATH" LD_LIBRARY_PATH="$work/without_x11:$work/libav/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"

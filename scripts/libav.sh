@@ -10,17 +10,16 @@ libav_parsers="av1,dnxhd,gif,h263,h264,hevc,jpeg2000,mjpeg,mpeg4video,mpegvideo,
 # fetch_libav_source SOURCE: the version of this Debian, as a patched source tree. The lists of source packages go to a
 # folder beside it, so that the system's configuration stays as it is.
 fetch_libav_source() {
-  local lists="$1.lists" sources
-  mkdir -p "$lists/partial"
-  sources="$lists/debian.sources"
-  sed 's/^Types: .*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$sources"
-  local apt=(apt-get -q -o Dir::Etc::SourceParts=/dev/null -o "Dir::Etc::SourceList=$sources"
-    -o "Dir::State::Lists=$lists" -o APT::Sandbox::User=)
+  local download="$1.download"
+  rm -rf "$download"
+  mkdir -p "$download/lists/partial" "$download/source"
+  sed 's/^Types: .*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$download/source.sources"
+  local apt=(apt-get -q -o Dir::Etc::SourceParts=/dev/null -o "Dir::Etc::SourceList=$download/source.sources"
+    -o "Dir::State::Lists=$download/lists" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache=
+    -o APT::Sandbox::User=)
   "${apt[@]}" update
-  rm -rf "$lists"/ffmpeg*
-  (cd "$lists" && "${apt[@]}" source ffmpeg)
-  rm -rf "$1"
-  mv "$lists"/ffmpeg-*/ "$1"
+  (cd "$download/source" && "${apt[@]}" source ffmpeg)
+  mv "$download"/source/ffmpeg-*/ "$1"
 }
 
 # build_libav PREFIX SOURCE

@@ -29,6 +29,7 @@ if may_make_roots; then
     mkdir -p "$1/wheels"
     mount --bind "$2" "$1/wheels"
     mount --rbind /dev "$1/dev"
+    mount --rbind /sys "$1/sys"
     mount -t proc proc "$1/proc"
     exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/user TERM=dumb \
       chroot "$1" bash -e /wheels/wheel_user.sh /wheels /user' \

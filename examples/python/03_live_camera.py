@@ -1,9 +1,9 @@
-"""Tracks a live stereo camera that OpenCV opens and whose pictures have left and right side by side.
+"""Tracks a live stereo camera whose images, captured with OpenCV, show the left and right view side by side.
 
-    python 03_live_camera.py CAMERA CALIBRATION      CAMERA: a number of OpenCV's; ends with Ctrl-C
+    python 03_live_camera.py CAMERA CALIBRATION      CAMERA: device index of OpenCV; stop with Ctrl-C
     python 03_live_camera.py stand-in                a rendered room instead of a camera
 
-Needs OpenCV for Python (`pip install opencv-python-headless`), but not for the stand-in.
+A camera needs OpenCV for Python (`pip install opencv-python-headless`); the stand-in does not.
 """
 
 import sys
@@ -15,7 +15,7 @@ import quadedge
 
 
 class StandIn:
-    """Answers like cv2.VideoCapture, from a rendered room."""
+    """A replacement for cv2.VideoCapture that renders a room."""
 
     def __init__(self):
         self.room = quadedge.synthetic(frames=10, width=320, height=200)
@@ -43,7 +43,7 @@ with quadedge.Odometry(rig, preset="fast") as odometry:
         found, picture = camera.read()
         if not found:
             break
-        green = picture[:, :, 1]  # a view: images may be strided
+        green = picture[:, :, 1]  # a view of one channel; images may be strided
         middle = green.shape[1] // 2
         result = odometry.track(time.monotonic_ns(), green[:, :middle], green[:, middle:])
         x, y, z = result.world_from_left[:3, 3]

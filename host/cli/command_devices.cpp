@@ -39,7 +39,7 @@ class DevicesCommand : public Command {
                 "plain C++ on one core, without OpenCL; slow");
     if (devices.empty()) {
       std::printf(
-          "\nno OpenCL device found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install\n"
+          "\nno OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install\n"
           "pocl-opencl-icd` installs one for CPUs, and a GPU needs its vendor's driver; `clinfo -l` lists devices\n");
     }
     return 0;

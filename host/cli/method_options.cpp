@@ -95,8 +95,8 @@ Device MethodOptions::open_device(bool profiling, SelfTestResult* test) const {
     try {
       return open_device(all[i], options, test);
     } catch (const DeviceError& error) {
-      note(false, "warning: device " + all[i] + " is skipped: " + first_line(error.what()) + "; trying device " +
-                      all[i + 1] + " (--device " + all[i] + " would end here)");
+      note("warning: device " + all[i] + " is skipped: " + first_line(error.what()) + "; trying device " + all[i + 1] +
+           " (--device " + all[i] + " would end here)");
     }
   }
   return open_device(all.back(), options, test);

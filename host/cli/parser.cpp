@@ -287,8 +287,9 @@ Parsed parse_command_line(int argc, char** argv, const std::vector<std::unique_p
   }
   try {
     program.parse(static_cast<int>(words.size()), words.data());
-  } catch (const CLI::Success& request) {  // --help, --help-all, --version
-    return {nullptr, answer(program, request)};
+  } catch (const CLI::Success& request) {               // --help, --help-all, --version
+    const bool is_known = program.remaining().empty();  // CLI11 answers `rnu --help`, too
+    return {nullptr, is_known ? answer(program, request) : refuse(program, request)};
   } catch (const CLI::Error& error) {
     return {nullptr, refuse(program, error)};
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// \file float_map.hpp  Maps of depths or disparities: one 32-bit float per pixel, in PFM files.
+/// \file float_map.hpp  Depth or disparity maps in PFM files, one 32-bit float per pixel.
 
 #include <string>
 #include <vector>

@@ -25,7 +25,7 @@ std::string to_string(ImageSize size);
 
 enum class ImageKind { png, jpeg, pnm };
 
-/// The format, by the first bytes. \throws DataError naming `file` when it is none of these.
+/// The format, by the first bytes. \throws DataError that names `file` if it is none of these
 ImageKind image_kind(std::string_view bytes, const std::string& file);
 
 /// Header of a binary PGM (one channel) or PPM (three: R, G, B).
@@ -35,11 +35,11 @@ struct PnmHeader {
   std::size_t pixels = 0;  ///< position of the first sample; 16-bit samples are big-endian
 };
 
-/// \throws DataError naming `file` when the header is damaged or promises more pixels than there are.
+/// \throws DataError that names `file` if the header is damaged or announces more pixels than there are
 PnmHeader read_pnm_header(std::string_view bytes, const std::string& file);
 
-/// Walks a PNG (chunks up to IEND), JPEG (segments, end-of-image marker) or binary PGM/PPM (header against length).
-/// \throws DataError naming `file` when it is none of these or ends early.
+/// Checks a PNG (chunks up to IEND), JPEG (segments, end-of-image marker) or binary PGM/PPM (header against length).
+/// \throws DataError that names `file` if it is none of these or incomplete
 ImageSize check_complete(std::string_view bytes, const std::string& file);
 
 /// check_complete() of a file. \throws DataError

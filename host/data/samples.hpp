@@ -11,7 +11,7 @@ namespace quadedge::data {
 void from_big_endian(cv::Mat& samples);
 
 /// Grey image of samples of 8 bits (`max_value` up to 255) or 16 bits, one channel or R, G, B, which become luminance.
-/// Samples above `max_value` are limited to it: a header may promise less than its pixels hold.
+/// Samples above `max_value` are limited to it: pixels may exceed the largest value of the header.
 Image grey_image(const cv::Mat& samples, int max_value);
 
 }  // namespace quadedge::data

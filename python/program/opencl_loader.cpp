@@ -40,7 +40,7 @@ void* open_loader() {
   constexpr const char* kName = "libOpenCL.so.1";
   void* const system = dlopen(kName, RTLD_NOW | RTLD_LOCAL);
   const char* const runtime = std::getenv("QUADEDGE_OPENCL_RUNTIME");
-  if (runtime == nullptr || has_device(system)) return system;
+  if (runtime == nullptr || *runtime == '\0' || has_device(system)) return system;
   // The driver first: it finds its libraries beside itself, and the loader, which cannot, then uses the same.
   if (dlopen(runtime, RTLD_NOW | RTLD_LOCAL) == nullptr) return system;
   setenv("OCL_ICD_FILENAMES", runtime, 0);

@@ -40,8 +40,10 @@ def module_file() -> Path:
 
 
 @pytest.mark.skipif(shutil.which("readelf") is None, reason="no readelf here")
-def test_the_module_does_not_ask_for_the_loader():
-    done = subprocess.run(["readelf", "-d", module_file()], capture_output=True, text=True, check=True)
+@pytest.mark.parametrize("part", ["module", "program"])
+def test_the_package_does_not_link_the_loader(part):
+    file = module_file() if part == "module" else module_file().parent / "bin" / "libquadedge_program.so"
+    done = subprocess.run(["readelf", "-d", file], capture_output=True, text=True, check=True)
     needed = [line for line in done.stdout.splitlines() if "NEEDED" in line]
     assert needed and not [line for line in needed if "OpenCL" in line], "a function is missing in opencl_loader.cpp"
 

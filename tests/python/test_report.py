@@ -22,8 +22,8 @@ from quadedge.report.page import LARGEST_PAGE  # noqa: E402
 from quadedge.report.plotly_figures import to_plotly  # noqa: E402
 from quadedge.report.table import Cell, Table, to_csv, to_latex  # noqa: E402
 
-ORIGIN_TABLE = "Errors, origin-aligned as in the paper's Table 4 (the first compared poses are made equal)"
-SE3_TABLE = "Errors, SE(3)-aligned as others often quote (least squares over all positions, no scale)"
+ORIGIN_TABLE = "Errors, origin-aligned as in the paper's Table 4 (the first compared poses coincide)"
+SE3_TABLE = "Errors, SE(3)-aligned as commonly reported (least squares over all positions, no scale)"
 THIN = "\u2009"
 
 
@@ -221,7 +221,7 @@ def test_page_of_a_batch_has_units_by_size_and_the_latency_of_all(tmp_path):
     assert page.row(ORIGIN_TABLE, "street")[4:6] == [f"50.00{THIN}mm", f"25.00{THIN}mm"]
     assert page.row(ORIGIN_TABLE, "yard")[4:6] == [f"0.1500{THIN}m", f"0.07500{THIN}m"]
     assert page.tables[ORIGIN_TABLE][0][-1] == "RPE translation [mm]"
-    assert page.row(ORIGIN_TABLE, "all, every pose counts the same")[4] == f"70.00{THIN}mm"
+    assert page.row(ORIGIN_TABLE, "all sequences, poses weighted equally")[4] == f"70.00{THIN}mm"
     assert page.bold == []  # nobody to be better than
     assert page.row("Tracked frames and latency", "hall")[2:5] == ["12 of 12 (100.0 %)", "3", "21.00"]
     assert page.facts["Command"] and page.facts["Configuration"] == "stereo.ncc_min = 0.55"

@@ -1,17 +1,17 @@
-"""Grey images from the messages of ROS."""
+"""Converts ROS image messages to grey images."""
 
 import numpy
 
 from .. import DataError, decode_grey_image
 
-# Encoding: type of a channel, channels, places of red, green and blue (None: grey).
+# Encoding: type of a channel, number of channels, indices of red, green and blue (None: grey).
 _ENCODINGS = {
     "mono8": ("u1", 1, None), "8UC1": ("u1", 1, None), "mono16": ("u2", 1, None), "16UC1": ("u2", 1, None),
     "rgb8": ("u1", 3, (0, 1, 2)), "bgr8": ("u1", 3, (2, 1, 0)), "8UC3": ("u1", 3, (2, 1, 0)),
     "rgba8": ("u1", 4, (0, 1, 2)), "bgra8": ("u1", 4, (2, 1, 0)), "8UC4": ("u1", 4, (2, 1, 0)),
     "rgb16": ("u2", 3, (0, 1, 2)), "bgr16": ("u2", 3, (2, 1, 0)),
 }  # fmt: skip
-_LUMINANCE = (9798, 19235, 3735)  # of red, green and blue, in parts of 2^15: ITU-R BT.601, as image files are read
+_LUMINANCE = (9798, 19235, 3735)  # weights of red, green and blue times 2^15 (ITU-R BT.601), as for image files
 
 
 def _raw_image(message, name: str) -> numpy.ndarray:
@@ -32,9 +32,10 @@ def _raw_image(message, name: str) -> numpy.ndarray:
 
 
 def grey_image(message, name: str = "the image") -> numpy.ndarray:
-    """The pixels of a ``sensor_msgs/Image`` or ``CompressedImage``: (height, width), uint8 or uint16.
+    """The grey values of a ``sensor_msgs/Image`` or ``CompressedImage``: (height, width), uint8 or uint16.
 
-    Colour becomes luminance. Grey images are views of the message. Raises DataError, which calls the image ``name``.
+    Colour is converted to luminance; grey images are views of the message. name: of the image, for error messages.
+    Raises DataError for other encodings and for messages that are too short.
     """
     if hasattr(message, "encoding"):
         return _raw_image(message, name)

@@ -1,7 +1,7 @@
-"""Pages of QuadEdge's results: one file each, with tables, interactive plots and pictures, that needs no network.
+"""Makes pages of QuadEdge's results: self-contained files with tables, interactive plots and pictures.
 
-Made from the files that `quadedge run`, `quadedge batch` and `quadedge evaluate matching --json` write; nothing is
-computed from images here. Needs jinja2, plotly and matplotlib, and no compiled part of the package.
+The input is the output of `quadedge run`, `quadedge batch` and `quadedge evaluate matching --json`; images are not
+processed. Needs jinja2, plotly and matplotlib, but not the compiled part of the package.
 """
 
 import importlib.util
@@ -10,7 +10,7 @@ from pathlib import Path
 from .page import Page, smallest_loss, write_atomically, write_figures, write_tables
 from .results import DamagedResults
 
-if importlib.util.find_spec("plotly") is None:  # its source is only read, which takes no import
+if importlib.util.find_spec("plotly") is None:  # its JavaScript is read without importing it
     raise ModuleNotFoundError("No module named 'plotly'", name="plotly")
 
 __all__ = ["DamagedResults", "Page", "make_page"]
@@ -19,13 +19,14 @@ __all__ = ["DamagedResults", "Page", "make_page"]
 def make_page(results: str | Path, output: str | Path | None = None, *, comparison: str | Path | None = None,
               csv: str | Path | None = None, latex: str | Path | None = None,
               figures: str | Path | None = None) -> Path:
-    """Makes the page of the folder of a run or a batch, or of a file of `evaluate matching --json`.
+    """Makes the page of a run, of a batch, or of a file of `evaluate matching --json`, and returns its path.
 
-    `output`: file of the page; by default `report.html` in the folder, or the file with .html in place of .json.
-    `comparison`: what `quadedge report --baseline --peer` writes about a batch. `csv`, `latex`: folders for every
-    table; `figures`: folder for every figure as SVG and PDF. Returns the page's file. Raises DamagedResults for
-    results that cannot be read as a whole; one damaged sequence of a batch is said on its page. Raises OSError where
-    something cannot be written.
+    results: folder of a run or batch, or the JSON file. output: path of the page; by default `report.html` in the
+    folder, or the JSON file's name with .html. comparison: file that `quadedge report --baseline --peer` writes about a
+    batch. csv, latex: folders to write every table to. figures: folder to write every figure to, as SVG and PDF.
+
+    Raises DamagedResults for results that cannot be read; a single damaged sequence of a batch is reported on the page.
+    Raises OSError for a file that cannot be written.
     """
     from .batch_page import batch_page, read_batch
     from .matching_page import matching_page, read_matching

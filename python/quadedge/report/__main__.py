@@ -1,20 +1,20 @@
-"""python -m quadedge.report: makes a page; `quadedge report` starts this."""
+"""``python -m quadedge.report``: makes a page of results. Started by `quadedge report`."""
 
 import argparse
 import sys
 
 from . import DamagedResults, make_page
 
-DATA_ERROR = 3  # as the program's exit codes
+DATA_ERROR = 3  # an exit code of the program
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python -m quadedge.report", description="Makes a page of results.")
+    parser = argparse.ArgumentParser(prog="python -m quadedge.report", description="Makes an HTML page of results.")
     parser.add_argument("results", help="folder of a run or a batch, or a file of `quadedge evaluate matching --json`")
-    parser.add_argument("-o", "--output", help="file of the page")
-    parser.add_argument("--comparison", help="what `quadedge report --baseline --peer` writes about a batch")
+    parser.add_argument("-o", "--output", help="path of the page")
+    parser.add_argument("--comparison", help="file that `quadedge report --baseline --peer` writes about a batch")
     parser.add_argument("--csv", metavar="DIR", help="also write every table as CSV")
-    parser.add_argument("--latex", metavar="DIR", help="also write every table for LaTeX")
+    parser.add_argument("--latex", metavar="DIR", help="also write every table as LaTeX")
     parser.add_argument("--figures", metavar="DIR", help="also write every figure as SVG and PDF")
     parser.add_argument("--quiet", action="store_true", help="do not print the name of the page")
     options = vars(parser.parse_args())

@@ -14,12 +14,12 @@ from .sequence_figures import Other, error_figures, frame_figures, trajectory_fi
 from .table import Cell, Table
 
 RAN = ("done", "too few tracked")
-MOST_OPEN = 8  # with more sequences each is folded
+MOST_OPEN = 8  # with more sequences, each is folded
 
 
 @dataclass
 class Sequence:
-    """One sequence of the batch. `run` is None where it failed or its results are damaged, and `message` says why."""
+    """A sequence of the batch. If it failed or its results are damaged, `run` is None and `message` says why."""
 
     entry: dict
     compared: dict
@@ -39,7 +39,7 @@ class Sequence:
 
 @dataclass
 class Batch:
-    """The results of a batch, and the comparison with others where there is one."""
+    """The results of a batch and an optional comparison with other systems."""
 
     folder: Path
     summary: dict
@@ -48,7 +48,7 @@ class Batch:
 
 
 def read_batch(folder: Path, comparison: Path | None) -> Batch:
-    """The results in `folder`, with those of its sequences that are whole. Raises DamagedResults for a summary or a
+    """Reads the results in `folder`, without those of damaged sequences. Raises DamagedResults for a summary or a
     comparison that cannot be read."""
     summary = read_json(folder / "summary.json", "the summary of a batch")
     if "sequences" not in summary or "all" not in summary:
@@ -60,7 +60,7 @@ def read_batch(folder: Path, comparison: Path | None) -> Batch:
 
 
 def batch_page(batch: Batch, detail: Detail) -> Page:
-    """The page of a batch. A damaged sequence is said and the others are shown."""
+    """The page of a batch. Damaged sequences are reported, the others shown."""
     page = Page(f"QuadEdge batch {batch.folder.resolve().name}", _facts(batch))
     page.sections.append(Section("Overview", _overview(batch.summary, batch.compared, batch.sequences)))
     for sequence in batch.sequences:
@@ -87,7 +87,7 @@ def _read(folder: Path, entry: dict, compared: dict) -> Sequence:
             sequence.notes.append(f"{system['name']}: {problem}")
             continue
         if poses is None:
-            sequence.notes.append(f"{system['name']}: no pose has a time of this sequence")
+            sequence.notes.append(f"{system['name']}: no pose has a timestamp of this sequence")
             continue
         sequence.others.append(Other(system["name"], poses, _errors(system.get("per_pose"))))
     return sequence
@@ -109,8 +109,8 @@ def _facts(batch: Batch) -> Facts:
     facts.append(("Sequences", f"{len(ran)} of {len(sequences)} finished"))
     facts.append(("Frames tracked", share_of(summary["all"]["frames_tracked"], summary["all"]["frames"])))
     if compared.get("baseline"):
-        facts.append(("Baseline", f"{compared['baseline']}; differences to it stand in brackets, (=) is none in these "
-                                  "digits"))
+        facts.append(("Baseline", f"{compared['baseline']}; differences to it are in brackets; (=) means none at this "
+                                  "precision"))
     for peer in compared.get("peers", []):
         facts.append(("Compared with", f"{peer['name']} ({peer['folder']})"))
     return Facts(facts)
@@ -121,15 +121,15 @@ def _overview(summary: dict, compared: dict, sequences: list[Sequence]) -> list:
     failed = [(sequence.name, sequence.message or f"{sequence.entry['status']}: {sequence.entry['message']}")
               for sequence in sequences if sequence.message or sequence.entry["status"] != "done"]
     if failed:
-        blocks += [Text("Sequences that did not end well:", warns=True), Facts(failed)]
+        blocks += [Text("Failed or incomplete sequences:", warns=True), Facts(failed)]
     if any(sequence.accuracy for sequence in sequences):
         groups = [_error_rows(sequence) for sequence in sequences]
         groups.append(_rows_over_all(summary, compared))
         blocks += [error_table(groups, alignment) for alignment in ALIGNMENTS]
     blocks.append(_latency_table(summary, sequences))
     shared = any(sequence.entry.get("jobs", 1) > 1 for sequence in sequences)
-    crowd = " Several sequences ran at the same time, so latencies are longer than those of a lone run."
-    blocks.append(Text("Latency is from both images in host memory to the pose." + (crowd if shared else "")))
+    crowd = " Several sequences ran at the same time, which increases latencies."
+    blocks.append(Text("Latency is the time from both images in host memory to the pose." + (crowd if shared else "")))
     return blocks
 
 
@@ -144,7 +144,7 @@ def _error_rows(sequence: Sequence) -> list[ErrorRow]:
 
 def _rows_over_all(summary: dict, compared: dict) -> list[ErrorRow]:
     own_sequences = sum("accuracy" in entry for entry in summary["sequences"])
-    title = "all, every pose counts the same"
+    title = "all sequences, poses weighted equally"
     others = {entry["name"]: entry for entry in compared["all"]}
     baseline = others.get("baseline", {}).get("accuracy")
     rows = [ErrorRow(title, "QuadEdge", summary["all"].get("pooled"), baseline)]
@@ -194,7 +194,7 @@ def _sequence_blocks(sequence: Sequence, detail: Detail) -> list:
     blocks += [Text(f"Frame {warning['frame']}: {warning['text']}", warns=True) for warning in run.report["warnings"]]
     if run.count() < FEWEST_FRAMES:
         blocks.append(Text(f"No plots of fewer than {FEWEST_FRAMES} frames."))
-    world = "In the left camera's first pose" + (" that has ground truth, origin-aligned." if run.truth else ".")
+    world = "In the frame of the first left camera" + (" with ground truth, origin-aligned." if run.truth else ".")
     for figures, caption in ((trajectory_figures(run, sequence.others, detail.points), world),
                              (error_figures(run, sequence.others, detail.points),
                               "Errors against ground truth, origin-aligned."),

@@ -1,4 +1,4 @@
-"""Tables of pose errors with the columns of the paper's Table 4: own rows named, the best of each sequence bold."""
+"""Tables of pose errors with the columns of the paper's Table 4. The best value of each sequence is bold."""
 
 from dataclasses import dataclass
 
@@ -8,33 +8,33 @@ from .table import Cell, Table
 ERRORS = (("ape_rotation_deg", "APE rotation"), ("ape_translation_m", "APE translation"),
           ("rpe_rotation_deg", "RPE rotation"), ("rpe_translation_m", "RPE translation"))
 ALIGNMENTS = {
-    "origin_aligned": "Errors, origin-aligned as in the paper's Table 4 (the first compared poses are made equal)",
-    "se3_aligned": "Errors, SE(3)-aligned as others often quote (least squares over all positions, no scale)"}
+    "origin_aligned": "Errors, origin-aligned as in the paper's Table 4 (the first compared poses coincide)",
+    "se3_aligned": "Errors, SE(3)-aligned as commonly reported (least squares over all positions, no scale)"}
 
 
 @dataclass
 class ErrorRow:
-    """One system on one sequence. `accuracy` is None where there is nothing to compare with."""
+    """One system on one sequence. `accuracy` is None without ground truth."""
 
     sequence: str
     system: str
     accuracy: dict | None
     baseline: dict | None = None
-    """Differences to it stand beside each figure."""
+    """Differences to it are shown beside each value."""
     ranked: bool = True
-    """Is it over the same data as the others of its group?"""
+    """Whether it covers the same data as the others of its group."""
 
 
 def unit_of(key: str, rows: list[ErrorRow], alignment: str) -> Unit:
-    """One unit for a kind of error of some rows, by the size of their means."""
+    """The common unit of one kind of error in several rows, by the magnitude of their means."""
     if not key.endswith("_m"):
         return DEGREE
     return length_unit(row.accuracy[alignment][key]["mean"] for row in rows if row.accuracy)
 
 
 def error_table(groups: list[list[ErrorRow]], alignment: str, statistics: tuple[str, ...] = ("mean", "std")) -> Table:
-    """One group of rows per sequence, the last one over all. With several systems in a group the best is bold. Each
-    sequence has the units of its size; where they are the same for all, the heading names them."""
+    """A table with a group of rows per sequence; the last group covers all sequences. With several systems in a group
+    the best value is bold. Units depend on the sequence and appear in the heading if they are equal for all."""
     several = any(len(group) > 1 for group in groups)
     names = ["sequence", *(["system"] if several else []), "poses"]
     table = Table(f"errors_{alignment}", ALIGNMENTS[alignment], [*names], text_columns=len(names) - 1,
@@ -57,12 +57,12 @@ def error_table(groups: list[list[ErrorRow]], alignment: str, statistics: tuple[
         if alignment == "se3_aligned":
             table.notes += _open_rotations(group, several)
     if table.notes and table.result_rows:
-        table.notes.append("The APE rotation over all is over those that have one.")
+        table.notes.append("The APE rotation of all sequences covers those that have one.")
     return table
 
 
 def _open_rotations(group: list[ErrorRow], several: bool) -> list[str]:
-    """Why rotations are missing; systems with the same reason share a sentence."""
+    """Why rotations are missing, in one sentence per reason."""
     systems: dict[str, list[str]] = {}
     for row in group:
         reason = row.accuracy and row.accuracy.get("se3_open_rotation")

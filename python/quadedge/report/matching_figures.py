@@ -1,4 +1,4 @@
-"""The figures of `quadedge evaluate matching`."""
+"""Figures of the matching evaluation (`quadedge evaluate matching`)."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from .figure import Figure, Marker, Series
 from .matching_tables import POOLS
 from .numbers import exists, length_unit, short_count
 
-MOST_POINTS = 130  # of a curve; finer bins are joined
+MOST_POINTS = 130  # of a curve; finer bins are merged
 
 
 def frames_of(pairs: list[dict]) -> int:
@@ -14,8 +14,7 @@ def frames_of(pairs: list[dict]) -> int:
 
 
 def filter_figure(key: str, title: str, summary: dict) -> Figure:
-    """Recall and precision of both pools after every filter, whose names stand on the axis; those that are switched off
-    are left out."""
+    """Recall and precision of both pools after every filter, by the filter's name. Disabled filters are omitted."""
     rows = [row for row in summary[key] if not row.get("off")]
     figure = Figure(f"filters_{key}", title, "", "share [%]", categories=[row["filter"] for row in rows],
                     y_range=(0, 102))
@@ -29,7 +28,7 @@ def filter_figure(key: str, title: str, summary: dict) -> Figure:
 
 
 class _Curves:
-    """Density over the bins within a range, and the cumulative share of all values at the ends of bins."""
+    """The density over the bins within a range, and the cumulative share of all values at the ends of the bins."""
 
     def __init__(self, low: float, high: float, counts: dict, shown: tuple[float, float]):
         bins = np.array(counts["bins"], float)
@@ -50,7 +49,7 @@ class _Curves:
 
 
 def _quantile(cue: dict, counts: dict, share: float) -> float:
-    """Value below which a share of all values lies, to within a bin."""
+    """The quantile of a histogram, with the precision of a bin."""
     bins = np.array(counts["bins"], float)
     edges = np.linspace(cue["low"], cue["high"], len(bins) + 1)
     sums = counts["below"] + np.cumsum(bins)
@@ -64,7 +63,7 @@ def _count_of(counts: dict) -> int:
 
 
 def _shown_range(cue: dict) -> tuple[float, float]:
-    """All thresholds, nearly all veridical pairs, and so much of the others that one sees where they begin."""
+    """A range that contains all thresholds, nearly all veridical pairs, and the beginning of the other pairs."""
     veridical, other, thresholds = cue["veridical"], cue["other"], cue["thresholds"]
     low = min(thresholds, default=cue["high"])
     high = max(thresholds, default=cue["low"])
@@ -81,7 +80,7 @@ def _shown_range(cue: dict) -> tuple[float, float]:
 
 
 def _thresholds(cue: dict) -> list[Marker]:
-    """Pooled data sets may have thresholds of their own: then one label names them all."""
+    """Markers at the thresholds. Several thresholds, as pooled data sets may have, share one label."""
     thresholds = sorted(cue["thresholds"])
     sign = "\u2264" if cue["keeps_small"] else "\u2265"
     label = f"{sign} {thresholds[-1]:.4g}" if thresholds else ""
@@ -91,7 +90,7 @@ def _thresholds(cue: dict) -> list[Marker]:
 
 
 def cue_figures(cue: dict) -> list[Figure]:
-    """Density and cumulative curve of one cue, over veridical and other pairs of both pools."""
+    """Density and cumulative curve of one cue for veridical and other pairs of both pools."""
     shown = _shown_range(cue)
     axis = cue["cue"] + (f" [{cue['unit']}]" if cue["unit"] else "")
     name = f"cue_{cue['table']}_{cue['order']}"
@@ -115,7 +114,7 @@ def cue_figures(cue: dict) -> list[Figure]:
 
 
 def disparity_figures(pooled: dict) -> list[Figure]:
-    """Signed error of the disparity, and the share of edges within a limit."""
+    """The signed disparity error, and the share of edges below an error limit."""
     errors = pooled["disparity_error_histogram"]
     total = _count_of(errors)
     if total == 0:
@@ -135,11 +134,11 @@ def disparity_figures(pooled: dict) -> list[Figure]:
 
 
 def count_figures(pairs: list[dict]) -> list[Figure]:
-    """Counts over the frames; over the names of the data where every one has a single frame."""
+    """Counts by frame, or by the name of the data set if each has a single frame."""
     names = [pair["name"] for pair in pairs]
     single = len(pairs) > 1 and all(len(pair["counts"]) == 1 for pair in pairs) and len(set(names)) == len(names)
     frames = [frame for pair in pairs for frame in pair["counts"]]
-    label = "" if single else "frame" if len(pairs) == 1 else "frame, the data sets one after another"
+    label = "" if single else "frame" if len(pairs) == 1 else "frame, data sets in sequence"
     figures = []
     for key, title, series in (("edges", "Edges", (("edges_left", "left"), ("edges_right", "right"))),
                                ("stereo_edges", "Stereo edges", (("stereo_edges", "stereo edges"),)),
@@ -158,7 +157,7 @@ def count_figures(pairs: list[dict]) -> list[Figure]:
 
 
 def accuracy_figures(pairs: list[dict], pooled: dict) -> list[Figure]:
-    """Figure 7: precision of the pairs of quads, and the error of the motions that they give."""
+    """Figure 7: the precision of pairs of quads and the error of the motions computed from them."""
     names = [row["constraint"] for row in pooled["constraints"]]
     frames = [frame for pair in pairs for frame in pair["counts"] if "pairs" in frame]
     metres = [point["translation_error_m"] for frame in frames for point in frame["pairs"]]

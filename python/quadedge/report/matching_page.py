@@ -1,4 +1,4 @@
-"""The page of `quadedge evaluate matching`: what every filter keeps and loses against ground truth."""
+"""The page of the matching evaluation: the effect of every filter, measured against ground truth."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ CASCADES = (("stereo", "Stereo (Figure 3)", "stereo pairs"),
 
 
 def read_matching(file: Path) -> dict:
-    """The content of a file of `evaluate matching --json`. Raises DamagedResults."""
+    """Reads a file of `evaluate matching --json`. Raises DamagedResults."""
     content = read_json(file, "a file of `quadedge evaluate matching --json`")
     for key in ("pairs", "pooled", "tolerance_px"):
         if key not in content:
@@ -29,7 +29,7 @@ def read_matching(file: Path) -> dict:
 
 
 def matching_page(content: dict, detail: Detail) -> Page:
-    """The page of what `evaluate matching --json` writes."""
+    """The page of a file of `evaluate matching --json`."""
     pairs, pooled = content["pairs"], content["pooled"]
     title = pairs[0]["name"] if len(pairs) == 1 else f"{len(pairs)} data sets"
     page = Page(f"QuadEdge matching: {title}", _facts(content))
@@ -41,7 +41,7 @@ def matching_page(content: dict, detail: Detail) -> Page:
             figures.append(filter_figure(f"temporal_{side}", f"In time, {side} images, after every filter", pooled))
     page.sections[-1].blocks += [
         Figures(figures, "Shares of both pools after every filter."),
-        Figures(disparity_figures(pooled), "Final stereo edges whose true position is visible: found minus true "
+        Figures(disparity_figures(pooled), "Final stereo edges whose true position is visible: estimated minus true "
                                            "disparity.")]
     if len(pairs) > 1:
         for number, pair in enumerate(pairs):
@@ -57,26 +57,26 @@ def matching_page(content: dict, detail: Detail) -> Page:
 def _facts(content: dict) -> Facts:
     facts = origin(content, device_text(content["device"]), ", ".join(content["input"]))
     return Facts([*facts,
-                  ("Veridical", f"within {content['tolerance_px']:g} px of the true position, in a view that shows it"),
+                  ("Veridical", f"within {content['tolerance_px']:g} px of the true position, where it is visible"),
                   ("Pool: paired", "edges whose counterpart was detected (the paper's pool): recall starts at 100 % by "
                                    "construction"),
-                  ("Pool: all", "all edges of known truth, also those whose counterpart is occluded or was not "
-                                "detected"),
+                  ("Pool: all", "all edges with ground truth, including those whose counterpart is occluded or was "
+                                "not detected"),
                   ("Recall", "share of the pool's edges that still have a veridical candidate"),
                   ("Precision", "veridical candidates / all candidates"),
                   ("Ambiguity", "candidates beyond the first, per edge that has any"),
-                  ("\u00b1", "standard deviation over frames; every pair is one")])
+                  ("\u00b1", "standard deviation over frames; each pair counts as one")])
 
 
 def _messages(pairs: list[dict]) -> list:
-    """What the pipeline complained about: lost frames, capacities that ran out."""
+    """Messages of the pipeline: lost frames, exhausted buffers."""
     messages = [(f"{pair['name']}, frame {number}", frame["message"]) for pair in pairs
                 for number, frame in enumerate(pair["counts"]) if "message" in frame]
     if not messages:
         return []
     if len(messages) > MOST_MESSAGES:
         messages = [*messages[:MOST_MESSAGES], ("and", f"{len(messages) - MOST_MESSAGES} more frames")]
-    return [Text("The pipeline says:"), Facts(messages)]
+    return [Text("Messages of the pipeline:"), Facts(messages)]
 
 
 def _tables(summary: dict, prefix: str) -> list:
@@ -103,20 +103,21 @@ def _distributions(pooled: dict) -> list[Section]:
     cues = pooled["distributions"]
     if not cues:
         return []
-    text = Text("Each cue over the pairs that reach the filter which judges it; solid: edges of the pool paired, "
-                "dashed: of all. Densities are normalised over the range shown, cumulative curves over all pairs: one "
-                "that ends low has the rest beyond the range. Vertical lines: the threshold.")
+    text = Text("Each cue over the pairs that reach the filter that uses it. Solid: edges of the pool paired, dashed: "
+                "all edges. Densities are normalised over the displayed range, cumulative curves over all pairs, so "
+                "that they end below 100 % if pairs lie beyond the range. Vertical lines: thresholds.")
     sections = [Section("Distributions of the cues", [text])]
     for table, title, pairs in CASCADES:
         figures = [figure for cue in cues if cue["table"] == table for figure in cue_figures(cue)]
         if figures:
             caption = (f"Veridical and other {pairs}. Of the other pairs before the first filter, 40 per edge are "
-                       "drawn; the count beside a curve is that of the pairs looked at.")
+                       "sampled; the count beside a curve is that of the sampled pairs.")
             sections.append(Section(title, [Figures(figures, caption)], 3))
     figures = [figure for cue in cues if cue["table"] == "constraints" for figure in cue_figures(cue)]
     if figures:
-        caption = ("What the constraints of Equation 9 compare, over the pairs of quads that fulfil all constraints "
-                   "before; veridical: both quads are. The sixth constraint, equal handedness, has no threshold.")
+        caption = ("The quantities compared by the constraints of Equation 9, over the pairs of quads that satisfy all "
+                   "previous constraints. A pair is veridical if both quads are. The sixth constraint, equal "
+                   "handedness, has no threshold.")
         sections.append(Section("Pairs of quads (Figure 6)", [Figures(figures, caption)], 3))
     return sections
 
@@ -129,16 +130,16 @@ def _accuracy(pairs: list[dict], pooled: dict) -> list[Section]:
     def text(value: float | None) -> str:
         return f"{value:.2f}" if exists(value) else "undefined"
 
-    caption = ("Figure 7. Of single pairs: one point per frame and constraint; every pair of quads that fulfils the "
-               "constraints so far gives a motion (Proposition 2), whose error against the true motion is taken, "
-               f"median over up to 2000 pairs. Rank correlation of precision and error: rotation "
+    caption = ("Figure 7. Single pairs: one point per frame and constraint. Each pair of quads that satisfies the "
+               "constraints up to this one yields a motion (Proposition 2); the figure shows the median error of up to "
+               f"2000 such motions. Rank correlation of precision and error: rotation "
                f"{text(correlation['rotation'])}, translation {text(correlation['translation'])} over "
-               f"{correlation['points']} points. Of all quads: the error of the motion that the pipeline found.")
+               f"{correlation['points']} points. All quads: the error of the motion estimated by the pipeline.")
     return [Section("Precision of pairs and accuracy of motions", [Figures(accuracy_figures(pairs, pooled), caption)])]
 
 
 def _drawings(content: dict, detail: Detail) -> list[Section]:
-    """Large pictures, one fold per data set where there are several."""
+    """Large pictures, one fold per data set if there are several."""
     if detail.picture_width == 0:
         return []
     by_name: dict[str, list[dict]] = {}
@@ -146,8 +147,8 @@ def _drawings(content: dict, detail: Detail) -> list[Section]:
         by_name.setdefault(drawing["name"], []).append(drawing)
     if not by_name:
         return []
-    text = ("The left and the right image with the final stereo edges of known truth (Figures 8 and 9); numbered "
-            "frames mark what is enlarged below.")
+    text = ("The left and right image with the final stereo edges that have ground truth (Figures 8 and 9). Numbered "
+            "frames mark the parts enlarged below.")
     if len(by_name) > MOST_DRAWN:
         text += f" The first {MOST_DRAWN} of {len(by_name)} are shown."
     sections = [Section("Drawings", [Text(text)])]
@@ -158,7 +159,7 @@ def _drawings(content: dict, detail: Detail) -> list[Section]:
         for drawing in drawings:
             data = reduced(Path(drawing["file"]), width, detail.quality)
             if data is None:
-                blocks.append(Text(f"{drawing['file']}: no picture that can be read", warns=True))
+                blocks.append(Text(f"{drawing['file']}: not a readable image", warns=True))
             else:
                 pictures.append(Picture(data, drawing["caption"]))
         blocks.append(Pictures(pictures, wide=True))

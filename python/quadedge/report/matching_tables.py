@@ -1,4 +1,4 @@
-"""The tables of `quadedge evaluate matching`, both pools beside one another."""
+"""Tables of the matching evaluation, with both pools side by side."""
 
 import numpy as np
 
@@ -31,7 +31,7 @@ def _count(value: float) -> Cell:
 
 
 def overview_table(pairs: list[dict], pooled: dict) -> Table:
-    """What is left at the end, one row per data set."""
+    """The final results, one row per data set."""
     table = Table("overview", "What is left at the end",
                   ["data", "frames", "left edges", "correct", "inaccurate", "wrong", "occluded",
                    *["recall", "precision"] * 2, "median [px]", *["recall", "precision"] * 2])
@@ -56,7 +56,7 @@ def overview_table(pairs: list[dict], pooled: dict) -> Table:
 
 
 def filter_table(name: str, title: str, summary: dict, key: str) -> Table:
-    """Tables 1 and 2: recall, precision and ambiguity after every filter. One that is switched off says so."""
+    """Tables 1 and 2: recall, precision and ambiguity after every filter; disabled filters are marked."""
     both = [summary[f"{key}{suffix}"] for _, suffix in POOLS]
     table = Table(name, title, ["", "filter", *["recall [%]", "precision [%]", "ambiguity", "max"] * 2], text_columns=2)
     table.groups = [("", 2)]
@@ -76,7 +76,7 @@ def filter_table(name: str, title: str, summary: dict, key: str) -> Table:
 
 
 def disparity_table(name: str, summary: dict) -> Table:
-    """Errors of the final stereo edges, and what the truth says about the left edges."""
+    """Errors of the final stereo edges, and the ground truth of the left edges."""
     table = Table(name, "Final stereo edges against the truth, and what the truth says about the left edges",
                   ["median", "90 %", "bias", "median", "90 %", "detected", "no statement", "along the line", "occluded",
                    "on depth steps"], text_columns=0)
@@ -111,7 +111,7 @@ def constraint_table(name: str, summary: dict) -> Table:
 
 
 def count_table(pairs: list[dict]) -> Table:
-    """Edges, stereo edges, matches in time and quads of a frame."""
+    """Numbers of edges, stereo edges, temporal matches and quads per frame."""
     table = Table("counts", "Counts of a frame", ["per frame", "frames", "mean", "std", "min", "median", "max"])
     for key, text, in_time in QUANTITIES:
         values = np.array([frame[key] for pair in pairs for frame in pair["counts"]

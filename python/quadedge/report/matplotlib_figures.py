@@ -1,4 +1,4 @@
-"""Figures as SVG and PDF files, for papers and slides."""
+"""Writes figures as SVG and PDF files."""
 
 from pathlib import Path
 
@@ -58,7 +58,7 @@ def _finish(axes, figure: Figure) -> None:
 
 
 def write_figure(figure: Figure, folder: Path) -> list[Path]:
-    """Writes FOLDER/NAME.svg and FOLDER/NAME.pdf; the same figure gives the same bytes."""
+    """Writes FOLDER/NAME.svg and FOLDER/NAME.pdf and returns their paths. The same figure gives the same bytes."""
     with pyplot.rc_context(_STYLE):
         picture, axes = pyplot.subplots(figsize=(7 if figure.wide else 5, 4), layout="constrained",
                                         subplot_kw={"projection": "3d"} if figure.is_spatial else {})

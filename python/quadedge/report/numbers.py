@@ -1,4 +1,4 @@
-"""Numbers as tables and axes print them: units chosen by size, few digits, a dash for what does not exist."""
+"""Formats numbers for tables and axes: units by magnitude, few digits, a dash for missing values."""
 
 import math
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ _MOST_DECIMALS = 9
 
 
 class Unit(NamedTuple):
-    """What a value in SI units (degrees for angles) is multiplied by, and the name of the result."""
+    """A unit and the factor that converts SI units (degrees for angles) to it."""
 
     name: str
     factor: float
@@ -21,24 +21,24 @@ METRE, MILLIMETRE, DEGREE = Unit("m", 1.0), Unit("mm", 1000.0), Unit("deg", 1.0)
 
 
 def exists(value: float | None) -> bool:
-    """Is there a value? JSON says null, a table NaN."""
+    """True for a finite value; missing values are null in JSON and NaN in tables."""
     return value is not None and math.isfinite(value)
 
 
 def length_unit(metres: Iterable[float | None]) -> Unit:
-    """Millimetres where all lengths are below 10 cm, otherwise metres: one unit for a column or an axis."""
+    """The unit of a column or axis: millimetres if all lengths are below 10 cm, otherwise metres."""
     sizes = [abs(value) for value in metres if exists(value)]
     return MILLIMETRE if sizes and max(sizes) < 0.1 else METRE
 
 
 def decimals_of(value: float, digits: int) -> int:
-    """Decimals that show so many significant digits."""
+    """The number of decimals that shows `digits` significant digits."""
     magnitude = 0 if value == 0 else math.floor(math.log10(abs(value)))
     return min(max(digits - 1 - magnitude, 0), _MOST_DECIMALS)
 
 
 def significant(value: float | None, digits: int = 4) -> str:
-    """Significant digits, never an exponent; "0" for what is smaller than the last of nine decimals."""
+    """The value with significant digits and without an exponent; "0" below nine decimals."""
     if not exists(value):
         return DASH
     text = f"{value:.{decimals_of(value, digits)}f}"
@@ -46,7 +46,7 @@ def significant(value: float | None, digits: int = 4) -> str:
 
 
 def difference(value: float | None, baseline: float | None, digits: int = 4) -> str:
-    """"(-0.0012)": how much the value differs, with its decimals; "(=)" where these show none; empty without one."""
+    """The difference with the value's decimals: "(-0.0012)"; "(=)" if it rounds to zero; "" if a value is missing."""
     if not exists(value) or not exists(baseline):
         return ""
     text = f"{value - baseline:+.{decimals_of(value, digits)}f}"
@@ -54,17 +54,17 @@ def difference(value: float | None, baseline: float | None, digits: int = 4) -> 
 
 
 def percent(share: float | None, decimals: int = 2) -> str:
-    """0.9342 as "93.42"."""
+    """Formats 0.9342 as "93.42"."""
     return f"{100 * share:.{decimals}f}" if exists(share) else DASH
 
 
 def count(value: float | None) -> str:
-    """48299 as "48 299"."""
+    """Formats 48299 as "48 299"."""
     return f"{round(value):,}".replace(",", _THIN_SPACE) if exists(value) else DASH
 
 
 def short_count(value: float) -> str:
-    """27230 as "27k"."""
+    """Formats 27230 as "27k"."""
     for limit, scale, suffix in ((1e6, 1e6, "M"), (1e3, 1e3, "k")):
         if value >= limit:
             return f"{value / scale:.{0 if value >= 10 * limit else 1}f}{suffix}"
@@ -72,11 +72,11 @@ def short_count(value: float) -> str:
 
 
 def share_of(part: float, whole: float) -> str:
-    """"58 of 86 (67.4 %)"; a dash for none of none."""
+    """Formats a share as "58 of 86 (67.4 %)"; a dash if the whole is zero."""
     return f"{part} of {whole} ({100 * part / whole:.1f} %)" if whole else DASH
 
 
 def length_text(metres: float | None) -> str:
-    """"42.1 m" or "3.20 mm"."""
+    """Formats a length as "42.1 m" or "3.20 mm"."""
     unit = length_unit([metres])
     return f"{significant(metres * unit.factor, 3)} {unit.name}" if exists(metres) else DASH

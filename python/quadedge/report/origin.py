@@ -1,14 +1,14 @@
-"""What every page says of where its figures come from."""
+"""The origin of a page's figures: program, input, device and configuration."""
 
 from .numbers import DASH
 
 
 def changed_constants(content: dict) -> str:
-    """"stereo.ncc_min = 0.7" for every constant that is not at its default."""
+    """The configuration values that differ from the defaults, such as "stereo.ncc_min = 0.7"."""
     if "config_changed" not in content:
         return DASH
     changed = [f"{key} = {value}" for key, value in content["config_changed"].items()]
-    return ", ".join(changed) or "all constants at their defaults"
+    return ", ".join(changed) or "defaults"
 
 
 def device_text(device: dict) -> str:
@@ -16,7 +16,7 @@ def device_text(device: dict) -> str:
 
 
 def origin(content: dict, device: str, recording: str) -> list[tuple[str, str]]:
-    """Program, date, device, configuration, input and command of a JSON result."""
+    """Input, program, date, device, configuration and command of a JSON result, as terms and texts."""
     commit = content.get("commit")
     return [("Input", recording),
             ("Program", f"QuadEdge {content.get('version', DASH)}" + (f", commit {commit}" if commit else "")),
@@ -27,7 +27,7 @@ def origin(content: dict, device: str, recording: str) -> list[tuple[str, str]]:
 
 
 def configuration_rows(content: dict) -> list[tuple[str, str, bool]]:
-    """Key, value and whether it is not the default, of every constant."""
+    """Key and value of every configuration entry, and whether it differs from the default."""
     changed = content.get("config_changed", {})
     rows = []
     for section, values in content.get("config", {}).items():

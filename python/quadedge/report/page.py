@@ -1,4 +1,4 @@
-"""A page as data, and the one file that it becomes: tables, plots and pictures that need no network."""
+"""Pages as data, and their rendering to self-contained HTML files."""
 
 import base64
 import functools
@@ -26,24 +26,24 @@ LARGEST_PAGE = 6_000_000  # bytes
 
 @dataclass(frozen=True)
 class Detail:
-    """How much of the results a page shows."""
+    """The level of detail of a page."""
 
     points: int
-    """Of a curve."""
+    """Points per curve."""
     picture_width: int
-    """Of a thumbnail [px]; 0: no pictures."""
+    """Width of a thumbnail [px]; 0: no pictures."""
     quality: int
-    """Of the pictures, JPEG."""
+    """JPEG quality of the pictures."""
 
 
-# The first one that makes the page small enough is taken.
+# In order of preference; the first one that makes the page small enough is used.
 DETAILS = (Detail(2000, 480, 75), Detail(600, 480, 60), Detail(300, 320, 55), Detail(200, 260, 50),
            Detail(120, 200, 45), Detail(60, 0, 0))
 
 
 @dataclass
 class Facts:
-    """Terms and what they mean or hold."""
+    """Terms and their descriptions or values."""
 
     entries: list[tuple[str, str]]
     kind: str = "facts"
@@ -51,7 +51,7 @@ class Facts:
 
 @dataclass
 class Text:
-    """A paragraph; `warns` stands out."""
+    """A paragraph, highlighted if `warns` is set."""
 
     text: str
     warns: bool = False
@@ -60,7 +60,7 @@ class Text:
 
 @dataclass
 class Figures:
-    """Plots side by side, as many as fit, with a caption below that may be empty."""
+    """Plots side by side, with an optional caption below."""
 
     figures: list[Figure]
     caption: str = ""
@@ -69,7 +69,7 @@ class Figures:
 
 @dataclass
 class Picture:
-    """An encoded JPEG and what it shows."""
+    """An encoded JPEG and its caption."""
 
     data: bytes
     caption: str
@@ -81,7 +81,7 @@ class Picture:
 
 @dataclass
 class Pictures:
-    """Small pictures side by side, or large ones (`wide`) below one another."""
+    """Small pictures side by side, or large ones (`wide`) one below the other."""
 
     pictures: list[Picture]
     wide: bool = False
@@ -90,7 +90,7 @@ class Pictures:
 
 @dataclass
 class Section:
-    """A heading and what follows. Below a `fold` it is hidden until a click, and open in print."""
+    """A heading and its blocks. With `fold` they are hidden until clicked, and open in print."""
 
     title: str
     blocks: list = field(default_factory=list)
@@ -101,7 +101,7 @@ class Section:
 
 @dataclass
 class Page:
-    """A page from top to bottom."""
+    """The content of a page."""
 
     title: str
     facts: Facts
@@ -118,7 +118,7 @@ class Page:
 
 
 def reduced(file: Path, width: int, quality: int) -> bytes | None:
-    """The picture as a JPEG of at most this width [px]; None for a file that is no picture."""
+    """The picture as a JPEG of at most this width [px]; None if the file is not a readable image."""
     import PIL.Image
 
     try:
@@ -135,13 +135,13 @@ def reduced(file: Path, width: int, quality: int) -> bytes | None:
 
 
 def _packed(content: bytes) -> Markup:
-    """Compressed, as text; the browser unpacks it."""
+    """Compressed and encoded as text, to be unpacked by the browser."""
     return Markup(base64.b64encode(gzip.compress(content, 9, mtime=0)).decode())
 
 
 @functools.cache
 def _plotly_code() -> Markup:
-    """plotly's minified source: a third of its size."""
+    """plotly's minified source, packed to a third of its size."""
     return _packed((resources.files("plotly") / "package_data" / "plotly.min.js").read_bytes())
 
 
@@ -150,12 +150,12 @@ def _slug(text: str) -> str:
 
 
 def _emphasised(text: str) -> Markup:
-    """The text escaped, addresses of files breakable anywhere."""
+    """The escaped text, with line breaks allowed after the slashes of paths."""
     return Markup(html.escape(text, quote=False).replace("/", "/<wbr>"))
 
 
 def to_html(page: Page) -> str:
-    """The finished page."""
+    """The page as HTML."""
     environment = jinja2.Environment(loader=jinja2.PackageLoader("quadedge.report"), autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["breakable"] = _emphasised
@@ -179,7 +179,7 @@ def to_html(page: Page) -> str:
 
 
 def write_atomically(file: Path, text: str) -> None:
-    """The file appears as a whole or not at all."""
+    """Writes a file completely or not at all."""
     handle, temporary = tempfile.mkstemp(dir=file.parent or Path("."), prefix=f".{file.name}.")
     try:
         with open(handle, "w", encoding="utf-8", errors="replace") as stream:
@@ -194,7 +194,7 @@ def write_atomically(file: Path, text: str) -> None:
 
 
 def smallest_loss(make: Callable[[Detail], Page]) -> tuple[Page, str]:
-    """The page with the most detail that stays below LARGEST_PAGE, and its text."""
+    """The page with the highest level of detail that stays below LARGEST_PAGE, and its HTML."""
     for detail in DETAILS:
         page = make(detail)
         if detail is not DETAILS[0]:
@@ -207,7 +207,7 @@ def smallest_loss(make: Callable[[Detail], Page]) -> tuple[Page, str]:
 
 
 def write_tables(page: Page, folder: Path, ending: str) -> None:
-    """Every table as NAME.csv or NAME.tex."""
+    """Writes every table as NAME.csv or NAME.tex."""
     folder.mkdir(parents=True, exist_ok=True)
     for table in page.tables():
         text = to_csv(table) if ending == "csv" else to_latex(table)
@@ -215,8 +215,8 @@ def write_tables(page: Page, folder: Path, ending: str) -> None:
 
 
 def write_figures(page: Page, folder: Path) -> None:
-    """Every figure as SVG and PDF."""
-    from .matplotlib_figures import write_figure  # takes a second to load
+    """Writes every figure as SVG and PDF."""
+    from .matplotlib_figures import write_figure  # slow to import
 
     folder.mkdir(parents=True, exist_ok=True)
     for figure in page.figures():

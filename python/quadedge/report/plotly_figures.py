@@ -1,4 +1,4 @@
-"""Figures as plotly draws them in the page: plain dictionaries, so that plotly itself is only needed in the browser."""
+"""Converts figures to plotly's format, as dictionaries: plotly itself runs only in the browser."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ _SPATIAL_SYMBOLS = ("circle", "square", "diamond", "circle-open", "square-open",
 
 
 def _values(values) -> list:
-    """Numbers with few digits; null where a curve is interrupted."""
+    """Rounded numbers; None where a curve is interrupted."""
     exact = np.asarray(values, float).tolist()
     return [float("%.*g" % (_DIGITS, value)) if value == value else None for value in exact]
 
@@ -50,7 +50,7 @@ def _axis(label: str, limits: tuple[float, float] | None = None) -> dict:
 
 
 def to_plotly(figure: Figure) -> dict:
-    """The figure as the `data` and `layout` of Plotly.newPlot; the page adds size, fonts and colours of the ground."""
+    """The `data` and `layout` arguments of Plotly.newPlot. The page adds size, fonts and background colours."""
     data = [_trace(figure, series) for series in figure.series]
     layout: dict = {"title": {"text": figure.title}}
     if figure.is_spatial:

@@ -1,4 +1,4 @@
-"""The figures of one sequence: where the camera went, how wrong that is, what was matched, how long it took."""
+"""Figures of one sequence: trajectory, errors, numbers of edges and quads, latency."""
 
 import numpy as np
 
@@ -7,11 +7,11 @@ from .numbers import DEGREE, length_unit
 from .results import Errors, Run, Trajectory, is_lost
 
 TIME = "time since the first frame [s]"
-STRAIGHT = 0.05  # a path is a straight road where it extends less than this share of its length to the side
+STRAIGHT = 0.05  # a path is straight if its width is below this share of its length
 
 
 class Other:
-    """Another system's trajectory of the same sequence, in the same world."""
+    """The trajectory of another system on the same sequence, in the same world frame."""
 
     def __init__(self, name: str, poses: Trajectory, errors: Errors | None):
         self.name, self.poses, self.errors = name, poses, errors
@@ -28,14 +28,14 @@ def _at(stamps: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 def _paths(run: Run, others: list[Other]) -> list[tuple[str, Trajectory, int, str]]:
-    """Name, poses, style and dash of every trajectory; the truth below all."""
+    """Name, poses, style and line style of every trajectory, starting with the ground truth."""
     paths = [("ground truth", run.truth, GREY, "dash")] if run.truth else []
     paths.append(("QuadEdge", run.estimate, 0, "solid"))
     return paths + [(other.name, other.poses, 1 + n % 4, "") for n, other in enumerate(others)]
 
 
 def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
-    """In space, from above and from the side; beside a straight road how far it lies off."""
+    """The trajectory in 3D, from above and from the side; for a straight path also its deviation from a line."""
     if run.count() < FEWEST_FRAMES or len(run.estimate) < 2:
         return []
     paths = _paths(run, others)
@@ -62,7 +62,7 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
 
 
 def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
-    """Along a straight road from above nothing is seen but a line: how far each path lies beside and above it."""
+    """For a nearly straight path, its lateral and vertical deviation from a straight line; otherwise nothing."""
     base = (run.truth or run.estimate).positions
     centre = base.mean(axis=0)
     extents, axes = np.linalg.eigh(np.cov((base - centre).T))
@@ -81,7 +81,7 @@ def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
     figures = []
     for key, title, axis in (("lateral", "Beside the straight line, to the right", right),
                              ("vertical", "Above the straight line", up)):
-        figure = Figure(f"{run.name}_{key}_deviation", title, "way along the line [m]", f"deviation [{unit.name}]")
+        figure = Figure(f"{run.name}_{key}_deviation", title, "distance along the line [m]", f"deviation [{unit.name}]")
         for text, path, style, dash in paths:
             way, off = (path.positions - base[0]) @ along, (path.positions - base[0]) @ axis * unit.factor
             figure.series.append(Series(text, *thinned(way, off, points), style=style, dash=dash))
@@ -90,7 +90,7 @@ def _deviation(run: Run, others: list[Other], points: int) -> list[Figure]:
 
 
 def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
-    """Absolute errors, and errors from frame to frame; beside the absolute error what the covariances state."""
+    """Absolute errors and errors per frame; with the absolute error, the standard deviation from the covariances."""
     if not run.errors or run.count() < FEWEST_FRAMES:
         return []
     systems = [("QuadEdge", run.errors, 0)]
@@ -119,7 +119,7 @@ def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
 
 
 def frame_figures(run: Run, points: int) -> list[Figure]:
-    """Edges, quads, latency of every frame."""
+    """Edges, quads and latency of every frame."""
     if run.count() < FEWEST_FRAMES:
         return []
     edges = Figure(f"{run.name}_edges", "Edges", TIME, "edges per frame")
@@ -139,11 +139,11 @@ def frame_figures(run: Run, points: int) -> list[Figure]:
 
 
 def _latency(run: Run, points: int) -> Figure:
-    """Each frame's latency as a stack of its stages, and what is left of it on top."""
+    """The latency of every frame as a stack of its stages, with the remainder on top."""
     figure = Figure(f"{run.name}_latency", "Latency by stage", TIME, "latency [ms]")
     latency = run.column("latency_ms")
     usual, largest = np.nanpercentile(latency, 95), np.nanmax(latency)
-    if largest > 3 * usual:  # one slow frame would flatten all others
+    if largest > 3 * usual:  # one slow frame would hide the others
         figure.y_range = (0, 1.5 * usual)
         figure.title += f" (largest {largest:.0f} ms)"
     chosen = every(run.count(), points)

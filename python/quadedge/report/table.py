@@ -1,4 +1,4 @@
-"""A table as the page shows it, and the same as CSV and for LaTeX."""
+"""Tables as data, and their export to CSV and LaTeX."""
 
 import csv
 import io
@@ -10,16 +10,16 @@ from .numbers import DASH
 
 @dataclass
 class Cell:
-    """What a reader sees, and the number behind it in the unit of Table.exact_columns, or else of the heading."""
+    """The displayed text and the unrounded value, in the unit of Table.exact_columns or else of the heading."""
 
     text: str
     value: float | str | None = None
     bold: bool = False
     beside: str = ""
-    """A difference or a remark in smaller letters."""
+    """A difference or remark in small print."""
 
     def exact(self) -> str:
-        """The number unrounded, or the text; empty for what does not exist."""
+        """The unrounded value, or the text; empty if the value is missing."""
         if self.value is None:
             return "" if self.text == DASH else self.text
         if isinstance(self.value, float):
@@ -29,38 +29,38 @@ class Cell:
 
 @dataclass
 class Table:
-    """Rows of cells. The first `text_columns` are words and stand to the left, the others are numbers."""
+    """Rows of cells. The first `text_columns` columns are left-aligned text, the others numbers."""
 
     name: str
-    """Of its files; unique on a page."""
+    """Name of its files; unique on a page."""
     title: str
     columns: list[str]
     rows: list[list[Cell]] = field(default_factory=list)
     groups: list[tuple[str, int]] = field(default_factory=list)
-    """An upper line of the heading: text and the number of columns below it."""
+    """The upper row of the heading: texts and the number of columns that they span."""
     text_columns: int = 1
     exact_columns: list[str] | None = None
-    """Of the CSV file, where the numbers behind the cells have other units than the heading says."""
+    """Column names of the CSV file, if the unrounded values have other units than the heading."""
     notes: list[str] = field(default_factory=list)
     result_rows: int = 0
-    """So many rows at the end are the result of all above."""
+    """Number of rows at the end that summarise the rows above."""
     kind: str = "table"
 
     def add(self, *cells: Cell | str) -> None:
-        """Adds a row, which must be as long as the heading."""
+        """Adds a row. Raises ValueError if it is not as long as the heading."""
         row = [cell if isinstance(cell, Cell) else Cell(cell) for cell in cells]
         if len(row) != len(self.columns):
             raise ValueError(f"{self.name}: {len(row)} cells for {len(self.columns)} columns")
         self.rows.append(row)
 
     def full_columns(self) -> list[str]:
-        """The names of the columns with those of their groups."""
+        """Column names, prefixed with those of their groups."""
         above = [text for text, span in self.groups for _ in range(span)] or [""] * len(self.columns)
         return [" ".join(filter(None, (group, column))) for group, column in zip(above, self.columns)]
 
 
 def to_csv(table: Table) -> str:
-    """The table with unrounded numbers (RFC 4180)."""
+    """The table as CSV (RFC 4180) with unrounded values."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(table.exact_columns or table.full_columns())
@@ -86,7 +86,7 @@ def _latex_cell(cell: Cell) -> str:
 
 
 def to_latex(table: Table) -> str:
-    """A `table` environment that needs the package booktabs."""
+    """The table as a LaTeX `table` environment; needs the package booktabs."""
     letters = "l" * table.text_columns + "r" * (len(table.columns) - table.text_columns)
     lines = [r"\begin{table}", r"  \centering", rf"  \caption{{{_latex_text(table.title)}}}",
              rf"  \label{{tab:{table.name}}}", rf"  \begin{{tabular}}{{{letters}}}", r"    \toprule"]

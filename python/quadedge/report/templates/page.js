@@ -1,4 +1,4 @@
-// Unpacks plotly, draws the plots when they come into view, and all of them before the page is printed.
+// Unpacks plotly and draws plots when they become visible, and all of them before printing.
 "use strict";
 (async () => {
   const places = [...document.querySelectorAll(".plot")];
@@ -32,7 +32,7 @@
     if (!layout.scene) {
       layout.xaxis = {...axis, ...layout.xaxis, title: {...layout.xaxis.title, standoff: 8}};
       layout.yaxis = {...axis, ...layout.yaxis, title: {...layout.yaxis.title, standoff: 8}};
-      if (layout.xaxis.type === "category") {  // long names stand where the legend would
+      if (layout.xaxis.type === "category") {  // long names take the place of the legend
         layout.legend = {...layout.legend, y: 1.02, yanchor: "bottom"};
         layout.margin.t = 76;
       }
@@ -53,7 +53,7 @@
     });
   };
   const isSpatial = (place) => place.classList.contains("spatial");
-  // A browser has few drawing grounds for three dimensions: those out of sight give theirs back.
+  // Browsers limit the number of WebGL contexts: plots out of sight release theirs.
   const observer = new IntersectionObserver((entries) => {
     for (const {target, isIntersecting} of entries) {
       if (isIntersecting && !target.dataset.drawn) draw(target);
@@ -68,7 +68,7 @@
     for (const place of places) if (place.dataset.drawn) draw(place);
   });
 
-  // Two plots beside one another on A4 or Letter across, see @page; the browser lays pages out after this event.
+  // Two plots side by side on A4 or Letter in landscape, see @page; the browser lays out pages after this event.
   const paperWidth = 465, paperHeight = 265;
   let closed = [];
   addEventListener("beforeprint", () => {
