@@ -18,9 +18,10 @@ fi
 mkdir -p "$1"/{bin,lib,data}
 out="$(realpath "$1")"
 
-[ -f "$build/CMakeCache.txt" ] || cmake -S "$repository" -B "$build" -DCMAKE_BUILD_TYPE=Release
+options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_UNITY=ON)
+[ -f "$build/CMakeCache.txt" ] || cmake -S "$repository" -B "$build" "${options[@]}"
 cmake --build "$build" --target kit_frames
-cmake -S "$repository" -B "$core" -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_CORE_ONLY=ON
+cmake -S "$repository" -B "$core" "${options[@]}" -DQUADEDGE_CORE_ONLY=ON
 cmake --build "$core" --target device_check quadedge_device_tests
 for program in device_check quadedge_device_tests; do
   strip -o "$out/bin/$program" "$core/bench/device_kit/$program"

@@ -41,7 +41,7 @@ def memory_and_time(process):
 
 
 def watch(program, frames_csv):
-    """(frames done, memory, time) whenever a frame was done, until the program ends."""
+    """(frames done, memory, time) after each frame, until the program ends."""
     samples, size, lines = [], 0, 0
     while program.poll() is None:
         time.sleep(0.005)

@@ -13,7 +13,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Whether a key point of the edge lies so near to the middle between two pixels that rounding may choose either.
+/// Whether a key point of the edge lies so close to the middle between two pixels that rounding may choose either.
 bool on_the_fence(float x, float y, float direction) {
   const auto near_half = [](double v) { return std::abs(v - std::floor(v) - 0.5) < 1e-4; };
   const double dx = 8 * std::sin(direction), dy = -8 * std::cos(direction);

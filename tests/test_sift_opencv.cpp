@@ -12,7 +12,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Smoothed noise: structure at the scale that a recorded image has.
+/// Smoothed noise: structure at the scale of a recorded image.
 Image smoothed_noise(int width, int height, unsigned seed) {
   cv::Mat noise(height, width, CV_8U);
   std::mt19937_64 random(seed);
@@ -45,9 +45,9 @@ TEST_CASE("sift: descriptors equal OpenCV's at the same key points", "[sift]") {
   REQUIRE(expected.rows == count);
   REQUIRE(expected.cols == kSiftBytes);
 
-  // OpenCV's arc tangent is good to 0.3 degrees. That moves up to 0.3 / 45 of a sample between neighbouring bins, at
-  // most sqrt(2) * 0.3 / 45 * 512 = 4.8 of the descriptor's norm; rounding to bytes on both sides adds at most 1 per
-  // byte and 128 * (1 / 6) in the mean of the square, 4.6 of the norm.
+  // OpenCV's arc tangent is accurate to 0.3 degrees. This moves up to 0.3 / 45 of a sample between neighbouring bins,
+  // at most sqrt(2) * 0.3 / 45 * 512 = 4.8 of the descriptor's norm; rounding to bytes on both sides adds at most 1 per
+  // byte and 128 * (1 / 6) to the mean square, 4.6 of the norm.
   double sum = 0, largest = 0;
   for (int k = 0; k < count; ++k) {
     std::uint8_t descriptor[kSiftBytes];

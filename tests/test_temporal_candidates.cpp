@@ -81,7 +81,7 @@ std::size_t check_everywhere(const std::vector<Edge>& predicted_edges, const std
   return certain;
 }
 
-std::vector<Edge> random_edges(int count, double width, double height, std::uint64_t seed, double beyond = 0) {
+std::vector<Edge> scattered_edges(int count, double width, double height, std::uint64_t seed, double beyond = 0) {
   Random random(seed);
   std::vector<Edge> edges;
   for (int k = 0; k < count; ++k)
@@ -109,17 +109,17 @@ TEST_CASE("temporal candidates: a circle around the predicted position and a ful
 }
 
 TEST_CASE("temporal candidates: the lists match the definition", "[temporal][matching][device]") {
-  const auto current = random_edges(700, 90, 61, 3);
-  CHECK(check_everywhere(random_edges(300, 90, 61, 4, 15), current, 61, 10, 0.6, 1) > 500);
-  CHECK(check_everywhere(random_edges(301, 90, 61, 5, 15), current, 61, 7.3, 1.5, 8) > 50);
+  const auto current = scattered_edges(700, 90, 61, 3);
+  CHECK(check_everywhere(scattered_edges(300, 90, 61, 4, 15), current, 61, 10, 0.6, 1) > 500);
+  CHECK(check_everywhere(scattered_edges(301, 90, 61, 5, 15), current, 61, 7.3, 1.5, 8) > 50);
 }
 
 TEST_CASE("temporal candidates: lists longer than the initial capacity are complete", "[temporal][matching][device]") {
-  CHECK(check_everywhere(random_edges(20, 50, 40, 6), random_edges(400, 50, 40, 7), 40, 200, 4, 1) == 20 * 400);
+  CHECK(check_everywhere(scattered_edges(20, 50, 40, 6), scattered_edges(400, 50, 40, 7), 40, 200, 4, 1) == 20 * 400);
 }
 
 TEST_CASE("temporal candidates: empty queries and empty targets", "[temporal][matching][device][oclgrind]") {
-  CHECK(check_everywhere({}, random_edges(9, 50, 40, 7), 40, 10, 4, 1) == 0);
-  CHECK(check_everywhere(random_edges(9, 50, 40, 7), {}, 40, 10, 4, 8) == 0);
+  CHECK(check_everywhere({}, scattered_edges(9, 50, 40, 7), 40, 10, 4, 1) == 0);
+  CHECK(check_everywhere(scattered_edges(9, 50, 40, 7), {}, 40, 10, 4, 8) == 0);
   CHECK(check_everywhere({}, {}, 40, 10, 4, 1) == 0);
 }
