@@ -1,5 +1,5 @@
-/// Attacks by recordings that are damaged. A row says what is done to a sound one and what a user has to read; another
-/// attack is another row.
+/// \file test_attack_data.cpp  Attacks with damaged recordings. A row holds a change to a valid recording and the
+/// expected message. To add an attack, add a row.
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -18,8 +18,8 @@ namespace {
 struct DataAttack {
   std::string name;
   std::function<void(const DamagedSequence&)> damage;
-  int code;                        ///< that `run` ends with
-  std::vector<std::string> words;  ///< on standard error
+  int code;                        ///< exit code of `run`
+  std::vector<std::string> words;  ///< expected on standard error
 };
 
 void replace_file(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
@@ -28,12 +28,12 @@ void change_file(const std::string& path, const std::function<std::string(const 
   replace_file(path, change(read_text(path)));
 }
 
-/// The second image of a folder in order of names.
+/// The second image of a folder by name.
 std::string second(const DamagedSequence& sequence, const std::string& folder) {
   return sequence.image(folder, 1).string();
 }
 
-// LONG: a table, a row per attack.
+// LONG: a table with one row per attack.
 const std::vector<DataAttack>& data_attacks() {
   using Sequence = const DamagedSequence&;
   static const std::vector<DataAttack> attacks = {
@@ -41,16 +41,16 @@ const std::vector<DataAttack>& data_attacks() {
       {"a left image is missing", [](Sequence s) { fs::remove(s.image("rgb", 2)); }, 3, {"rgb/", "no such file"}},
       {"a right image is missing", [](Sequence s) { fs::remove(s.image("rgb2", 2)); }, 3, {"rgb2/", "no such file"}},
       {"an image is empty", [](Sequence s) { replace_file(second(s, "rgb"), ""); }, 3, {"rgb/"}},
-      {"an image ends in the middle",
+      {"an image is truncated",
        [](Sequence s) { fs::resize_file(second(s, "rgb2"), fs::file_size(second(s, "rgb2")) / 2); },
        3,
        {"rgb2/"}},
-      {"an image is a text", [](Sequence s) { replace_file(second(s, "rgb"), "no picture\n"); }, 3, {"rgb/"}},
+      {"an image is a text file", [](Sequence s) { replace_file(second(s, "rgb"), "no picture\n"); }, 3, {"rgb/"}},
       {"an image has another size",
        [](Sequence s) { cv::imwrite(second(s, "rgb"), cv::Mat(100, 160, CV_8UC1, cv::Scalar(90))); },
        3,
        {"rgb/", "160", "320"}},
-      {"an image has another depth",
+      {"an image has another bit depth",
        [](Sequence s) { cv::imwrite(second(s, "rgb2"), cv::Mat(200, 320, CV_16UC1, cv::Scalar(9000))); },
        3,
        {"rgb2/"}},
@@ -89,7 +89,7 @@ const std::vector<DataAttack>& data_attacks() {
        [](Sequence s) { replace_file(s / "calibration.txt", "-184 184 163 97\n"); },
        3,
        {"calibration.txt", "-184"}},
-      {"a focal length is no number",
+      {"a focal length is not a number",
        [](Sequence s) { replace_file(s / "calibration.txt", "nan 184 163 97\n"); },
        3,
        {"calibration.txt"}},
@@ -97,25 +97,25 @@ const std::vector<DataAttack>& data_attacks() {
        [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n"); },
        3,
        {"extrinsics_1_2.txt", "baseline"}},
-      {"the baseline is no number",
+      {"the baseline is not a number",
        [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "1 0 0 nan\n0 1 0 0\n0 0 1 0\n"); },
        3,
        {"extrinsics_1_2.txt"}},
-      {"the cameras' rotation is none",
+      {"the cameras' rotation is invalid",
        [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "2 0 0 0.06\n0 1 0 0\n0 0 1 0\n"); },
        3,
        {"extrinsics_1_2.txt", "rotation"}},
-      {"the cameras' pose ends early",
+      {"the cameras' pose is incomplete",
        [](Sequence s) { replace_file(s / "extrinsics_1_2.txt", "1 0 0 0.06\n0 1 0\n"); },
        3,
        {"extrinsics_1_2.txt"}},
       // Lists.
-      {"the list of images is missing, and their names are the stamps",
+      {"the list of images is missing, so their names are the timestamps",
        [](Sequence s) { fs::remove(s / "rgb.txt"); },
        0,
        {}},
       {"the list of images is empty", [](Sequence s) { replace_file(s / "rgb.txt", ""); }, 3, {"rgb.txt"}},
-      {"stamps go back",
+      {"timestamps go back",
        [](Sequence s) {
          change_file(s / "rgb.txt", [](const std::string& text) {
            const std::size_t last = text.rfind('\n', text.size() - 2) + 1, before = text.rfind('\n', last - 2) + 1;
@@ -124,14 +124,14 @@ const std::vector<DataAttack>& data_attacks() {
        },
        3,
        {"0.100000000", "increasing"}},
-      {"a row stands twice",
+      {"a row is repeated",
        [](Sequence s) {
          change_file(s / "rgb.txt",
                      [](const std::string& text) { return text + text.substr(text.rfind('\n', text.size() - 2) + 1); });
        },
        3,
        {"rgb.txt"}},
-      {"zeros in the list",
+      {"the list contains zero bytes",
        [](Sequence s) {
          change_file(s / "rgb.txt", [](const std::string& text) { return text + std::string(1, '\0') + "1\n"; });
        },
@@ -141,7 +141,7 @@ const std::vector<DataAttack>& data_attacks() {
        [](Sequence s) { change_file(s / "rgb.txt", [](const std::string& text) { return "\xEF\xBB\xBF" + text; }); },
        0,
        {}},
-      {"the list has Windows' line ends",
+      {"the list has Windows line endings",
        [](Sequence s) {
          change_file(s / "rgb.txt", [](std::string text) {
            for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 2))
@@ -151,7 +151,7 @@ const std::vector<DataAttack>& data_attacks() {
        },
        0,
        {}},
-      // Ground truth, which only evaluates.
+      // Ground truth, which is only used for evaluation.
       {"there is no ground truth", [](Sequence s) { fs::remove(s / "groundtruth.txt"); }, 0, {}},
       {"the ground truth is prose",
        [](Sequence s) { replace_file(s / "groundtruth.txt", "somewhere in the room\n"); },
@@ -163,7 +163,7 @@ const std::vector<DataAttack>& data_attacks() {
 
 }  // namespace
 
-TEST_CASE("attack: what is wrong with a recording is refused by name, and nothing else", "[cli][device]") {
+TEST_CASE("attack: damaged recordings are refused by file name, harmless changes are not", "[cli][device]") {
   for (const auto& attack : data_attacks()) {
     DYNAMIC_SECTION(attack.name) {
       const DamagedSequence sequence;

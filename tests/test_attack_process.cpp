@@ -1,5 +1,6 @@
-/// Attacks by the surroundings of the process. A row is a shell command that runs the program ($QUADEDGE) where
-/// something is missing, closed or full, and what has to become of it; another attack is another row.
+/// \file test_attack_process.cpp  Attacks on the environment of the process. A row holds a shell command that runs the
+/// program ($QUADEDGE) while something is missing, closed or full, and the expected outcome. To add an attack, add a
+/// row.
 
 #include <catch2/catch.hpp>
 #include <sys/wait.h>
@@ -11,9 +12,9 @@ using Catch::Matchers::Contains;
 namespace {
 
 struct ProcessAttack {
-  std::string name, command;  ///< $QUADEDGE, $DATA: a small recording, $OUT: a folder that is not there yet
+  std::string name, command;  ///< $QUADEDGE, $DATA: a small recording, $OUT: a folder that does not exist yet
   int code;
-  std::string words;        ///< on standard error; empty: none are expected
+  std::string words;        ///< expected on standard error; empty: nothing expected
   bool has_results = true;  ///< whether the run's results are in $OUT
 };
 
@@ -26,14 +27,14 @@ const std::vector<ProcessAttack> kProcessAttacks = {
     {"results go to a full disk", "$QUADEDGE edges $DATA/rgb/0.000000000.png --csv /dev/full --force", 3, "/dev/full",
      false},
     {"results go into a file", "touch $OUT; $QUADEDGE run $DATA -o $OUT", 3, "Not a directory", false},
-    {"results go where there is no folder", "$QUADEDGE run $DATA -o /dev/null/out", 3, "/dev/null", false},
-    {"files may hardly be written", "ulimit -f 1; $QUADEDGE run $DATA -o $OUT --frames 0:2", 3, "", false},
-    {"there is no home", "unset HOME; $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
-    {"there is no folder for caches", "XDG_CACHE_HOME=/dev/null/cache $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet",
-     0, ""},
-    {"there is no folder for settings",
+    {"results go to an impossible folder", "$QUADEDGE run $DATA -o /dev/null/out", 3, "/dev/null", false},
+    {"the size of files is limited", "ulimit -f 1; $QUADEDGE run $DATA -o $OUT --frames 0:2", 3, "", false},
+    {"there is no home folder", "unset HOME; $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
+    {"there is no cache folder", "XDG_CACHE_HOME=/dev/null/cache $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0,
+     ""},
+    {"there is no configuration folder",
      "XDG_CONFIG_HOME=/dev/null/config $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
-    {"the working folder is gone",
+    {"the working folder is deleted",
      "mkdir $OUT.gone && cd $OUT.gone && rmdir $OUT.gone && $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
     {"the language is unknown", "LC_ALL=tlh_KX.UTF-8 $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
     {"commas separate decimals", "LC_ALL=de_DE.UTF-8 $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
@@ -43,7 +44,7 @@ const std::vector<ProcessAttack> kProcessAttacks = {
 
 }  // namespace
 
-TEST_CASE("attack: whatever surrounds the process, it does its work or says why not", "[cli][device]") {
+TEST_CASE("attack: in any environment the program does its work or explains why not", "[cli][device]") {
   for (const auto& attack : kProcessAttacks) {
     DYNAMIC_SECTION(attack.name) {
       const TemporaryFolder folder;
@@ -57,7 +58,7 @@ TEST_CASE("attack: whatever surrounds the process, it does its work or says why 
       REQUIRE(WIFEXITED(status));
       CHECK(WEXITSTATUS(status) == attack.code);
       CHECK_THAT(error, Contains(attack.words) && !Contains("internal"));
-      if (attack.has_results) CHECK(read_lines(folder / "out/trajectory.txt").size() == 3);  // with the comment
+      if (attack.has_results) CHECK(read_lines(folder / "out/trajectory.txt").size() == 3);  // including the comment
     }
   }
 }

@@ -16,7 +16,7 @@ using namespace quadedge;
 
 namespace {
 
-/// One small benchmark, shared by the tests that look at its files.
+/// A small benchmark, shared by the tests that read its files.
 struct SharedBench {
   TemporaryFolder folder;
   ProgramResult result =
@@ -31,7 +31,7 @@ const SharedBench& shared_bench() {
 
 void write(const std::string& path, const Json& value) { std::ofstream(path) << value; }
 
-/// Exit code and output of a comparison of the shared result with a changed copy of itself.
+/// Exit code and output of comparing the shared result with a changed copy of it.
 ProgramResult compare_with(const Json& changed, const std::vector<std::string>& more = {}) {
   const TemporaryFolder folder;
   write(folder / "new.json", changed);
@@ -106,11 +106,11 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   CHECK(result["frames_tracked"] == 3);
   CHECK(result["edges_wanted"] == 1500);
   CHECK(result["counts"]["edges_left"].get<double>() ==
-        Approx(1500).epsilon(0.05));  // chosen on the first frame, both images together
+        Approx(1500).epsilon(0.05));  // chosen on the first frame, for both images together
   CHECK_THAT(result["command"].get<std::string>(), Contains("quadedge bench --size 160x100"));
-  // At least both images go up, and a pixel is a byte.
+  // At least both images are uploaded, with one byte per pixel.
   CHECK(result["moved_mb_per_frame"]["to_device"].get<double>() > 2 * 160 * 100 / (1024.0 * 1024.0));
-  // Numbers of edges and of candidates, the stereo edges, and what each of at most two searches finds.
+  // The numbers of edges and candidates, the stereo edges, and the results of at most two searches.
   CHECK(result["waits_per_frame"].get<double>() >= 4);
   CHECK(result["waits_per_frame"].get<double>() <= 5);
   CHECK(result["launches_per_frame"].get<double>() > 20);
@@ -135,7 +135,7 @@ TEST_CASE("bench: the JSON has every field", "[cli][bench][device]") {
   CHECK(trace["traceEvents"].size() > 6);
 }
 
-TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise band, with 6 beyond it",
+TEST_CASE("bench: a comparison ends with 0 for equal results and within the noise band, with 6 beyond it",
           "[cli][bench][device]") {
   const Json before = shared_bench().parsed();
   const auto same = compare_with(before);
@@ -155,7 +155,7 @@ TEST_CASE("bench: comparing ends with 0 for equal results and inside the noise b
   faster["latency_ms"]["median"] = 0.5 * before["latency_ms"]["median"].get<double>();
   CHECK(compare_with(faster).code == 0);
 
-  // All times 1.5 times as long, the yardsticks too: the machine was slower, not the program.
+  // All times and the baseline are 1.5 times as long: the machine was slower, not the program.
   Json slow_machine = before;
   for (const char* table : {"latency_ms", "edge_detection_ms"}) {
     for (auto& value : slow_machine[table]) value = 1.5 * value.get<double>();
@@ -243,7 +243,7 @@ TEST_CASE("bench: wrong options end with code 2", "[cli][bench]") {
   }
 }
 
-TEST_CASE("bench: the chosen threshold gives the wanted number of edges", "[bench][device]") {
+TEST_CASE("bench: the chosen threshold gives the requested number of edges", "[bench][device]") {
   const matching::RenderedScene scene("room", 160, 100, 1);
   FramePrefetcher::Frame frame;
   frame.left = scene.left.front();
@@ -260,7 +260,7 @@ TEST_CASE("bench: the chosen threshold gives the wanted number of edges", "[benc
     Config few = scene.config;
     few.edges.max_edges = 100;
     CHECK_THROWS_AS(bench::threshold_for_edges(frame, 101, device, few), UsageError);
-    // More than there are: every maximum, but 0 would mean the automatic threshold.
+    // More than there are: all maxima, with a threshold above 0, which would mean the automatic one.
     const double all = bench::threshold_for_edges(frame, 200000, device, scene.config);
     CHECK((all > 0 && all < 1e-3));
   }

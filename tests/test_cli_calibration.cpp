@@ -7,8 +7,7 @@
 using Catch::Matchers::Contains;
 using dataset_files::real_data;
 
-TEST_CASE("cli: the flight gives the same trajectory with every kind of calibration file",
-          "[cli][calibration][data][device]") {
+TEST_CASE("cli: the flight has the same trajectory with every calibration format", "[cli][calibration][data][device]") {
   const std::string flight = real_data("euroc_mh_01_easy"), kalibr = real_data("calibrations");
   if (flight.empty() || kalibr.empty()) return;
   const TemporaryFolder folder;
@@ -48,7 +47,7 @@ TEST_CASE("cli: the flight gives the same trajectory with every kind of calibrat
   CHECK(trajectory("native", folder / "native.yaml") == expected);
 }
 
-TEST_CASE("cli: a calibration, a view and a mask that do not fit end with their code", "[cli][calibration]") {
+TEST_CASE("cli: an unsuitable calibration, field of view or mask is refused with its exit code", "[cli][calibration]") {
   const TemporaryFolder folder;
   const std::string flight = dataset_files::write_euroc(folder / "flight");
   const auto fails = [&](std::vector<std::string> arguments, int code, const std::string& found) {
@@ -69,7 +68,7 @@ TEST_CASE("cli: a calibration, a view and a mask that do not fit end with their 
   const std::string pinhole = dataset_files::write_kitti(folder / "k");
   CHECK(run_program({"check", pinhole, "--fov", "90"}).code == 2);
   CHECK(run_program({"synth", folder / "s", "--right-rotation", "0,2"}).code == 2);
-  // The rig of a recording without lenses is written too.
+  // The rig of a recording without lens distortion can be written too.
   CHECK(run_program({"check", pinhole, "--quiet", "--write-calibration", folder / "kitti.yaml"}).code == 0);
   CHECK_THAT(read_text(folder / "kitti.yaml"),
              Contains("left_coefficients: []") && Contains("translation: [-0.5, 0, 0]"));

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Nothing but a message and code 3: no crash, and no output folder for data that cannot be opened.
+/// Expects only a message and code 3: no crash, and no output folder for data that cannot be opened.
 void check_refused(const ProgramResult& result, const std::string& named) {
   CHECK(result.code == 3);
   CHECK_THAT(result.err, Contains("quadedge: ") && Contains(named));
@@ -18,7 +18,7 @@ void check_refused(const ProgramResult& result, const std::string& named) {
 
 }  // namespace
 
-TEST_CASE("synth: writes a sequence that check finds sound", "[cli]") {
+TEST_CASE("synth: writes a sequence that passes check", "[cli]") {
   const auto check = run_program({"check", small_sequence()});
   INFO(check.out + check.err);
   CHECK(check.code == 0);
@@ -26,7 +26,7 @@ TEST_CASE("synth: writes a sequence that check finds sound", "[cli]") {
              Contains("eth3d-slam") && Contains("320") && Contains("200") && Contains("0 errors, 0 warnings"));
 }
 
-TEST_CASE("synth: refuses a folder that exists unless forced", "[cli]") {
+TEST_CASE("synth: refuses an existing folder without --force", "[cli]") {
   const TemporaryFolder folder;
   const std::vector<std::string> synth = {"synth", folder / "s", "--frames", "1", "--size", "160x100", "--quiet"};
   CHECK(run_program(synth).code == 0);
@@ -45,14 +45,14 @@ TEST_CASE("bad data: an empty or missing folder is refused by name", "[cli]") {
   CHECK(run_program({"check", folder.path()}).code == 3);
 }
 
-TEST_CASE("edges: a file that is no image is refused by name", "[cli]") {
+TEST_CASE("edges: a file that is not an image is refused by name", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "text.png") << "not an image";
   check_refused(run_program({"edges", folder / "text.png"}), "text.png");
 }
 
-TEST_CASE("evaluate trajectory: known errors are printed under both alignments", "[cli]") {
-  // Straight line along z, estimate 1 % too long: after alignment at the origin the translation error of pose k is 0.01
+TEST_CASE("evaluate trajectory: known errors are printed for both alignments", "[cli]") {
+  // Straight line along z, estimate 1 % too long: after alignment at the origin pose k has a translation error of 0.01
   // k.
   const TemporaryFolder folder;
   std::ofstream truth(folder / "truth.txt"), estimate(folder / "estimate.txt");
@@ -75,7 +75,7 @@ TEST_CASE("evaluate trajectory: known errors are printed under both alignments",
   CHECK(again.code == 2);
 }
 
-TEST_CASE("evaluate trajectory: KITTI rows are matched by number, and with timed poses one row per pose", "[cli]") {
+TEST_CASE("evaluate trajectory: KITTI rows are matched by number, or with timed poses one row per pose", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream rows(folder / "rows.txt"), timed(folder / "timed.txt"), short_rows(folder / "short.txt");
   for (int k = 0; k < 5; ++k) {

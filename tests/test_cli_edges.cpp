@@ -7,7 +7,7 @@
 
 namespace fs = std::filesystem;
 
-TEST_CASE("edges: the table has a header, six decimals and edges inside the image", "[cli][device]") {
+TEST_CASE("edges: the table has a header, six decimals, and only edges inside the image", "[cli][device]") {
   const TemporaryFolder folder;
   std::string image;
   for (const auto& entry : fs::directory_iterator(small_sequence() + "/rgb")) image = entry.path().string();

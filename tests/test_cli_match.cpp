@@ -22,7 +22,7 @@ const quadedge::FrameFiles& pair() { return own_camera::small_dataset().frames[1
 
 }  // namespace
 
-TEST_CASE("match: left points stand as edges prints them, and points lie where the pair says", "[cli][device]") {
+TEST_CASE("match: left points equal those of the edges command, and 3D points fit the disparities", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string calibration = own_camera::write_calibration_of_small(folder / "rig.yaml");
   const auto result = run_program({"match", pair().left, pair().right, "--calibration", calibration, "--csv",
@@ -57,7 +57,7 @@ TEST_CASE("match: left points stand as edges prints them, and points lie where t
   CHECK(read_text(folder / "m.png").substr(1, 3) == "PNG");
 }
 
-TEST_CASE("match: rectified images without a calibration have matches and no points", "[cli][device]") {
+TEST_CASE("match: rectified images without a calibration have matches but no 3D points", "[cli][device]") {
   const TemporaryFolder folder;
   const std::vector<std::string> match = {"match", pair().left, pair().right, "--max-disparity", "40"};
   auto arguments = match;
@@ -80,7 +80,7 @@ TEST_CASE("match: rectified images without a calibration have matches and no poi
   CHECK_THAT(result.err, Contains("--calibration"));
 }
 
-TEST_CASE("match: what cannot be a pair is refused", "[cli]") {
+TEST_CASE("match: invalid pairs are refused", "[cli]") {
   const TemporaryFolder folder;
   dataset_files::write_image(folder / "small.png");
   dataset_files::write_image(folder / "deep.png", 320, 200, CV_16UC1);

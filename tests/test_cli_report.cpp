@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A batch of one made-up run, and a run of its own.
+/// A batch of one made-up run, which is also a single run.
 std::string made_up_batch(const TemporaryFolder& folder) {
   const std::string batch = folder / "my results";
   write_member(batch, "street", made_up_run(12, 0.01));
@@ -22,7 +22,7 @@ std::string made_up_batch(const TemporaryFolder& folder) {
   return batch;
 }
 
-/// Stands for a Python: notes its arguments line by line and ends with `code`.
+/// A substitute for Python that records its arguments, one per line, and ends with `code`.
 std::string python_that_ends_with(int code, const TemporaryFolder& folder) {
   const std::string file = folder / "python's place";
   write_text(file, "#!/bin/sh\n[ \"$1\" = -c ] && exit 0\nprintf '%s\\n' \"$@\" >'" + (folder / "arguments") +
@@ -33,7 +33,7 @@ std::string python_that_ends_with(int code, const TemporaryFolder& folder) {
 
 const std::string kNoPython = "QUADEDGE_PYTHON=/absent/python";
 
-/// The one line that says how to get a page.
+/// Whether the text is the single line that explains how to get a report.
 bool tells_how_to_install(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n') == 1 && text.find("pip install") != std::string::npos &&
          text.find("/absent/python") != std::string::npos && text.find("QUADEDGE_PYTHON") != std::string::npos;
@@ -41,7 +41,7 @@ bool tells_how_to_install(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("report: starts the Python module with the results and what was asked for", "[cli]") {
+TEST_CASE("report: starts the Python module with the results and the given options", "[cli]") {
   const TemporaryFolder folder;
   const std::string batch = made_up_batch(folder), environment = python_that_ends_with(0, folder);
   const auto arguments_of = [&](const std::vector<std::string>& options) {
@@ -67,7 +67,7 @@ TEST_CASE("report: starts the Python module with the results and what was asked 
   CHECK(run_program({"report", batch}, python_that_ends_with(3, folder)).code == 3);
 }
 
-TEST_CASE("report: without the Python module one line says how to install it, after all else is written", "[cli]") {
+TEST_CASE("report: without the Python module one line explains how to install it, after all other output", "[cli]") {
   const TemporaryFolder folder;
   const std::string batch = made_up_batch(folder);
   const auto page = run_program({"report", batch, "--peer", "Us=" + batch}, kNoPython);
@@ -77,7 +77,7 @@ TEST_CASE("report: without the Python module one line says how to install it, af
   CHECK_FALSE(fs::exists(batch + "/report.html"));
 }
 
-TEST_CASE("report: what is no result, an unknown peer or a file in the way is refused before Python starts", "[cli]") {
+TEST_CASE("report: non-results, unknown peers and existing files are refused before Python starts", "[cli]") {
   const TemporaryFolder folder;
   const std::string batch = made_up_batch(folder), run = batch + "/sequences/street";
   std::ofstream(folder / "there.html") << "in the way";
@@ -94,7 +94,7 @@ TEST_CASE("report: what is no result, an unknown peer or a file in the way is re
   CHECK(code_of({"report", batch, "--baseline", batch, "-o", folder / "x.json"}) == 2);
 }
 
-TEST_CASE("evaluate matching keeps the figures and drawings of its page beside it, with and without Python",
+TEST_CASE("evaluate matching keeps the figures and drawings of its report beside it, with and without Python",
           "[matching][device][cli]") {
   const TemporaryFolder folder;
   const std::vector<std::string> command = {"evaluate", "matching", "room",    "--size", "320x200",
@@ -112,13 +112,13 @@ TEST_CASE("evaluate matching keeps the figures and drawings of its page beside i
   REQUIRE(json["drawings"].size() >= 2);
   for (const auto& drawing : json["drawings"]) CHECK(fs::exists(drawing["file"].get<std::string>()));
   CHECK(fs::exists(folder / "m_drawings/room_all.png"));
-  // SIFT is switched off by default, and its rows say so.
+  // SIFT is off by default, and its rows say so.
   CHECK(json["pooled"]["stereo"][4]["off"] == true);
   CHECK_FALSE(json["pooled"]["stereo"][5].contains("off"));
   const auto& cue = json["pooled"]["distributions"][1];
   CHECK(cue["other_all"]["bins"].size() == cue["other"]["bins"].size());
 
-  CHECK(run_program(page, python_that_ends_with(0, folder)).code == 2);  // the figures are there already
+  CHECK(run_program(page, python_that_ends_with(0, folder)).code == 2);  // the figures exist already
   page.push_back("--force");
   CHECK(run_program(page, python_that_ends_with(0, folder)).code == 0);
   CHECK(read_lines(folder / "arguments") ==

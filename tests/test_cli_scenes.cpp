@@ -1,4 +1,4 @@
-// The built-in scenes and paths as a user asks for them.
+/// \file test_cli_scenes.cpp  The built-in scenes and paths on the command line.
 #include <catch2/catch.hpp>
 
 #include "program.hpp"
@@ -8,11 +8,11 @@
 using namespace quadedge;
 using Catch::Matchers::Contains;
 
-TEST_CASE("command line: every scene and path can be written to disk, with its exact poses", "[cli][synthetic]") {
+TEST_CASE("command line: every scene and path can be written to disk with exact poses", "[cli][synthetic]") {
   const TemporaryFolder folder;
   for (const std::string& scene : synthetic_scenes()) {
     for (const std::string& path : synthetic_paths()) {
-      if (scene != "facade" && path != "handheld") continue;  // the others differ in nothing
+      if (scene != "facade" && path != "handheld") continue;  // the other combinations add nothing
       CAPTURE(scene, path);
       const auto result = run_program({"synth", folder / "s", "--scene", scene, "--path", path, "--frames", "3",
                                        "--size", "64x33", "--seed", "9", "--force", "--quiet"});
@@ -38,7 +38,7 @@ TEST_CASE("command line: every scene and path can be written to disk, with its e
   }
 }
 
-TEST_CASE("command line: what cannot be rendered is refused with code 2, and the most that can is named",
+TEST_CASE("command line: options that cannot be rendered are refused with code 2, naming the limit",
           "[cli][synthetic]") {
   const TemporaryFolder folder;
   for (const std::string command : {"synth", "demo"}) {
@@ -60,8 +60,7 @@ TEST_CASE("command line: what cannot be rendered is refused with code 2, and the
   CHECK_FALSE(std::filesystem::exists(folder / "s"));
 }
 
-TEST_CASE("command line: scenes and paths are listed and can be named wherever something is rendered",
-          "[cli][synthetic]") {
+TEST_CASE("command line: every command that renders lists and accepts scenes and paths", "[cli][synthetic]") {
   for (const std::string command : {"synth", "demo", "bench"}) {
     INFO(command);
     CHECK_THAT(run_program({command, "--help"}).out, Contains("facade") && Contains("handheld"));

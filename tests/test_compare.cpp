@@ -36,7 +36,7 @@ DeviceInfo made_up_device() {
   return device;
 }
 
-/// A run of the small sequence with a folder of saved variants.
+/// Runs the small sequence with a folder of saved variants.
 ProgramResult run_with_saved(const std::string& configuration, const std::string& out,
                              const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"run", small_sequence(), "-o", out, "--frames", "0:2", "--quiet"};
@@ -89,8 +89,7 @@ TEST_CASE("compare: all variants of a stage are measured, agree, and the best ar
   CHECK(Json::parse(read_text(folder / "out/report.json"))["variants"]["edge_detection"] == stage["best"]);
 }
 
-TEST_CASE("compare: run takes saved variants, and the command line and --config win over them",
-          "[cli][bench][device]") {
+TEST_CASE("compare: run uses saved variants, and the command line and --config override them", "[cli][bench][device]") {
   const TemporaryFolder folder;
   const Device device;
   bench::write_variants_file(folder / ("quadedge/" + bench::variants_file_name(device.info())), device.info(),
@@ -112,7 +111,7 @@ TEST_CASE("compare: run takes saved variants, and the command line and --config 
   CHECK(found["edge_detection"] == "tile64");
 }
 
-TEST_CASE("compare: run refuses a wrong or foreign file of variants by name", "[cli][bench][device]") {
+TEST_CASE("compare: run refuses an invalid variants file, or another device's, by name", "[cli][bench][device]") {
   const Device device;
   const auto refused = [&](const std::string& text, const std::string& reason) {
     const TemporaryFolder folder;
@@ -144,7 +143,7 @@ TEST_CASE("compare: run refuses a wrong or foreign file of variants by name", "[
   refused(changed.dump(), "99");
 }
 
-TEST_CASE("compare: files of variants come back as they were written, and a missing one says nothing", "[bench]") {
+TEST_CASE("compare: variants files are read as they were written, and a missing one is empty", "[bench]") {
   const TemporaryFolder folder;
   const DeviceInfo device = made_up_device();
   const std::string path = folder / ("new/" + bench::variants_file_name(device));
@@ -158,10 +157,10 @@ TEST_CASE("compare: files of variants come back as they were written, and a miss
   CHECK_THROWS_AS(bench::read_variants_file(path, other), UsageError);
 }
 
-TEST_CASE("compare: a variant with another result is refused, and never saved as the best", "[cli][bench][device]") {
+TEST_CASE("compare: a variant with a different result is refused and never saved as the best", "[cli][bench][device]") {
   const TemporaryFolder folder;
   fs::copy(QUADEDGE_KERNELS, folder / "kernels");
-  // Patches of one form alone count as flat: their similarity is gone.
+  // In all but one form every patch counts as flat and has no similarity.
   const std::string kernel = read_text(folder / "kernels/patches.cl");
   REQUIRE(kernel.find("kFlatPatchContrast") != std::string::npos);
   const std::string text = "#if ITEMS_PER_EDGE != 1\n#define kFlatPatchContrast 1e30f\n#endif\n" + kernel;
@@ -202,7 +201,7 @@ TEST_CASE("compare: the best variant agrees and is clearly faster than the defau
   CHECK(stage.best() == "faster");
 }
 
-TEST_CASE("compare: every stage has a least work, above zero on a frame that runs it", "[bench][device]") {
+TEST_CASE("compare: every stage has a lower bound of work, above zero on a frame that runs it", "[bench][device]") {
   const matching::RenderedScene scene("room", 161, 97, 2);
   FramePrefetcher::Frame frames[2];
   for (std::size_t i = 0; i < 2; ++i) {
@@ -264,7 +263,7 @@ TEST_CASE("ceilings: both kernels run and give rates above zero", "[bench][devic
   }
 }
 
-TEST_CASE("agreement: equal, shifted and missing rows are told apart", "[bench]") {
+TEST_CASE("agreement: equal, shifted and missing rows are distinguished", "[bench]") {
   bench::FrontendOutput a;
   for (int i = 0; i < 1000; ++i) {
     a.current.left_x.push_back(static_cast<float>(i));

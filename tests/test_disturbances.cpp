@@ -174,8 +174,8 @@ TEST_CASE("disturbances: no wrong pose is reported as tracked", "[odometry][devi
       options.mover = c.mover;
       options.frames = 4;
       options.supersampling = 2;
-      if (c.mover > 0) {  // most edges are the board's at this size; on still smaller images too few of the cables' are
-                          // told apart
+      // At this size most edges belong to the board; at smaller sizes too few edges of the cables can be distinguished.
+      if (c.mover > 0) {
         const SyntheticOptions full;
         options.width = 640;
         options.height = 332;

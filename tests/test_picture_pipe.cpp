@@ -29,7 +29,7 @@ std::string pairs(int count, int max_value = 255) {
   return text;
 }
 
-/// Bytes behind a file descriptor.
+/// A file descriptor that delivers the given bytes.
 class Source {
  public:
   explicit Source(const std::string& bytes) {
@@ -69,7 +69,7 @@ std::string pipe_complaint(const std::string& bytes, Split split = Split::none) 
 
 }  // namespace
 
-TEST_CASE("pipe: pictures are read in turn, at any depth, with stamps by their number", "[data]") {
+TEST_CASE("pipe: images are read in order, at any bit depth, with timestamps by number", "[data]") {
   for (const int max_value : {255, 4095, 65535}) {
     const Source source(pairs(3, max_value));
     const auto reader = make_picture_pipe(source.descriptor(), {Split::none, 10, 0})->open();
@@ -86,7 +86,7 @@ TEST_CASE("pipe: pictures are read in turn, at any depth, with stamps by their n
   }
 }
 
-TEST_CASE("pipe: one picture may hold both views, and colour becomes grey", "[data]") {
+TEST_CASE("pipe: one image may hold both views, and colour becomes grey", "[data]") {
   for (const bool beside : {true, false}) {
     const Source source(own_camera::pgm(own_camera::joined(piped_picture(0), piped_picture(1), beside)));
     const auto reader =
@@ -104,7 +104,7 @@ TEST_CASE("pipe: one picture may hold both views, and colour becomes grey", "[da
   CHECK(pair->right.view().value(0, 0) == 0x50);
 }
 
-TEST_CASE("pipe: what is wrong is named with the picture's number", "[data]") {
+TEST_CASE("pipe: errors name the image by number", "[data]") {
   const std::string one = own_camera::pgm(piped_picture(0)), whole = pairs(2);
   CHECK(pipe_complaint(whole).empty());
   CHECK(pipe_complaint("").empty());
@@ -123,7 +123,7 @@ TEST_CASE("pipe: what is wrong is named with the picture's number", "[data]") {
              Contains("11 x 7") && Contains("even width"));
 }
 
-TEST_CASE("pipe: a slow reader loses the oldest pairs and knows how many", "[data]") {
+TEST_CASE("pipe: a slow reader drops the oldest pairs and counts them", "[data]") {
   const Source source(pairs(9));
   const auto stream = make_picture_pipe(source.descriptor(), {Split::none, 10, 3});
   FramePrefetcher frames(dataset_of(stream));
@@ -149,7 +149,7 @@ TEST_CASE("pipe: without a queue every pair waits for its reader", "[data]") {
   CHECK(frames.dropped() == 0);
 }
 
-TEST_CASE("pipe: waiting for a picture that never comes can be ended", "[data]") {
+TEST_CASE("pipe: waiting for an image that never arrives can be interrupted", "[data]") {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-/// \file test_program_cache.cpp  Built programs that outlive the process: kept, found, and never trusted blindly.
+/// \file test_program_cache.cpp  The cache of built programs on disk: storing, finding and checking them.
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -29,7 +29,7 @@ void change_byte(const std::string& path, std::streamoff from_end) {
 
 }  // namespace
 
-TEST_CASE("program cache: gives back what it was given, and nothing for another key", "[opencl]") {
+TEST_CASE("program cache: returns what was stored, and nothing for another key", "[opencl]") {
   const TemporaryFolder folder;
   const ProgramCache cache(folder / "programs"), nowhere("");
   const auto binary = binary_of(1000, 3), empty = ProgramCache::Binary();
@@ -45,27 +45,27 @@ TEST_CASE("program cache: gives back what it was given, and nothing for another 
   CHECK_FALSE(nowhere.find("a"));
 }
 
-TEST_CASE("program cache: damaged and foreign files count as none", "[opencl]") {
+TEST_CASE("program cache: damaged files and files of other keys are ignored", "[opencl]") {
   const TemporaryFolder folder;
   const ProgramCache cache(folder / "programs");
   cache.keep("a", binary_of(1000, 3));
   cache.keep("b", binary_of(1000, 4));
   const auto from_end = GENERATE(1, 500, 1000, 1001, 1010);  // in the binary, in the key, in a number before it
-  SECTION("a byte changed") {
+  SECTION("changed byte") {
     change_byte(cache.path("a"), from_end);
     CHECK_FALSE(cache.find("a"));
   }
-  SECTION("cut") {
+  SECTION("truncated") {
     std::filesystem::resize_file(cache.path("a"), std::filesystem::file_size(cache.path("a")) - from_end);
     CHECK_FALSE(cache.find("a"));
   }
-  SECTION("of another key") {
+  SECTION("another key") {
     std::filesystem::copy_file(cache.path("b"), cache.path("a"), std::filesystem::copy_options::overwrite_existing);
     CHECK_FALSE(cache.find("a"));
   }
 }
 
-TEST_CASE("program cache: who reads while another writes sees a whole binary", "[opencl]") {
+TEST_CASE("program cache: a reader sees a complete binary while another thread writes", "[opencl]") {
   const TemporaryFolder folder;
   const ProgramCache cache(folder / "programs");
   const auto one = binary_of(200000, 1), other = binary_of(200000, 2);
@@ -82,7 +82,7 @@ TEST_CASE("program cache: who reads while another writes sees a whole binary", "
   CHECK(torn == 0);
 }
 
-TEST_CASE("program cache: a context takes a kept program, and builds a damaged one anew", "[opencl]") {
+TEST_CASE("program cache: a context uses a stored program and rebuilds a damaged one", "[opencl]") {
   const auto name = GENERATE(from_range(all_devices()));
   const TemporaryFolder folder;
   DeviceOptions options;

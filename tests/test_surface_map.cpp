@@ -136,7 +136,7 @@ TEST_CASE("A point of known depth is located after a known motion", "[matching]"
       make_map(100, 80, [&](int x, int) { return x < 20 ? 2 * scale / 1.6 : scale / 1.6; });  // a nearer obstacle
   const std::vector<float> x = {59.5F, 36.5F}, y = {49.5F, 39.5F}, direction = {1.5F, 1.5F};
   // Offsets from the principal point: X = 10 px * 2 m / 200 px = 0.1 m, minus 0.1 m; Y = 0.1 m; then the right camera
-  // 0.1 m further.
+  // 0.1 m farther.
   const auto left = true_later_positions(rig, before, now, Side::left, {x, y, direction});
   CHECK(left.x[0] == Approx(49.5));
   CHECK(left.y[0] == Approx(39.5 + 200 * 0.1 / 1.6));

@@ -1,4 +1,4 @@
-"""Recordings of ROS in each of its kinds, written from a Dataset's files."""
+"""ROS recordings of every kind, written from a Dataset's files."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +14,7 @@ KINDS = ("ros1", "ros2", "mcap")
 
 @dataclass
 class BagWriter:
-    """Messages to a recording; ``kind``: one of KINDS. Use as a context."""
+    """Writes messages to a recording; ``kind`` is one of KINDS. Use as a context manager."""
 
     path: Path
     kind: str
@@ -38,7 +38,7 @@ class BagWriter:
         self.writer.close()
 
     def write(self, topic: str, kind: str, **fields) -> None:
-        """A message, recorded a millisecond after the one before."""
+        """Writes a message, recorded a millisecond after the previous one."""
         if topic not in self.connections:
             self.connections[topic] = self.writer.add_connection(topic, kind, typestore=self.store)
         message = self.store.types[kind](**fields)
@@ -64,7 +64,7 @@ class BagWriter:
                    data=numpy.frombuffer(Path(file).read_bytes(), numpy.uint8))
 
     def camera_info(self, topic: str, stamp_ns: int, camera, tx: float) -> None:
-        """Of a rectified camera without distortion; tx: -fx baseline [px m]."""
+        """Writes the camera_info of a rectified camera without distortion; tx: -fx baseline [px m]."""
         k = camera.matrix.reshape(-1)
         p = numpy.hstack([camera.matrix, [[tx], [0], [0]]]).reshape(-1)
         matrices = {"D": numpy.zeros(5), "K": k, "R": numpy.eye(3).reshape(-1), "P": p}

@@ -1,4 +1,4 @@
-"""What the tests of the package share: a small rendered room, the recorded flight, the program."""
+"""Fixtures of the package's tests: a small rendered room, the recorded flight, the program."""
 
 import os
 import subprocess
@@ -11,7 +11,7 @@ REPOSITORY = Path(__file__).parents[2]
 
 @pytest.fixture(scope="session")
 def program() -> Path:
-    """The quadedge command, to compare with; the tests' CMake list names it."""
+    """The quadedge program, to compare with; tests/CMakeLists.txt sets QUADEDGE_PROGRAM."""
     path = Path(os.environ.get("QUADEDGE_PROGRAM", REPOSITORY / "build" / "quadedge"))
     assert path.is_file(), f"{path}: build the program first, or set QUADEDGE_PROGRAM"
     return path
@@ -19,7 +19,7 @@ def program() -> Path:
 
 @pytest.fixture(scope="session")
 def command(program):
-    """Runs the program; returns what it has done."""
+    """A function that runs the program and returns the completed process."""
 
     def run(*arguments) -> subprocess.CompletedProcess:
         return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
@@ -29,7 +29,7 @@ def command(program):
 
 @pytest.fixture(scope="session")
 def room():
-    """A rendered room of small images."""
+    """A rendered room with small images."""
     import quadedge
 
     return quadedge.synthetic(frames=6, width=320, height=200)
@@ -51,7 +51,7 @@ def room_folder(command, tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def flight_folder() -> Path:
-    """The recorded flight; skips plainly where there is no recorded data."""
+    """The recorded flight; skips the test if there is no recorded data."""
     data = os.environ.get("QUADEDGE_DATA")
     if not data:
         pytest.skip("QUADEDGE_DATA is not set: no recorded data")

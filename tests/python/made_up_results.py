@@ -1,4 +1,4 @@
-"""Results of runs and evaluations that never happened, in the files that the program writes."""
+"""Made-up results of runs and evaluations, in the program's file formats."""
 
 import json
 import math
@@ -34,7 +34,7 @@ def accuracy(translation: float, open_rotation: str = "") -> dict:
 
 def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool = False, lost: int = -1,
               errors: dict | None = None) -> dict:
-    """A run along a bent path, or nearly a straight one, whose estimate drifts sideways; returns its report."""
+    """Writes a run along a bent or nearly straight path whose estimate drifts sideways; returns its report."""
     folder.mkdir(parents=True)
     (folder / "pictures").mkdir()
     bend = 0.01 if straight else 2.0
@@ -44,7 +44,7 @@ def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool 
         rows.append(f"{i},{0.1 * i:.9f},{status},0,{1 if i % 4 == 0 else 0},{1000 + i},{1100 + i},500,400,390,"
                     f"{300 - i},{200 - i},{20 + i % 3},12,3,2")
         x, z = bend * math.sin(0.3 * i), float(i)
-        truth.append(f"{0.1 * i:.9f} {x + 3} 1 {z} 0 0 0 1")  # in another world
+        truth.append(f"{0.1 * i:.9f} {x + 3} 1 {z} 0 0 0 1")  # in another world frame
         if i != lost:
             poses.append(f"{0.1 * i:.9f} {x + drift * i} 0 {z} 0 0 0 1")
             per_pose.append(f"{0.1 * i:.9f},0,{drift * i},{'' if i == 0 else 0},{'' if i == 0 else drift}")
@@ -70,7 +70,7 @@ def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool 
 
 
 def write_batch(folder: Path, names: list[str], frames: int = 12) -> dict:
-    """A batch of made-up runs; returns its summary."""
+    """Writes a batch of made-up runs; returns its summary."""
     entries = []
     for number, name in enumerate(names):
         report = write_run(folder / "sequences" / name, frames, 0.01 * (number + 1),
@@ -115,7 +115,7 @@ def _summary() -> dict:
 
 
 def write_matching(file: Path, names: list[str], frames: int, drawings: list[dict] = ()) -> dict:
-    """What `evaluate matching --json` writes about so many data sets of so many frames each."""
+    """Writes the output of `evaluate matching --json` for the named data sets of `frames` frames each."""
     histogram = {"below": 0, "bins": [10] * 25 + [0] * 75, "above": 50}
     cue = {"table": "stereo", "order": 1, "cue": "distance from the epipolar line", "unit": "px", "keeps_small": True,
            "thresholds": [0.5], "low": 0.0, "high": 5.0, "other_is_sample": True}

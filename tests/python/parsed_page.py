@@ -1,4 +1,4 @@
-"""A page as another program reads it."""
+"""Parses a report page."""
 
 import base64
 import gzip
@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 
 
 class ParsedPage(HTMLParser):
-    """Tables by their title, terms, plots, pictures, and everything that would be loaded from elsewhere."""
+    """Tables by title, terms, plots, images, and everything that would be loaded from elsewhere."""
 
     def __init__(self, text: str):
         super().__init__()
@@ -82,10 +82,10 @@ class ParsedPage(HTMLParser):
             self.facts[self._term] = self.facts.get(self._term, "") + data
 
     def row(self, title: str, first: str) -> list[str]:
-        """The row of a table that begins so."""
+        """The row of a table that begins with `first`."""
         return next(row for row in self.tables[title] if row[0] == first)
 
     def figure(self, name: str) -> dict:
-        """A plot's data and layout by the end of its name."""
+        """A plot's data and layout, by the end of its name."""
         number = next(i for i, plot in enumerate(self.plots) if plot.endswith(name))
         return self.figures[number]

@@ -27,14 +27,14 @@ def test_frames_outlive_their_dataset(room_folder):
     numpy.testing.assert_array_equal(left, copy)
 
 
-def test_what_is_no_recording(tmp_path, command):
+def test_invalid_recordings_are_refused(tmp_path, command):
     with pytest.raises(quadedge.DataError) as raised:
         quadedge.open_dataset(tmp_path / "none")
     done = command("run", tmp_path / "none", "-o", tmp_path / "out")
     assert done.returncode == 3 and str(raised.value) in done.stderr
 
 
-def test_a_damaged_image_is_named(room_folder, tmp_path):
+def test_an_error_names_the_damaged_image(room_folder, tmp_path):
     import shutil
 
     shutil.copytree(room_folder, tmp_path / "room")
@@ -80,7 +80,7 @@ def test_errors_of_a_trajectory():
     poses[:, 2, 3] = numpy.arange(5)
     stamps = numpy.arange(5) * 100_000_000
     off = poses.copy()
-    off[4, 0, 3] = 0.5  # the last pose, to the side
+    off[4, 0, 3] = 0.5  # the last pose is off to the side
     evaluation = quadedge.evaluate_trajectory(quadedge.Trajectory(stamps, off), quadedge.Trajectory(stamps, poses))
     assert evaluation.matched == 5 and evaluation.path_length_m == 4
     assert evaluation.origin_aligned.ape_translation_m.max == pytest.approx(0.5)
@@ -93,7 +93,7 @@ def test_errors_of_a_trajectory():
         quadedge.evaluate_trajectory(late, quadedge.Trajectory(stamps, poses))
 
 
-def test_matching_is_judged_as_the_command_does(command, room_folder, tmp_path):
+def test_matching_evaluation_agrees_with_the_command(command, room_folder, tmp_path):
     done = command("evaluate", "matching", room_folder, "--frames", 2, "--json", tmp_path / "m.json", "--quiet")
     assert done.returncode == 0, done.stderr
     expected = json.loads((tmp_path / "m.json").read_text())
@@ -125,6 +125,6 @@ def test_configuration():
     ({3: 3}, TypeError, "expected texts as keys"),
     ("no_such.toml", quadedge.UsageError, "no_such.toml: the configuration file cannot be read"),
 ])  # fmt: skip
-def test_what_is_no_configuration(config, error, words):
+def test_invalid_configurations_are_refused(config, error, words):
     with pytest.raises(error, match=words):
         quadedge.configuration(config=config)

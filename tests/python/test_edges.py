@@ -1,4 +1,4 @@
-"""Edges of one image, of a pair, in space; quads."""
+"""Edges of an image, stereo edges of a pair and their points, quads."""
 
 import numpy
 import pytest
@@ -6,7 +6,7 @@ import pytest
 import quadedge
 
 
-def test_edges_are_the_commands(command, room_folder, tmp_path):
+def test_edges_agree_with_the_command(command, room_folder, tmp_path):
     image = sorted((room_folder / "rgb").glob("*.png"))[0]
     done = command("edges", image, "--csv", tmp_path / "edges.csv", "--quiet")
     assert done.returncode == 0, done.stderr
@@ -17,20 +17,20 @@ def test_edges_are_the_commands(command, room_folder, tmp_path):
     numpy.testing.assert_allclose(found, expected, atol=6e-7)  # six decimals
 
 
-def test_a_device_serves_again(frames):
+def test_a_device_can_be_reused(frames):
     device = quadedge.Device("auto")
     first, second = (quadedge.detect_edges(frames[0].left, device) for _ in range(2))
     numpy.testing.assert_array_equal(first.x, second.x)
     assert device.info.type in ("cpu", "gpu", "accelerator")
 
 
-def test_stereo_edges_lie_where_the_depth_says(room, frames):
+def test_stereo_edges_agree_with_the_rendered_depth(room, frames):
     edges = quadedge.match(frames[0].left, frames[0].right, room)
     xyz, left, right = edges.xyz, edges.left, edges.right
     known = numpy.isfinite(xyz).all(axis=1)
     assert known.sum() > 300
     camera, baseline = room.rig.left, room.rig.baseline
-    # The point lies on the left ray, at the depth that the disparity says.
+    # The point lies on the left ray, at the depth given by the disparity.
     projected = xyz[known, :2] / xyz[known, 2:] * [camera.fx, camera.fy] + [camera.cx, camera.cy]
     numpy.testing.assert_allclose(projected, left[known], atol=1e-3)
     disparity = (left - right)[known, 0]
@@ -39,7 +39,7 @@ def test_stereo_edges_lie_where_the_depth_says(room, frames):
     columns, rows = numpy.rint(left[known]).astype(int).T
     error = numpy.abs(camera.fx * baseline / depth[rows, columns] - disparity)
     assert numpy.median(error) < 0.25  # px
-    # Tangents are unit vectors whose image is the edge's direction.
+    # Tangents are unit vectors that project to the edge's direction.
     tangent, angle = edges.direction[known], edges.left_direction[known]
     numpy.testing.assert_allclose(numpy.linalg.norm(tangent, axis=1), 1, atol=1e-9)
     ahead = xyz[known] + 1e-6 * tangent
@@ -58,7 +58,7 @@ def test_quads_connect_the_edges_of_two_frames(room, frames):
     assert len(quads) == result.counts.quads and quads.inlier.dtype == bool
     assert quads.inlier.sum() == result.counts.inliers
     assert quads.previous.max() < len(details.previous_stereo) and quads.current.max() < len(details.stereo)
-    # What agrees on the motion does so in space, too.
+    # Inliers of the motion agree in space too.
     before = details.previous_stereo.xyz[quads.previous[quads.inlier]]
     motion = result.current_from_reference
     predicted = before @ motion[:3, :3].T + motion[:3, 3]
@@ -66,12 +66,12 @@ def test_quads_connect_the_edges_of_two_frames(room, frames):
     assert numpy.nanmedian(away / before[:, 2]) < 0.02
 
 
-def test_no_edges_is_an_empty_answer():
+def test_no_edges_give_empty_results():
     edges = quadedge.detect_edges(numpy.zeros((50, 60), numpy.uint8))
     assert len(edges) == 0 and edges.x.shape == (0,)
 
 
-def test_what_is_refused(frames):
+def test_invalid_images_are_refused(frames):
     with pytest.raises(TypeError, match="the image is None"):
         quadedge.detect_edges(None)
     with pytest.raises(TypeError, match="device: expected a text"):

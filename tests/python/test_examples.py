@@ -1,4 +1,4 @@
-"""The examples and the notebook, as a user runs them."""
+"""The examples and the notebook, run as by a user."""
 
 import subprocess
 import sys

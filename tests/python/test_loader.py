@@ -1,4 +1,4 @@
-"""The wheel on a machine without an OpenCL loader, and what else is in it."""
+"""The wheel on a machine without an OpenCL loader, and its other content."""
 
 import os
 import shutil
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-# Any opening of the loader fails, as it does where none is installed.
+# Opening the loader fails, as if none were installed.
 NO_LOADER = r"""
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -60,7 +60,7 @@ def test_without_a_loader_the_reference_works(tmp_path):
     assert "['first', 'tracked']" in done.stdout
 
 
-def test_stubs_name_everything():
+def test_stubs_are_complete():
     import ast
 
     import quadedge
