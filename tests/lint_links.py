@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Links of the Markdown pages in a folder, such as the installed documentation, lead to files and headings that exist.
+"""Checks that links of the Markdown pages in a folder, such as the installed documentation, lead to existing files and
+headings.
 
     lint_links.py FOLDER
 """

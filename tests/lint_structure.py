@@ -180,7 +180,7 @@ def check_references(tree: Tree) -> list[str]:
 
 
 def broken_links(root: Path, name: str, text: str) -> list[str]:
-    """Links of a page, named from the root, that lead to no file or no heading."""
+    """Links of a page, relative to the root, that lead to no file or heading."""
     findings = []
     for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"```.*?```", "", text, flags=re.DOTALL)):
         if re.match(r"[a-z]+:", target):

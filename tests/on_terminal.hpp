@@ -10,8 +10,8 @@
 
 #include "program.hpp"
 
-/// All that `quadedge ARGUMENTS` prints on a terminal of `columns` columns; line ends are "\r\n". `environment`:
-/// words of `env`, for example "TERM=dumb" or "-u TERM".
+/// Output of `quadedge ARGUMENTS` on a terminal of `columns` columns; line endings are "\r\n". `environment`: arguments
+/// of `env`, for example "TERM=dumb" or "-u TERM".
 inline std::string run_on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
                                    const std::string& environment) {
   std::string command =

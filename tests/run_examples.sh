@@ -13,7 +13,7 @@ for file in bin/quadedge include/quadedge/odometry.hpp share/quadedge/paper.toml
   [ -f "$prefix/$file" ] || { echo "not installed: $file" >&2; exit 1; }
 done
 python3 "$(dirname "${BASH_SOURCE[0]}")/lint_links.py" "$prefix/$documents"
-# What scripts/run.sh builds is enough to install.
+# The targets of scripts/run.sh suffice to install.
 ninja -C "$build" -t commands quadedge_program >"$build/program_commands"
 for page in man bash; do
   grep -q "generate $page" "$build/program_commands" || { echo "quadedge_program does not generate $page" >&2; exit 1; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the wheel, installs it where there is nothing but Python, and uses it as a new user does: in a root made by
-# debootstrap where this may be done, else in a virtual environment, where nothing of Debian's OpenCV may be loaded.
+# Builds the wheel, installs it where only Python is available, and uses it like a new user: in a root created by
+# debootstrap if permitted, else in a virtual environment, where no library of Debian's OpenCV may be loaded.
 #   run_wheel.sh REPOSITORY BUILD
 set -euo pipefail
 repository="$(realpath "$1")" build="$(realpath "$2")"
@@ -14,7 +14,7 @@ wheel=("$work"/wheels/quadedge-*-manylinux_2_36_*.whl)
 limit=$((25 * 1000 * 1000))
 [ "$(stat -c %s "$wheel")" -le $limit ] || { echo "$wheel: more than $limit bytes" >&2; exit 1; }
 
-# What pip would fetch; the root has no network.
+# The files that pip would download; the root has no network.
 python3 -m pip download --quiet --disable-pip-version-check --dest "$work/wheels" "$wheel[cpu]"
 cp "$here/wheel_user.sh" "$here/wheel_user.py" "$work/wheels"
 
@@ -24,7 +24,7 @@ if may_make_roots; then
     debootstrap --variant=minbase --include=python3,python3-venv bookworm "$root" >"$work/debootstrap.log" ||
       { tail -n 5 "$work/debootstrap.log" >&2; exit 1; }; }
   rm -rf "$root/user" && mkdir -p "$root/user"
-  # No mount outlives this shell: they are in a namespace that ends with it.
+  # Mounts end with this shell, because they are in its namespace.
   unshare --mount bash -ec '
     mkdir -p "$1/wheels"
     mount --bind "$2" "$1/wheels"

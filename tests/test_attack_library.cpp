@@ -1,5 +1,6 @@
-/// Attacks on the C++ interface. A row is a call that cannot be right, and what it throws; another attack is another
-/// row.
+/// \file test_attack_library.cpp  Attacks on the C++ interface. A row holds an invalid call and the error that it
+/// throws.
+/// To add an attack, add a row.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -22,7 +23,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// What a call may need: sound, until the row changes it.
+/// The arguments of a call: valid until the row changes them.
 struct Caller {
   matching::RenderedScene scene{"room", 160, 100, 2};
   Device device{"reference"};
@@ -52,7 +53,7 @@ const std::vector<LibraryAttack>& library_attacks() {
        "right"},
       {"rows that overlap", [](C c) { c.frame.left.stride = 10, c.track(); }, LibraryAttack::data, "stride"},
       {"rows that run backwards", [](C c) { c.frame.left.stride = -160, c.track(); }, LibraryAttack::data, "stride"},
-      {"a stamp that goes back",
+      {"a timestamp that goes back",
        [](C c) {
          StereoOdometry odometry(c.rig, c.device, c.config);
          odometry.track(c.frame);
@@ -61,32 +62,32 @@ const std::vector<LibraryAttack>& library_attacks() {
        },
        LibraryAttack::data, "-1"},
       {"no baseline", [](C c) { c.rig.right_from_left.setIdentity(), c.track(); }, LibraryAttack::data, "baseline"},
-      {"a baseline without end",
+      {"an infinite baseline",
        [](C c) {
          c.rig.right_from_left.translation().x() = -std::numeric_limits<double>::infinity();
          c.track();
        },
        LibraryAttack::data, ""},
       {"a focal length of zero", [](C c) { c.rig.left.fx = 0, c.track(); }, LibraryAttack::data, ""},
-      {"a focal length that is no number", [](C c) { c.rig.right.fy = kNoNumber, c.track(); }, LibraryAttack::data, ""},
-      {"a rotation that is none", [](C c) { c.rig.right_from_left.linear() *= 2, c.track(); }, LibraryAttack::data, ""},
+      {"a focal length of NaN", [](C c) { c.rig.right.fy = kNoNumber, c.track(); }, LibraryAttack::data, ""},
+      {"an invalid rotation", [](C c) { c.rig.right_from_left.linear() *= 2, c.track(); }, LibraryAttack::data, ""},
       {"cameras without pixels", [](C c) { c.rig.left.width = 0, c.track(); }, LibraryAttack::data, ""},
       {"a constant out of range", [](C c) { c.config.stereo.ncc_min = 7, c.track(); }, LibraryAttack::usage, "ncc_min"},
-      {"a constant that is no number", [](C c) { c.config.pose.inlier_distance = kNoNumber, c.track(); },
-       LibraryAttack::usage, "inlier_distance"},
+      {"a constant of NaN", [](C c) { c.config.pose.inlier_distance = kNoNumber, c.track(); }, LibraryAttack::usage,
+       "inlier_distance"},
       {"an unknown kernel variant", [](C c) { c.config.variants["scan"] = "abacus", c.track(); }, LibraryAttack::usage,
        "abacus"},
       {"an unknown device", [](C) { Device{"abacus"}; }, LibraryAttack::device, "abacus"},
-      {"edges of no image", [](C c) { detect_edges({}, c.device, c.config); }, LibraryAttack::data, ""},
+      {"edges of an empty image", [](C c) { detect_edges({}, c.device, c.config); }, LibraryAttack::data, ""},
       {"a pair of different heights",
        [](C c) {
          match_stereo({0, c.frame.left, c.small.view()}, c.rig, c.device, c.config);
        },
        LibraryAttack::data, "80"},
-      {"a recording that is not there", [](C) { open_dataset("/no/such/recording"); }, LibraryAttack::data, "no/such"},
-      {"a calibration that is not there", [](C) { read_calibration("/no/such.yaml"); }, LibraryAttack::data, "no/such"},
-      {"a trajectory that is not there", [](C) { read_trajectory("/no/such.txt"); }, LibraryAttack::data, "no/such"},
-      {"trajectories of different times",
+      {"a missing recording", [](C) { open_dataset("/no/such/recording"); }, LibraryAttack::data, "no/such"},
+      {"a missing calibration", [](C) { read_calibration("/no/such.yaml"); }, LibraryAttack::data, "no/such"},
+      {"a missing trajectory", [](C) { read_trajectory("/no/such.txt"); }, LibraryAttack::data, "no/such"},
+      {"trajectories at different times",
        [](C) {
          evaluate_trajectory({{0, {}}, {1, {}}}, {{3'000'000'000, {}}, {4'000'000'000, {}}});
        },
@@ -118,7 +119,7 @@ std::string message_of(const LibraryAttack& attack, Caller& caller) {
 
 }  // namespace
 
-TEST_CASE("attack: a call that cannot be right throws what says why", "[odometry]") {
+TEST_CASE("attack: an invalid call throws an error that explains it", "[odometry]") {
   CHECK_NOTHROW(Caller().track());
   for (const auto& attack : library_attacks()) {
     DYNAMIC_SECTION(attack.name) {

@@ -130,7 +130,7 @@ TEST_CASE("batch summary: the exit code for too few tracked frames ranks between
   CHECK(report::worse_exit_code(1, 4) == 1);
 }
 
-TEST_CASE("frames.csv: reads back what a run writes, whichever frame has the first warning or message", "[report]") {
+TEST_CASE("frames.csv: a run's rows are read back, whichever frame has the first warning or message", "[report]") {
   const TemporaryFolder folder;
   auto run = made_up_run(3, 0.01);
   run.frames[0].result.warning = "images, or their calibration, \"drift\"";  // before any frame reached a later stage

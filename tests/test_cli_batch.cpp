@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The files of results whose bytes do not depend on how long anything took, by their path within the folder.
+/// The result files whose bytes do not depend on run times, by their path within the folder.
 std::map<std::string, std::string> timeless_files(const std::string& output) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(output + "/sequences")) {
@@ -22,7 +22,7 @@ std::map<std::string, std::string> timeless_files(const std::string& output) {
   return files;
 }
 
-/// One whole batch over the root with its broken member, shared by the tests that only look at its files.
+/// A complete batch over the root with its broken member, shared by the tests that only read its files.
 struct SharedBatch {
   TemporaryFolder folder;
   std::string out = folder / "out";
@@ -33,7 +33,7 @@ const SharedBatch& shared_batch() {
   return batch;
 }
 
-/// All time stamps below a folder: what was written anew shows.
+/// Modification times of all files below a folder, which show what was rewritten.
 std::map<std::string, fs::file_time_type> write_times(const std::string& folder) {
   std::map<std::string, fs::file_time_type> times;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -46,7 +46,7 @@ nlohmann::json json_of(const std::string& file) { return nlohmann::json::parse(r
 
 }  // namespace
 
-TEST_CASE("batch: runs all sequences, names the broken one and ends with the worst code", "[cli][device]") {
+TEST_CASE("batch: runs all sequences, names the broken one and ends with the worst exit code", "[cli][device]") {
   const auto& batch = shared_batch();
   INFO(batch.result.err);
   CHECK(batch.result.code == 3);
@@ -61,7 +61,7 @@ TEST_CASE("batch: runs all sequences, names the broken one and ends with the wor
   CHECK_THAT(summary["sequences"][2]["message"].get<std::string>(), Contains("calibration.txt"));
   CHECK(summary["all"]["frames_tracked"] == 8);
   for (const char* name : {"first", "second"}) {
-    // A member of a batch holds what a run alone leaves behind, and the summary says what its report says.
+    // A member of a batch has the files of a single run, and the summary agrees with its report.
     const std::string folder = batch.out + "/sequences/" + name;
     const auto report = json_of(folder + "/report.json");
     const auto& entry = summary["sequences"][name == std::string("first") ? 0 : 1];
@@ -73,7 +73,7 @@ TEST_CASE("batch: runs all sequences, names the broken one and ends with the wor
   }
   for (const char* file : {"summary.csv", "summary.md", "config.toml"})
     CHECK(fs::file_size(batch.out + "/" + file) > 100);
-  // Nobody asked for a page: a Python without the module is a line, no failure.
+  // No report was requested: a Python without the module is a note, not a failure.
   CHECK_THAT(batch.result.err, Contains("no page: no_python has no module quadedge.report"));
   CHECK(summary["input"] == batch_root());
   CHECK_THAT(summary["command"].get<std::string>(), Contains("quadedge batch"));
@@ -82,7 +82,7 @@ TEST_CASE("batch: runs all sequences, names the broken one and ends with the wor
   CHECK(read_text(alone / "out/trajectory.txt") == read_text(batch.out + "/sequences/first/trajectory.txt"));
 }
 
-TEST_CASE("batch: finished sequences are not run again, unless input, configuration or the user ask for it",
+TEST_CASE("batch: finished sequences are run again only if the input, the configuration or the user requires it",
           "[cli][device]") {
   const TemporaryFolder folder;
   fs::copy(batch_root() + "/a", folder / "data", fs::copy_options::recursive);
@@ -95,7 +95,7 @@ TEST_CASE("batch: finished sequences are not run again, unless input, configurat
   CHECK_THAT(again.err, Contains("2 finished already"));
   CHECK(write_times(first) == before_first);
 
-  // Another time of modification is no other input; another camera is one.
+  // A new modification time does not change the input; another camera does.
   for (const auto& entry : fs::recursive_directory_iterator(folder / "data")) {
     fs::last_write_time(entry.path(), fs::file_time_type::clock::now() + std::chrono::hours(1));
   }
@@ -105,7 +105,7 @@ TEST_CASE("batch: finished sequences are not run again, unless input, configurat
   CHECK(write_times(first) == before_first);
   CHECK(write_times(second) != before_second);
 
-  // A damaged result is no result, and is no reason to stop.
+  // A damaged result counts as missing and does not stop the batch.
   for (const std::string& file : {first + "/report.json", second + "/trajectory.txt"})
     fs::resize_file(file, fs::file_size(file) - 5);
   const auto repeated = run_program(batch);
@@ -114,7 +114,7 @@ TEST_CASE("batch: finished sequences are not run again, unless input, configurat
   before_first = write_times(first);
   fs::remove(second + "/frames.csv");
   CHECK_THAT(run_program(batch).err, Contains("1 finished already"));
-  // Another configuration makes other results.
+  // Another configuration gives other results.
   auto other = batch;
   other.insert(other.end(), {"--seed", "77"});
   CHECK_THAT(run_program(other).err, Contains("0 finished already"));
@@ -124,14 +124,14 @@ TEST_CASE("batch: finished sequences are not run again, unless input, configurat
   other.insert(other.end(), {"--force", "--jobs", "2"});
   CHECK_THAT(run_program(other).err, Contains("0 finished already") && Contains("2 at the same time"));
   CHECK(write_times(first) != before_first);
-  // Results of two runs side by side are not good enough when time is measured.
+  // Results of parallel runs are not reused if times are measured.
   CHECK_THAT(read_text(out + "/summary.md"), Contains("at the same time"));
   other.erase(other.end() - 3, other.end());
   other.push_back("--timing");
   CHECK_THAT(run_program(other).err, Contains("0 finished already") && Contains("1 at the same time"));
 }
 
-TEST_CASE("batch: killed at any moment it leaves nothing half-written, and ends with the same bytes", "[cli][device]") {
+TEST_CASE("batch: a kill leaves no partial files, and the next start ends with the same bytes", "[cli][device]") {
   const auto& whole = shared_batch();
   const TemporaryFolder folder;
   const std::string out = folder / "out";
@@ -144,7 +144,7 @@ TEST_CASE("batch: killed at any moment it leaves nothing half-written, and ends 
     REQUIRE(program.wait_until([&] { return unfinished(victim); }));
     const int status = program.end_by(SIGKILL);
     REQUIRE(WIFSIGNALED(status));
-    // The child dies with its parent: what it had begun does not grow any more.
+    // The child dies with its parent: its partial results do not grow any more.
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const std::string rows = read_text(out + "/unfinished/" + victim + "/frames.csv");
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
@@ -154,7 +154,7 @@ TEST_CASE("batch: killed at any moment it leaves nothing half-written, and ends 
     for (const auto& entry : fs::directory_iterator(out + "/sequences"))
       CHECK(fs::exists(entry.path() / "member.json"));
   }
-  CHECK(fs::exists(out + "/sequences/first/report.json"));  // of the second start
+  CHECK(fs::exists(out + "/sequences/first/report.json"));  // from the second start
   const auto times = write_times(out + "/sequences/first");
   const auto last = run_program(batch);
   CHECK(last.code == 3);
@@ -164,7 +164,7 @@ TEST_CASE("batch: killed at any moment it leaves nothing half-written, and ends 
   CHECK(files == timeless_files(whole.out));
 }
 
-TEST_CASE("batch: asked to end it ends its children, removes what they had begun, and can go on", "[cli][device]") {
+TEST_CASE("batch: a signal ends its children and removes partial results, and the batch can resume", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const std::vector<std::string> batch = {"batch", batch_root() + "/a", "-o", out, "--jobs", "2"};
@@ -182,7 +182,7 @@ TEST_CASE("batch: asked to end it ends its children, removes what they had begun
   CHECK(run_program(batch).code == 0);
 }
 
-TEST_CASE("batch: single steps give what the whole gives", "[cli][device]") {
+TEST_CASE("batch: separate steps give the results of the whole", "[cli][device]") {
   const auto& whole = shared_batch();
   const TemporaryFolder folder;
   const std::string out = folder / "out";
@@ -202,7 +202,7 @@ TEST_CASE("batch: single steps give what the whole gives", "[cli][device]") {
   CHECK(json_of(out + "/summary.json")["all"]["pooled"] == json_of(whole.out + "/summary.json")["all"]["pooled"]);
 }
 
-TEST_CASE("batch: a list may name folders that do not exist, which are recorded", "[cli]") {
+TEST_CASE("batch: missing folders in a list are recorded", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "list.txt") << "absent\n";
   const auto result = run_program({"batch", folder / "list.txt", "-o", folder / "out", "--device", "reference"});
@@ -212,7 +212,7 @@ TEST_CASE("batch: a list may name folders that do not exist, which are recorded"
   CHECK(run_program({"batch", folder / "no_list", "-o", folder / "out"}).code == 3);
 }
 
-TEST_CASE("batch: an output that cannot be written, or is full, ends with code 3 and its path", "[cli]") {
+TEST_CASE("batch: an unwritable or full output ends with code 3 and its path", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
   for (const std::string& path : {folder / "file/out", std::string("/proc/quadedge_out")}) {
@@ -220,7 +220,7 @@ TEST_CASE("batch: an output that cannot be written, or is full, ends with code 3
     CHECK(result.code == 3);
     CHECK_THAT(result.err, Contains(path));
   }
-  // Files may not grow beyond 1 KiB: every write after that fails, as on a full disk.
+  // Files are limited to 1 KiB: every further write fails, as on a full disk.
   const auto full = run_program({"batch", batch_root(), "-o", folder / "out", "--device", "reference"},
                                 "sh -c 'trap \"\" XFSZ; ulimit -f 2; exec \"$0\" \"$@\"'");
   CHECK(full.code == 3);

@@ -13,7 +13,7 @@ TEST_CASE("demo: tracks and evaluates the built-in sequence", "[cli][device]") {
   REQUIRE(result.code == 0);
   CHECK_THAT(result.out,
              Contains("4 of 4 frames") && Contains("APE translation [m]") && Contains("RPE rotation [deg]"));
-  CHECK_THAT(read_text(folder / "demo/config.toml"), Contains("rig_sigma_length = 0 "));  // what is rendered is exact
+  CHECK_THAT(read_text(folder / "demo/config.toml"), Contains("rig_sigma_length = 0 "));  // rendered rigs are exact
   for (const char* name : {"pictures/trajectory.png", "pictures/edges_000002.png", "pictures/quads_000002.png"}) {
     CHECK(fs::file_size(folder / ("demo/" + std::string(name))) > 1000);
   }
@@ -51,7 +51,7 @@ TEST_CASE("demo: renders before it tracks, and only once", "[cli][device]") {
   }
 }
 
-TEST_CASE("demo: two that render the same at the same time do not disturb one another", "[cli][device]") {
+TEST_CASE("demo: two demos that render the same images at the same time do not interfere", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
   const auto demo = [&](const std::string& out) {
@@ -61,7 +61,7 @@ TEST_CASE("demo: two that render the same at the same time do not disturb one an
   BackgroundProgram other(demo("other"), folder / "log_other", environment);
   for (auto* program : {&one, &other}) {
     program->wait_until([] { return false; });
-    const int status = program->end_by(0);  // it has ended by itself
+    const int status = program->end_by(0);  // it has ended already
     CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 0));
   }
   CHECK(read_text(folder / "one/trajectory.txt") == read_text(folder / "other/trajectory.txt"));
@@ -71,11 +71,11 @@ TEST_CASE("demo: two that render the same at the same time do not disturb one an
   CHECK(read_text(folder / "again/trajectory.txt") == read_text(folder / "one/trajectory.txt"));
 }
 
-TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
+TEST_CASE("demo: after Ctrl-C it reports what was kept", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string out = folder / "out", cache = folder / "cache", rendered = cache + "/quadedge/rendered";
   const std::string environment = "XDG_CACHE_HOME='" + cache + "'";
-  SECTION("while it renders") {
+  SECTION("while rendering") {
     BackgroundProgram program({"demo", "-o", out}, folder / "log", environment);
     REQUIRE(program.wait_until([&] { return fs::exists(rendered); }));
     const int status = program.end_by(SIGINT);
@@ -86,7 +86,7 @@ TEST_CASE("demo: after Ctrl-C it says what is kept", "[cli][device]") {
     CHECK_FALSE(fs::exists(out + "/config.toml"));
     CHECK_FALSE(fs::exists(out + "/trajectory.txt"));  // the next start needs no --force
   }
-  SECTION("while it tracks") {
+  SECTION("while tracking") {
     BackgroundProgram program({"demo", "-o", out, "--size", "320x200"}, folder / "log", environment);
     REQUIRE(program.wait_until([&] {
       return fs::exists(out + "/trajectory_kitti.txt") && read_lines(out + "/trajectory_kitti.txt").size() > 2;

@@ -15,7 +15,7 @@ void blacken(const DamagedSequence& sequence, std::size_t frame) {
   }
 }
 
-/// Status of every frame as frames.csv tells it.
+/// Status of every frame in frames.csv.
 std::vector<std::string> statuses(const std::string& path) {
   std::vector<std::string> result;
   std::ifstream stream(path);
@@ -46,7 +46,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 
 }  // namespace
 
-TEST_CASE("run: a black frame is lost, and tracking resumes behind it", "[cli][device]") {
+TEST_CASE("run: a black frame is lost, and tracking resumes after it", "[cli][device]") {
   const DamagedSequence sequence;
   blacken(sequence, 1);
   const TemporaryFolder folder;
@@ -68,7 +68,7 @@ TEST_CASE("run: a black frame is lost, and tracking resumes behind it", "[cli][d
   CHECK(distance(here[3], there[3]) < 0.05 * distance(there[0], there[3]));
 }
 
-TEST_CASE("run: too few tracked frames end with code 5 after everything is written", "[cli][device]") {
+TEST_CASE("run: with too few tracked frames it ends with code 5 after writing everything", "[cli][device]") {
   const DamagedSequence sequence;
   for (const std::size_t frame : {1, 2, 3}) blacken(sequence, frame);
   const TemporaryFolder folder;
@@ -79,7 +79,7 @@ TEST_CASE("run: too few tracked frames end with code 5 after everything is writt
   CHECK(run_program({"run", sequence.path(), "-o", folder / "out", "--force", "--min-tracked", "25"}).code == 0);
 }
 
-TEST_CASE("run: --quiet keeps warnings, reasons of loss and the cause of the exit code", "[cli][device]") {
+TEST_CASE("run: --quiet keeps warnings, reasons for lost frames and the cause of the exit code", "[cli][device]") {
   const DamagedSequence sequence;
   for (const std::size_t frame : {1, 2, 3}) blacken(sequence, frame);
   const TemporaryFolder folder;
@@ -112,7 +112,7 @@ TEST_CASE("run: the same frame twice gives no motion", "[cli][device]") {
   CHECK(distance(position[0], position[1]) < 1e-5);
 }
 
-TEST_CASE("edges: a kernel that does not build ends with code 4, its file and its line", "[cli][device]") {
+TEST_CASE("edges: a kernel that does not build ends with code 4 and names its file and line", "[cli][device]") {
   const TemporaryFolder folder;
   std::filesystem::copy(QUADEDGE_KERNELS, folder / "kernels");
   std::ofstream(folder / "kernels/common.cl") << "int broken(int a) {\n  return undeclared;\n}\n";

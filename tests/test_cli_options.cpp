@@ -22,7 +22,7 @@ TEST_CASE("command line: every command's help shows two examples", "[cli]") {
   CHECK_THAT(run_program({"--help"}).out, Contains("evaluate") && Contains("Exit codes"));
 }
 
-TEST_CASE("command line: help and version are commands, too", "[cli]") {
+TEST_CASE("command line: help and version are commands too", "[cli]") {
   for (const std::vector<std::string>& command : {std::vector<std::string>{}, {"run"}, {"evaluate", "trajectory"}}) {
     auto words = command, options = command;
     words.insert(words.begin(), "help");
@@ -38,7 +38,7 @@ TEST_CASE("command line: help and version are commands, too", "[cli]") {
   CHECK(run_program({"help", "rnu"}).code == 2);
 }
 
-TEST_CASE("command line: help fits the terminal, or what COLUMNS says", "[cli]") {
+TEST_CASE("command line: help fits the terminal's width or COLUMNS", "[cli]") {
   const auto fits = [](const std::string& text, std::size_t columns) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
@@ -53,7 +53,7 @@ TEST_CASE("command line: help fits the terminal, or what COLUMNS says", "[cli]")
     fits(help, columns);
     fits(run_program({"run", "--help"}, "COLUMNS=" + std::to_string(columns)).out, columns);
   }
-  // Nothing but blanks and line ends changes.
+  // Only blanks and line breaks change.
   const auto letters = [](std::string text) {
     text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\n'; }), text.end());
     return text;
@@ -71,7 +71,7 @@ TEST_CASE("command line: a dumb terminal gets no escape codes", "[cli]") {
     CHECK_THAT(run_on_terminal(run, 80, environment), !Contains("\x1b") && Contains("frame 1/1"));
 }
 
-TEST_CASE("command line: misuse ends with code 2 and names what is wrong", "[cli]") {
+TEST_CASE("command line: invalid use ends with code 2 and names the error", "[cli]") {
   const auto unknown = run_program({"run", "x", "--no-such-option"});
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("--no-such-option"));
@@ -112,7 +112,7 @@ TEST_CASE("command line: misuse ends with code 2 and names what is wrong", "[cli
   CHECK(run_program({"demo", "--scene", "kitchen"}).code == 2);
 }
 
-TEST_CASE("command line: an unknown variant is refused with the known ones", "[cli]") {
+TEST_CASE("command line: an unknown variant is refused with a list of the known ones", "[cli]") {
   const auto stage = run_program({"demo", "--variant", "cooking=fast"});
   CHECK(stage.code == 2);
   CHECK_THAT(stage.err, Contains("cooking") && Contains("undistortion"));
@@ -155,8 +155,8 @@ TEST_CASE("configuration file: unknown keys, bad values and missing files end wi
   CHECK(run_program({"edges", "x.png", "--config", folder.path()}).code == 2);
 }
 
-TEST_CASE("configuration file: the command line wins over the environment, and that over it", "[cli]") {
-  // Devices that do not exist show in the message which one counts.
+TEST_CASE("configuration file: the command line overrides the environment, which overrides the file", "[cli]") {
+  // The message about the unknown device shows which setting counts.
   const TemporaryFolder folder;
   std::ofstream(folder / "config.toml") << "device = \"from-file\"\n";
   const auto device = [&](std::vector<std::string> arguments, const std::string& environment) {
@@ -169,14 +169,14 @@ TEST_CASE("configuration file: the command line wins over the environment, and t
              Contains("from-command-line"));
 }
 
-TEST_CASE("configuration file: the command line wins over it, but does not excuse what it says", "[cli]") {
+TEST_CASE("configuration file: the command line overrides it, but invalid values in it are still errors", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "config.toml") << "[edges]\nsigma = 3\n";
   std::ofstream(folder / "wrong.toml") << "[edges]\nsigma = 1000  # far out of range\n";
   const auto edges = [&](const std::string& file, const std::string& sigma) {
     return run_program({"edges", folder / "absent.png", "--config", folder / file, "--edges.sigma", sigma});
   };
-  CHECK(edges("config.toml", "2").code == 3);  // nothing wrong but the image
+  CHECK(edges("config.toml", "2").code == 3);  // only the image is missing
   CHECK(edges("config.toml", "1000").code == 2);
   const auto wrong = edges("wrong.toml", "2");
   CHECK(wrong.code == 2);

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The small sequence as a stream of pictures, a video of them side by side, and a calibration.
+/// The small sequence as a stream of images, as a side-by-side video, and its calibration.
 struct OwnCamera {
   TemporaryFolder folder;
   std::string calibration = own_camera::write_calibration_of_small(folder / "rig.yaml");
@@ -39,7 +39,7 @@ std::vector<std::string> video_run(const std::string& video, const std::string& 
 
 }  // namespace
 
-TEST_CASE("run: folders, a video and a pipe of the same pictures give the same trajectory", "[cli][device]") {
+TEST_CASE("run: folders, a video and a pipe of the same images give the same trajectory", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string rgb = small_sequence() + "/rgb", rgb2 = small_sequence() + "/rgb2";
   auto result = run_program({"run", "--left", rgb, "--right", rgb2, "--fps", "20", "--calibration",
@@ -92,7 +92,7 @@ TEST_CASE("run: nanosecond names stay the stamps with --fps, which only has to a
   CHECK_THAT(read_text(folder / "contradicting/report.json"), Contains("--fps 30 contradicts"));
 }
 
-TEST_CASE("match: a pair of a pipe is matched as the same pair of folders", "[cli][device]") {
+TEST_CASE("match: a pair from a pipe is matched like the same pair from folders", "[cli][device]") {
   const TemporaryFolder folder;
   const auto of_folders =
       run_program({"match", "--left", small_sequence() + "/rgb", "--right", small_sequence() + "/rgb2", "--fps", "20",
@@ -130,7 +130,7 @@ TEST_CASE("run: a pipe is read whole; with --live, pairs that come too fast are 
   CHECK_THAT(read_text(folder / "summary"), Contains("dropped    " + dropped + " pairs"));
 }
 
-TEST_CASE("run: frames and the map of a video that ends early are kept, with exit code 3", "[cli][device]") {
+TEST_CASE("run: a video that ends early ends with code 3, and its frames and map are kept", "[cli][device]") {
   const TemporaryFolder folder;
   fs::copy(camera().video, folder / "cut.mkv");
   fs::resize_file(folder / "cut.mkv", fs::file_size(folder / "cut.mkv") * 3 / 4);
@@ -144,10 +144,10 @@ TEST_CASE("run: frames and the map of a video that ends early are kept, with exi
   CHECK_THAT(read_text(folder / "map.ply").substr(0, 300), Contains("element vertex") && !Contains("vertex 0"));
 }
 
-TEST_CASE("run: a signal ends a run that waits for a pipe, and keeps its frames and its map", "[cli][device]") {
+TEST_CASE("run: a signal ends a run that waits for a pipe, and its frames and map are kept", "[cli][device]") {
   const TemporaryFolder folder;
   REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
-  const int held = open((folder / "fifo").c_str(), O_RDWR);  // nobody sees its end
+  const int held = open((folder / "fifo").c_str(), O_RDWR);  // so that readers never see its end
   BackgroundProgram program({"run", "-", "--fps", "20", "--calibration", camera().calibration, "-o", folder / "out",
                              "--map", folder / "map.ply", "--map-min-views", "1"},
                             folder / "log", "sh -c 'exec \"$0\" \"$@\" <" + (folder / "fifo") + "'");
@@ -185,7 +185,7 @@ TEST_CASE("batch: a list may name cameras of one's own", "[cli][device]") {
   CHECK_THAT(again.err, Contains("1 finished already"));
 }
 
-TEST_CASE("check, bench and edges read cameras of one's own", "[cli][device]") {
+TEST_CASE("check, bench and edges read own cameras", "[cli][device]") {
   const std::vector<std::string> source = {"--video",    camera().video,  "--split",
                                            "left-right", "--calibration", camera().calibration};
   const auto with_source = [&](std::vector<std::string> arguments) {

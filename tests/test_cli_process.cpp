@@ -1,4 +1,4 @@
-/// \file test_cli_process.cpp  The program among others: closed streams, limits, rights, and a second one of itself.
+/// \file test_cli_process.cpp  The program as a process: closed streams, limits, permissions, and two at once.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,19 +11,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Words in front of the program that let a shell start it with other streams or limits.
+/// A command prefix that lets a shell start the program with other streams or limits.
 std::string through_shell(const std::string& before, const std::string& redirections) {
   return "sh -c '" + before + " exec \"$0\" \"$@\" " + redirections + "'";
 }
 
-/// Words in front of the program that take root's rights to read everything; empty where there are none to take.
+/// A command prefix that drops root's permission to read everything; empty if there is nothing to drop.
 std::string without_rights() {
   return geteuid() == 0 ? "setpriv --reuid 65534 --regid 65534 --clear-groups" : std::string();
 }
 
 }  // namespace
 
-TEST_CASE("process: what is printed into closed streams lands in no file", "[cli][device]") {
+TEST_CASE("process: output to closed streams does not end up in a file", "[cli][device]") {
   const TemporaryFolder folder;
   REQUIRE(run_program({"run", small_sequence(), "-o", folder / "open"}).code == 0);
   const std::string trajectory = read_text(folder / "open/trajectory.txt");
@@ -44,7 +44,7 @@ TEST_CASE("process: what is printed into closed streams lands in no file", "[cli
   }
 }
 
-TEST_CASE("process: two runs never write into one folder", "[cli][device]") {
+TEST_CASE("process: two runs never write into the same folder", "[cli][device]") {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const std::vector<std::string> run = {"run", small_sequence(), "-o", out};
@@ -65,7 +65,7 @@ TEST_CASE("process: two runs never write into one folder", "[cli][device]") {
   CHECK_FALSE(fs::exists(out + "/.lock"));
 }
 
-TEST_CASE("process: a limit on the size of files is an error like a full disk", "[cli]") {
+TEST_CASE("process: a file size limit is an error like a full disk", "[cli]") {
   const TemporaryFolder folder;
   const auto result = run_program({"run", small_sequence(), "-o", folder / "out", "--device", "reference"},
                                   through_shell("ulimit -f 2;", ""));
@@ -73,7 +73,7 @@ TEST_CASE("process: a limit on the size of files is an error like a full disk", 
   CHECK_THAT(result.err, Contains(folder / "out/config.toml") && Contains("large"));
 }
 
-TEST_CASE("process: a file that cannot be written in the end is refused in the beginning", "[cli]") {
+TEST_CASE("process: an unwritable output file is refused at the start", "[cli]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
   fs::create_directory(folder / "results");
@@ -99,7 +99,7 @@ TEST_CASE("process: a file that cannot be written in the end is refused in the b
   }
 }
 
-TEST_CASE("process: the report is there although the trace cannot be written", "[cli][device]") {
+TEST_CASE("process: the report is written even if the trace cannot be written", "[cli][device]") {
   const TemporaryFolder folder;
   const auto result =
       run_program({"run", small_sequence(), "-o", folder / "out", "--frames", "0:1", "--trace", "/dev/full"});
@@ -108,7 +108,7 @@ TEST_CASE("process: the report is there although the trace cannot be written", "
   CHECK(nlohmann::json::parse(read_text(folder / "out/report.json"))["frames_tracked"] == 1);
 }
 
-TEST_CASE("process: folders that cannot be read are recorded, the others go on, and the code is 3", "[cli]") {
+TEST_CASE("process: unreadable folders are recorded with code 3, and the others are processed", "[cli]") {
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms(0755));
   const std::string tree = folder / "tree";
@@ -135,7 +135,7 @@ TEST_CASE("process: folders that cannot be read are recorded, the others go on, 
   CHECK_THAT(batch.err, Contains("itself (failed)") && Contains("Too many levels"));
 }
 
-TEST_CASE("process: a path that cannot be is the user's, not the program's mistake", "[cli]") {
+TEST_CASE("process: an impossible path is a user error, not an internal error", "[cli]") {
   const TemporaryFolder folder;
   fs::create_symlink("itself", folder / "itself");
   for (const std::string& path : {folder / "itself", std::string(300, 'y')}) {

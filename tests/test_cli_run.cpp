@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One run of the small sequence, shared by the tests that only look at its files.
+/// A run of the small sequence, shared by the tests that only read its files.
 struct SharedRun {
   TemporaryFolder folder;
   ProgramResult result =
@@ -26,7 +26,7 @@ const SharedRun& shared_run() {
 
 }  // namespace
 
-TEST_CASE("run: leaves every documented file behind", "[cli][device]") {
+TEST_CASE("run: writes every documented file", "[cli][device]") {
   const auto& run = shared_run();
   INFO(run.result.err);
   REQUIRE(run.result.code == 0);
@@ -40,7 +40,7 @@ TEST_CASE("run: leaves every documented file behind", "[cli][device]") {
   CHECK_THAT(run.result.out, Contains("tracked") && Contains("origin-aligned") && Contains("latency"));
 }
 
-TEST_CASE("run: the summary has the length of the path and the next command", "[cli][device]") {
+TEST_CASE("run: the summary has the path length and the next command", "[cli][device]") {
   const TemporaryFolder folder;
   const auto result = run_program({"run", small_sequence(), "-o", folder / "my results"});
   REQUIRE(result.code == 0);
@@ -60,7 +60,7 @@ TEST_CASE("run: the summary has the length of the path and the next command", "[
   CHECK_THAT(result.out, Contains(text));
 }
 
-TEST_CASE("run: trajectories begin at the identity and have one row per tracked or per input frame", "[cli][device]") {
+TEST_CASE("run: trajectories begin at the identity, with one row per tracked or per input frame", "[cli][device]") {
   const auto& run = shared_run();
   const auto tum = read_lines(run.out("trajectory.txt"));
   const auto kitti = read_lines(run.out("trajectory_kitti.txt"));
@@ -99,7 +99,7 @@ TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[
     pose >> value;
     CHECK(value == values[1]);
     for (std::size_t column = 4; column < 11 && pose >> value; ++column) CHECK(value == values[column]);
-    // What ROS calls a valid covariance: variances on the diagonal; the first pose is exact by definition.
+    // A covariance valid for ROS has variances on the diagonal; the first pose is exact by definition.
     for (const std::size_t first : {18, 39}) {
       std::size_t column = first;
       for (std::size_t length = 6; length > 0; column += length--) {
@@ -137,12 +137,12 @@ TEST_CASE("run: the report has every documented key", "[cli][device]") {
   const auto& nees = report["accuracy"]["normalised_error_squared"];
   CHECK(nees["poses"] == 3);
   for (const char* part : {"pose", "rotation", "translation"}) CHECK(nees[part].get<double>() > 0);
-  // The short run has no five motions over one frame.
+  // The short run has fewer than five motions over one frame.
   CHECK_FALSE(report["accuracy"].contains("consistency"));
   CHECK(report["stages_ms"].size() > 2);
 }
 
-TEST_CASE("run: frames.csv has a row per frame whose stage times make up the latency", "[cli][device]") {
+TEST_CASE("run: frames.csv has a row per frame whose stage times add up to the latency", "[cli][device]") {
   const auto& run = shared_run();
   const auto rows = read_lines(run.out("frames.csv"));
   REQUIRE(rows.size() == 5);
@@ -171,7 +171,7 @@ TEST_CASE("run: frames.csv has a row per frame whose stage times make up the lat
   }
 }
 
-TEST_CASE("run: the trace holds each frame with its stages inside", "[cli][device]") {
+TEST_CASE("run: the trace holds each frame with its stages nested inside", "[cli][device]") {
   const auto& run = shared_run();
   const auto trace = nlohmann::json::parse(read_text(run.folder / "trace.json"));
   double begin = -1, end = -1;
@@ -259,7 +259,7 @@ TEST_CASE("run: an unknown device ends with code 4 and the list, also from the e
   CHECK(run_program(with_flag, "QUADEDGE_DEVICE=abacus").code == 0);  // the flag wins
 }
 
-TEST_CASE("run: ground truth for half of the frames is used for that half, and said", "[cli][device]") {
+TEST_CASE("run: ground truth for half of the frames is used for that half and reported", "[cli][device]") {
   const TemporaryFolder folder;
   fs::copy(small_sequence(), folder / "room", fs::copy_options::recursive);
   const auto truth = read_lines(folder / "room/groundtruth.txt");

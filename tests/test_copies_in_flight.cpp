@@ -1,5 +1,5 @@
-/// \file test_copies_in_flight.cpp  Host memory outlives the copies that use it, also where an exception comes first;
-/// results that are read in one copy.
+/// \file test_copies_in_flight.cpp  Host memory outlives the copies that use it, even after an exception; results read
+/// in one copy.
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -16,7 +16,7 @@ using namespace quadedge;
 
 namespace {
 
-/// Holds back everything that is enqueued after it, for a while.
+/// Delays everything that is enqueued after it.
 class Gate {
  public:
   explicit Gate(opencl::Context& context) : event_(context.context()) {
@@ -40,7 +40,7 @@ class Gate {
 
 }  // namespace
 
-TEST_CASE("copies: a block that an exception leaves waits for its copies", "[device]") {
+TEST_CASE("copies: a block left by an exception waits for its copies", "[device]") {
   for (const auto& index : all_devices()) {
     Device device(index);
     auto& context = *device.context();
@@ -59,7 +59,7 @@ TEST_CASE("copies: a block that an exception leaves waits for its copies", "[dev
   }
 }
 
-TEST_CASE("copies: a buffer that goes waits for them", "[device]") {
+TEST_CASE("copies: a destroyed buffer waits for its copies", "[device]") {
   Device device(all_devices().front());
   auto& context = *device.context();
   std::vector<cl_int> values(1000, 0);
@@ -72,9 +72,7 @@ TEST_CASE("copies: a buffer that goes waits for them", "[device]") {
   CHECK(values == std::vector<cl_int>(1000, 7));
 }
 
-TEST_CASE(
-    "copies: when the device is lost, images and predictions are no longer in use by the time that it is reported",
-    "[device]") {
+TEST_CASE("copies: images and predictions are no longer in use when the loss of the device is reported", "[device]") {
   const matching::RenderedScene scene("room", 161, 97, 2);
   for (const auto& index : all_devices()) {
     std::size_t before_first = 0, before_match = 0;
@@ -108,7 +106,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("read-back: the host sees what is in the buffer, on CPUs by mapping it and elsewhere by a copy", "[device]") {
+TEST_CASE("read-back: the host sees the buffer's content, on CPUs by mapping it and elsewhere by a copy", "[device]") {
   for (const auto& index : all_devices()) {
     for (const auto* type : {"cpu", "gpu"}) {
       DeviceOptions options;
@@ -132,7 +130,7 @@ TEST_CASE("read-back: the host sees what is in the buffer, on CPUs by mapping it
   }
 }
 
-TEST_CASE("read-back: all arrays of the stereo edges come in one copy", "[device][oclgrind]") {
+TEST_CASE("read-back: all arrays of the stereo edges are read in one copy", "[device][oclgrind]") {
   for (const auto& index : all_devices()) {
     for (const auto* type : {"cpu", "gpu"}) {
       DeviceOptions options;

@@ -67,7 +67,7 @@ TEST_CASE("dataset: a PFM is read bottom row first, in both byte orders, with un
   CHECK(data::read_float_map(file).values[0] == 3);
 }
 
-TEST_CASE("dataset: a truncated PFM, a colour PFM and a file that is no PFM are refused by name", "[dataset]") {
+TEST_CASE("dataset: truncated, colour and invalid PFM files are refused by name", "[dataset]") {
   const TemporaryFolder folder;
   const std::string file = folder / "m.pfm";
   using namespace std::string_literals;

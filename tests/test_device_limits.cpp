@@ -1,4 +1,4 @@
-/// \file test_device_limits.cpp  Devices with less than the ones at hand, simulated.
+/// \file test_device_limits.cpp  Simulated devices with tighter limits than the available ones.
 #include <catch2/catch.hpp>
 
 #include "frontend/memory_fit.hpp"
@@ -30,7 +30,7 @@ FrontendResult run_limited(const RenderedScene& scene, const DeviceLimits& limit
 
 }  // namespace
 
-TEST_CASE("limits: small groups and no local memory give the same bytes by other variants", "[opencl]") {
+TEST_CASE("limits: with small groups or without local memory other variants give the same bytes", "[opencl]") {
   const RenderedScene scene("room", 161, 97, 2);
   DeviceLimits as_gpu, small_groups, no_local;
   as_gpu.type = small_groups.type = no_local.type = "gpu";
@@ -58,7 +58,7 @@ TEST_CASE("limits: a device that cannot store bytes is refused by name", "[openc
   CHECK_THROWS_AS(Device("0", options), DeviceError);
 }
 
-TEST_CASE("limits: where memory is short the budget follows, and the first frame says so", "[opencl][odometry]") {
+TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame warns about it", "[opencl][odometry]") {
   RenderedScene scene("room", 320, 200, 2);
   DeviceOptions options;
   options.limits.memory_bytes = 60'000'000;
@@ -75,16 +75,16 @@ TEST_CASE("limits: where memory is short the budget follows, and the first frame
   CHECK(odometry.device_bytes() < options.limits.memory_bytes);
 }
 
-TEST_CASE("limits: memory_fit leaves what fits, and refuses images that take all", "[opencl]") {
+TEST_CASE("limits: memory_fit keeps what fits and refuses images that fill the memory", "[opencl]") {
   StereoRig rig;
   rig.left.width = rig.right.width = 1226;
   rig.left.height = rig.right.height = 370;
   Config config;
   CHECK(frontend::fit_memory(rig, config, 512'000'000).message.empty());
-  config.edges.budget = 0;  // a fifth of 453,620 pixels are edges, at most
+  config.edges.budget = 0;  // at most a fifth of the 453,620 pixels are edges
   CHECK(frontend::fit_memory(rig, config, 1'000'000'000).message.empty());
   const auto fit = frontend::fit_memory(rig, config, 512'000'000);
-  // 0.75 * 512 MB - 16 MB - 160 B * 453,620, by 5000 B
+  // (0.75 * 512 MB - 16 MB - 160 B * 453,620) / 5000 B
   CHECK(fit.config.edges.budget == 59084);
   CHECK(fit.config.edges.max_edges == 118168);
   CHECK_THAT(fit.message, Contains("512 MB") && Contains("59084 edges per image"));

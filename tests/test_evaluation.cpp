@@ -98,8 +98,8 @@ TEST_CASE("evaluation: an almost straight or stationary path leaves the rotation
   CHECK(std::isfinite(still.origin_aligned.ape_rotation_deg.mean));
 }
 
-TEST_CASE("evaluation: an estimate that turns around keeps its APE rotation under both alignments", "[evaluation]") {
-  // From the middle on, the estimate faces and moves the wrong way: a half turn about y.
+TEST_CASE("evaluation: an estimate that turns around has an APE rotation under both alignments", "[evaluation]") {
+  // In its second half the estimate points and moves in the opposite direction: a half turn about y.
   const Trajectory truth = curve(30);
   Trajectory estimate = truth;
   const Eigen::Isometry3d at = truth[15].world_from_left;
@@ -110,7 +110,7 @@ TEST_CASE("evaluation: an estimate that turns around keeps its APE rotation unde
   const TrajectoryEvaluation result = evaluate_trajectory(estimate, truth);
   CHECK(result.origin_aligned.ape_rotation_deg.max == Approx(180));
   CHECK(result.se3_open_rotation.empty());
-  // Under any alignment the rotation errors of the two halves add up to a half turn or more.
+  // Under any alignment the rotation errors of both halves add up to at least a half turn.
   CHECK(result.se3_aligned.ape_rotation_deg.mean >= 89.999);
   CHECK(result.se3_aligned.ape_rotation_deg.max <= 180.001);
 }
@@ -168,7 +168,7 @@ TEST_CASE("evaluation: from_frame drops the first poses of the estimate and alig
   CHECK(late.origin_aligned.ape_translation_m.max < 1e-12);
 }
 
-TEST_CASE("evaluation: an error about too few matches states the stamps and counts", "[evaluation]") {
+TEST_CASE("evaluation: an error about too few matches states timestamps and counts", "[evaluation]") {
   const Trajectory truth = curve(20);
   Trajectory other = curve(5);
   for (auto& pose : other) pose.stamp_ns += 3'600'000'000'000;

@@ -22,7 +22,7 @@ std::string encoded(const std::string& extension, const cv::Mat& picture, const 
   return {bytes.begin(), bytes.end()};
 }
 
-/// Grey image as OpenCV decodes it: an independent reader of the same formats.
+/// The grey image from OpenCV's decoder, an independent reader of the same formats.
 cv::Mat decoded_by_opencv(const std::string& bytes) {
   const std::vector<unsigned char> copy(bytes.begin(), bytes.end());
   cv::Mat result = cv::imdecode(copy, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
@@ -39,7 +39,7 @@ void check_same(const std::string& bytes) {
   CHECK(std::memcmp(image.pixels.data(), expected.data, image.pixels.size()) == 0);
 }
 
-/// Smooth, so that JPEG has something to keep.
+/// A smooth image, which JPEG preserves.
 cv::Mat smooth(int type) {
   cv::Mat picture = pattern(161, 119, type);
   cv::GaussianBlur(picture, picture, {9, 9}, 2);
@@ -48,7 +48,7 @@ cv::Mat smooth(int type) {
 
 }  // namespace
 
-TEST_CASE("image codecs: pixels are those of OpenCV's decoder, in every format and depth", "[dataset]") {
+TEST_CASE("image codecs: pixels equal those of OpenCV's decoder, in every format and depth", "[dataset]") {
   for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1, CV_16UC3}) {
     for (const char* extension : {".png", ".pgm", ".ppm"}) {
       const bool colour = type == CV_8UC3 || type == CV_16UC3;
@@ -58,7 +58,7 @@ TEST_CASE("image codecs: pixels are those of OpenCV's decoder, in every format a
     }
   }
   check_same(encoded(".png", pattern(33, 21, CV_8UC4)));   // alpha is dropped
-  check_same(encoded(".png", pattern(33, 21, CV_16UC4)));  // of 16 bits, too
+  check_same(encoded(".png", pattern(33, 21, CV_16UC4)));  // with 16 bits too
   const cv::Mat two_levels = pattern(33, 21) > 127;
   check_same(encoded(".png", two_levels, {cv::IMWRITE_PNG_BILEVEL, 1}));  // one bit per pixel
   for (const int type : {CV_8UC1, CV_8UC3}) {
@@ -69,7 +69,7 @@ TEST_CASE("image codecs: pixels are those of OpenCV's decoder, in every format a
   }
 }
 
-TEST_CASE("image codecs: files written hold what was given, with the bytes that OpenCV writes", "[dataset]") {
+TEST_CASE("image codecs: written files hold the given images, byte for byte like OpenCV's", "[dataset]") {
   for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1, CV_16UC3}) {
     INFO(type);
     CHECK(data::encode_png(pattern(33, 21, type)) == encoded(".png", pattern(33, 21, type)));
@@ -87,7 +87,7 @@ TEST_CASE("image codecs: a damaged image is refused with the library's reason", 
                     Contains("bent.png") && Contains("a damaged PNG (") && Contains("an intact 320 x 240 image"));
 }
 
-TEST_CASE("image codecs: a float map comes back as OpenCV reads it", "[dataset]") {
+TEST_CASE("image codecs: a float map is written and read like OpenCV's", "[dataset]") {
   const TemporaryFolder folder;
   const data::FloatMap map{3, 2, {1, 2.5F, -3, 4, 0, 6}};
   data::write_float_map(folder / "m.pfm", map);

@@ -15,13 +15,13 @@ TEST_CASE("image list: digits in names count as numbers", "[data]") {
   CHECK(comes_before("a2b3", "a2b20"));
   CHECK(comes_before("a", "a1"));
   CHECK(comes_before("a1x", "b0"));
-  CHECK(comes_before("img01", "img1"));  // equal numbers: the text decides, so that there is an order
+  CHECK(comes_before("img01", "img1"));  // equal numbers: the text decides, so that the order is unique
   CHECK_FALSE(comes_before("img1", "img01"));
   CHECK_FALSE(comes_before("same", "same"));
   CHECK(comes_before("1403636579763555584", "1403636579813555456"));
 }
 
-TEST_CASE("image list: stamps come from names that can be times", "[data]") {
+TEST_CASE("image list: names that can be times give the timestamps", "[data]") {
   const TemporaryFolder folder;
   const auto stamps = [&](const std::string& name, const std::vector<std::string>& files) {
     for (const auto& file : files) dataset_files::write_image(folder / (name + "/images/" + file));
@@ -36,7 +36,7 @@ TEST_CASE("image list: stamps come from names that can be times", "[data]") {
   CHECK(stamps("words", {"left_1.5.png"}).empty());
 }
 
-TEST_CASE("image list: times.txt and data.csv beside the images tell the stamps", "[data]") {
+TEST_CASE("image list: times.txt and data.csv beside the images give the timestamps", "[data]") {
   const TemporaryFolder folder;
   for (const char* name : {"1.png", "2.png", "10.png"}) dataset_files::write_image(folder / (std::string("a/") + name));
   dataset_files::write_text(folder / "times.txt", "# seconds\n0.0\n0.5\n1e0\n");
@@ -44,14 +44,14 @@ TEST_CASE("image list: times.txt and data.csv beside the images tell the stamps"
   CHECK(images.stamps_ns == std::vector<std::int64_t>{0, 500'000'000, 1'000'000'000});
   CHECK_THAT(images.files[2], Contains("10.png"));
   CHECK(images.stamps_from == (std::filesystem::path(folder / "a") / ".." / "times.txt").string());
-  // A list counts before times, and in its own order.
+  // A list takes precedence over times.txt and defines the order.
   dataset_files::write_text(folder / "a/data.csv", "#timestamp [ns],filename\n7,10.png\n9,1.png\n");
   images = list_images(folder / "a");
   CHECK(images.stamps_ns == std::vector<std::int64_t>{7, 9});
   CHECK_THAT(images.files[0], Contains("10.png"));
 }
 
-TEST_CASE("image list: what does not fit is named", "[data]") {
+TEST_CASE("image list: inconsistent files are reported", "[data]") {
   const TemporaryFolder folder;
   dataset_files::write_image(folder / "a/1.png");
   const auto complaint = [&]() -> std::string {

@@ -1,5 +1,5 @@
-/// \file test_kernel_signatures.cpp  Kernels against their host signatures, drivers that report types in other words,
-/// and groups that are too large for a kernel.
+/// \file test_kernel_signatures.cpp  Kernels and their host signatures, drivers that report other type names, and
+/// groups that are too large for a kernel.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <set>
@@ -20,7 +20,7 @@ using Catch::Matchers::Contains;
 using opencl::argument_difference;
 using opencl::canonical_type;
 
-TEST_CASE("kernels: all spellings of a type are one type", "[opencl]") {
+TEST_CASE("kernels: all spellings of a type are the same type", "[opencl]") {
   for (const auto* spelling : {"uint*", "uint *", "unsigned int*", "const unsigned int *", "__global const uint*",
                                "global unsigned*", "uint* restrict", "unsigned int __restrict *"})
     CHECK(canonical_type(spelling) == "uint*");
@@ -38,8 +38,7 @@ TEST_CASE("kernels: all spellings of a type are one type", "[opencl]") {
   CHECK(different.size() == 10);
 }
 
-TEST_CASE("kernels: an argument differs by type, address space or const; what is not reported differs in nothing",
-          "[opencl]") {
+TEST_CASE("kernels: arguments differ by type, address space or const, but never by unreported properties", "[opencl]") {
   const opencl::ArgumentType read{"uint*", true, true}, number{"int", false, false};
   CHECK(argument_difference({"a", "unsigned int *", true, true}, read).empty());
   CHECK(argument_difference({"a", "const uint*", true, false}, read).empty());
@@ -52,9 +51,9 @@ TEST_CASE("kernels: an argument differs by type, address space or const; what is
   CHECK_FALSE(argument_difference({"n", "float", false, false}, number).empty());
 }
 
-TEST_CASE("kernels: a wrong host signature is found with the argument's name", "[device]") {
+TEST_CASE("kernels: a wrong host signature is reported with the argument's name", "[device]") {
   for (const auto& index : all_devices()) {
-    Device device(index);  // a kept program may have no names of arguments
+    Device device(index);  // a cached program may lack argument names
     auto& context = *device.context();
     const auto program = context.program({"undistortion.cl"}, {});
     const auto faults_of = [&](const auto& signature) {
@@ -83,12 +82,11 @@ TEST_CASE("kernels: a wrong host signature is found with the argument's name", "
 }
 
 TEST_CASE(
-    "kernels: all of them, in every variant, have their host signatures, and a group size where they share local "
-    "memory",
+    "kernels: every kernel of every variant has its host signature, and a fixed group size if it uses local memory",
     "[device]") {
   const matching::RenderedScene scene("room", 96, 64, 1);
   Config config = scene.config;
-  config.stereo.sift_max = 500;  // leaves no kernel out
+  config.stereo.sift_max = 500;  // so that every kernel is used
   StereoRig rig = scene.rig;
   const auto pixels = static_cast<std::size_t>(rig.left.width * rig.left.height);
   rig.left_undistortion = rig.right_undistortion = {rig.left.width, rig.left.height, std::vector<float>(pixels),
@@ -119,11 +117,10 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("kernels: a driver with other names for the types passes the self-test, and its runs go on",
-          "[device][selftest]") {
+TEST_CASE("kernels: a driver with other type names passes the self-test and tracks", "[device][selftest]") {
   const TemporaryFolder folder;
   std::filesystem::copy(QUADEDGE_KERNELS, folder / "kernels");
-  // The same bits under a name that the host does not expect.
+  // The same bits under a type name that the host does not expect.
   std::string text = read_text(folder / "kernels/undistortion.cl");
   const std::string what = "const int count", by = "const uint count";
   REQUIRE(text.find(what) != std::string::npos);
@@ -145,7 +142,7 @@ TEST_CASE("kernels: a query that the driver refuses is a DeviceError", "[device]
   CHECK_THROWS_AS(opencl::group_limit(cl::Kernel(), "nothing", *device.context()), DeviceError);
 }
 
-TEST_CASE("kernels: groups become smaller for kernels that require no size, others are refused", "[device]") {
+TEST_CASE("kernels: groups shrink for kernels without a required size, others are refused", "[device]") {
   DeviceOptions options;
   options.limits.group_items = 16;
   for (const auto& index : all_devices()) {
@@ -165,8 +162,7 @@ TEST_CASE("kernels: groups become smaller for kernels that require no size, othe
   }
 }
 
-TEST_CASE("kernels: side patches and descriptors are read by aligned types, not by vload16, which promises one byte",
-          "[opencl]") {
+TEST_CASE("kernels: side patches and descriptors are read as aligned types, not with vload16", "[opencl]") {
   int readers = 0;
   for (const auto& [file, text] : opencl::embedded_kernels()) {
     const bool reads = text.find("patches") != std::string::npos || text.find("descriptor") != std::string::npos;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lints judge the files that git tracks, and leave alone what lies about beside them.
+"""Checks that the lints judge only files that git tracks.
 
     test_lints.py REPOSITORY
 """

@@ -39,7 +39,7 @@ void check_pose(const FrameResult& result, const Eigen::Isometry3d& truth, doubl
   CHECK(turn_between(result.world_from_left, truth) < degrees * kDegree);
 }
 
-/// The frame at another time, for sequences that show things in another order.
+/// The frame at another time, for sequences in another order.
 StereoFrame at(std::int64_t stamp_ns, StereoFrame frame) {
   frame.stamp_ns = stamp_ns;
   return frame;
@@ -56,7 +56,7 @@ bool same_bytes(const FrameResult& a, const FrameResult& b) {
 
 }  // namespace
 
-TEST_CASE("odometry: a rendered room is tracked, twice with the same bytes", "[odometry][device]") {
+TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][device]") {
   for (const auto& name : all_devices()) {
     const auto results = track(room(), name, room().config), again = track(room(), name, room().config);
     CHECK(results[0].status == FrameStatus::first);
@@ -72,7 +72,7 @@ TEST_CASE("odometry: a rendered room is tracked, twice with the same bytes", "[o
       CHECK_FALSE(result.overflow);
       CHECK(result.counts.inliers > 500);
       CHECK(result.counts.inliers <= result.counts.quads);
-      // The reference is the key rig: its pose and the motion from it make the pose.
+      // The reference is the key rig: the pose is its pose and the motion from it.
       const auto& reference = results[static_cast<std::size_t>(result.reference_frame)];
       CHECK(reference.new_key_rig);
       CHECK(result.base_frame >= result.reference_frame);
@@ -94,7 +94,7 @@ TEST_CASE("odometry: a rendered room is tracked, twice with the same bytes", "[o
   }
 }
 
-TEST_CASE("odometry: the plain C++ reference tracks as well and agrees with the devices", "[odometry][device]") {
+TEST_CASE("odometry: the C++ reference tracks too and agrees with the devices", "[odometry][device]") {
   const RenderedScene scene("room", 200, 125, 3);
   const auto truth = track(scene, "reference", scene.config);
   for (std::size_t i = 1; i < truth.size(); ++i) check_pose(truth[i], scene.world_from_left[i], 6e-3, 0.15);
@@ -107,7 +107,7 @@ TEST_CASE("odometry: the plain C++ reference tracks as well and agrees with the 
   }
 }
 
-TEST_CASE("odometry: a frame that comes again has not moved", "[odometry][device]") {
+TEST_CASE("odometry: a repeated frame has not moved", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   odometry.track(room().frame(0));
@@ -118,7 +118,7 @@ TEST_CASE("odometry: a frame that comes again has not moved", "[odometry][device
   }
 }
 
-TEST_CASE("odometry: a black frame is lost, and tracking goes on after it at the right place", "[odometry][device]") {
+TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right pose", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   const Image black(240, 150);
@@ -140,7 +140,7 @@ TEST_CASE("odometry: a black frame is lost, and tracking goes on after it at the
   }
 }
 
-TEST_CASE("odometry: a frame of another place is lost, and the next one is tracked at the right place",
+TEST_CASE("odometry: a frame from another place is lost, and the next one is tracked at the right pose",
           "[odometry][device]") {
   const RenderedScene elsewhere("cables", 240, 150, 1);
   Config config = room().config;
@@ -159,7 +159,7 @@ TEST_CASE("odometry: a frame of another place is lost, and the next one is track
   check_pose(result, room().world_from_left[4], 4e-3, 0.1);
 }
 
-TEST_CASE("odometry: in another place tracking goes on from the lost frame, and says so", "[odometry][device]") {
+TEST_CASE("odometry: in another place tracking resumes from the lost frame, with a warning", "[odometry][device]") {
   const RenderedScene before("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, before.config.stereo.max_disparity);
@@ -199,7 +199,7 @@ TEST_CASE("odometry: images that do not fit the calibration are lost with a reas
     CHECK(result.message.find("are left and right exchanged") != std::string::npos);
     CHECK(result.rig.negative_ratio > 0.9);
   }
-  const FrameResult first = exchanged.track(scene.frame(0));  // and it begins where they do fit
+  const FrameResult first = exchanged.track(scene.frame(0));  // tracking starts at the first frame that fits
   CHECK(first.status == FrameStatus::first);
   CHECK(exchanged.track(scene.frame(1)).status == FrameStatus::tracked);
 
@@ -239,7 +239,7 @@ TEST_CASE("odometry: a turn by a third of the view, and one about the optical ax
   }
 }
 
-TEST_CASE("odometry: a sequence that begins in the dark starts at the first frame with edges", "[odometry][device]") {
+TEST_CASE("odometry: a sequence with dark first frames starts at the first frame with edges", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   const Image black(240, 150);
@@ -265,19 +265,19 @@ TEST_CASE("odometry: before the first frame there are no details", "[odometry][d
   }
 }
 
-TEST_CASE("odometry: images of another size, and empty ones, are refused", "[odometry][device]") {
+TEST_CASE("odometry: empty images and images of another size are refused", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   const Image small(239, 150);
   CHECK_THROWS_AS(odometry.track({0, small.view(), room().right[0].view()}), DataError);
   CHECK_THROWS_AS(odometry.track({0, room().left[0].view(), small.view()}), DataError);
   CHECK_THROWS_AS(odometry.track({0, {}, {}}), DataError);
-  // A refused frame leaves no trace.
+  // A refused frame has no effect.
   CHECK(odometry.track(room().frame(0)).status == FrameStatus::first);
   CHECK(odometry.track(room().frame(1)).reference_frame == 0);
 }
 
-TEST_CASE("odometry: a stride below a row's bytes is refused, of 8 and of 16 bits", "[odometry][device]") {
+TEST_CASE("odometry: a stride smaller than a row is refused, for 8 and 16 bits", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoRig deep = room().rig;
   deep.max_value = 65535;
@@ -302,20 +302,20 @@ TEST_CASE("odometry: a stride below a row's bytes is refused, of 8 and of 16 bit
   }
 }
 
-TEST_CASE("odometry: a stamp that goes back is refused and leaves no trace", "[odometry][device]") {
+TEST_CASE("odometry: a timestamp that goes back is refused without effect", "[odometry][device]") {
   Device device(all_devices().front(), kept_programs());
   StereoOdometry odometry(room().rig, device, room().config);
   CHECK(odometry.track(at(1000, room().frame(0))).status == FrameStatus::first);
   CHECK_THROWS_AS(odometry.track(at(999, room().frame(1))), DataError);
   CHECK_THROWS_WITH(odometry.track(at(-5, room().frame(1))),
                     Catch::Matchers::Contains("-5") && Catch::Matchers::Contains("expected at least 1000"));
-  // The frame that did not count has no stamp either, and the same time again is no step back.
+  // The refused frame's timestamp does not count, and a repeated timestamp is allowed.
   const auto result = odometry.track(at(1000, room().frame(1)));
   CHECK(result.status == FrameStatus::tracked);
   CHECK(result.reference_frame == 0);
 }
 
-TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the device", "[odometry][device]") {
+TEST_CASE("odometry: once the scene has been seen, frames allocate nothing on the device", "[odometry][device]") {
   for (const auto& name : all_devices()) {
     Device device(name, kept_programs());
     StereoOdometry odometry(room().rig, device, room().config);
@@ -327,7 +327,7 @@ TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the
       for (std::size_t i = last; i > 0; --i)
         CHECK(odometry.track(at(++stamp, room().frame(i))).status == FrameStatus::tracked);
     };
-    for (int pass = 0; pass < 3; ++pass) track_there_and_back();  // rigs take turns in holding the frames
+    for (int pass = 0; pass < 3; ++pass) track_there_and_back();  // rigs alternate in holding the frames
     const std::size_t bytes = odometry.device_bytes();
     CHECK(bytes > 0);
     track_there_and_back();
@@ -335,7 +335,7 @@ TEST_CASE("odometry: once it has seen the scene a frame allocates nothing on the
   }
 }
 
-TEST_CASE("odometry: without a key rig every frame is tracked against the one before", "[odometry][device]") {
+TEST_CASE("odometry: without key rigs every frame is tracked against the previous one", "[odometry][device]") {
   Config config = room().config;
   config.odometry.key_rig = false;
   const auto results = track(room(), all_devices().front(), config);
@@ -347,7 +347,7 @@ TEST_CASE("odometry: without a key rig every frame is tracked against the one be
   }
 }
 
-TEST_CASE("odometry: a new key rig after as many frames as allowed", "[odometry][device]") {
+TEST_CASE("odometry: a key rig is replaced after the maximum number of frames", "[odometry][device]") {
   Config config = room().config;
   config.odometry.key_max_frames = 3;
   config.odometry.key_min_quads = 0;
@@ -377,7 +377,7 @@ TEST_CASE("odometry: edges beyond the capacity are reported", "[odometry][device
   }
 }
 
-TEST_CASE("odometry: cameras of different sizes, turned against one another, track too", "[odometry][device]") {
+TEST_CASE("odometry: cameras of different sizes and orientations track too", "[odometry][device]") {
   RenderedScene scene = RenderedScene("cables", 64, 48, 1);  // replaced below
   scene.rig.left = {185, 187, 158, 101, 320, 200};
   scene.rig.right = {170, 168, 150, 128, 300, 240};

@@ -1,4 +1,4 @@
-/// \file test_odometry_real.cpp  Recorded sequences against their published poses. Needs QUADEDGE_DATA.
+/// \file test_odometry_real.cpp  Recorded sequences compared with their published poses. Needs QUADEDGE_DATA.
 #include <catch2/catch.hpp>
 #include <cstring>
 
@@ -92,7 +92,7 @@ TEST_CASE("Karlsruhe quad: 0.25 m and 0.61 degrees within 10 percent", "[real][d
   CHECK(Eigen::AngleAxisd(motion.linear()).angle() * 180 / kPi == Approx(0.61).epsilon(0.1));
 }
 
-TEST_CASE("KITTI 06: the same bytes twice, on other local sizes and on other variants", "[real][device]") {
+TEST_CASE("KITTI 06: the same bytes again, with other local sizes and other variants", "[real][device]") {
   const std::string path = real_data("kitti_odometry/sequences/06");
   if (path.empty()) return;
   DatasetOptions options;

@@ -9,7 +9,7 @@
 using namespace quadedge;
 using Catch::Matchers::Contains;
 
-TEST_CASE("devices: a choice by number, type and text finds the same device", "[device]") {
+TEST_CASE("devices: selection by number, type and text finds the same device", "[device]") {
   for (const auto& index : all_devices()) {
     const Device by_number(index);
     CHECK(Device(by_number.info().name).info().type == by_number.info().type);
@@ -19,7 +19,7 @@ TEST_CASE("devices: a choice by number, type and text finds the same device", "[
   CHECK_NOTHROW(Device("auto"));
 }
 
-TEST_CASE("devices: a choice that matches nothing lists what there is", "[device]") {
+TEST_CASE("devices: a selection that matches nothing lists the available devices", "[device]") {
   CHECK_THROWS_WITH(Device("no such machine"), Contains("no such machine") && Contains(list_devices().at(0).name));
   CHECK_THROWS_AS(Device("99"), DeviceError);
 }
@@ -38,7 +38,7 @@ TEST_CASE("kernels: a build error names file, line, device and options", "[devic
   CHECK_THROWS_WITH(device.context()->program({"absent.cl"}, {}), Contains("absent.cl"));
 }
 
-TEST_CASE("variants: unknown stages and names are refused with the known ones", "[device]") {
+TEST_CASE("variants: unknown stages and names are refused with a list of the known ones", "[device]") {
   CHECK_THROWS_WITH(opencl::check_variants({{"nothing", "x"}}), Contains("undistortion"));
   CHECK_THROWS_WITH(opencl::check_variants({{"undistortion", "x"}}), Contains("item64"));
   CHECK_NOTHROW(opencl::check_variants({{"undistortion", "item16"}}));
@@ -54,7 +54,7 @@ TEST_CASE("buffers: memory is accounted for and reused", "[device]") {
     buffer.ensure(context, 50);
     CHECK(context.bytes() == before + 400);
     buffer.write(context, std::vector<cl_int>(200, 7));
-    CHECK(context.bytes() == before + 900);  // an eighth to spare, having grown
+    CHECK(context.bytes() == before + 900);  // with an eighth in reserve after growing
     CHECK(buffer.read(200) == std::vector<cl_int>(200, 7));
     buffer.fill(3, 100);
     CHECK(buffer.read(200)[99] == 3);

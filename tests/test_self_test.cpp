@@ -1,5 +1,5 @@
-/// \file test_self_test.cpp  The self-test: its stored results are the reference's, sound devices pass, wrong ones are
-/// named.
+/// \file test_self_test.cpp  The self-test: its stored results are the reference's, correct devices pass, faulty ones
+/// are reported.
 #include <filesystem>
 
 #include "devices.hpp"
@@ -14,7 +14,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A copy of the kernels in which one text is another.
+/// Copies the kernels with one text replaced.
 void copy_kernels(const std::string& folder, const std::string& file, const std::string& what, const std::string& by) {
   std::filesystem::copy(QUADEDGE_KERNELS, folder);
   std::string text = read_text(folder + "/" + file);
@@ -25,8 +25,8 @@ void copy_kernels(const std::string& folder, const std::string& file, const std:
 
 }  // namespace
 
-TEST_CASE("self-test: the stored results are what the reference makes of the stored frames", "[selftest]") {
-  INFO("after a change of the method: quadedge generate self-test > host/frontend/self_test.rows");
+TEST_CASE("self-test: the stored results are the reference's for the stored frames", "[selftest]") {
+  INFO("after a change of the method, run: quadedge generate self-test > host/frontend/self_test.rows");
   CHECK((run_program({"generate", "self-test"}).out == frontend::stored_self_test()));
   const auto record = frontend::parse_self_test(frontend::stored_self_test());
   CHECK(frontend::to_text(record) == frontend::stored_self_test());
@@ -45,7 +45,7 @@ TEST_CASE("self-test: every device passes, with the kernels for CPUs and for GPU
   CHECK(result.passed());
 }
 
-TEST_CASE("self-test: rows that differ are counted and the first is shown", "[selftest]") {
+TEST_CASE("self-test: differing rows are counted and the first is shown", "[selftest]") {
   frontend::StageRows expected{"scan", {}}, found;
   for (int i = 0; i < 100; ++i) expected.rows.push_back({10 * i, 0, 0, 0, 0});
   found = expected;
@@ -67,7 +67,7 @@ TEST_CASE("self-test: a long loop reaches its end on every device", "[selftest][
   }
 }
 
-TEST_CASE("self-test: a driver that ends long loops is named, although small frames come out right", "[selftest]") {
+TEST_CASE("self-test: a driver that ends long loops early is reported, although small frames are right", "[selftest]") {
   const TemporaryFolder folder;
   copy_kernels(folder / "kernels", "long_loop.cl", "i < rounds", "i < min(rounds, 65535)");
   DeviceOptions options;
@@ -78,9 +78,9 @@ TEST_CASE("self-test: a driver that ends long loops is named, although small fra
   CHECK_THAT(result.difference, Contains("1000000 rounds"));
 }
 
-TEST_CASE("self-test: a device that computes wrongly is refused by stage, and --trust goes on", "[selftest][cli]") {
+TEST_CASE("self-test: a faulty device is refused with the stage's name, and --trust continues", "[selftest][cli]") {
   const TemporaryFolder folder;
-  // Hardly any similarity is enough.
+  // Hardly any similarity passes the filter.
   copy_kernels(folder / "kernels", "candidate_filters.cl", "similarity < limits.ncc_min", "similarity < 0.99f");
   const std::vector<std::string> demo = {"demo",      "--frames",         "2",  "--size",      "322x200",
                                          "--kernels", folder / "kernels", "-o", folder / "out"};
@@ -95,8 +95,7 @@ TEST_CASE("self-test: a device that computes wrongly is refused by stage, and --
   CHECK_THAT(read_text(folder / "out/report.json"), Contains("\"verdict\": \"failed\""));
 }
 
-TEST_CASE("self-test: the verdict is kept, shown by `devices`, and one that is damaged counts as none",
-          "[selftest][cli]") {
+TEST_CASE("self-test: the verdict is cached and shown by `devices`, and a damaged one is ignored", "[selftest][cli]") {
   const TemporaryFolder folder;
   const std::string environment = "XDG_CACHE_HOME='" + (folder / "cache") + "'";
   const auto devices = [&] { return run_program({"devices"}, environment).out; };

@@ -13,7 +13,7 @@ using namespace quadedge;
 using namespace dataset_files;
 using Catch::Matchers::Contains;
 
-TEST_CASE("whole results: every file that is cut, damaged or missing is named", "[report]") {
+TEST_CASE("whole results: every truncated, damaged or missing file is named", "[report]") {
   const TemporaryFolder folder;
   const auto run = made_up_run(6, 0.01);
   write_member(folder.path(), "run", run);

@@ -22,9 +22,9 @@ namespace {
 using namespace quadedge;
 
 constexpr int kThreads = 4;
-constexpr unsigned kSeconds = 200;  // after which a process counts as hanging
+constexpr unsigned kSeconds = 200;  // time after which a process counts as hung
 
-/// A rendered room of small images; rendered once per process.
+/// A rendered room with small images; rendered once per process.
 struct Room {
   Room() : sequence(options()) {
     for (int i = 0; i < sequence.frames(); ++i) {
@@ -68,7 +68,7 @@ std::vector<double> track(Tracker& tracker, const Room& room) {
   return {pose.data(), pose.data() + pose.size()};
 }
 
-/// Runs work(number) in all threads, which begin together. \throws what any of them throws.
+/// Runs work(number) in all threads, which start together. \throws the exception of any of them
 void in_threads(const std::function<void(std::size_t)>& work) {
   std::atomic<int> ready{0};
   std::vector<std::string> errors(kThreads);
@@ -113,7 +113,7 @@ void build_in_turn_and_track_in_threads() {
   require_equal(poses);
 }
 
-/// Runs work in a forked process; 0 when it returned and the process ended by itself.
+/// Runs work in a forked process. \returns the process's status, 0 if work returned and the process exited normally
 int status_of_fork(const std::function<void()>& work) {
   std::fflush(stdout);
   const pid_t child = fork();
@@ -143,7 +143,7 @@ void require_device_error(const std::function<void()>& work) {
   throw Error(ExitCode::internal, "no error was thrown in the forked process");
 }
 
-/// A process that has tracked forks: its device is refused in the child, the plain C++ reference works there.
+/// Forks a process that has tracked: in the child its device is refused and the C++ reference works.
 void fork_after_tracking() {
   const Room room;
   Tracker tracker(room, "auto");
@@ -155,7 +155,7 @@ void fork_after_tracking() {
     track(reference, room);
   });
   if (status != 0) throw Error(ExitCode::internal, "the child ended with status " + std::to_string(status));
-  tracker.odometry.track(room.frame(2));  // the parent goes on
+  tracker.odometry.track(room.frame(2));  // the parent continues
 }
 
 int failures_of(const char* name, int trials, const std::function<void()>& work) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a new user does with the wheel; run by run_wheel.sh on a machine without an OpenCL driver.
+# Uses the wheel like a new user; run by run_wheel.sh on a machine without an OpenCL driver.
 #   wheel_user.sh WHEELS FOLDER       WHEELS: the wheel and what it depends on; FOLDER: empty, for the environment
 set -euo pipefail
 wheels="$1"

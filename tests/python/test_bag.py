@@ -1,4 +1,4 @@
-"""Recordings of ROS 1, ROS 2 and MCAP: topics, pairs, images, calibrations, what is written."""
+"""Recordings of ROS 1, ROS 2 and MCAP: topics, pairs, images, calibrations, output."""
 
 import subprocess
 import sys
@@ -69,18 +69,18 @@ def test_topics_and_calibration_are_recognised(room, room_folder, frames, tmp_pa
         numpy.testing.assert_array_equal(read.right, frame.right)
 
 
-def test_rectified_images_are_those_of_the_projection_matrix(room, frames, tmp_path):
+def test_images_are_rectified_to_the_projection_matrix(room, frames, tmp_path):
     with BagWriter(tmp_path / "room", "mcap") as bag:
         write_infos(bag, room.rig)
         for frame in frames[:2]:
             bag.image("/stereo/left/image_rect", frame.stamp_ns + 1, frame.left)
             bag.image("/stereo/right/image_rect", frame.stamp_ns + 1, frame.right)
-    recording = quadedge.bag.open_bag(next(bag.path.glob("*.mcap")))  # the file alone, too
+    recording = quadedge.bag.open_bag(next(bag.path.glob("*.mcap")))  # the file alone works too
     assert recording.topics.rectified and recording.rig.left.fx == room.rig.left.fx
 
 
 def test_shuffled_missing_and_skewed_stamps(room, frames, tmp_path):
-    """Of six frames one has lost its right image, one its stamp, one is 80 ms off; two are recorded late."""
+    """Of six frames one has no right image, one no timestamp, one is 80 ms off; two are recorded late."""
     stamps = [frame.stamp_ns + 1_000_000_000 for frame in frames]
     with BagWriter(tmp_path / "room", "ros1") as bag:
         write_infos(bag, room.rig)
@@ -101,13 +101,13 @@ def test_shuffled_missing_and_skewed_stamps(room, frames, tmp_path):
     assert "2 left images without a right one" in str(pairing)
 
 
-def test_pairs_are_the_nearest_of_one_another():
+def test_pairs_are_mutually_nearest():
     pair = quadedge.bag.pair_stamps
     assert pair([10, 20, 30], [11, 29, 21], 5).pairs == [(0, 0), (1, 2), (2, 1)]
     assert pair([10, 14], [13], 5).pairs == [(1, 0)]  # the nearer one takes it
     assert pair([10], [16], 5).pairs == [] and pair([], [1], 5).right_dropped == 1
     assert pair([10, 10], [10], 0).repeated == 1
-    # Against every assignment of small lists: no other pairs are nearest both ways.
+    # Compared with all assignments of small lists: no other pairs are mutually nearest.
     generator = numpy.random.default_rng(3)
     for _ in range(200):
         left, right = (list(map(int, generator.permutation(60)[:8] + 1)) for _ in range(2))
@@ -158,7 +158,7 @@ def test_recordings_without_one_stereo_camera(tmp_path, topics, words):
         quadedge.bag.open_bag(bag.path)
 
 
-def test_what_is_no_recording(room, frames, tmp_path):
+def test_invalid_recordings_are_refused(room, frames, tmp_path):
     open_bag = quadedge.bag.open_bag
     (tmp_path / "text.bag").write_text("no bag")
     for path in (tmp_path / "absent.bag", tmp_path / "text.bag", tmp_path):

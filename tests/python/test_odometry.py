@@ -1,4 +1,4 @@
-"""Odometry: poses of the command, arrays, lifetimes, threads, what is refused."""
+"""Odometry: poses like the command's, arrays, lifetimes, threads, errors."""
 
 import gc
 import threading
@@ -29,7 +29,7 @@ def odometry(room):
 
 @pytest.fixture(scope="module")
 def untouched(room):
-    """For calls that are refused: they leave no trace."""
+    """An odometry for calls that are refused and must have no effect."""
     with quadedge.Odometry(room) as made:
         yield made
 
@@ -39,7 +39,7 @@ def untouched(room):
     ({"preset": "fast", "config": {"seed": 5, "stereo.max_disparity": 60}},
      ("--preset", "fast", "--seed", "5", "--max-disparity", "60")),
 ])  # fmt: skip
-def test_poses_are_the_commands_byte_for_byte(command, room_folder, tmp_path, arguments, options):
+def test_poses_equal_the_commands_byte_for_byte(command, room_folder, tmp_path, arguments, options):
     done = command("run", room_folder, "-o", tmp_path / "out", "--quiet", *options)
     assert done.returncode == 0, done.stderr
     results = track_all(quadedge.open_dataset(room_folder), **arguments)
@@ -54,7 +54,7 @@ def test_poses_of_the_recorded_flight(command, flight_folder, tmp_path):
     assert write(results, tmp_path / "ours.txt") == (tmp_path / "out" / "trajectory.txt").read_bytes()
 
 
-def test_configuration_of_a_run_is_taken_from_its_file(command, room_folder, tmp_path):
+def test_the_configuration_of_a_run_is_read_from_its_file(command, room_folder, tmp_path):
     done = command("run", room_folder, "-o", tmp_path / "out", "--quiet", "--preset", "fast")
     assert done.returncode == 0, done.stderr
     results = track_all(quadedge.open_dataset(room_folder), config=tmp_path / "out" / "config.toml")
@@ -135,7 +135,7 @@ def test_two_threads_with_an_object_each(room, frames):
 
 
 def test_other_threads_run_while_a_frame_is_tracked(room, frames):
-    """With the GIL held, nothing could be counted between the start and the end of track()."""
+    """If track() held the GIL, the other thread could not count meanwhile."""
     counted = []
     stop = threading.Event()
 
@@ -175,13 +175,13 @@ LEFT, RIGHT = numpy.zeros((200, 320), numpy.uint8), numpy.zeros((200, 320), nump
      "the left image has a stride of 0 bytes, expected at least the 320 of a row"),
     (LEFT.astype(numpy.uint16), quadedge.DataError, "pixel values up to 65535, the rig expects values up to 255"),
 ])  # fmt: skip
-def test_what_is_no_image_is_refused(untouched, left, error, words):
+def test_invalid_images_are_refused(untouched, left, error, words):
     with pytest.raises(error, match=words):
         untouched.track(10**18, left, RIGHT)
-    assert untouched.track(0, LEFT, RIGHT).reference_frame == -1  # no trace is left
+    assert untouched.track(0, LEFT, RIGHT).reference_frame == -1  # no effect
 
 
-def test_the_same_words_as_the_commands(command, room_folder, room, tmp_path):
+def test_messages_equal_the_commands(command, room_folder, room, tmp_path):
     with quadedge.Odometry(room) as odometry:
         odometry.track(5, LEFT, RIGHT)
         with pytest.raises(quadedge.DataError, match="timestamp 4 ns goes back, expected at least 5 ns"):
@@ -197,7 +197,7 @@ def test_the_same_words_as_the_commands(command, room_folder, room, tmp_path):
 
 
 @pytest.mark.parametrize("source", [None, "camchain.yaml", numpy.eye(4)])
-def test_what_is_no_rig_is_refused(source):
+def test_invalid_rigs_are_refused(source):
     with pytest.raises(TypeError, match="expected a Rig, a Dataset or a Synthetic"):
         quadedge.Odometry(source)
 
@@ -205,7 +205,7 @@ def test_what_is_no_rig_is_refused(source):
 def test_images_after_close_are_refused(room, frames):
     odometry = quadedge.Odometry(room)
     odometry.close()
-    odometry.close()  # again is no mistake
+    odometry.close()  # closing twice is allowed
     for late in (lambda: odometry.track(0, frames[0].left, frames[0].right), odometry.edges, odometry.details):
         with pytest.raises(quadedge.UsageError, match="the odometry is closed"):
             late()

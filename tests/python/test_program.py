@@ -1,4 +1,4 @@
-"""The `quadedge` command of the package, and the OpenCL runtime that it is given."""
+"""The package's `quadedge` command and its OpenCL runtime."""
 
 import os
 import subprocess
@@ -17,14 +17,14 @@ def output(*words) -> str:
     return subprocess.run(words, capture_output=True, text=True, check=True).stdout
 
 
-def test_the_command_and_the_module_are_the_program():
+def test_the_command_and_the_module_run_the_program():
     version = output(PROGRAM, "--version")
     assert version == f"quadedge {quadedge.__version__}\n"
     assert output(sys.executable, "-m", "quadedge", "--version") == version
     assert output(Path(sys.executable).with_name("quadedge"), "--version") == version
 
 
-def test_pages_are_made_by_the_python_of_the_package(tmp_path):
+def test_pages_are_created_with_the_packages_python(tmp_path):
     output(PROGRAM, "demo", "--frames", "2", "--size", "160x100", "--quiet", "-o", tmp_path / "run")
     environment = {name: value for name, value in os.environ.items() if name != "QUADEDGE_PYTHON"}
     environment["PATH"] = "/nowhere"  # no other Python
@@ -50,7 +50,7 @@ def test_the_runtime_is_found_in_the_environment(monkeypatch):
 
 
 @pytest.mark.parametrize("value", ["", "/chosen/by/hand.so"])
-def test_a_runtime_that_is_set_is_left_alone(monkeypatch, value):
+def test_a_given_runtime_stays_unchanged(monkeypatch, value):
     monkeypatch.setenv("QUADEDGE_OPENCL_RUNTIME", value)
     opencl_runtime.announce()
     assert os.environ["QUADEDGE_OPENCL_RUNTIME"] == value

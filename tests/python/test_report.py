@@ -1,4 +1,4 @@
-"""The pages, tables and figures of quadedge.report hold what the files of results say."""
+"""The pages, tables and figures of quadedge.report match the result files."""
 
 import csv
 import json
@@ -33,7 +33,7 @@ def page_of(path: Path, **options) -> ParsedPage:
     assert len(text.encode()) < LARGEST_PAGE
     page = ParsedPage(text)
     assert page.outside == []
-    assert "default-src 'none'" in text  # the browser itself refuses the network
+    assert "default-src 'none'" in text  # so that the browser refuses network access
     for broken in ("nan", "None", "NaN", "inf", "Undefined"):
         assert broken not in page.text.split()
     return page
@@ -44,7 +44,7 @@ def save_picture(file: Path, width: int, height: int) -> None:
     PIL.fromarray(noise).save(file)
 
 
-def test_numbers_have_four_digits_and_units_of_their_size():
+def test_numbers_have_four_digits_and_suitable_units():
     assert numbers.significant(0.012345678) == "0.01235"
     assert numbers.significant(1234.5) == "1234"
     assert numbers.significant(-2) == "-2.000"
@@ -60,7 +60,7 @@ def test_numbers_have_four_digits_and_units_of_their_size():
     assert [numbers.short_count(value) for value in (999, 1500, 27230, 12345678)] == ["999", "1.5k", "27k", "12M"]
 
 
-def test_thinned_curves_keep_their_extremes_and_their_order():
+def test_thinned_curves_keep_extremes_and_order():
     x = np.arange(1000.0)
     y = np.sin(0.01 * x)
     y[0], y[357], y[900] = np.nan, 9, -7
@@ -86,7 +86,7 @@ def test_tables_become_csv_with_unrounded_numbers_and_latex():
         table.add("too", "short")
 
 
-def test_page_of_a_run_says_where_it_comes_from_and_what_the_files_hold(tmp_path):
+def test_page_of_a_run_shows_its_origin_and_the_files_content(tmp_path):
     content = write_run(tmp_path / "street", 12, lost=7)
     save_picture(tmp_path / "street/pictures/thumbnail_000005.jpg", 480, 300)
     save_picture(tmp_path / "street/pictures/quads_000005.png", 1280, 960)
@@ -108,7 +108,7 @@ def test_page_of_a_run_says_where_it_comes_from_and_what_the_files_hold(tmp_path
     assert promises[0][1] == "position [mm]"
     assert promises[2] == ["5", "7", "20.0", "10.0", "0.100", numbers.DASH, "4.50", "1.20"]
     assert page.pictures == 2 and "thumbnail_000007.jpg: no picture" in page.text
-    # The estimate drifts 10 mm a frame to the side, and is drawn in the first pose of the truth.
+    # The estimate drifts sideways by 10 mm per frame and is drawn aligned to the first ground-truth pose.
     estimate = next(trace for trace in page.figure("from_above")["data"] if trace["name"] == "QuadEdge")
     truth = next(trace for trace in page.figure("from_above")["data"] if trace["name"] == "ground truth")
     assert len(estimate["x"]) == 11 and truth["x"][0] == 0
@@ -126,7 +126,7 @@ def test_page_of_a_run_says_where_it_comes_from_and_what_the_files_hold(tmp_path
     assert content["config_changed"]
 
 
-def test_a_page_names_why_frames_were_lost_and_what_was_doubtful(tmp_path):
+def test_a_page_lists_reasons_of_lost_frames_and_warnings(tmp_path):
     content = write_run(tmp_path / "run", 12)
     file = tmp_path / "run/frames.csv"
     heading, *rows = file.read_text().splitlines()
@@ -148,14 +148,14 @@ def test_a_page_names_why_frames_were_lost_and_what_was_doubtful(tmp_path):
     assert "--fps 30 contradicts" in page.text
 
 
-def test_an_interrupted_or_killed_run_has_a_page_of_what_is_there(tmp_path):
+def test_an_interrupted_or_killed_run_has_a_page_of_its_finished_frames(tmp_path):
     content = write_run(tmp_path / "interrupted", 12)
     content["input"]["frames"], content["ended_early"] = 60, "interrupted after 12 of 60 frames"
     (tmp_path / "interrupted/report.json").write_text(json.dumps(content))
     page = page_of(tmp_path / "interrupted")
     assert "The run ended early: interrupted after 12 of 60 frames." in page.text
     write_run(tmp_path / "killed", 12, lost=7)
-    for name in ("report.json", "errors.csv", "groundtruth.txt"):  # are written in the end
+    for name in ("report.json", "errors.csv", "groundtruth.txt"):  # written at the end
         (tmp_path / "killed" / name).unlink()
     for name in ("frames.csv", "poses.csv", "trajectory.txt"):  # the disk was full
         with open(tmp_path / "killed" / name, "a") as stream:
@@ -170,7 +170,7 @@ def test_an_interrupted_or_killed_run_has_a_page_of_what_is_there(tmp_path):
         report.make_page(tmp_path / "killed")
 
 
-def test_a_straight_road_is_shown_from_beside_and_a_bent_one_is_not(tmp_path):
+def test_a_straight_road_is_drawn_from_the_side_and_a_bent_one_is_not(tmp_path):
     write_run(tmp_path / "straight", 12, 0.002, straight=True)
     write_run(tmp_path / "bent", 12)
     deviation = page_of(tmp_path / "straight").figure("lateral_deviation")
@@ -188,7 +188,7 @@ def test_fewer_than_ten_frames_have_tables_and_no_plots(tmp_path):
     assert page.tables["Errors against the ground truth"]
 
 
-def test_open_rotation_of_an_alignment_is_a_dash_with_its_reason(tmp_path):
+def test_undetermined_rotation_of_an_alignment_is_a_dash_with_its_reason(tmp_path):
     reason = "the positions extend 25 mm around a straight line"
     write_run(tmp_path / "run", 12, errors=accuracy(0.05, reason))
     page = page_of(tmp_path / "run")
@@ -197,7 +197,7 @@ def test_open_rotation_of_an_alignment_is_a_dash_with_its_reason(tmp_path):
 
 
 def comparison(tmp_path: Path, batch: Path, names: list[str]) -> Path:
-    """One peer that is better, and a baseline of half the error."""
+    """One better peer, and a baseline with half the error."""
     entries = []
     for name in names:
         folder = batch / "sequences" / name
@@ -222,7 +222,7 @@ def test_page_of_a_batch_has_units_by_size_and_the_latency_of_all(tmp_path):
     assert page.row(ORIGIN_TABLE, "yard")[4:6] == [f"0.1500{THIN}m", f"0.07500{THIN}m"]
     assert page.tables[ORIGIN_TABLE][0][-1] == "RPE translation [mm]"
     assert page.row(ORIGIN_TABLE, "all sequences, poses weighted equally")[4] == f"70.00{THIN}mm"
-    assert page.bold == []  # nobody to be better than
+    assert page.bold == []  # nothing to compare with
     assert page.row("Tracked frames and latency", "hall")[2:5] == ["12 of 12 (100.0 %)", "3", "21.00"]
     assert page.facts["Command"] and page.facts["Configuration"] == "stereo.ncc_min = 0.55"
     assert sum(plot.endswith("latency") for plot in page.plots) == 3
@@ -239,7 +239,7 @@ def test_comparison_names_the_own_row_and_prints_the_best_bold(tmp_path):
     assert f"10.00{THIN}mm" in page.bold and f"50.00{THIN}mm" not in page.bold
     assert len(page.bold) == 2 * 2 * 3  # APE translation, mean and std, of both alignments, each sequence and over all
     fewer = json.loads((tmp_path / "comparison.json").read_text())
-    fewer["all"][0]["sequences"] = 1  # over other data than the own row: no better and no worse
+    fewer["all"][0]["sequences"] = 1  # over different data than our row: neither better nor worse
     (tmp_path / "fewer.json").write_text(json.dumps(fewer))
     again = page_of(tmp_path / "batch", comparison=tmp_path / "fewer.json", output=tmp_path / "fewer.html")
     assert len(again.bold) == 2 * 2 * 2
@@ -253,7 +253,7 @@ def test_comparison_names_the_own_row_and_prints_the_best_bold(tmp_path):
 
 @pytest.mark.parametrize("damaged", ["report.json", "frames.csv", "trajectory.txt", "groundtruth.txt", "errors.csv",
                                      "poses.csv"])
-def test_one_bad_member_never_costs_the_page(tmp_path, damaged):
+def test_one_bad_member_does_not_prevent_the_page(tmp_path, damaged):
     write_batch(tmp_path / "batch", ["bad", "good"])
     file = tmp_path / "batch/sequences/bad" / damaged
     lines = file.read_text().splitlines(keepends=True)
@@ -264,7 +264,7 @@ def test_one_bad_member_never_costs_the_page(tmp_path, damaged):
     assert not [plot for plot in page.plots if "figure-bad" in plot]
 
 
-def test_a_failed_member_says_why_and_has_no_figures(tmp_path):
+def test_a_failed_member_has_a_reason_and_no_figures(tmp_path):
     summary = write_batch(tmp_path / "batch", ["good"])
     summary["sequences"].append({"name": "broken", "status": "failed", "exit_code": 3, "path": "b", "format": "kitti",
                                  "message": "calib.txt: <nothing> & so on", "jobs": 1})
@@ -301,7 +301,7 @@ def test_page_of_a_matching_evaluation_shows_both_pools_and_filters_that_are_off
     assert page.row("What is left at the end", "room")[7:9] == ["96.00", "70.00"]
     assert [row[3].split(THIN)[0] for row in page.tables["Quads"][1:]] == ["90.00", "60.00"]
     filters = page.figure("filters_stereo")
-    assert filters["data"][0]["x"] == ["baseline", "epipolar proximity", "NCC", "best"]  # names, and none that is off
+    assert filters["data"][0]["x"] == ["baseline", "epipolar proximity", "NCC", "best"]  # names, no disabled filters
     assert [trace["name"] for trace in filters["data"]] == ["recall, paired", "precision, paired", "recall, all",
                                                             "precision, all"]
     # 250 of 300 values lie within the shown range of the cue, in bins of equal height.
@@ -345,7 +345,7 @@ def test_the_same_figure_gives_the_same_bytes(tmp_path):
     figure = Figure("f", "t", "x", "y", series=[Series("a", [0, 1], [1, 2]), Series("b", [0], [1], points=True)])
     first = [file.read_bytes() for file in write_figure(figure, tmp_path)]
     assert [file.read_bytes() for file in write_figure(figure, tmp_path)] == first
-    assert b"<text" in first[0]  # letters stay letters
+    assert b"<text" in first[0]  # text stays text
 
 
 def test_curves_are_interrupted_where_there_is_no_value():

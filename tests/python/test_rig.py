@@ -1,4 +1,4 @@
-"""Rigs, by numbers and from calibration files."""
+"""Rigs from numbers and from calibration files."""
 
 import numpy
 import pytest
@@ -14,7 +14,7 @@ def right_from_left(baseline: float) -> numpy.ndarray:
     return transform
 
 
-def test_a_rig_by_numbers():
+def test_a_rig_from_numbers():
     camera = quadedge.PinholeCamera(**CAMERA)
     rig = quadedge.Rig(camera, camera, right_from_left(0.12))
     assert rig.baseline == 0.12 and rig.max_value == 255 and rig.left.width == 320
@@ -28,7 +28,7 @@ def test_a_rig_by_numbers():
     (2 * numpy.eye(4), "right_from_left: found a matrix that is no rigid transform"),
     (numpy.eye(3), "right_from_left: found 3 x 3 numbers, expected 4 x 4"),
 ])  # fmt: skip
-def test_a_rig_that_is_none(transform, words):
+def test_invalid_rigs_are_refused(transform, words):
     camera = quadedge.PinholeCamera(**CAMERA)
     with pytest.raises(quadedge.DataError, match=words):
         quadedge.Rig(camera, camera, transform)
@@ -43,6 +43,6 @@ def test_the_flights_own_calibration_files(flight_folder):
     numpy.testing.assert_array_equal(joined.right_from_left, rig.right_from_left)
 
 
-def test_a_missing_calibration_names_the_file(tmp_path):
+def test_an_error_about_a_missing_calibration_names_the_file(tmp_path):
     with pytest.raises(quadedge.DataError, match="no_such.yaml"):
         quadedge.Rig.from_file(tmp_path / "no_such.yaml")

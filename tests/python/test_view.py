@@ -1,4 +1,4 @@
-"""Results in rerun: files that its own command verifies, and that hold what was shown."""
+"""Results in rerun: files that pass `rerun rrd verify` and hold the shown data."""
 
 import signal
 import subprocess
@@ -16,7 +16,7 @@ import quadedge.view  # noqa: E402
 
 
 def rerun_command(*arguments) -> str:
-    """What the rerun command prints; fails where it fails."""
+    """Output of the rerun command; fails if the command fails."""
     call = [sys.executable, "-m", "rerun", *map(str, arguments)]
     done = subprocess.run(call, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -24,7 +24,7 @@ def rerun_command(*arguments) -> str:
 
 
 def entities(file: Path) -> set[str]:
-    """Paths in a recording."""
+    """Entity paths in a recording."""
     import re
 
     return set(re.findall(r" - (/\S+) - data columns", rerun_command("rrd", "print", file)))
@@ -86,7 +86,7 @@ def test_live(room, tmp_path):
     assert {"/world/edges", "/world/camera/left/quads", "/times/latency"} <= entities(tmp_path / "live.rrd")
 
 
-def test_what_are_no_results(tmp_path, results):
+def test_invalid_results_are_refused(tmp_path, results):
     done = subprocess.run([sys.executable, "-m", "quadedge.view", tmp_path, "--save", tmp_path / "x.rrd"],
                           capture_output=True, text=True)
     assert done.returncode == 3 and "expected the results of `quadedge run`" in done.stderr
