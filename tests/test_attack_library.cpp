@@ -33,6 +33,12 @@ struct Caller {
   const Image small = Image(80, 60), deep = Image(160, 100, 65535);
 
   void track() { StereoOdometry(rig, device, config).track(frame); }
+  void distort() {
+    StereoCalibration calibration = pinhole_calibration(rig);
+    calibration.left.model = calibration.right.model = LensModel::radial_tangential;
+    calibration.left.parameters = calibration.right.parameters = {-0.1, 0, 0, 0};
+    rig = make_rig(calibration);
+  }
 };
 
 struct LibraryAttack {
@@ -42,6 +48,7 @@ struct LibraryAttack {
   std::string words;
 };
 
+/// LONG: one row per attack.
 const std::vector<LibraryAttack>& library_attacks() {
   constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
   using C = Caller&;
@@ -49,6 +56,9 @@ const std::vector<LibraryAttack>& library_attacks() {
       {"no left image", [](C c) { c.frame.left = {}, c.track(); }, LibraryAttack::data, "left"},
       {"no right image", [](C c) { c.frame.right = {}, c.track(); }, LibraryAttack::data, "right"},
       {"an image of another size", [](C c) { c.frame.left = c.small.view(), c.track(); }, LibraryAttack::data, "80"},
+      {"an image of another size than the distorted one of the calibration",
+       [](C c) { c.distort(), c.frame.left = c.small.view(), c.track(); }, LibraryAttack::data,
+       "80x60 pixels, the calibration expects 160x100"},
       {"an image of another depth", [](C c) { c.frame.right = c.deep.view(), c.track(); }, LibraryAttack::data,
        "right"},
       {"rows that overlap", [](C c) { c.frame.left.stride = 10, c.track(); }, LibraryAttack::data, "stride"},

@@ -47,7 +47,8 @@ Eigen::Vector2d on_the_rim(const LensMapping& mapping, const Eigen::Vector3d& ra
 void add_table(const Lens& lens, const PinholeCamera& view, UndistortionTable& table, PixelMask& mask) {
   const LensMapping mapping(lens);
   const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-  table = {view.width, view.height, std::vector<float>(pixels), std::vector<float>(pixels)};
+  table = {view.width,        view.height,       std::vector<float>(pixels), std::vector<float>(pixels),
+           lens.camera.width, lens.camera.height};
   mask = {view.width, view.height, std::vector<std::uint8_t>(pixels)};
   std::size_t at = 0;
   for (int y = 0; y < view.height; ++y) {

@@ -8,7 +8,7 @@
 
 namespace quadedge {
 
-/// Image sizes that a rig expects: those of its cameras, or any size if an undistortion table samples the image.
+/// Image sizes that a rig expects: those of its cameras, or those that its undistortion tables specify.
 class RecordedImages {
  public:
   explicit RecordedImages(const StereoRig& rig)
@@ -29,7 +29,7 @@ class RecordedImages {
   };
 
   static Size size_of(const PinholeCamera& camera, const UndistortionTable& table) {
-    return table.empty() ? Size{camera.width, camera.height} : Size{0, 0};
+    return table.empty() ? Size{camera.width, camera.height} : Size{table.recorded_width, table.recorded_height};
   }
   void check(const ImageView& image, const Size& size, const std::string& name) const {
     check_pixels(image, name);

@@ -28,6 +28,8 @@ void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
   UndistortionTable smaller;
   smaller.width = camera.width / factor;
   smaller.height = camera.height / factor;
+  smaller.recorded_width = table.empty() ? camera.width : table.recorded_width;
+  smaller.recorded_height = table.empty() ? camera.height : table.recorded_height;
   for (int y = 0; y < smaller.height; ++y) {
     for (int x = 0; x < smaller.width; ++x) {
       const double from_x = (x + 0.5) * factor - 0.5, from_y = (y + 0.5) * factor - 0.5;

@@ -32,9 +32,10 @@ struct PinholeCamera {
 /// For every pixel of the pinhole image, the position in the recorded image with the same viewing direction [px, with
 /// sub-pixel precision]. Positions outside the recorded image take the value of its border.
 struct UndistortionTable {
-  int width = 0, height = 0;    ///< size of the pinhole image
-  std::vector<float> source_x;  ///< height x width, row-major
-  std::vector<float> source_y;  ///< height x width, row-major
+  int width = 0, height = 0;                    ///< size of the pinhole image
+  std::vector<float> source_x;                  ///< height x width, row-major
+  std::vector<float> source_y;                  ///< height x width, row-major
+  int recorded_width = 0, recorded_height = 0;  ///< size of the recorded image; 0: images of any size are accepted
   bool empty() const { return source_x.empty(); }
 };
 
