@@ -172,6 +172,30 @@ TEST_CASE("run: a signal ends a run that waits for a pipe, and its frames and ma
   close(held);
 }
 
+TEST_CASE("run: images of a pipe take the timestamps of --times; the report has name and options", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> times = {"7.000000001", "7.050000000", "7.120000000", "7.150000000"};
+  std::string rows;
+  for (const auto& time : times) rows += time + "\n";
+  own_camera::write_bytes(folder / "times.txt", rows);
+  const std::string pipe = "cat '" + camera().stream + "' | " + environment_of_tests() + " '" + program_path() +
+                           "' run - --name yard --times '" + (folder / "times.txt") + "' --quiet --calibration '" +
+                           camera().calibration + "' -o '" + (folder / "out") + "' >/dev/null";
+  REQUIRE(std::system(pipe.c_str()) == 0);
+  const auto poses = read_lines(folder / "out/trajectory.txt");
+  REQUIRE(poses.size() == 1 + times.size());
+  for (std::size_t i = 0; i < times.size(); ++i) CHECK(poses[i + 1].rfind(times[i] + " ", 0) == 0);
+  const std::string report = read_text(folder / "out/report.json");
+  CHECK_THAT(report, Contains("\"name\": \"yard\"") && Contains("\"calibration\": \"" + camera().calibration + "\"") &&
+                         Contains("\"times\": \"" + (folder / "times.txt") + "\""));
+  own_camera::write_bytes(folder / "few.txt", "1\n2\n");
+  const std::string short_of_times = "cat '" + camera().stream + "' | '" + program_path() + "' run - --times '" +
+                                     (folder / "few.txt") + "' --calibration '" + camera().calibration + "' -o '" +
+                                     (folder / "few") + "' >/dev/null 2>'" + (folder / "log") + "'";
+  CHECK(std::system(short_of_times.c_str()) != 0);
+  CHECK_THAT(read_text(folder / "log"), Contains("few.txt: found 2 times, expected one for every pair"));
+}
+
 TEST_CASE("batch: a list may name cameras of one's own", "[cli][device]") {
   const TemporaryFolder folder;
   own_camera::write_bytes(folder / "list.txt", "--video " + camera().video + " --split left-right --calibration " +

@@ -111,8 +111,10 @@ TEST_CASE("pipe: errors name the image by number", "[data]") {
   CHECK_THAT(pipe_complaint(whole + one), Contains("the pipe") && Contains("after a left image"));
   CHECK_THAT(pipe_complaint(whole.substr(0, whole.size() - 5)),
              Contains("image 3 that ends after") && Contains("84 bytes"));
-  CHECK_THAT(pipe_complaint(one + own_camera::pgm(piped_picture(1, kPipeWidth + 2))),
-             Contains("image 1 of 14 x 7") && Contains("12 x 7"));
+  const std::string wide = own_camera::pgm(piped_picture(1, kPipeWidth + 2));
+  CHECK(pipe_complaint(one + wide + one + wide).empty());  // cameras may differ
+  CHECK_THAT(pipe_complaint(one + wide + one + one), Contains("image 3 of 12 x 7") && Contains("14 x 7"));
+  CHECK_THAT(pipe_complaint(one + one + wide), Contains("image 2 of 14 x 7") && Contains("12 x 7"));
   CHECK_THAT(pipe_complaint(one + own_camera::pgm(piped_picture(1, kPipeWidth, 65535))), Contains("values to 65535"));
   for (const char* head :
        {"hello", "P5 x 7 255\n", "P5 0 7 255\n", "P5 12 7 70000\n", "P5 12", "P4 12 7\n", "P5 99999999999 7 255\n"}) {

@@ -41,6 +41,7 @@ class RunCommand : public Command {
     options.choice("--format", dataset_.format, formats, "dataset layout; auto: recognised");
     options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if PATH holds several", "NAME");
     options.text("--frames", frames_, "frames from A up to but not including B; either may be omitted", "A:B");
+    options.text("--name", name_, "name of the recording in the results; default: that of its files", "NAME");
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
     options.text("--trace", run_.trace, "write the stages of every frame in Chrome's trace format", "FILE");
     options.number("--draw", run_.draw_every, "draw the edges and quads of every N-th frame");
@@ -69,16 +70,18 @@ class RunCommand : public Command {
     Dataset dataset = source_.open(dataset_);
     if (run_.profile && dataset.format == "pipe")
       throw UsageError("--profile reads the recording twice, which a pipe does not allow");
+    if (!name_.empty()) dataset.name = name_;
     if (run_.output.empty()) run_.output = default_output_folder(dataset.name);
     const Interruption interruption;
-    const auto source = make_recorded_source(std::move(dataset), [&] { return interruption.signal() != 0; });
+    const auto source = make_recorded_source(
+        std::move(dataset), [&] { return interruption.signal() != 0; }, source_.words());
     const report::RunRecord record = run_sequence(*source, method_, run_, interruption);
     print_run(record, run_.output);
     return exit_code(record, min_tracked_);
   }
 
  private:
-  std::string frames_;
+  std::string frames_, name_;
   SourceOptions source_;
   DatasetOptions dataset_;
   SequenceRunOptions run_;

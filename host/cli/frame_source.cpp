@@ -10,7 +10,8 @@ namespace {
 
 class RecordedSource : public FrameSource {
  public:
-  RecordedSource(Dataset dataset, std::function<bool()> stop) : dataset_(std::move(dataset)), stop_(std::move(stop)) {
+  RecordedSource(Dataset dataset, std::function<bool()> stop, std::vector<std::string> options)
+      : dataset_(std::move(dataset)), stop_(std::move(stop)), options_(std::move(options)) {
     rewind();
   }
   const StereoRig& rig() const override { return dataset_.rig; }
@@ -19,6 +20,7 @@ class RecordedSource : public FrameSource {
                              dataset_.name,           static_cast<int>(dataset_.frames.size()),
                              dataset_.rig.left.width, dataset_.rig.left.height};
     facts.warnings = dataset_.warnings;
+    facts.options = options_;
     return facts;
   }
   double max_disparity() const override { return dataset_.max_disparity; }
@@ -32,6 +34,7 @@ class RecordedSource : public FrameSource {
   static constexpr int kAhead = 2;
   Dataset dataset_;
   std::function<bool()> stop_;
+  std::vector<std::string> options_;
   std::unique_ptr<FramePrefetcher> prefetcher_;
 };
 
@@ -74,8 +77,9 @@ class SyntheticSource : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop) {
-  return std::make_unique<RecordedSource>(std::move(dataset), std::move(stop));
+std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop,
+                                                  std::vector<std::string> options) {
+  return std::make_unique<RecordedSource>(std::move(dataset), std::move(stop), std::move(options));
 }
 
 std::unique_ptr<FrameSource> make_synthetic_source(const SyntheticOptions& options, data::RenderedFrames::Watch watch) {

@@ -38,7 +38,9 @@ class FrameSource {
 };
 
 /// A recorded sequence or the user's own cameras; images are read ahead on another thread. `stop`: as FramePrefetcher.
-std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop = {});
+/// `options`: how it was opened, see InputFacts.
+std::unique_ptr<FrameSource> make_recorded_source(Dataset dataset, std::function<bool()> stop = {},
+                                                  std::vector<std::string> options = {});
 
 /// The built-in sequence, rendered ahead and kept in the user's cache (see data::RenderedFrames). `watch`: called while
 /// frames are prepared. \throws UsageError for options that cannot be rendered.

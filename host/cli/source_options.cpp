@@ -1,6 +1,7 @@
 #include "cli/source_options.hpp"
 
 #include "cli/console.hpp"
+#include "data/source_line.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
@@ -71,6 +72,8 @@ void SourceOptions::refuse_all() const {
   layout({});
   if (has_camera_options()) throw UsageError("--calibration, --fov and --mask are not used for single image files");
 }
+
+std::vector<std::string> SourceOptions::words() const { return data::source_words(own_); }
 
 Dataset SourceOptions::still_pair(const std::string& left, const std::string& right) const {
   StereoSource source = own_;

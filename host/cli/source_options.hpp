@@ -3,6 +3,7 @@
 /// all commands that read stereo pairs.
 
 #include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "quadedge/dataset.hpp"
@@ -32,6 +33,8 @@ class SourceOptions {
   bool is_own_camera() const { return path_ == "-" || own_.is_given(); }
   const std::string& path() const { return path_; }
   bool has_calibration() const { return !own_.calibration.empty(); }
+  /// The given options and their values in turn, except PATH and --live.
+  std::vector<std::string> words() const;
   /// \throws UsageError for any of these options, for inputs that they do not apply to.
   void refuse_all() const;
   /// Whether calibration, field of view or mask are given.

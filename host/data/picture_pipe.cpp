@@ -113,10 +113,13 @@ class PipeReader : public PairReader {
     size.height = header_number();
     size.max_value = header_number();
     if (size.width < 1 || size.height < 1 || size.max_value < 1 || size.max_value > 65535) refuse_header();
-    if (pictures_ == 0) first_ = size;
-    if (size != first_ || size.max_value != first_.max_value) {
+    const int views = options_.split == Split::none ? 2 : 1;
+    if (pictures_ < views) first_.push_back(size);
+    const ImageSize& first = first_[static_cast<std::size_t>(pictures_ % views)];
+    const int max_value = first_.front().max_value;
+    if (size != first || size.max_value != max_value) {
       fail(kName, picture() + " of " + to_string(size) + " pixels, values to " + std::to_string(size.max_value),
-           to_string(first_) + ", to " + std::to_string(first_.max_value) + ", as the first one");
+           to_string(first) + ", to " + std::to_string(max_value) + ", as the first one of its camera");
     }
     Image image = read_pixels(size, kind == '6' ? 3 : 1);
     ++pictures_;
@@ -145,7 +148,7 @@ class PipeReader : public PairReader {
   std::vector<char> buffer_;
   std::size_t at_ = 0, filled_ = 0;
   std::atomic<bool> stop_{false};
-  ImageSize first_;
+  std::vector<ImageSize> first_;  ///< of the first image of each camera, or of both views in one
   int pictures_ = 0, number_ = 0;
 };
 

@@ -205,8 +205,13 @@ Dataset open_pipe(const StereoSource& source) {
   Dataset dataset;
   dataset.format = dataset.name = "pipe";
   dataset.path = "standard input";
-  dataset.stream =
-      make_picture_pipe(STDIN_FILENO, {parse_split(source.split), source.fps, source.live ? kLiveQueue : 0});
+  const double fps = source.times.empty() ? source.fps : 1;  // replaced by the times
+  dataset.stream = make_picture_pipe(STDIN_FILENO, {parse_split(source.split), fps, source.live ? kLiveQueue : 0});
+  if (source.times.empty()) return dataset;
+  for (const std::int64_t stamp_ns : read_times(source.times)) {
+    const std::string number = " image " + std::to_string(dataset.frames.size());
+    dataset.frames.push_back({stamp_ns, dataset.path + ", left" + number, dataset.path + ", right" + number});
+  }
   return dataset;
 }
 
@@ -220,7 +225,8 @@ void check_source(const StereoSource& source) {
   if (two && !source.split.empty()) throw UsageError("--split is for --video and -, whose images contain both views");
   if (!(source.fps >= 0 && std::isfinite(source.fps))) throw UsageError("--fps: expected frames per second, above 0");
   if (source.fps > 0 && !source.times.empty()) throw UsageError("--fps and --times exclude one another");
-  if (source.pipe && source.fps == 0) throw UsageError("images in a pipe have no timestamps: give --fps N");
+  if (source.pipe && source.fps == 0 && source.times.empty())
+    throw UsageError("images in a pipe have no timestamps: give --fps N or --times FILE");
   if (source.live && !source.pipe) throw UsageError("--live applies to a pipe (-) only; files are read whole");
 }
 

@@ -62,6 +62,8 @@ std::string report_json(const RunRecord& run) {
   report["input"] = {{"path", run.input.path},      {"format", run.input.format}, {"name", run.input.name},
                      {"frames", run.input.frames},  {"width", run.input.width},   {"height", run.input.height},
                      {"dropped", run.input.dropped}};
+  for (std::size_t i = 0; i + 1 < run.input.options.size(); i += 2)
+    report["input"]["options"][run.input.options[i].substr(2)] = run.input.options[i + 1];
   if (!run.ended_early.empty()) report["ended_early"] = run.ended_early;
   report["frames_tracked"] = run.tracked();
   report["frames_lost"] = static_cast<int>(run.frames.size()) - run.tracked();

@@ -22,6 +22,7 @@ struct InputFacts {
   int width = 0, height = 0;               ///< of the left pinhole image [px]
   int dropped = 0;                         ///< pairs of a pipe that came faster than they were tracked, with --live
   std::vector<std::string> warnings = {};  ///< options that contradict the data
+  std::vector<std::string> options = {};   ///< names and values in turn, as `quadedge run` takes them
 };
 
 /// One processed frame.

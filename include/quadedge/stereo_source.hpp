@@ -34,7 +34,7 @@ struct StereoSource {
 
 /// Opens the source as a dataset without ground truth, with the format "images", "video" or "pipe". The first pair of a
 /// pipe is read. Images in folders become Dataset::frames; other pairs come from Dataset::stream, and a pipe has no
-/// list of frames.
+/// list of frames unless `times` gives one.
 /// \throws UsageError if none or more than one of the three sources is specified, and if timestamps are missing and
 /// `fps` is not given; DataError that names the file, also if the numbers of left and right images differ.
 Dataset open_stereo_source(const StereoSource& source);
