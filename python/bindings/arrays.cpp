@@ -34,8 +34,7 @@ Eigen::Isometry3d transform_from(const nb::object& object, const std::string& na
   const double deviation = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (!(deviation < kTolerance) || !(rotation.determinant() > 0) || matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
     throw DataError(name +
-                    ": found a matrix that is no rigid transform (its rotation deviates from an orthonormal one "
-                    "by " +
+                    ": found a matrix that is not a rigid transform (its rotation deviates from orthonormality by " +
                     std::to_string(deviation) + "), expected a rotation and a translation above the row 0 0 0 1");
   }
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();

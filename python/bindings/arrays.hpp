@@ -1,5 +1,5 @@
 #pragma once
-/// \file arrays.hpp  numpy arrays that look at the memory of C++ objects.
+/// \file arrays.hpp  numpy arrays over the memory of C++ objects, and conversions.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -10,13 +10,13 @@
 
 namespace quadedge::python {
 
-/// A read-only array over memory of an object that properties with `kView` keep alive.
+/// A read-only array over the memory of an object, which properties with `kView` keep alive.
 template <class T>
 using ArrayView = nb::ndarray<nb::numpy, const T>;
 
 /// For properties that return an ArrayView of their object's memory.
 constexpr auto kView = nb::rv_policy::reference_internal;
-/// For properties that return an array with an owner of its own.
+/// For properties that return an array that owns its memory.
 constexpr auto kOwned = nb::rv_policy::automatic;
 
 /// (N,) over a vector.
@@ -25,7 +25,7 @@ ArrayView<T> view_of(const std::vector<T>& values) {
   return ArrayView<T>(values.data(), {values.size()});
 }
 
-/// (rows, columns) over a matrix of fixed or dynamic size; numpy sees Eigen's order of columns as strides.
+/// (rows, columns) over a matrix of fixed or dynamic size; strides express Eigen's column-major order.
 template <class Matrix>
 ArrayView<double> view_of_matrix(const Matrix& matrix) {
   return ArrayView<double>(matrix.data(),
@@ -33,7 +33,7 @@ ArrayView<double> view_of_matrix(const Matrix& matrix) {
                            {1, static_cast<std::int64_t>(matrix.outerStride())});
 }
 
-/// (columns, rows): a row per column of the matrix.
+/// (columns, rows) over a matrix: one row per column.
 template <class Matrix>
 ArrayView<double> view_of_columns(const Matrix& matrix) {
   return ArrayView<double>(matrix.data(),
@@ -41,7 +41,7 @@ ArrayView<double> view_of_columns(const Matrix& matrix) {
                            {static_cast<std::int64_t>(matrix.outerStride()), 1});
 }
 
-/// An array that owns a copy, row-major.
+/// A row-major copy.
 template <class Matrix>
 nb::ndarray<nb::numpy, double> copy_of_matrix(const Matrix& matrix) {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -51,11 +51,11 @@ nb::ndarray<nb::numpy, double> copy_of_matrix(const Matrix& matrix) {
       rows->data(), {static_cast<std::size_t>(rows->rows()), static_cast<std::size_t>(rows->cols())}, owner);
 }
 
-/// Pairs (x, y) as an (N, 2) array that owns them.
+/// Pairs (x, y) as an (N, 2) array that owns its memory.
 nb::ndarray<nb::numpy, float> pairs_of(const std::vector<float>& x, const std::vector<float>& y);
 
-/// A rigid transform from a 4 x 4 array. \throws DataError, which calls it `name`, for another shape, another last row
-/// than 0 0 0 1, or a rotation that is none.
+/// A rigid transform from a 4 x 4 array. \param name  for messages. \throws DataError for another shape, a last row
+/// other than 0 0 0 1, and a matrix that is not orthonormal.
 Eigen::Isometry3d transform_from(const nb::object& object, const std::string& name);
 
 }  // namespace quadedge::python

@@ -1,5 +1,5 @@
 #pragma once
-/// \file bindings.hpp  The parts of the module quadedge._quadedge; each adds its classes and functions.
+/// \file bindings.hpp  The parts of the module quadedge._quadedge. Each adds its classes and functions.
 
 #include <nanobind/nanobind.h>
 

@@ -9,12 +9,12 @@
 namespace quadedge::python {
 namespace {
 
-/// A text as TOML (and JSON) writes it.
+/// A string as a TOML (and JSON) literal.
 std::string quoted(nb::handle text) {
   return nb::cast<std::string>(nb::module_::import_("json").attr("dumps")(text, "ensure_ascii"_a = false));
 }
 
-/// A value as TOML writes it. \throws TypeError.
+/// A value as a TOML literal. \throws TypeError.
 std::string toml_value(const std::string& key, nb::handle value) {
   if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value) ? "true" : "false";
   if (nb::isinstance<nb::str>(value)) return quoted(value);
@@ -23,13 +23,13 @@ std::string toml_value(const std::string& key, nb::handle value) {
   if (nb::isinstance<nb::list>(value) || nb::isinstance<nb::tuple>(value)) {
     std::string texts;
     for (const auto& element : value) {
-      if (!nb::isinstance<nb::str>(element)) throw nb::type_error(("config: " + key + ": expected texts").c_str());
+      if (!nb::isinstance<nb::str>(element)) throw nb::type_error(("config: " + key + ": expected strings").c_str());
       texts += (texts.empty() ? "" : ", ") + quoted(element);
     }
     return "[" + texts + "]";
   }
   throw nb::type_error(("config: " + key + " is " + nb::cast<std::string>(nb::str(value.type().attr("__name__"))) +
-                        ", expected a number, a text, True or False")
+                        ", expected a number, a string, True or False")
                            .c_str());
 }
 
@@ -41,9 +41,9 @@ bool is_bare(const std::string& key) {
 Config with_dict(const nb::dict& config, const Config& base) {
   std::string text;
   for (const auto& [name, value] : config) {
-    if (!nb::isinstance<nb::str>(name)) throw nb::type_error("config: expected texts as keys");
+    if (!nb::isinstance<nb::str>(name)) throw nb::type_error("config: expected strings as keys");
     const auto key = nb::cast<std::string>(name);
-    if (key == "device") throw UsageError("config: the device is an argument of its own, device=");
+    if (key == "device") throw UsageError("config: the device is a separate argument, device=");
     text += (is_bare(key) ? key : quoted(name)) + " = " + toml_value(key, value) + "\n";
   }
   return read_config_text(text, "config", base);
@@ -61,7 +61,7 @@ Config make_config(const std::string& preset, nb::handle config) {
 
 nb::dict to_dict(const Config& config) {
   nb::dict all;
-  Config copy = config;  // a constant's field can be written, too
+  Config copy = config;  // field() returns a mutable pointer
   for (const Constant& constant : constants()) {
     std::visit([&](const auto* value) { all[nb::str(constant.key().c_str())] = nb::cast(*value); },
                constant.field(copy));
@@ -73,14 +73,16 @@ nb::dict to_dict(const Config& config) {
 }
 
 void bind_configuration(nb::module_& module) {
-  module.def("presets", &preset_names, "What ``preset=`` takes, from fast to accurate.");
+  module.def("presets", &preset_names, "Values of ``preset=``, from fast to accurate.");
   module.def(
       "configuration",
       [](const std::string& preset, nb::handle config) { return to_dict(make_config(preset, config)); },
       "preset"_a = "default", "config"_a = nb::none(),
-      "Every constant of the method by its key (doc/configuration.md), as a preset and ``config`` set them.\n\n"
-      "config: a dictionary such as ``{\"stereo.max_disparity\": 100}``, or the path of a TOML file, such as the\n"
-      "config.toml that a run leaves.");
+      "All configuration values by key (doc/configuration.md), as set by a preset and ``config``.\n\n"
+      "preset: one of ``presets()``. config: values that differ from the preset, as a dictionary such as\n"
+      "``{\"stereo.max_disparity\": 100}``, or the path of a TOML file, such as the config.toml of a run.\n\n"
+      "Raises UsageError that names an unknown key or preset, or a value out of range, and TypeError for values of\n"
+      "another type.");
 }
 
 }  // namespace quadedge::python

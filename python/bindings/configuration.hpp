@@ -1,5 +1,5 @@
 #pragma once
-/// \file configuration.hpp  Presets and configurations as Python gives them.
+/// \file configuration.hpp  Presets and configurations as arguments.
 
 #include <string>
 
@@ -8,11 +8,11 @@
 
 namespace quadedge::python {
 
-/// A preset with what `config` says beyond it: a dictionary of keys, the path of a TOML file, or None.
-/// \throws UsageError for an unknown preset or key, a value of another type or out of its range; TypeError.
+/// A preset with the values of `config`: a dictionary, the path of a TOML file, or None.
+/// \throws UsageError for an unknown preset or key and for a value of another type or out of range; TypeError.
 Config make_config(const std::string& preset, nb::handle config);
 
-/// Every constant by its key, and "variant" where one is chosen.
+/// All values by key, and "variant" where kernel variants are chosen.
 nb::dict to_dict(const Config& config);
 
 }  // namespace quadedge::python

@@ -1,5 +1,5 @@
 #pragma once
-/// \file device_argument.hpp  A device as Python gives it: a word, or an object that is used again.
+/// \file device_argument.hpp  The device argument of functions: a name, an index, or a Device object.
 
 #include <memory>
 #include <mutex>
@@ -10,18 +10,21 @@
 
 namespace quadedge::python {
 
-/// A device that functions take again and again, one at a time.
+/// The choice that Device's constructor takes, from a str or an int. \throws TypeError for anything else.
+std::string device_choice(nb::handle device);
+
+/// A device shared by several calls, one at a time.
 struct SharedDevice {
   Device device;
   std::mutex in_use;
 };
 
-/// The device of one call. Made with the GIL held, which is released for as long as the call lasts.
+/// The device of one call. Construct it with the GIL held.
 class DeviceArgument {
  public:
-  /// \throws DeviceError, TypeError for what is neither text nor Device.
+  /// \throws DeviceError when no device matches, TypeError for anything but a str, an int or a Device.
   explicit DeviceArgument(nb::handle device);
-  /// Runs `work(Device&)` without the GIL, alone on the device.
+  /// Runs `work(Device&)` without the GIL and without any other work on the device.
   template <class Work>
   auto run(const Work& work) {
     const nb::gil_scoped_release released;

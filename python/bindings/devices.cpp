@@ -1,4 +1,4 @@
-/// \file devices.cpp  What there is to compute on (include/quadedge/device.hpp).
+/// \file devices.cpp  OpenCL devices (include/quadedge/device.hpp).
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -7,48 +7,57 @@
 
 namespace quadedge::python {
 
+std::string device_choice(nb::handle device) {
+  if (std::string choice; nb::try_cast(device, choice)) return choice;
+  if (PyIndex_Check(device.ptr()) && !nb::isinstance<nb::bool_>(device))
+    return nb::cast<std::string>(nb::str(nb::int_(device)));
+  throw nb::type_error(
+      "device: expected \"auto\", \"cpu\", \"gpu\", \"reference\", an index of devices(), or a part of a device's "
+      "name");
+}
+
 DeviceArgument::DeviceArgument(nb::handle device) {
   if (nb::try_cast(device, shared_) && shared_ != nullptr) return;
-  std::string choice;
-  if (!nb::try_cast(device, choice)) {
-    throw nb::type_error("device: expected a text such as \"auto\" or \"reference\", or a Device");
-  }
+  const std::string choice = device_choice(device);
   const nb::gil_scoped_release released;
   own_.reset(new SharedDevice{Device(choice), {}});
   shared_ = own_.get();
 }
 
 void bind_devices(nb::module_& module) {
-  nb::class_<DeviceInfo>(module, "DeviceInfo", "What a device says of itself.")
+  nb::class_<DeviceInfo>(module, "DeviceInfo", "Properties of a device.")
       .def_ro("index", &DeviceInfo::index,
-              "Number that ``device=`` takes, as ``quadedge devices`` prints it; -1 for the plain C++ reference.")
+              "Index that ``device=`` takes, as ``quadedge devices`` prints it; -1 for the plain C++ reference.")
       .def_ro("platform", &DeviceInfo::platform)
       .def_ro("name", &DeviceInfo::name)
-      .def_ro("driver", &DeviceInfo::driver)
+      .def_ro("driver", &DeviceInfo::driver, "Version of the driver.")
       .def_ro("opencl", &DeviceInfo::opencl, "Version of OpenCL.")
       .def_ro("type", &DeviceInfo::type, "cpu, gpu, accelerator or reference.")
       .def_ro("compute_units", &DeviceInfo::compute_units)
-      .def_ro("memory_bytes", &DeviceInfo::memory_bytes)
+      .def_ro("memory_bytes", &DeviceInfo::memory_bytes, "Global memory [bytes].")
       .def("__repr__", [](const DeviceInfo& info) {
         return "<DeviceInfo " + std::to_string(info.index) + ": " + info.type + ", " + info.name + ">";
       });
 
   nb::class_<SharedDevice>(module, "Device",
-                           "A chosen device for several calls of detect_edges() and match(), which build its kernels\n"
-                           "once. Threads may share one; they wait for one another.")
+                           "An opened device. Pass one to several calls of detect_edges() and match() to build its\n"
+                           "kernels only once. Threads may share a Device; their calls are serialised.")
       .def(
           "__init__",
-          [](SharedDevice* self, const std::string& choice) {
+          [](SharedDevice* self, nb::handle device) {
+            const std::string choice = device_choice(device);
             const nb::gil_scoped_release released;
             new (self) SharedDevice{Device(choice), {}};
           },
-          "choice"_a = "auto",
-          "choice: auto (first GPU, else first CPU), cpu, gpu, reference, a number of ``devices()``, or a part of a\n"
-          "name. Raises DeviceError with the list of devices when nothing matches.")
+          nb::arg("choice").none() = "auto", nb::sig("def __init__(self, choice: str | int = 'auto') -> None"),
+          "choice: \"auto\" (first GPU, else first CPU), \"cpu\", \"gpu\", \"reference\" (plain C++, slow, without\n"
+          "OpenCL), an index of ``devices()``, or a part of a platform's or device's name.\n\n"
+          "Raises DeviceError, which lists the devices, when none matches; TypeError for anything but str and int.")
       .def_prop_ro("info", [](const SharedDevice& self) { return self.device.info(); });
 
   module.def("devices", &list_devices,
-             "All OpenCL devices in a fixed order; an empty list where there is no driver or no OpenCL loader.");
+             "All OpenCL devices in a fixed order; empty without a driver or without libOpenCL.so.1.\n\n"
+             "Raises DeviceError in a process that was forked after OpenCL had been used.");
 }
 
 }  // namespace quadedge::python

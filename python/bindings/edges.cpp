@@ -16,33 +16,34 @@ namespace {
 constexpr int kMaxValue16 = 65535;
 
 void bind_edge_set(nb::module_& module) {
-  nb::class_<EdgeSet>(module, "Edges", "Third-order edges of one image, row by row; all arrays are (N,) float32.")
+  nb::class_<EdgeSet>(module, "Edges", "Third-order edges of one image in scan order. All arrays are (N,) float32.")
       .def("__len__", &EdgeSet::size)
       .def_prop_ro(
-          "x", [](const EdgeSet& self) { return view_of(self.x); }, kView, "[px]")
+          "x", [](const EdgeSet& self) { return view_of(self.x); }, kView, "Position, to the right [px].")
       .def_prop_ro(
-          "y", [](const EdgeSet& self) { return view_of(self.y); }, kView, "[px]")
+          "y", [](const EdgeSet& self) { return view_of(self.y); }, kView, "Position, downwards [px].")
       .def_prop_ro(
           "direction", [](const EdgeSet& self) { return view_of(self.direction); }, kView,
-          "Tangent [rad] in (-pi, pi]; the bright side lies at (-sin, cos).")
+          "Direction of the tangent [rad], in (-pi, pi]; the bright side lies towards (-sin, cos).")
       .def_prop_ro(
           "strength", [](const EdgeSet& self) { return view_of(self.strength); }, kView,
-          "Peak of the gradient [grey levels per px].")
+          "Gradient magnitude at the edge [grey levels per px].")
       .def("__repr__", [](const EdgeSet& self) { return "<" + std::to_string(self.size()) + " Edges>"; });
 }
 
 void bind_stereo_edges(nb::module_& module) {
   using Self = StereoEdgesInSpace;
-  nb::class_<Self>(module, "StereoEdges",
-                   "Edges seen in both images, N of them, in the scan order of the left ones. Positions are in the\n"
-                   "pinhole images of ``Odometry.rig``.")
+  nb::class_<Self>(
+      module, "StereoEdges",
+      "N edges matched between the left and right image, in scan order of the left image. Image positions\n"
+      "refer to the pinhole images of ``Odometry.rig``.")
       .def("__len__", [](const Self& self) { return self.edges.size(); })
       .def_prop_ro(
           "xyz", [](const Self& self) { return view_of_columns(self.points.position); }, kView,
-          "(N, 3) float64: position in the left camera's frame [m]; NaN for an edge without a depth.")
+          "(N, 3) float64: position in the left camera frame (x right, y down, z forward) [m]; NaN without a depth.")
       .def_prop_ro(
           "direction", [](const Self& self) { return view_of_columns(self.points.tangent); }, kView,
-          "(N, 3) float64: unit tangent in the left camera's frame; NaN as ``xyz``.")
+          "(N, 3) float64: unit tangent in the left camera frame; NaN where ``xyz`` is.")
       .def_prop_ro(
           "left", [](const Self& self) { return pairs_of(self.edges.left_x, self.edges.left_y); }, kOwned,
           "(N, 2) float32: detected position in the left image [px]; a copy.")
@@ -51,30 +52,31 @@ void bind_stereo_edges(nb::module_& module) {
           "(N, 2) float32: refined position in the right image [px]; a copy.")
       .def_prop_ro(
           "left_direction", [](const Self& self) { return view_of(self.edges.left_direction); }, kView,
-          "(N,) float32: tangent in the left image [rad].")
+          "(N,) float32: direction of the tangent in the left image [rad].")
       .def_prop_ro(
           "right_direction", [](const Self& self) { return view_of(self.edges.right_direction); }, kView,
-          "(N,) float32: tangent in the right image [rad].")
+          "(N,) float32: direction of the tangent in the right image [rad].")
       .def_prop_ro(
           "ncc", [](const Self& self) { return view_of(self.edges.ncc); }, kView,
-          "(N,) float32: similarity of the pair, 1 at most.")
+          "(N,) float32: normalised cross-correlation of the patches, at most 1.")
       .def("__repr__", [](const Self& self) { return "<" + std::to_string(self.edges.size()) + " StereoEdges>"; });
 }
 
 void bind_quads(nb::module_& module) {
-  nb::class_<Quads>(module, "Quads", "Stereo edges of two times that belong together, M of them.")
+  nb::class_<Quads>(module, "Quads", "M matches between the stereo edges of two frames.")
       .def("__len__", [](const Quads& self) { return self.matches.size(); })
       .def_prop_ro(
           "previous", [](const Quads& self) { return view_of(self.matches.previous); }, kView,
-          "(M,) int32: index into the stereo edges of the earlier frame.")
+          "(M,) int32: indices into the stereo edges of the earlier frame.")
       .def_prop_ro(
           "current", [](const Quads& self) { return view_of(self.matches.current); }, kView,
-          "(M,) int32: index into the stereo edges of this frame.")
+          "(M,) int32: indices into the stereo edges of this frame.")
       .def_prop_ro(
           "inlier", [](const Quads& self) { return ArrayView<bool>(self.inlier.data(), {self.inlier.size()}); }, kView,
-          "(M,) bool: does it agree on the camera's motion?")
+          "(M,) bool: True if the quad agrees with the estimated motion.")
       .def_prop_ro(
-          "ncc", [](const Quads& self) { return view_of(self.matches.ncc); }, kView, "(M,) float32: similarity.")
+          "ncc", [](const Quads& self) { return view_of(self.matches.ncc); }, kView,
+          "(M,) float32: normalised cross-correlation of the patches, at most 1.")
       .def("__repr__", [](const Quads& self) { return "<" + std::to_string(self.matches.size()) + " Quads>"; });
 }
 
@@ -108,17 +110,22 @@ void bind_edges(nb::module_& module) {
   bind_quads(module);
   module.def("detect_edges", &detect, "image"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default",
              "config"_a = nb::none(), "max_value"_a = kMaxValue16,
-             nb::sig("def detect_edges(image: numpy.typing.NDArray, device: str | Device = 'auto', preset: str = "
+             nb::sig("def detect_edges(image: numpy.typing.NDArray, device: str | int | Device = 'auto', preset: str = "
                      "'default', config: dict | str | os.PathLike | None = None, max_value: int = 65535) -> Edges"),
-             "Third-order edges of one pinhole image, (height, width) of uint8 or uint16.\n\n"
-             "max_value: value of a saturated pixel of uint16. The other arguments: see Odometry.\n\n"
-             "Raises TypeError, DataError for what is no such image, DeviceError, UsageError for the configuration.");
+             "Detects the third-order edges of one pinhole image.\n\n"
+             "image: grey image, (height, width) or (height, width, 1), uint8 or uint16.\n"
+             "max_value: value of a saturated pixel of a uint16 image.\n"
+             "device, preset, config: as in Odometry; device may also be a Device.\n\n"
+             "Raises TypeError for anything but an array of uint8 or uint16, DataError for an array of another shape,\n"
+             "DeviceError, and UsageError for an invalid configuration.");
   module.def("match", &match, "left"_a.none(), "right"_a.none(), "rig"_a.none(), nb::arg("device").none() = "auto",
              "preset"_a = "default", "config"_a = nb::none(),
              nb::sig("def match(left: numpy.typing.NDArray, right: numpy.typing.NDArray, rig: Rig | Dataset | "
-                     "Synthetic, device: str | Device = 'auto', preset: str = 'default', config: dict | str | "
+                     "Synthetic, device: str | int | Device = 'auto', preset: str = 'default', config: dict | str | "
                      "os.PathLike | None = None) -> StereoEdges"),
-             "Stereo edges of one pair, with their points in space. Arguments and errors as those of Odometry.");
+             "Matches the edges of one stereo pair and triangulates them.\n\n"
+             "left, right: as in Odometry.track(). rig, device, preset, config: as in Odometry; device may also be a\n"
+             "Device. Raises the same errors.");
 }
 
 }  // namespace quadedge::python

@@ -1,5 +1,5 @@
 #pragma once
-/// \file edges.hpp  Stereo edges for Python: with their points in space.
+/// \file edges.hpp  Stereo edges with their 3-D points, and quads, for Python.
 
 #include "bindings.hpp"
 #include "quadedge/edge_points.hpp"
@@ -12,7 +12,7 @@ struct StereoEdgesInSpace {
   EdgePoints points;
 };
 
-/// Matches in time and the edges that they connect.
+/// Matches between the stereo edges of two frames.
 struct Quads {
   TemporalMatches matches;
   std::vector<std::uint8_t> inlier;

@@ -1,4 +1,4 @@
-/// \file errors.cpp  The library's errors as the exceptions of quadedge.errors, with the same words.
+/// \file errors.cpp  Translates the library's errors to the exceptions of quadedge.errors, with the same messages.
 
 #include <filesystem>
 
@@ -29,7 +29,7 @@ void bind_errors(nb::module_&) {
       raise("Error", error.what());
     } catch (const std::filesystem::filesystem_error& error) {
       raise("DataError",
-            error.path1().string() + ": " + error.code().message() + "; expected a place that can be read");
+            error.path1().string() + ": " + error.code().message() + "; expected a readable file or folder");
     }
   });
 }

@@ -48,47 +48,57 @@ void bind_matching(nb::module_& module) {
   module.def(
       "evaluate_matching", &matching, "source"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default",
       "config"_a = nb::none(), "frames"_a = 0,
-      nb::sig("def evaluate_matching(source: Dataset | Synthetic, device: str | Device = 'auto', preset: str = "
+      nb::sig("def evaluate_matching(source: Dataset | Synthetic, device: str | int | Device = 'auto', preset: str = "
               "'default', config: dict | str | os.PathLike | None = None, frames: int = 0) -> dict"),
-      "Recall, precision and ambiguity after every filter of the matching, judged by ground truth of the edges:\n"
-      "the document that ``quadedge evaluate matching --json`` writes. frames: only the first ones; 0: all.\n\n"
-      "Raises DataError for a recording without disparities or depths, UsageError for the reference device,\n"
-      "whose stages cannot be watched.");
+      "Measures recall, precision and ambiguity after every filter of the matching, against ground-truth disparities "
+      "or\n"
+      "depths. Returns the document that ``quadedge evaluate matching --json`` writes, as a dictionary.\n\n"
+      "frames: number of frames to evaluate, from the first one; 0 means all.\n"
+      "device, preset, config: as in Odometry; device may also be a Device.\n\n"
+      "Raises DataError for a recording without disparities or depths, and UsageError for the reference device,\n"
+      "whose stages cannot be observed.");
 }
 
 }  // namespace
 
 void bind_evaluation(nb::module_& module) {
   bind_matching(module);
-  nb::class_<ErrorStatistics>(module, "ErrorStatistics", "Statistics of one error.")
+  nb::class_<ErrorStatistics>(module, "ErrorStatistics",
+                              "Statistics of one kind of error, in the unit that its attribute names.")
       .def_ro("mean", &ErrorStatistics::mean)
-      .def_ro("std", &ErrorStatistics::std, "Over N.")
+      .def_ro("std", &ErrorStatistics::std, "Standard deviation, with divisor N.")
       .def_ro("rmse", &ErrorStatistics::rmse)
       .def_ro("max", &ErrorStatistics::max);
-  nb::class_<PoseErrors>(module, "PoseErrors", "Absolute (APE) and relative (RPE) pose errors.")
+  nb::class_<PoseErrors>(module, "PoseErrors",
+                         "Absolute (APE) and relative (RPE) pose errors: rotation [deg], translation [m].")
       .def_ro("ape_rotation_deg", &PoseErrors::ape_rotation_deg)
       .def_ro("ape_translation_m", &PoseErrors::ape_translation_m)
-      .def_ro("rpe_rotation_deg", &PoseErrors::rpe_rotation_deg, "Between consecutive matched poses.")
+      .def_ro("rpe_rotation_deg", &PoseErrors::rpe_rotation_deg, "Between consecutive matched poses [deg].")
       .def_ro("rpe_translation_m", &PoseErrors::rpe_translation_m);
   using Self = TrajectoryEvaluation;
-  nb::class_<Self>(module, "TrajectoryEvaluation", "Errors of a trajectory; arrays have a row per matched pose.")
-      .def_ro("origin_aligned", &Self::origin_aligned, "First matched poses made equal.")
-      .def_ro("se3_aligned", &Self::se3_aligned, "Umeyama without scale.")
-      .def_ro("matched", &Self::matched, "Poses compared.")
-      .def_ro("path_length_m", &Self::path_length_m, "Of the matched truth.")
-      .def_ro("end_drift_percent", &Self::end_drift_percent, "Error of the end point over the path's length.")
+  nb::class_<Self>(module, "TrajectoryEvaluation", "Errors of a trajectory. Arrays have one row per matched pose.")
+      .def_ro("origin_aligned", &Self::origin_aligned, "Errors after aligning the first matched poses.")
+      .def_ro("se3_aligned", &Self::se3_aligned,
+              "Errors after the least-squares rigid alignment (Umeyama without scale).")
+      .def_ro("matched", &Self::matched, "Number of matched poses.")
+      .def_ro("path_length_m", &Self::path_length_m, "Length of the matched ground truth [m].")
+      .def_ro("end_drift_percent", &Self::end_drift_percent,
+              "Error of the last position relative to the path length [%].")
       .def_prop_ro("stamps_ns", column(&PerPose::stamp_ns), kView, "(N,) int64 [ns].")
-      .def_prop_ro("ape_rotation_deg", column(&PerPose::ape_rotation_deg), kView, "(N,), origin-aligned.")
-      .def_prop_ro("ape_translation_m", column(&PerPose::ape_translation_m), kView, "(N,), origin-aligned.")
-      .def_prop_ro("rpe_rotation_deg", column(&PerPose::rpe_rotation_deg), kView, "(N,), NaN for the first pose.")
-      .def_prop_ro("rpe_translation_m", column(&PerPose::rpe_translation_m), kView, "(N,), NaN for the first pose.");
+      .def_prop_ro("ape_rotation_deg", column(&PerPose::ape_rotation_deg), kView, "(N,): origin-aligned.")
+      .def_prop_ro("ape_translation_m", column(&PerPose::ape_translation_m), kView, "(N,): origin-aligned.")
+      .def_prop_ro("rpe_rotation_deg", column(&PerPose::rpe_rotation_deg), kView, "(N,): NaN for the first pose.")
+      .def_prop_ro("rpe_translation_m", column(&PerPose::rpe_translation_m), kView, "(N,): NaN for the first pose.");
   module.def(
       "evaluate_trajectory", &evaluate_trajectory, "estimate"_a, "truth"_a, "from_frame"_a = 0,
       "max_stamp_difference_ns"_a = 10'000'000,
-      "Compares two Trajectories. Poses are matched by the nearest stamp, each once; 0 as the largest difference\n"
-      "where stamps are numbers of rows (KITTI files). from_frame: poses of the estimate before it are left\n"
-      "out.\n\n"
-      "Raises DataError when fewer than two poses match.");
+      "Compares an estimated Trajectory with the ground truth. Every pose is matched at most once, with the nearest "
+      "time\n"
+      "stamp.\n\n"
+      "from_frame: number of leading poses of the estimate to skip.\n"
+      "max_stamp_difference_ns: largest difference of matched time stamps [ns]; use 0 where stamps are row numbers\n"
+      "(KITTI files).\n\n"
+      "Raises DataError if fewer than two poses match.");
 }
 
 }  // namespace quadedge::python

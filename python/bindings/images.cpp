@@ -18,10 +18,13 @@ std::string type_of(nb::handle object) {
   return object.is_none() ? "None" : nb::cast<std::string>(nb::str(object.type().attr("__name__")));
 }
 
-std::string shape_of(const nb::ndarray<nb::ro, nb::device::cpu>& array) {
-  std::string text;
-  for (std::size_t i = 0; i < array.ndim(); ++i) text += (i > 0 ? " x " : "") + std::to_string(array.shape(i));
-  return text;
+[[noreturn]] void refuse_shape(const std::string& name, const nb::ndarray<nb::ro, nb::device::cpu>& array) {
+  std::string message = name + " has ";
+  for (std::size_t i = 0; i < array.ndim(); ++i) message += (i > 0 ? " x " : "") + std::to_string(array.shape(i));
+  message += " values, expected height x width: one grey channel";
+  const bool is_colour = array.ndim() == 3 && (array.shape(2) == 3 || array.shape(2) == 4);
+  if (is_colour) message += ". Convert colour first, for example with cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)";
+  throw DataError(message);
 }
 
 }  // namespace
@@ -34,15 +37,13 @@ ImageArgument::ImageArgument(nb::handle object, const std::string& name, int max
     const nb::object pixels = object.attr("dtype");
     refuse_type(name, "an array of " + nb::cast<std::string>(nb::str(nb::handle(pixels))));
   }
-  if (array_.ndim() != 2) {
-    throw DataError(name + " has " + shape_of(array_) + " values, expected height x width: one grey channel");
-  }
+  if (array_.ndim() != 2 && !(array_.ndim() == 3 && array_.shape(2) == 1)) refuse_shape(name, array_);
   const auto height = static_cast<int>(array_.shape(0)), width = static_cast<int>(array_.shape(1));
   const std::ptrdiff_t bytes = words ? 2 : 1;
   const auto* pixels = static_cast<const std::uint8_t*>(array_.data());
   std::ptrdiff_t row = bytes * array_.stride(0);
   const std::ptrdiff_t step = bytes * array_.stride(1);
-  if (height == 1) row = bytes * width;  // numpy says nothing of a stride that nobody takes
+  if (height == 1) row = bytes * width;  // numpy leaves the stride of a dimension of length 1 undefined
   if (width > 1 && height > 0 && step < bytes) {
     throw DataError(name + " has a stride of " + std::to_string(step) +
                     " bytes from pixel to pixel, expected at least the " + std::to_string(bytes) + " of a pixel");

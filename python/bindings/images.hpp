@@ -1,5 +1,5 @@
 #pragma once
-/// \file images.hpp  Grey images from and to numpy.
+/// \file images.hpp  Conversion of grey images between numpy and the library.
 
 #include <nanobind/ndarray.h>
 #include <string>
@@ -10,16 +10,18 @@
 
 namespace quadedge::python {
 
-/// An image that Python hands in: a height x width array of uint8 or uint16. Rows may be any number of bytes apart;
-/// what else is strided is copied. Keeps the array alive, and must be destroyed with the GIL held.
+/// An image argument: an array of uint8 or uint16, height x width or height x width x 1. Rows may be padded; an array
+/// that is strided along its rows is copied. Keeps the array alive, and must be destroyed with the GIL held.
 class ImageArgument {
  public:
-  /// `name`: "the left image". `max_value`: value of a saturated pixel of 16 bits. \throws TypeError for what is no
-  /// array or has other pixels, DataError for another shape and pixels that run backwards.
+  /// \param name   for messages: "the left image"
+  /// \param max_value  value of a saturated pixel of a uint16 image
+  /// \throws TypeError for anything but an array of uint8 or uint16, DataError for other shapes (colour) and for
+  ///     negative strides along a row.
   ImageArgument(nb::handle object, const std::string& name, int max_value);
   ImageArgument(const ImageArgument&) = delete;
   ImageArgument& operator=(const ImageArgument&) = delete;
-  /// Its checks are left to the library: an empty image, a stride below a row's bytes.
+  /// Empty images and strides shorter than a row are left to the library to refuse.
   const ImageView& view() const { return view_; }
 
  private:
@@ -28,7 +30,7 @@ class ImageArgument {
   ImageView view_;
 };
 
-/// The pixels of an image as an array, a view for properties with `kView`.
+/// The pixels of an image as a read-only array, (height, width), that keeps `owner` alive.
 nb::object pixels_of(const Image& image, nb::handle owner);
 
 }  // namespace quadedge::python

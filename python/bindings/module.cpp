@@ -1,12 +1,12 @@
 /// \file module.cpp  The module quadedge._quadedge: the public C++ library (include/quadedge) for Python.
 ///
-/// Arrays are numpy's. Those that properties return are views of what the object holds, read-only, and keep it alive.
+/// Arrays returned by properties are read-only views of the object's memory and keep it alive.
 
 #include "bindings.hpp"
 
 NB_MODULE(_quadedge, module) {
   using namespace quadedge::python;
-  module.doc() = "The compiled part of quadedge; use the names of the package itself.";
+  module.doc() = "The compiled part of quadedge. Use the names in the package quadedge instead.";
   bind_errors(module);
   bind_devices(module);
   bind_configuration(module);

@@ -1,4 +1,4 @@
-/// \file odometry.cpp  Stereo images in, poses out (include/quadedge/odometry.hpp).
+/// \file odometry.cpp  Stereo visual odometry (include/quadedge/odometry.hpp).
 
 #include "quadedge/odometry.hpp"
 
@@ -10,8 +10,10 @@
 #include "arrays.hpp"
 #include "cameras.hpp"
 #include "configuration.hpp"
+#include "device_argument.hpp"
 #include "edges.hpp"
 #include "images.hpp"
+#include "pickling.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::python {
@@ -19,14 +21,14 @@ namespace {
 
 constexpr int kMaxValue16 = 65535;
 
-/// What one frame was made of.
+/// The edges and quads of one frame.
 struct Details {
   EdgeSet left_edges, right_edges;
   StereoEdgesInSpace stereo, previous_stereo;
   Quads quads;
 };
 
-/// The library's odometry with its device. Calls from several threads wait for one another.
+/// The library's odometry with its device. Calls from several threads are serialised.
 class Odometry {
  public:
   Odometry(const Cameras& cameras, const std::string& device, Config config) : config_(std::move(config)) {
@@ -91,24 +93,32 @@ class Odometry {
 };
 
 void bind_evidence(nb::module_& module) {
-  nb::class_<FrameCounts>(module, "FrameCounts", "Counts of one frame.")
-      .def_ro("edges_left", &FrameCounts::edges_left)
-      .def_ro("edges_right", &FrameCounts::edges_right)
-      .def_ro("stereo_edges", &FrameCounts::stereo_edges)
+  nb::class_<FrameCounts> counts(module, "FrameCounts", "Numbers of edges and quads of one frame.");
+  add_pickling(counts);
+  counts.def_ro("edges_left", &FrameCounts::edges_left, "Edges detected in the left image.")
+      .def_ro("edges_right", &FrameCounts::edges_right, "Edges detected in the right image.")
+      .def_ro("stereo_edges", &FrameCounts::stereo_edges, "Edges matched between the left and the right image.")
       .def_ro("temporal_left", &FrameCounts::temporal_left,
-              "Stereo edges of the earlier frame that keep a candidate in the left image.")
+              "Stereo edges of the earlier frame with at least one candidate in the left image.")
       .def_ro("temporal_right", &FrameCounts::temporal_right, "The same in the right image.")
-      .def_ro("quads", &FrameCounts::quads)
-      .def_ro("inliers", &FrameCounts::inliers);
-  nb::class_<RigEvidence>(module, "RigEvidence",
-                          "What a frame's own images say of the calibration; NaN where nothing could be measured.")
-      .def_ro("matched_ratio", &RigEvidence::matched_ratio, "Left edges with a stereo partner, of all left edges.")
-      .def_ro("epipolar_residual", &RigEvidence::epipolar_residual, "Median distance from the epipolar line [px].")
-      .def_ro("epipolar_offset", &RigEvidence::epipolar_offset, "Signed, in the middle of the image [px].")
+      .def_ro("quads", &FrameCounts::quads, "Stereo edges matched with those of the earlier frame.")
+      .def_ro("inliers", &FrameCounts::inliers, "Quads that agree with the estimated motion.");
+  nb::class_<RigEvidence> evidence(module, "RigEvidence",
+                                   "How well one frame's images agree with the calibration; NaN where nothing could\n"
+                                   "be measured.");
+  add_pickling(evidence);
+  evidence
+      .def_ro("matched_ratio", &RigEvidence::matched_ratio, "Share of the left edges that have a stereo match, 0 to 1.")
+      .def_ro("epipolar_residual", &RigEvidence::epipolar_residual,
+              "Median distance of matched patches from their epipolar lines [px].")
+      .def_ro("epipolar_offset", &RigEvidence::epipolar_offset,
+              "Signed distance from the epipolar line at the image centre [px].")
       .def_ro("searched_residual", &RigEvidence::searched_residual,
-              "Median distance of spots found far around their epipolar lines [px]; in some frames only.")
-      .def_ro("found_ratio", &RigEvidence::found_ratio, "Of the sought spots.")
-      .def_ro("on_line_ratio", &RigEvidence::on_line_ratio, "Found within 1 px of their line.");
+              "Median distance from the epipolar line of corners searched for in a wide band around it [px];\n"
+              "measured in some frames only.")
+      .def_ro("found_ratio", &RigEvidence::found_ratio, "Share of these corners that were found, 0 to 1.")
+      .def_ro("on_line_ratio", &RigEvidence::on_line_ratio,
+              "Share of the found corners within 1 px of their epipolar line, 0 to 1.");
 }
 
 nb::object optional_matrix(const std::optional<PoseCovariance>& covariance, nb::handle owner) {
@@ -116,51 +126,57 @@ nb::object optional_matrix(const std::optional<PoseCovariance>& covariance, nb::
   return nb::cast(ArrayView<double>(covariance->data(), {6, 6}, owner));
 }
 
+/// LONG: one statement per member.
 void bind_result(nb::module_& module) {
   using Self = FrameResult;
-  nb::class_<Self>(module, "FrameResult", "The outcome of one frame.")
-      .def_ro("stamp_ns", &Self::stamp_ns)
+  nb::class_<Self> result(module, "FrameResult", "The result of tracking one frame. Can be pickled and copied.");
+  add_pickling(result);
+  result.def_ro("stamp_ns", &Self::stamp_ns, "Time stamp of the frame [ns].")
       .def_prop_ro(
           "status", [](const Self& self) { return to_string(self.status); },
           "first, tracked, lost_too_few_edges, lost_too_few_quads, lost_no_consensus or lost_rig_mismatch.")
       .def_prop_ro(
           "is_tracked", [](const Self& self) { return is_tracked(self.status); },
-          "Is there a pose? True for first and tracked.")
+          "True if the pose was measured: status first or tracked.")
       .def_prop_ro(
           "world_from_left", [](const Self& self) { return view_of_matrix(self.world_from_left.matrix()); }, kView,
-          "(4, 4): pose of the left camera in the frame of the first one [m]; for a lost frame the last motion\n"
-          "repeated.")
+          "(4, 4) float64: pose of the left camera in the world frame [m], which is the left camera frame of the\n"
+          "first frame (x right, y down, z forward). For a lost frame it is predicted by repeating the last motion.")
       .def_prop_ro(
           "current_from_reference",
           [](const Self& self) { return view_of_matrix(self.current_from_reference.matrix()); }, kView,
-          "(4, 4): a point in this left camera's frame from one in the key rig's [m].")
+          "(4, 4) float64: maps points from the left camera frame of the key rig to that of this frame [m].")
       .def_prop_ro(
           "covariance",
           [](nb::handle_t<Self> self) {
             return optional_matrix(nb::cast<const Self&>(self).covariance_in_world, self);
           },
           nb::sig("def covariance(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(6, 6): of ``world_from_left`` as ROS's PoseWithCovariance has it: x, y, z [m], rotation about x, y, z\n"
-          "[rad], along and about the world's axes. None for a lost frame, and from where tracking went on from a\n"
-          "predicted pose.")
+          "(6, 6) float64: covariance of ``world_from_left`` in the convention of ROS's PoseWithCovariance: x, y, z\n"
+          "[m] and rotation about x, y, z [rad], along and about the axes of the world frame. None for a lost frame\n"
+          "and for all frames after tracking resumed from a predicted pose.")
       .def_prop_ro(
           "covariance_in_reference",
           [](nb::handle_t<Self> self) {
             return optional_matrix(nb::cast<const Self&>(self).covariance_in_reference, self);
           },
           nb::sig("def covariance_in_reference(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(6, 6): the same of the pose in the key rig's left camera frame, the inverse of\n"
-          "``current_from_reference``; None for a lost frame.")
-      .def_ro("reference_frame", &Self::reference_frame, "Number of the key rig's frame; -1 before the first one.")
-      .def_ro("new_key_rig", &Self::new_key_rig, "Does this frame become the key rig of the following ones?")
-      .def_ro("disparity_offset", &Self::disparity_offset, "Found so far, added to every disparity [px].")
-      .def_ro("overflow", &Self::overflow, "A capacity ran out; the message says which.")
-      .def_ro("message", &Self::message, "Empty, or one sentence for a person: why a frame was lost.")
-      .def_ro("warning", &Self::warning, "Empty, or what is doubtful about the recording; told once per run.")
-      .def_ro("ambiguous_motion", &Self::ambiguous_motion, "Another motion explains nearly as much of the image.")
-      .def_ro("moving_ratio", &Self::moving_ratio, "Edges where the image moves otherwise than the camera says.")
-      .def_ro("rig_evidence", &Self::rig)
-      .def_ro("counts", &Self::counts)
+          "(6, 6) float64: covariance, in the same convention, of the pose in the left camera frame of the key rig\n"
+          "(the inverse of ``current_from_reference``). None for a lost frame.")
+      .def_ro("reference_frame", &Self::reference_frame,
+              "Number of the key rig's frame, counted from 0; -1 before the first one.")
+      .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the key rig of the following frames.")
+      .def_ro("disparity_offset", &Self::disparity_offset, "Offset estimated so far and added to every disparity [px].")
+      .def_ro("overflow", &Self::overflow, "True if a buffer was full; ``message`` names it.")
+      .def_ro("message", &Self::message, "Why the frame was lost or is doubtful, in one sentence; may be empty.")
+      .def_ro("warning", &Self::warning,
+              "What is doubtful about the recording as a whole, or empty. Each warning is given once per sequence.")
+      .def_ro("ambiguous_motion", &Self::ambiguous_motion,
+              "True if a second motion explains nearly as much of the image as the estimated one.")
+      .def_ro("moving_ratio", &Self::moving_ratio,
+              "Share of the visible edges in image regions that do not follow the camera's motion, 0 to 1.")
+      .def_ro("rig_evidence", &Self::rig, "How well the images agree with the calibration.")
+      .def_ro("counts", &Self::counts, "Numbers of edges and quads.")
       .def_prop_ro(
           "stages",
           [](const Self& self) {
@@ -168,19 +184,20 @@ void bind_result(nb::module_& module) {
             for (const auto& stage : self.stages) times[nb::str(stage.stage.c_str())] = stage.ms;
             return times;
           },
-          nb::sig("def stages(self) -> dict[str, float]"), "Time of each stage [ms].")
-      .def_ro("latency_ms", &Self::latency_ms, "From images in memory to the pose.")
+          nb::sig("def stages(self) -> dict[str, float]"), "Duration of each processing stage by its name [ms].")
+      .def_ro("latency_ms", &Self::latency_ms, "Time from the images in memory to the pose [ms].")
       .def("__repr__", [](const Self& self) {
         return "<FrameResult " + std::to_string(self.stamp_ns) + ": " + to_string(self.status) + ">";
       });
 }
 
 void bind_details(nb::module_& module) {
-  nb::class_<Details>(module, "FrameDetails", "What one frame was made of; for drawing and for evaluation.")
+  nb::class_<Details>(module, "FrameDetails", "The edges and quads of one frame, for drawing and evaluation.")
       .def_ro("left_edges", &Details::left_edges)
       .def_ro("right_edges", &Details::right_edges)
       .def_ro("stereo", &Details::stereo, "Stereo edges of this frame.")
-      .def_ro("previous_stereo", &Details::previous_stereo, "Of the frame that this one was matched with, if any.")
+      .def_ro("previous_stereo", &Details::previous_stereo,
+              "Stereo edges of the frame that this one was matched with; empty if there is none.")
       .def_ro("quads", &Details::quads, "Indices into ``previous_stereo`` and ``stereo``.");
 }
 
@@ -192,14 +209,16 @@ FrameResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::ha
 }
 
 constexpr const char* kOdometryHelp =
-    "Tracks the pose of a stereo camera. One object per sequence; the same frames, device and configuration give\n"
-    "the same bytes as ``quadedge run``. Threads may have an object each.\n\n"
-    "rig: a Rig, or a Dataset or Synthetic, whose disparity range it then uses.\n"
-    "device: auto (first GPU, else first CPU), cpu, gpu, reference (plain C++, slow, without OpenCL), a number of\n"
-    "``devices()``, or a part of a name.\n"
-    "preset: fast, default or accurate. config: what differs from it, a dictionary such as\n"
-    "``{\"stereo.max_disparity\": 100}`` (doc/configuration.md), or the path of a TOML file.\n\n"
-    "Raises DataError for an unusable rig, UsageError for the configuration, DeviceError.";
+    "Estimates the pose of a stereo camera. Create one object per sequence. The same frames, device and configuration\n"
+    "give byte for byte the poses of ``quadedge run``. Several objects may track in parallel threads.\n\n"
+    "rig: a Rig, or a Dataset or Synthetic, which also provides its disparity range.\n"
+    "device: \"auto\" (first GPU, else first CPU), \"cpu\", \"gpu\", \"reference\" (plain C++, slow, without OpenCL),\n"
+    "an index of ``devices()``, or a part of a device's name.\n"
+    "preset: \"fast\", \"default\" or \"accurate\".\n"
+    "config: values that differ from the preset, as a dictionary such as ``{\"stereo.max_disparity\": 100}``\n"
+    "(doc/configuration.md), or the path of a TOML file.\n\n"
+    "Raises DataError for an unusable rig, UsageError for an invalid configuration, and DeviceError when no device\n"
+    "matches, a kernel does not build, or the process was forked after OpenCL had been used.";
 
 }  // namespace
 
@@ -211,55 +230,62 @@ void bind_odometry(nb::module_& module) {
   nb::class_<Odometry>(module, "Odometry", kOdometryHelp)
       .def(
           "__init__",
-          [](Odometry* self, nb::handle rig, const std::string& device, const std::string& preset, nb::handle config) {
+          [](Odometry* self, nb::handle rig, nb::handle device, const std::string& preset, nb::handle config) {
             const Cameras cameras = cameras_of(rig);
+            const std::string choice = device_choice(device);
             const Config constants = make_config(preset, config);
             const nb::gil_scoped_release released;
-            new (self) Odometry(cameras, device, constants);
+            new (self) Odometry(cameras, choice, constants);
           },
-          "rig"_a.none(), "device"_a = "auto", "preset"_a = "default", "config"_a = nb::none(),
-          nb::sig("def __init__(self, rig: Rig | Dataset | Synthetic, device: str = 'auto', preset: str = 'default', "
-                  "config: dict | str | os.PathLike | None = None) -> None"))
-      .def(
-          "track", &track, "stamp_ns"_a, "left"_a.none(), "right"_a.none(),
-          nb::sig("def track(self, stamp_ns: int, left: numpy.typing.NDArray, right: numpy.typing.NDArray) -> "
-                  "FrameResult"),
-          "Processes the next frame; the GIL is released meanwhile.\n\n"
-          "left, right: recorded images, (height, width) of uint8, or of uint16 where ``rig.max_value`` says so. Rows "
-          "may\n"
-          "be any number of bytes apart, the arrays may be read-only; they are not kept.\n\n"
-          "What can happen in any frame is a status. Raises TypeError for what is no image, DataError for images that\n"
-          "do not fit the rig or a stamp that goes back (no trace is left), UsageError after close().")
+          "rig"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default", "config"_a = nb::none(),
+          nb::sig("def __init__(self, rig: Rig | Dataset | Synthetic, device: str | int = 'auto', preset: str = "
+                  "'default', config: dict | str | os.PathLike | None = None) -> None"))
+      .def("track", &track, "stamp_ns"_a, "left"_a.none(), "right"_a.none(),
+           nb::sig("def track(self, stamp_ns: int, left: numpy.typing.NDArray, right: numpy.typing.NDArray) -> "
+                   "FrameResult"),
+           "Processes the next frame. Releases the GIL.\n\n"
+           "stamp_ns: time stamp [ns], not below that of the previous frame.\n"
+           "left, right: grey images as recorded, of the calibrated size, (height, width) or (height, width, 1),\n"
+           "uint8, or uint16 if ``rig.max_value`` exceeds 255. Colour is refused: convert it first, for example with\n"
+           "``cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)``. Rows may be padded and arrays may be read-only; they are\n"
+           "not kept after the call.\n\n"
+           "A frame that cannot be tracked is reported by ``status``, not by an exception. Raises TypeError for\n"
+           "anything but an array of uint8 or uint16, DataError for images that do not fit the rig and for stamps\n"
+           "that go back, DeviceError for a failing device and in a process forked after OpenCL had been used, and\n"
+           "UsageError after close(). The odometry's state does not change when DataError or TypeError is raised.")
       .def(
           "edges",
           [](Odometry& self) {
             const nb::gil_scoped_release released;
             return self.edges();
           },
-          "Stereo edges of the frame tracked last; none before the first one.")
+          "Stereo edges of the last tracked frame; empty before the first one. Raises UsageError after close().")
       .def(
           "details",
           [](Odometry& self) {
             const nb::gil_scoped_release released;
             return self.details();
           },
-          "All edges and quads of the frame tracked last.")
+          "All edges and quads of the last tracked frame. Raises UsageError after close().")
       .def_prop_ro(
           "rig", &Odometry::rig, kView,
-          "The pinhole cameras whose pixels edges are given in: those of the constructor, or where one has at\n"
-          "least one and a half times the other's resolution, with that one reduced.")
+          "The pinhole cameras whose pixel coordinates edges are given in: the rig passed to the constructor, or,\n"
+          "where one camera has at least 1.5 times the resolution of the other, that rig with the finer camera\n"
+          "reduced.")
       .def_prop_ro(
           "config", [](const Odometry& self) { return to_dict(self.config()); },
-          "Every constant in effect, by its key.")
-      .def_prop_ro("device", &Odometry::device)
-      .def_prop_ro("variants", &Odometry::variants, "Chosen kernel variant of every stage; none on the reference.")
+          "All configuration values in effect, by key.")
+      .def_prop_ro("device", &Odometry::device, "The device in use, a DeviceInfo. Raises UsageError after close().")
+      .def_prop_ro("variants", &Odometry::variants,
+                   "Kernel variant of every stage, by the stage's name; empty on the plain C++ reference.")
       .def(
           "close",
           [](Odometry& self) {
             const nb::gil_scoped_release released;
             self.close();
           },
-          "Releases the device's memory. Results stay; track() and edges() raise UsageError from now on.")
+          "Releases the device memory. Results remain valid; track(), edges() and details() raise UsageError\n"
+          "afterwards.")
       .def("__enter__", [](nb::handle self) { return nb::borrow(self); })
       .def(
           "__exit__",

@@ -48,17 +48,19 @@ Trajectory truth(const RenderedSequence& self) {
 
 void bind_synthetic(nb::module_& module) {
   nb::class_<RenderedSequence>(module, "Synthetic",
-                               "A rendered sequence with exact poses and depth; make one with ``synthetic()``.\n\n"
-                               "``sequence[i]`` and iterating render frames; the same options give the same bytes.")
+                               "A rendered sequence with exact poses and depths; created by ``synthetic()``.\n\n"
+                               "Indexing and iterating render Frames. The same options give the same bytes.")
       .def_prop_ro("name", &RenderedSequence::name)
       .def_prop_ro("rig", &RenderedSequence::rig, kView)
-      .def_prop_ro("max_disparity", &RenderedSequence::max_disparity, "No surface in view is nearer [px].")
-      .def_prop_ro("truth", &truth, "Exact poses of the left camera.")
+      .def_prop_ro("max_disparity", &RenderedSequence::max_disparity, "Largest disparity of any visible surface [px].")
+      .def_prop_ro("truth", &truth, "Exact poses of the left camera, a Trajectory.")
       .def("__len__", &RenderedSequence::frames)
       .def("__getitem__", &render, "frame"_a)
       .def("depth", &depth, "frame"_a, "side"_a = "left",
            nb::sig("def depth(self, frame: int, side: str = 'left') -> numpy.typing.NDArray"),
-           "(height, width) float32: z of the ray through each pixel's centre [m].")
+           "(height, width) float32: depth (z coordinate) at the centre of each pixel [m], in the camera frame of "
+           "``side``,\n"
+           "\"left\" or \"right\". Raises IndexError for a frame that does not exist.")
       .def("__repr__", [](const RenderedSequence& self) {
         return "<Synthetic " + self.name() + ": " + std::to_string(self.frames()) + " frames>";
       });
@@ -69,7 +71,7 @@ void bind_synthetic(nb::module_& module) {
       [](const std::string& scene, const std::string& path, int frames, int width, int height, double noise,
          double blur, double mover, int bits, std::uint64_t seed) {
         SyntheticOptions options;
-        options.focal *= static_cast<double>(width) / options.width;  // a small picture shows the same scene
+        options.focal *= static_cast<double>(width) / options.width;  // keeps the field of view
         options.scene = scene;
         options.path = path;
         options.frames = frames;
@@ -85,11 +87,12 @@ void bind_synthetic(nb::module_& module) {
       nb::rv_policy::take_ownership, "scene"_a = defaults.scene, "path"_a = defaults.path, "frames"_a = defaults.frames,
       "width"_a = defaults.width, "height"_a = defaults.height, "noise"_a = defaults.noise, "blur"_a = defaults.blur,
       "mover"_a = defaults.mover, "bits"_a = defaults.bits, "seed"_a = defaults.seed,
-      "A rendered sequence: exact poses, exact depth, nothing to download.\n\n"
-      "scene: room, cables or facade. path: ellipse, handheld, drive or loop. width, height: of the images [px].\n"
-      "noise: standard deviation of the camera's [grey levels]. blur: by motion, on average over the path [px].\n"
-      "mover: ratio of the left image that a board moving on its own covers. bits: of a pixel, 8, 12 or 16.\n\n"
-      "Raises UsageError that names the option, its value and what is allowed.");
+      "Creates a rendered sequence with exact poses and depths.\n\n"
+      "scene: \"room\", \"cables\" or \"facade\". path: \"ellipse\", \"handheld\", \"drive\" or \"loop\".\n"
+      "width, height: image size [px]. noise: standard deviation of the image noise [grey levels].\n"
+      "blur: motion blur, averaged over the path [px]. mover: share of the left image covered by an independently\n"
+      "moving board, 0 to 1. bits: bits per pixel, 8, 12 or 16.\n\n"
+      "Raises UsageError that names the option, its value and the allowed values.");
 }
 
 }  // namespace quadedge::python

@@ -1,5 +1,5 @@
 #pragma once
-/// \file synthetic.hpp  A rendered sequence that knows what it was made of.
+/// \file synthetic.hpp  A rendered sequence together with its options.
 
 #include "quadedge/synthetic.hpp"
 

@@ -9,7 +9,7 @@
 namespace quadedge::python {
 namespace {
 
-// Arrays of stamps and of poses look into the same rows.
+// The arrays of stamps and of poses are views of the same rows.
 static_assert(sizeof(StampedPose) % sizeof(double) == 0);
 constexpr std::int64_t kRow = sizeof(StampedPose) / sizeof(double);
 
@@ -37,26 +37,28 @@ Trajectory make_trajectory(const nb::ndarray<const std::int64_t, nb::ndim<1>, nb
 }  // namespace
 
 void bind_trajectories(nb::module_& module) {
-  nb::class_<Trajectory>(module, "Trajectory", "Poses of the left camera over time.")
+  nb::class_<Trajectory>(module, "Trajectory", "Poses of the left camera over time (world_from_left).")
       .def(
           "__init__",
           [](Trajectory* self, const nb::ndarray<const std::int64_t, nb::ndim<1>, nb::device::cpu>& stamps_ns,
              const nb::ndarray<const double, nb::ndim<3>, nb::device::cpu>& poses) {
             new (self) Trajectory(make_trajectory(stamps_ns, poses));
           },
-          "stamps_ns"_a, "poses"_a, "stamps_ns: (N,) int64 [ns]; poses: (N, 4, 4) float64, world_from_left [m].")
+          "stamps_ns"_a, "poses"_a,
+          "stamps_ns: (N,) int64 [ns]. poses: (N, 4, 4) float64, world_from_left [m]. Raises DataError for other "
+          "shapes.")
       .def_static(
           "from_file", [](const std::filesystem::path& path) { return read_trajectory(path.string()); }, "path"_a,
-          "Reads a TUM file (8 columns), or one of KITTI's (12 columns), whose stamps are the numbers of its rows.\n\n"
+          "Reads a TUM file (8 columns) or a KITTI file (12 columns, where the row number serves as the stamp).\n\n"
           "Raises DataError that names file, line, what was found and what was expected.")
       .def(
           "write_tum",
           [](const Trajectory& self, const std::filesystem::path& path) { write_tum(path.string(), self); }, "path"_a,
-          "Writes ``timestamp tx ty tz qx qy qz qw`` per pose [s, m], byte for byte as ``quadedge run``.")
+          "Writes a TUM file: ``timestamp tx ty tz qx qy qz qw`` per pose [s, m], byte for byte as ``quadedge run``.")
       .def(
           "write_kitti",
           [](const Trajectory& self, const std::filesystem::path& path) { write_kitti(path.string(), self); }, "path"_a,
-          "Writes a 3 x 4 matrix per pose, row by row [m].")
+          "Writes a KITTI file: a 3 x 4 matrix per pose, row by row [m].")
       .def("__len__", [](const Trajectory& self) { return self.size(); })
       .def_prop_ro(
           "stamps_ns",
@@ -64,7 +66,7 @@ void bind_trajectories(nb::module_& module) {
             const void* first = self.empty() ? nullptr : &self.front().stamp_ns;
             return ArrayView<std::int64_t>(first, {self.size()}, {}, {kRow});
           },
-          kView, "(N,) int64 [ns].")
+          kView, "(N,) int64: time stamps [ns].")
       .def_prop_ro(
           "poses",
           [](const Trajectory& self) {

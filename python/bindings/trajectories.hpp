@@ -1,5 +1,5 @@
 #pragma once
-/// \file trajectories.hpp  Trajectories are a class of their own for Python, not lists.
+/// \file trajectories.hpp  Makes Trajectory a Python class instead of a list.
 
 #include <nanobind/stl/bind_vector.h>
 

@@ -32,7 +32,7 @@ _COMPILED = (
     "FrameIterator", "FrameResult", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "Rig", "RigEvidence",
     "StereoEdges", "Synthetic", "Trajectory", "TrajectoryEvaluation", "configuration", "dataset_formats",
     "decode_grey_image", "detect_edges", "devices", "evaluate_matching", "evaluate_trajectory", "match", "open_dataset",
-    "presets", "read_grey_image", "synthetic",
+    "open_stereo_source", "presets", "read_grey_image", "synthetic",
 )  # fmt: skip
 
 __all__ = [*_ERRORS, *_COMPILED, "__version__"]

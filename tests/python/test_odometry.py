@@ -1,6 +1,10 @@
 """Odometry: poses like the command's, arrays, lifetimes, threads, errors."""
 
+import copy
 import gc
+import pickle
+import subprocess
+import sys
 import threading
 
 import numpy
@@ -99,15 +103,23 @@ def test_arrays_outlive_everything_and_cannot_be_written(room, frames):
     assert junk
 
 
+def colour_of(grey):
+    return numpy.repeat(grey[:, :, None], 3, axis=2)
+
+
 def test_strided_and_read_only_images_give_the_same(room, frames):
     expected = track_all(room)[1].world_from_left
     with quadedge.Odometry(room) as odometry:
         for frame in frames[:2]:
             wide = numpy.zeros((frame.left.shape[0], frame.left.shape[1] + 37), numpy.uint8)
             wide[:, 5:-32] = frame.left
-            colour = numpy.repeat(frame.right[:, :, None], 3, axis=2)
+            colour = colour_of(frame.right)
             assert not frame.left.flags.writeable and not wide[:, 5:-32].flags.c_contiguous
             result = odometry.track(frame.stamp_ns, wide[:, 5:-32], colour[:, :, 1])
+    numpy.testing.assert_array_equal(result.world_from_left, expected)
+    with quadedge.Odometry(room) as odometry:
+        for frame in frames[:2]:
+            result = odometry.track(frame.stamp_ns, frame.left[:, :, None], colour_of(frame.right)[:, :, 1:2])
     numpy.testing.assert_array_equal(result.world_from_left, expected)
 
 
@@ -115,7 +127,8 @@ def test_images_of_16_bits(frames):
     deep = quadedge.synthetic(frames=2, width=320, height=200, bits=16)
     assert deep.rig.max_value == 65535 and deep[0].left.dtype == numpy.uint16
     assert [result.status for result in track_all(deep)] == ["first", "tracked"]
-    with quadedge.Odometry(deep) as odometry, pytest.raises(quadedge.DataError, match="up to 255, the rig expects"):
+    expected = "values up to 255, the rig expects"
+    with quadedge.Odometry(deep) as odometry, pytest.raises(quadedge.DataError, match=expected):
         odometry.track(0, frames[0].left, frames[0].right)
 
 
@@ -132,6 +145,134 @@ def test_two_threads_with_an_object_each(room, frames):
     for thread in threads:
         thread.join()
     assert found == {0: expected, 1: expected}
+
+
+IN_THREADS = """
+import threading, quadedge
+room = quadedge.synthetic(frames=3, width=320, height=200)
+frames = list(room)
+together = threading.Barrier(4)
+poses = []
+
+def work():
+    together.wait()
+    odometry = quadedge.Odometry(room)
+    poses.append([odometry.track(f.stamp_ns, f.left, f.right).world_from_left.tobytes() for f in frames])
+
+threads = [threading.Thread(target=work) for _ in range(4)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+assert len(poses) == 4 and all(pose == poses[0] for pose in poses)
+"""
+
+
+def test_four_threads_build_and_track_from_the_start():
+    """OpenCL is used for the first time by all of them at once, in a new process each time."""
+    for _ in range(5):
+        done = subprocess.run([sys.executable, "-c", IN_THREADS], capture_output=True, text=True, timeout=300)
+        assert done.returncode == 0, done.stderr
+
+
+FORKED = """
+import os, signal, sys, quadedge
+room = quadedge.synthetic(frames=3, width=320, height=200)
+frames = list(room)
+
+def status_of_fork(work):
+    child = os.fork()
+    if child == 0:
+        signal.alarm(60)
+        try:
+            work()
+        except quadedge.DeviceError as error:
+            os._exit(11 if "get_context" in str(error) else 12)
+        os._exit(10)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+def track(odometry):
+    for frame in frames:
+        odometry.track(frame.stamp_ns, frame.left, frame.right)
+
+assert status_of_fork(lambda: track(quadedge.Odometry(room))) == 10  # nothing was used before
+odometry = quadedge.Odometry(room)
+track(odometry)
+assert status_of_fork(lambda: track(odometry)) == 11
+assert status_of_fork(lambda: quadedge.Odometry(room)) == 11
+assert status_of_fork(quadedge.devices) == 11
+assert status_of_fork(lambda: track(quadedge.Odometry(room, "reference"))) == 10
+odometry.track(frames[-1].stamp_ns, frames[-1].left, frames[-1].right)
+"""
+
+
+def test_a_forked_process_is_refused_once_opencl_was_used():
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", FORKED], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+
+
+DISTORTED = """
+image_width: 320
+image_height: 200
+camera_name: camera
+camera_matrix: {rows: 3, cols: 3, data: [184, 0, 159.5, 0, 184, 99.5, 0, 0, 1]}
+distortion_model: plumb_bob
+distortion_coefficients: {rows: 1, cols: 5, data: [-0.1, 0.01, 0, 0, 0]}
+rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}
+projection_matrix: {rows: 3, cols: 4, data: [184, 0, 159.5, TX, 0, 184, 99.5, 0, 0, 0, 1, 0]}
+"""
+
+
+def distorted_rig(folder, **arguments):
+    for side, tx in (("left", "0"), ("right", "-20.0")):
+        (folder / f"{side}.yaml").write_text(DISTORTED.replace("TX", tx))
+    return quadedge.Rig.from_file((folder / "left.yaml", folder / "right.yaml"), **arguments)
+
+
+def values_of(value):
+    """Everything that an object's attributes say, arrays as nested lists."""
+    if type(value).__module__.startswith("quadedge"):
+        return {name: values_of(getattr(value, name)) for name in dir(value) if not name.startswith("_")}
+    return value.tolist() if isinstance(value, numpy.ndarray) else value
+
+
+def test_results_and_rigs_can_be_pickled(room, frames, odometry, tmp_path):
+    results = [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in frames[:3]]
+    blank = numpy.zeros_like(frames[0].left)
+    results.append(odometry.track(10**10, blank, blank))  # lost: no covariance
+    assert results[2].covariance is not None and results[3].covariance is None
+    for result in results:
+        for copied in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+            assert repr(values_of(copied)) == repr(values_of(result))  # NaN is equal to NaN
+    rig = distorted_rig(tmp_path, max_value=4095)
+    again = pickle.loads(pickle.dumps(rig))
+    assert values_of(again) == values_of(rig) and again.max_value == 4095
+    deep = [(frame.left.astype(numpy.uint16) * 16, frame.right.astype(numpy.uint16) * 16) for frame in frames[:2]]
+    poses = []
+    for one in (rig, again):  # the undistortion tables belong to a rig, too
+        with quadedge.Odometry(one) as odometry:
+            poses.append([odometry.track(i, *pair).world_from_left.tobytes() for i, pair in enumerate(deep)])
+    assert poses[0] == poses[1]
+
+
+def test_distorted_images_of_another_size_are_refused(tmp_path):
+    with quadedge.Odometry(distorted_rig(tmp_path)) as odometry:
+        with pytest.raises(quadedge.DataError, match="left image has 160x100 pixels, the calibration expects 320x200"):
+            odometry.track(0, LEFT[:100, :160], RIGHT)
+        with pytest.raises(quadedge.DataError, match="right image has 640x400 pixels, the calibration expects 320x200"):
+            odometry.track(0, LEFT, numpy.zeros((400, 640), numpy.uint8))
+        assert odometry.track(0, LEFT, RIGHT).reference_frame == -1
+
+
+def test_a_device_by_its_index(room):
+    by_index = quadedge.Odometry(room, device=0)
+    assert by_index.device.index == 0 and quadedge.Device(numpy.int64(0)).info.index == 0
+    assert len(quadedge.detect_edges(room[0].left, device=0)) > 100
+    with pytest.raises(quadedge.DeviceError, match="no OpenCL device matches '99'"):
+        quadedge.Odometry(room, device=99)
+    for wrong in (0.5, True, None):
+        with pytest.raises(TypeError, match="device: expected"):
+            quadedge.Odometry(room, device=wrong)
 
 
 def test_other_threads_run_while_a_frame_is_tracked(room, frames):
@@ -166,7 +307,10 @@ LEFT, RIGHT = numpy.zeros((200, 320), numpy.uint8), numpy.zeros((200, 320), nump
     (LEFT.astype(">u2"), TypeError, "the left image is an array of >u2"),
     (LEFT[:, :-1], quadedge.DataError, "the left image has 319x200 pixels, the calibration expects 320x200"),
     (numpy.zeros((200, 320, 3), numpy.uint8), quadedge.DataError,
-     "the left image has 200 x 320 x 3 values, expected height x width: one grey channel"),
+     r"the left image has 200 x 320 x 3 values, expected height x width: one grey channel. Convert colour first, for "
+     r"example with cv2.cvtColor\(image, cv2.COLOR_BGR2GRAY\)"),
+    (numpy.zeros((1, 200, 320), numpy.uint8), quadedge.DataError,
+     "the left image has 1 x 200 x 320 values, expected height x width: one grey channel$"),
     (numpy.zeros(64000, numpy.uint8), quadedge.DataError, "the left image has 64000 values, expected height x width"),
     (numpy.zeros((0, 320), numpy.uint8), quadedge.DataError, "the left image is empty"),
     (LEFT[::-1], quadedge.DataError, "the left image has a stride of -320 bytes, expected at least the 320 of a row"),

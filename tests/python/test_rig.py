@@ -24,8 +24,8 @@ def test_a_rig_from_numbers():
 
 @pytest.mark.parametrize("transform, words", [
     (right_from_left(0), "stereo rig: found a baseline of 0.000000 m, expected a finite positive length"),
-    (numpy.diag([1.0, 1, -1, 1]), "right_from_left: found a matrix that is no rigid transform"),
-    (2 * numpy.eye(4), "right_from_left: found a matrix that is no rigid transform"),
+    (numpy.diag([1.0, 1, -1, 1]), "right_from_left: found a matrix that is not a rigid transform"),
+    (2 * numpy.eye(4), "right_from_left: found a matrix that is not a rigid transform"),
     (numpy.eye(3), "right_from_left: found 3 x 3 numbers, expected 4 x 4"),
 ])  # fmt: skip
 def test_invalid_rigs_are_refused(transform, words):
