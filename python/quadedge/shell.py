@@ -1,19 +1,30 @@
-"""What the package's programs for the shell share."""
+"""What the package's command-line programs share."""
 
+import shutil
 import sys
 from collections.abc import Callable
+from pathlib import Path
 
 from .errors import Error, UsageError
 
 
-def exit_code(program: str, work: Callable[[], None]) -> int:
-    """Does the work and ends as the ``quadedge`` command does: its exit codes, complaints in one line."""
+def exit_code(name: str, work: Callable[[], int | None]) -> int:
+    """Runs ``work`` and returns its exit code, 0 for None. Prints errors in one line, as ``quadedge`` does."""
     try:
-        work()
+        return work() or 0
     except Error as error:
-        print(f"{program}: {error}", file=sys.stderr)
+        print(f"{name}: {error}", file=sys.stderr)
         return error.exit_code
-    except ImportError as error:  # an extra of the package that is not installed, named with how to get it
-        print(f"{program}: {error}", file=sys.stderr)
+    except ImportError as error:  # of an optional dependency; the message says how to install it
+        print(f"{name}: {error}", file=sys.stderr)
         return UsageError.exit_code
-    return 0
+
+
+def program() -> list[str]:
+    """The beginning of a command line of ``quadedge``. Raises UsageError if the program is not installed."""
+    if (Path(__file__).parent / "bin" / "quadedge").is_file():
+        return [sys.executable, "-m", "quadedge"]
+    if found := shutil.which("quadedge"):
+        return [found]
+    raise UsageError("found no program quadedge, neither in the package nor on PATH; install it from a wheel or add "
+                     "the folder of the one that you built to PATH")

@@ -1,5 +1,6 @@
 """Results in rerun: files that pass `rerun rrd verify` and hold the shown data."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -30,6 +31,11 @@ def entities(file: Path) -> set[str]:
     return set(re.findall(r" - (/\S+) - data columns", rerun_command("rrd", "print", file)))
 
 
+def view(*arguments, python=sys.executable, env=None) -> subprocess.CompletedProcess:
+    call = [python, "-m", "quadedge.view", *map(str, arguments)]
+    return subprocess.run(call, capture_output=True, text=True, env=env)
+
+
 @pytest.fixture(scope="module")
 def results(command, room_folder, tmp_path_factory):
     folder = tmp_path_factory.mktemp("results") / "room"
@@ -51,6 +57,59 @@ def test_results_from_the_shell(results, tmp_path):
     assert expected <= entities(file)
     again = subprocess.run(call, capture_output=True, text=True)
     assert again.returncode == 2 and "the file exists" in again.stderr
+
+
+@pytest.mark.parametrize("kind", ["images", "video"])
+def test_results_of_own_cameras(command, room_folder, tmp_path, kind):
+    """Images in folders, and a video with both views in each picture."""
+    calibration = tmp_path / "rig.yaml"
+    assert command("check", room_folder, "--write-calibration", calibration).returncode == 0
+    if kind == "video":
+        joined = ["ffmpeg", "-loglevel", "error", "-framerate", "20", "-pattern_type", "glob", "-i",
+                  room_folder / "rgb" / "*.png", "-framerate", "20", "-pattern_type", "glob", "-i",
+                  room_folder / "rgb2" / "*.png", "-filter_complex", "hstack", "-c:v", "ffv1", "-pix_fmt", "gray",
+                  tmp_path / "both.mkv"]  # fmt: skip
+        subprocess.run(list(map(str, joined)), check=True)
+        source = ["--video", tmp_path / "both.mkv", "--split", "left-right"]
+    else:
+        source = ["--left", room_folder / "rgb", "--right", room_folder / "rgb2", "--fps", "20"]
+    done = command("run", *source, "--calibration", calibration, "-o", tmp_path / "out", "--quiet")
+    assert done.returncode == 0, done.stderr
+    shown = view(tmp_path / "out", "--save", tmp_path / "own.rrd")
+    assert shown.returncode == 0, shown.stderr
+    assert {"/world/camera/left/image", "/world/camera/left/quads"} <= entities(tmp_path / "own.rrd")
+    moved = view(tmp_path / "out", "--save", tmp_path / "moved.rrd", "--data", room_folder)
+    assert moved.returncode == 2 and "--data" in moved.stderr
+    assert not list(tmp_path.glob("moved*"))
+
+
+def test_rendered_images_cannot_be_shown_again(command, tmp_path):
+    done = command("demo", "--frames", 4, "--size", "320x200", "-o", tmp_path / "out", "--quiet")
+    assert done.returncode == 0, done.stderr
+    shown = view(tmp_path / "out", "--save", tmp_path / "demo.rrd")
+    assert shown.returncode == 0 and "images and edges are not shown: the images were rendered" in shown.stderr
+    assert "/world/path" in entities(tmp_path / "demo.rrd")
+
+
+def test_a_failure_leaves_no_file(results, tmp_path):
+    done = view(results, "--save", tmp_path / "x.rrd", "--device", "toaster")
+    assert done.returncode == 4 and "no OpenCL device matches 'toaster'" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_display_and_no_viewer_are_one_sentence(results, tmp_path):
+    place = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    done = view(results, "--no-images", env=place)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    assert "found no display" in done.stderr and "--save F.rrd" in done.stderr
+    # A Python whose folder has no program rerun, and an empty PATH.
+    python = tmp_path / "python"
+    python.symlink_to(sys.executable)
+    packages = os.pathsep.join(path for path in sys.path if path)
+    done = view(results, "--no-images", python=python,
+                env={**place, "DISPLAY": ":99", "PATH": "", "PYTHONPATH": packages})
+    assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+    assert "rerun's viewer cannot be started" in done.stderr
 
 
 def test_results_without_their_recording(results, tmp_path):
@@ -89,7 +148,7 @@ def test_live(room, tmp_path):
 def test_invalid_results_are_refused(tmp_path, results):
     done = subprocess.run([sys.executable, "-m", "quadedge.view", tmp_path, "--save", tmp_path / "x.rrd"],
                           capture_output=True, text=True)
-    assert done.returncode == 3 and "expected the results of `quadedge run`" in done.stderr
+    assert done.returncode == 3 and "expected a results folder of `quadedge run`" in done.stderr
     assert not (tmp_path / "x.rrd").exists()
     import shutil
 

@@ -1,11 +1,11 @@
-"""Results to look at in rerun's viewer: ``pip install quadedge[view]``.
+"""Shows results in rerun's viewer. Needs rerun-sdk: ``pip install quadedge[view]``.
 
-    viewer = quadedge.view.Viewer(save="flight.rrd")     # or web=True, or neither: a window
+    viewer = quadedge.view.Viewer(save="flight.rrd")     # or web=True; without either, a window opens
     for frame in dataset:
         result = odometry.track(frame.stamp_ns, frame.left, frame.right)
         viewer.log(odometry, result, frame.left, frame.right)
 
-``python -m quadedge.view RESULTS`` shows what ``quadedge run`` has left.
+``python -m quadedge.view RESULTS`` shows the results of ``quadedge run``.
 """
 
 from .results import show_results

@@ -1,120 +1,99 @@
-"""A finished run on rerun's time line."""
+"""Shows the results of a run."""
 
-import csv
 import json
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
-import numpy
-
-from ..errors import DataError
+from ..errors import DataError, UsageError
+from ..run_frames import read_frames
 from .viewer import Viewer
 
-_COUNTS = ("stereo_edges", "quads", "inliers")
 
+class Run:
+    """The results folder of ``quadedge run``.
 
-@dataclass
-class FrameRow:
-    """What frames.csv and poses.csv say of a frame."""
+    Raises DataError for a folder without results, and for damaged ones.
+    """
 
-    stamp_ns: int
-    status: str
-    new_key_rig: bool
-    world_from_left: numpy.ndarray  #: (4, 4) [m]
-    counts: dict[str, float]
-    times_ms: dict[str, float]
-    message: str
+    def __init__(self, folder: str | PathLike):
+        self.folder = Path(folder)
+        self.frames = read_frames(self.folder)  #: a RunFrame per frame
+        self.why_no_recording = ""  #: why open_recording() returned None
 
-    @property
-    def is_tracked(self) -> bool:
-        return not self.status.startswith("lost")
-
-
-def _table(path: Path) -> list[dict[str, str]]:
-    if not path.is_file():
-        raise DataError(f"{path}: found no such file, expected the results of `quadedge run`")
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def _pose(row: dict[str, str]) -> numpy.ndarray:
-    x, y, z, w = (float(row[name]) for name in ("qx", "qy", "qz", "qw"))
-    pose = numpy.eye(4)
-    pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]  # fmt: skip
-    pose[:3, 3] = [float(row[name]) for name in "xyz"]
-    return pose
-
-
-def _times(row: dict[str, str]) -> dict[str, float]:
-    return {name.removesuffix("_ms"): float(value) for name, value in row.items() if name.endswith("_ms") and value}
-
-
-def read_frames(folder: Path) -> list[FrameRow]:
-    """The frames of a results folder. Raises DataError for one that is none."""
-    frames, poses = _table(folder / "frames.csv"), _table(folder / "poses.csv")
-    if len(frames) != len(poses):
-        raise DataError(f"{folder}: found {len(frames)} rows in frames.csv and {len(poses)} in poses.csv, expected the "
-                        "same number")
-    rows = []
-    for frame, pose in zip(frames, poses):
+    def _input(self) -> dict:
+        report = self.folder / "report.json"
         try:
-            rows.append(FrameRow(
-                int(frame["stamp_s"].replace(".", "")), frame["status"], frame["new_key_rig"] == "1", _pose(pose),
-                {name: float(frame[name]) for name in _COUNTS}, _times(frame), frame["warning"] or frame["message"]))
-        except (KeyError, ValueError, TypeError) as error:
-            raise DataError(f"{folder}: row {len(rows)} of frames.csv or poses.csv is damaged ({error}), expected "
-                            "those of `quadedge run`") from error
-    return rows
+            return dict(json.loads(report.read_text())["input"])
+        except (OSError, ValueError, KeyError) as error:
+            raise DataError(f"{report}: found no input ({error}), expected the report of `quadedge run`") from error
 
+    def open_recording(self, data: str | PathLike | None = None):
+        """The Dataset that was tracked; None if it cannot be read again (a pipe, rendered images).
 
-def _recording_of(folder: Path, data: str | PathLike | None):
-    """The Dataset that a run was made from; ``data``: where it lies now."""
-    from .. import open_dataset
+        data: the recording, if it has moved since the run. Raises DataError for a recording that cannot be read.
+        """
+        from .. import open_dataset, open_stereo_source
 
-    report = folder / "report.json"
-    try:
-        source = json.loads(report.read_text())["input"]
-    except (OSError, ValueError, KeyError) as error:
-        raise DataError(f"{report}: found no input ({error}), expected the report of `quadedge run`") from error
-    return open_dataset(source["path"] if data is None else data, format=source["format"])
+        source = self._input()
+        kind, options = source["format"], dict(source.get("options", {}))
+        for name in ("fps", "fov"):
+            if name in options:
+                options[name] = float(options[name])
+        if data is None and kind in ("pipe", "synthetic"):
+            self.why_no_recording = {"pipe": "the images came from a pipe",
+                                     "synthetic": "the images were rendered"}[kind]  # fmt: skip
+            return None
+        if kind not in ("images", "video"):
+            format = "auto" if kind in ("pipe", "synthetic") else kind
+            cameras = {name: options[name] for name in ("calibration", "fov", "mask") if name in options}
+            return open_dataset(source["path"] if data is None else data, format=format, **cameras)
+        if data is not None:
+            raise UsageError("--data replaces the folder of a recording in a published layout; this run was made of "
+                             "images or videos of your own")
+        if not options:
+            raise DataError(f"{self.folder / 'report.json'}: found no options of the images, expected the report of a "
+                            "newer `quadedge run`; --no-images shows the rest")
+        return open_stereo_source(**options)
 
+    def show(self, viewer: Viewer, recording=None, device: str = "auto") -> None:
+        """Logs path, key rigs, counts and times to a viewer.
 
-def _show_with_images(folder: Path, rows: list[FrameRow], viewer: Viewer, data, device: str) -> None:
-    """Tracks the recording again, with the run's configuration: edges are not among the results."""
-    from .. import Odometry
+        recording: the Dataset that was tracked. It is tracked again, with the configuration of the run, to show edges
+        and quads, which are not among the results. device: as in Odometry.
+        """
+        for number, row in enumerate(self.frames):
+            viewer.start_frame(row.stamp_ns, number)
+            viewer.log_pose(row.world_from_left, row.is_tracked, row.new_key_rig)
+            viewer.log_numbers(row.counts, row.times_ms, row.message)
+        if recording is not None:
+            self._show_edges(viewer, recording, device)
 
-    dataset = _recording_of(folder, data)
-    odometry = Odometry(dataset, device, config=folder / "config.toml")
-    numbers = {row.stamp_ns: number for number, row in enumerate(rows)}
-    for frame in dataset:
-        if frame.stamp_ns not in numbers:
-            continue
-        number = numbers[frame.stamp_ns]
-        row = rows[number]
-        odometry.track(frame.stamp_ns, frame.left, frame.right)
-        viewer.start_frame(row.stamp_ns, number)
-        viewer.log_images(odometry.rig, frame.left, frame.right)
-        viewer.log_edges(odometry.details(), row.world_from_left, row.new_key_rig)
+    def _show_edges(self, viewer: Viewer, recording, device: str) -> None:
+        from .. import Odometry
+
+        odometry = Odometry(recording, device, config=self.folder / "config.toml")
+        numbers = {row.stamp_ns: number for number, row in enumerate(self.frames)}
+        for frame in recording:
+            if frame.stamp_ns not in numbers:
+                continue
+            number = numbers[frame.stamp_ns]
+            row = self.frames[number]
+            odometry.track(frame.stamp_ns, frame.left, frame.right)
+            viewer.start_frame(row.stamp_ns, number)
+            viewer.log_images(odometry.rig, frame.left, frame.right)
+            viewer.log_edges(odometry.details(), row.world_from_left, row.new_key_rig)
 
 
 def show_results(folder: str | PathLike, viewer: Viewer, *, images: bool = True, data: str | PathLike | None = None,
                  device: str = "auto") -> int:
-    """Shows a results folder of ``quadedge run``; returns its number of frames.
+    """Shows a results folder of ``quadedge run`` and returns the number of frames.
 
-    Path, key rigs, counts and times come from its files. With ``images`` the recording is tracked once more for the
-    edges and quads; ``data``: where it lies, when not where it was.
+    Path, key rigs, counts and times come from the files in the folder. With ``images`` the recording is tracked again
+    to show its edges and quads, unless it came from a pipe or was rendered. data: the recording, if it has moved since
+    the run. device: as in Odometry.
 
-    Raises DataError for a folder without results, and for a recording that cannot be read.
+    Raises DataError for a folder without results and for a recording that cannot be read.
     """
-    folder = Path(folder)
-    rows = read_frames(folder)
-    for number, row in enumerate(rows):
-        viewer.start_frame(row.stamp_ns, number)
-        viewer.log_pose(row.world_from_left, row.is_tracked, row.new_key_rig)
-        viewer.log_numbers(row.counts, row.times_ms, row.message)
-    if images:
-        _show_with_images(folder, rows, viewer, data, device)
-    return len(rows)
+    run = Run(folder)
+    run.show(viewer, run.open_recording(data) if images else None, device)
+    return len(run.frames)

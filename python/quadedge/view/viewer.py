@@ -1,11 +1,16 @@
-"""What a frame looks like on rerun's time line, live or from a finished run."""
+"""Logs frames to rerun, live or from the results of a run."""
 
 import contextlib
+import os
 import socket
+import sys
 import urllib.parse
 from os import PathLike
+from pathlib import Path
 
 import numpy
+
+from ..errors import UsageError
 
 _INLIER, _OTHER, _TRAIL, _KEY = (255, 255, 255), (213, 94, 0), (0, 158, 115), (240, 228, 66)
 _LEFT, _RIGHT = "world/camera/left", "world/camera/right"
@@ -21,7 +26,7 @@ def _rerun():
 
 
 def _colours_of(depth: numpy.ndarray) -> numpy.ndarray:
-    """(N, 3) uint8: near yellow, far blue, by the inverse depth [1/m]; grey where there is none."""
+    """(N, 3) uint8: colours from yellow (near) to blue (far) by inverse depth, grey without one. depth: (N,) [m]."""
     import matplotlib
 
     inverse = 1 / numpy.where(depth > 0, depth, numpy.nan)
@@ -35,7 +40,7 @@ def _colours_of(depth: numpy.ndarray) -> numpy.ndarray:
 
 
 def _port(usual: int) -> int:
-    """The usual port, or any free one where another program has it."""
+    """The usual port if it is free, otherwise any free port."""
     for port in (usual, 0):
         with socket.socket() as test, contextlib.suppress(OSError):
             test.bind(("", port))
@@ -43,13 +48,32 @@ def _port(usual: int) -> int:
     raise OSError("no port is free")
 
 
+def _open_window(recording) -> None:
+    """Starts rerun's viewer. Raises UsageError if it cannot be started."""
+    if sys.platform == "linux" and not any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")):
+        raise UsageError("found no display to open a window on; write a file instead (--save F.rrd, save=) or serve a "
+                         "browser (--web, web=True)")
+    path = os.environ.get("PATH", "")
+    os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), path])  # of an environment not activated
+    try:
+        recording.spawn()
+    except RuntimeError as error:
+        reason = str(error).strip().splitlines()[0].rstrip(".")
+        raise UsageError(f"rerun's viewer cannot be started ({reason}); `pip install rerun-sdk` installs it, or write "
+                         "a file instead (--save F.rrd, save=)") from error
+    finally:
+        os.environ["PATH"] = path
+
+
 class Viewer:
     """Shows frames in rerun's viewer, or writes them to a file.
 
-    save: an .rrd file to write. web: serve the viewer to a browser, at ``address``. Without either a window opens.
+    save: path of an .rrd file to write. web: serve the viewer to a browser, at ``address``. Otherwise a window opens.
+
+    Raises ImportError without rerun-sdk, and UsageError if no window can be opened.
     """
 
-    address: str | None = None
+    address: str | None = None  #: URL of the viewer with web=True
 
     def __init__(self, name: str = "quadedge", *, save: str | PathLike | None = None, web: bool = False):
         self._rerun = _rerun()
@@ -61,7 +85,7 @@ class Viewer:
             self._rerun.serve_web_viewer(web_port=page, open_browser=False, connect_to=source)
             self.address = f"http://localhost:{page}/?url={urllib.parse.quote(source, safe='')}"
         else:
-            self.recording.spawn()
+            _open_window(self.recording)
         self.recording.send_blueprint(self._blueprint())
         self.recording.log("world", self._rerun.ViewCoordinates.RDF, static=True)
         self._frame = 0
@@ -83,14 +107,14 @@ class Viewer:
             column_shares=[3, 2]))  # fmt: skip
 
     def start_frame(self, stamp_ns: int, number: int | None = None) -> None:
-        """What is logged from now on belongs to this time; frames count from 0 unless ``number`` says otherwise."""
+        """Sets the time of what is logged next. number: of the frame; by default frames are counted from 0."""
         self._frame = self._frame if number is None else number
         self.recording.set_time("frame", sequence=self._frame)
         self.recording.set_time("time", duration=numpy.timedelta64(stamp_ns, "ns"))
         self._frame += 1
 
     def log_pose(self, world_from_left: numpy.ndarray, is_tracked: bool, new_key_rig: bool) -> None:
-        """The camera's place (4 x 4 [m]), a step of its path, and the key rig that it becomes."""
+        """Logs the camera's pose, (4, 4) [m], the step of its path, and the key rig if the frame becomes one."""
         rerun, position = self._rerun, world_from_left[:3, 3]
         self.recording.log("world/camera", rerun.Transform3D(translation=position, mat3x3=world_from_left[:3, :3]))
         if self._last_position is not None:
@@ -101,7 +125,7 @@ class Viewer:
             self.recording.log("world/key_rigs", rerun.Points3D([position], colors=[_KEY], radii=[-5.0]))
 
     def log_numbers(self, counts: dict[str, float], times_ms: dict[str, float], message: str = "") -> None:
-        """Curves of this frame's counts and times, and a sentence where there is one."""
+        """Logs counts, stage times [ms] and, if not empty, a message."""
         for folder, values in (("counts", counts), ("times", times_ms)):
             for name, value in values.items():
                 self.recording.log([folder, name], self._rerun.Scalars(float(value)))
@@ -109,7 +133,7 @@ class Viewer:
             self.recording.log("messages", self._rerun.TextLog(message, level="WARN"))
 
     def log_images(self, rig, left: numpy.ndarray, right: numpy.ndarray) -> None:
-        """Both recorded images; edges lie on them where the lenses do not distort."""
+        """Logs both recorded images, (height, width). Edges coincide with them only if the lenses do not distort."""
         rerun = self._rerun
         for path, image, camera in ((_LEFT, left, rig.left), (_RIGHT, right, rig.right)):
             self.recording.log(path, rerun.Pinhole(image_from_camera=camera.matrix, width=camera.width,
@@ -121,7 +145,10 @@ class Viewer:
         self.recording.log(_RIGHT, rerun.Transform3D(translation=place[:3, 3], mat3x3=place[:3, :3]))
 
     def log_edges(self, details, world_from_left: numpy.ndarray, new_key_rig: bool) -> None:
-        """Stereo edges in both images and in space, and the motion of quads; details: of Odometry.details()."""
+        """Logs stereo edges in both images and in space, and the motion of quads.
+
+        details: from Odometry.details(). world_from_left: (4, 4) [m].
+        """
         rerun, stereo, quads = self._rerun, details.stereo, details.quads
         xyz, left, right = stereo.xyz, stereo.left, stereo.right
         colours = _colours_of(xyz[:, 2])
@@ -140,7 +167,7 @@ class Viewer:
             self.recording.log("world/key_edges", cloud)
 
     def log(self, odometry, result, left: numpy.ndarray, right: numpy.ndarray) -> None:
-        """Everything of the frame that ``odometry`` has just tracked: its FrameResult and its two images."""
+        """Logs everything about the frame that ``odometry`` has just tracked: its FrameResult and its two images."""
         pose, counts = result.world_from_left, result.counts
         self.start_frame(result.stamp_ns)
         self.log_pose(pose, result.is_tracked, result.new_key_rig)
@@ -151,6 +178,6 @@ class Viewer:
                          result.warning or ("" if result.is_tracked else result.message))
 
     def close(self) -> None:
-        """Writes what is still on its way."""
+        """Flushes what has been logged and closes the connection or file."""
         self.recording.flush()
         self.recording.disconnect()

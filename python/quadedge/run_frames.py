@@ -1,0 +1,88 @@
+"""The frames in the results folder of a run."""
+
+import csv
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy
+
+from .errors import DataError
+
+_COUNTS = ("stereo_edges", "quads", "inliers")
+_AXES = ("x", "y", "z", "rx", "ry", "rz")
+_UPPER_TRIANGLE = [(i, j) for i in range(6) for j in range(i, 6)]
+
+
+@dataclass
+class RunFrame:
+    """One frame in frames.csv and poses.csv; the attributes that FrameResult has, too, have the same meaning."""
+
+    stamp_ns: int
+    status: str
+    new_key_rig: bool
+    world_from_left: numpy.ndarray  #: (4, 4) [m]
+    covariance: numpy.ndarray | None  #: (6, 6) of world_from_left [m, rad]
+    counts: dict[str, float]
+    times_ms: dict[str, float]
+    message: str
+
+    @property
+    def is_tracked(self) -> bool:
+        return not self.status.startswith("lost")
+
+
+def _table(path: Path) -> list[dict[str, str]]:
+    if not path.is_file():
+        raise DataError(f"{path}: found no such file, expected the results of `quadedge run`")
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def _pose(row: dict[str, str]) -> numpy.ndarray:
+    x, y, z, w = (float(row[name]) for name in ("qx", "qy", "qz", "qw"))
+    pose = numpy.eye(4)
+    pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]  # fmt: skip
+    pose[:3, 3] = [float(row[name]) for name in "xyz"]
+    return pose
+
+
+def _covariance(row: dict[str, str]) -> numpy.ndarray | None:
+    texts = {(i, j): row[f"covariance_{_AXES[i]}_{_AXES[j]}"] for i, j in _UPPER_TRIANGLE}
+    if not all(texts.values()):
+        return None
+    covariance = numpy.empty((6, 6))
+    for (i, j), text in texts.items():
+        covariance[i, j] = covariance[j, i] = float(text)
+    return covariance
+
+
+def _stamp_ns(text: str) -> int:
+    seconds, _, fraction = text.partition(".")
+    return int(seconds + fraction.ljust(9, "0"))
+
+
+def _times(row: dict[str, str]) -> dict[str, float]:
+    return {name.removesuffix("_ms"): float(value) for name, value in row.items() if name.endswith("_ms") and value}
+
+
+def read_frames(folder: str | PathLike) -> list[RunFrame]:
+    """The frames of a results folder. Raises DataError for a folder without results, and for damaged ones."""
+    folder = Path(folder)
+    frames, poses = _table(folder / "frames.csv"), _table(folder / "poses.csv")
+    if len(frames) != len(poses):
+        raise DataError(f"{folder}: found {len(frames)} rows in frames.csv and {len(poses)} in poses.csv, expected the "
+                        "same number")
+    rows = []
+    for frame, pose in zip(frames, poses):
+        try:
+            rows.append(RunFrame(
+                _stamp_ns(frame["stamp_s"]), frame["status"], frame["new_key_rig"] == "1", _pose(pose),
+                _covariance(pose), {name: float(frame[name]) for name in _COUNTS}, _times(frame),
+                frame["warning"] or frame["message"]))
+        except (KeyError, ValueError, TypeError) as error:
+            raise DataError(f"{folder}: row {len(rows)} of frames.csv or poses.csv is damaged ({error}), expected "
+                            "those of `quadedge run`") from error
+    return rows
