@@ -1,8 +1,8 @@
-"""Tracks a recording of ROS 1, ROS 2 or MCAP, and writes a recording of its odometry.
+"""Tracks a recording of ROS 1, ROS 2 or MCAP and writes its odometry as another recording.
 
     python 02_bag.py RECORDING OUT [CALIBRATION]
 
-Needs `pip install quadedge[bag]`. Without CALIBRATION the recorded camera_info counts.
+Needs `pip install quadedge[bag]`. Without CALIBRATION, the recorded camera_info is used.
 """
 
 import sys

@@ -1,5 +1,7 @@
 """Recordings of ROS 1, ROS 2 and MCAP: topics, pairs, images, calibrations, output."""
 
+import json
+import os
 import subprocess
 import sys
 from types import SimpleNamespace
@@ -169,14 +171,14 @@ def test_invalid_recordings_are_refused(room, frames, tmp_path):
             bag.image("/a/left/image_raw", stamp, frames[0].left)
             bag.image("/a/right/image_raw", stamp, frames[0].right)
     bag.path.write_bytes(bag.path.read_bytes()[:1_000_000])
-    with pytest.raises(quadedge.DataError, match="cut.bag: found no recording that can be read"):
+    with pytest.raises(quadedge.DataError, match="cut.bag: found no readable recording"):
         open_bag(bag.path)
     with BagWriter(tmp_path / "room", "ros2") as bag:
         bag.image("/a/left/image_raw", 1, frames[0].left)
         bag.image("/a/right/image_raw", 1, frames[0].right)
     with pytest.raises(quadedge.DataError, match="found no camera_info of /a/left/image_raw and /a/right/image_raw"):
         open_bag(bag.path).rig
-    with pytest.raises(quadedge.DataError, match="found no topic /b, expected one of images"):
+    with pytest.raises(quadedge.DataError, match="found no topic /b, expected an image topic"):
         open_bag(bag.path, left="/a/left/image_raw", right="/b")
     with pytest.raises(quadedge.DataError, match="expected both, left and right"):
         open_bag(bag.path, left="/a/left/image_raw")
@@ -186,11 +188,12 @@ def test_odometry_is_written_with_covariance(room, tmp_path):
     from rosbags.highlevel import AnyReader
 
     results = poses(room, room)
-    file = quadedge.bag.write_mcap(tmp_path / "odometry", results)
+    file = quadedge.bag.write_mcap(tmp_path / "odometry", results, optical_axes=True)
     assert file.suffix == ".mcap"
     with AnyReader([tmp_path / "odometry"]) as reader:
         read = [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
     assert len(read) == len(results)
+    assert read[0].header.frame_id == "odom" and read[0].child_frame_id == "left_camera"
     for message_, result in zip(read, results):
         assert message_.header.stamp.sec * 10**9 + message_.header.stamp.nanosec == result.stamp_ns
         position, turn = message_.pose.pose.position, message_.pose.pose.orientation
@@ -204,19 +207,115 @@ def test_odometry_is_written_with_covariance(room, tmp_path):
         quadedge.bag.write_mcap(tmp_path / "odometry", results)
 
 
-def test_from_the_shell(room, frames, tmp_path):
+def test_odometry_has_the_axes_of_rep_103(tmp_path):
+    """The camera has moved 3 m forward, 1 m to the left and 2 m up, and turned left by 90 degrees."""
+    from rosbags.highlevel import AnyReader
+
+    pose = numpy.array([[0, 0, -1, -1], [0, 1, 0, -2], [1, 0, 0, 3], [0, 0, 0, 1]], float)  # optical axes
+    covariance = numpy.diag([1.0, 2, 3, 4, 5, 6])  # right, down, forward; about them
+    covariance[0, 2] = covariance[2, 0] = 0.5  # to the right goes with forward
+    result = SimpleNamespace(stamp_ns=5, is_tracked=True, world_from_left=pose, covariance=covariance)
+    quadedge.bag.write_mcap(tmp_path / "odometry", [result])
+    with AnyReader([tmp_path / "odometry"]) as reader:
+        (message_,) = [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
+    assert message_.header.frame_id == "odom" and message_.child_frame_id == "base_link"
+    position, turn = message_.pose.pose.position, message_.pose.pose.orientation
+    assert [position.x, position.y, position.z] == [3, 1, 2]
+    half = numpy.sqrt(0.5)  # 90 degrees about z, which points up
+    numpy.testing.assert_allclose([turn.x, turn.y, turn.z, turn.w], [0, 0, half, half], atol=1e-12)
+    expected = numpy.diag([3.0, 1, 2, 6, 4, 5])
+    expected[0, 1] = expected[1, 0] = -0.5
+    numpy.testing.assert_allclose(message_.pose.covariance.reshape(6, 6), expected, atol=1e-12)
+
+
+@pytest.fixture
+def room_bag(room, frames, tmp_path):
     with BagWriter(tmp_path / "room", "mcap") as bag:
         write_infos(bag, room.rig)
         for frame in frames:
             bag.image("/stereo/left/image_raw", frame.stamp_ns + 1, frame.left)
             bag.image("/stereo/right/image_raw", frame.stamp_ns + 1, frame.right)
-    call = [sys.executable, "-m", "quadedge.bag", bag.path]
-    done = subprocess.run([*call, "-o", tmp_path / "out"], capture_output=True, text=True)
+    return bag.path
+
+
+@pytest.fixture
+def bag_command(program):
+    """Runs python -m quadedge.bag with the program on PATH."""
+    place = {**os.environ, "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}"}
+
+    def run(*arguments, **options) -> subprocess.CompletedProcess:
+        call = [sys.executable, "-m", "quadedge.bag", *map(str, arguments)]
+        return subprocess.run(call, **{"capture_output": True, "text": True, "env": place, **options})
+
+    return run
+
+
+def test_from_the_shell(room_bag, bag_command, command, tmp_path):
+    out = tmp_path / "out"
+    done = bag_command(room_bag, "-o", out, "--preset", "fast", "--", "--map", tmp_path / "map.ply")
     assert done.returncode == 0, done.stderr
     assert "6 pairs" in done.stdout and "tracked    6 of 6" in done.stdout
-    assert len(quadedge.Trajectory.from_file(tmp_path / "out" / "trajectory.txt")) == 6
-    assert list((tmp_path / "out" / "odometry").glob("*.mcap"))
-    again = subprocess.run([*call, "-o", tmp_path / "out"], capture_output=True, text=True)
-    assert again.returncode == 2 and "expected a new or an empty folder" in again.stderr
-    absent = subprocess.run([sys.executable, "-m", "quadedge.bag", "absent.bag"], capture_output=True, text=True)
-    assert absent.returncode == 3 and absent.stderr.startswith("quadedge.bag: absent.bag: found no recording")
+    recording = quadedge.bag.open_bag(room_bag)
+    with quadedge.Odometry(recording.rig, preset="fast") as odometry:
+        results = [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in recording]
+    quadedge.bag.write_tum(tmp_path / "ours.txt", results)
+    assert (out / "trajectory.txt").read_bytes() == (tmp_path / "ours.txt").read_bytes()
+    for name in ("frames.csv", "poses.csv"):
+        assert len((out / name).read_text().splitlines()) == 7
+    assert (tmp_path / "map.ply").read_bytes().startswith(b"ply")
+    assert json.loads((out / "report.json").read_text())["input"]["name"] == str(room_bag)
+    page = command("report", out)
+    assert page.returncode == 0, page.stderr
+    assert list((out / "odometry").glob("*.mcap"))
+    again = bag_command(room_bag, "-o", out)
+    assert again.returncode != 0 and not again.stdout.count("tracked") and "--force" in again.stderr
+    absent = bag_command("absent.bag")
+    assert absent.returncode == 3 and absent.stderr.startswith("quadedge.bag: absent.bag: found no readable recording")
+
+
+def test_the_written_odometry_is_that_of_the_api(room_bag, bag_command, tmp_path):
+    from rosbags.highlevel import AnyReader
+
+    def messages(folder):
+        with AnyReader([folder]) as reader:
+            return [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
+
+    assert bag_command(room_bag, "-o", tmp_path / "out").returncode == 0
+    recording = quadedge.bag.open_bag(room_bag)
+    quadedge.bag.write_mcap(tmp_path / "ours", poses(recording.rig, recording))
+    ours, theirs = messages(tmp_path / "ours"), messages(tmp_path / "out" / "odometry")
+    assert len(ours) == len(theirs) == 6
+    for one, other in zip(ours, theirs):
+        assert one.header.stamp == other.header.stamp and one.child_frame_id == other.child_frame_id == "base_link"
+        for name in ("x", "y", "z"):
+            assert getattr(one.pose.pose.position, name) == pytest.approx(getattr(other.pose.pose.position, name),
+                                                                          abs=1e-12)
+        numpy.testing.assert_allclose(other.pose.covariance, one.pose.covariance, rtol=1e-9, atol=1e-20)
+
+
+def test_progress_is_shown_on_a_terminal(room_bag, bag_command, tmp_path):
+    import pty
+
+    controller, terminal = pty.openpty()
+    done = bag_command(room_bag, "-o", tmp_path / "out", capture_output=False, stdout=subprocess.PIPE, stderr=terminal)
+    os.close(terminal)
+    shown = b""
+    try:
+        while piece := os.read(controller, 4096):
+            shown += piece
+    except OSError:  # how Linux reports that the other end is closed
+        pass
+    os.close(controller)
+    assert done.returncode == 0 and b"frame" in shown and b"6" in shown
+
+
+def test_an_image_in_the_middle_that_cannot_be_read(room, frames, bag_command, tmp_path):
+    with BagWriter(tmp_path / "room", "mcap") as bag:
+        write_infos(bag, room.rig)
+        for number, frame in enumerate(frames):
+            encoding = "mono8" if number < 4 else "bayer_rggb8"
+            bag.image("/stereo/left/image_raw", frame.stamp_ns + 1, frame.left, encoding)
+            bag.image("/stereo/right/image_raw", frame.stamp_ns + 1, frame.right, encoding)
+    done = bag_command(bag.path, "-o", tmp_path / "out", timeout=120)
+    assert done.returncode == 3 and "found the encoding 'bayer_rggb8'" in done.stderr
+    assert not (tmp_path / "out" / "odometry").exists()

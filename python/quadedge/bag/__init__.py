@@ -1,11 +1,12 @@
-"""Stereo recordings of ROS 1, ROS 2 and MCAP: ``pip install quadedge[bag]``.
+"""Reads stereo recordings of ROS 1, ROS 2 and MCAP. Needs rosbags: ``pip install quadedge[bag]``.
 
     recording = quadedge.bag.open_bag("flight.bag")
     odometry = quadedge.Odometry(recording.rig)
     results = [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in recording]
     quadedge.bag.write_mcap("flight_odometry", results)
 
-``python -m quadedge.bag flight.bag -o results`` does the same from a shell. No ROS is needed, only the package rosbags.
+``python -m quadedge.bag flight.bag -o results`` does the same on the command line and also writes all results of
+``quadedge run``. ROS itself is not needed.
 """
 
 from .images import grey_image

@@ -1,67 +1,111 @@
-"""``python -m quadedge.bag``: tracks a recording of ROS from the shell."""
+"""``python -m quadedge.bag``: tracks a ROS recording."""
 
 import argparse
+import signal
+import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
 
-from .. import Odometry, UsageError
-from ..shell import exit_code
-from . import Recording, open_bag, write_mcap, write_tum
+import numpy
+
+from ..run_frames import read_frames
+from ..shell import exit_code, program
+from . import Recording, open_bag, write_mcap
 from .recording import TOLERANCE_NS
+
+_TOO_FEW_TRACKED = 5  # exit code of a finished run
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m quadedge.bag",
-        description="Tracks a stereo recording of ROS 1 (.bag), ROS 2 (a folder) or MCAP: writes OUT/trajectory.txt "
-                    "(TUM) and OUT/odometry (MCAP of nav_msgs/Odometry with covariance).")
-    parser.add_argument("bag", nargs="+", help="the recording; several .bag files that belong together")
-    parser.add_argument("-o", "--output", metavar="OUT", help="folder for the results; without it nothing is tracked, "
-                                                              "only what the recording holds is said")
+        description="Tracks a stereo recording of ROS 1 (.bag), ROS 2 (a folder) or MCAP. Writes the results of "
+                    "`quadedge run` to OUT, and OUT/odometry, an MCAP of nav_msgs/Odometry with covariances.",
+        epilog="Options after -- are passed to `quadedge run`: python -m quadedge.bag flight.bag -o out -- --map m.ply")
+    parser.add_argument("bag", nargs="+", help="the recording; a ROS 1 recording may consist of several .bag files")
+    parser.add_argument("-o", "--output", metavar="OUT",
+                        help="results folder; without it the recording is described but not tracked")
     parser.add_argument("--left", default="", metavar="TOPIC",
-                        help="images of the left camera; found by name otherwise")
-    parser.add_argument("--right", default="", metavar="TOPIC", help="images of the right camera")
-    parser.add_argument("--calibration", metavar="FILE", help="instead of camera_info: a file, or two with a comma "
-                                                              "between them, left and right")
+                        help="image topic of the left camera; by default found by its name")
+    parser.add_argument("--right", default="", metavar="TOPIC", help="image topic of the right camera")
+    parser.add_argument("--calibration", metavar="FILE[,FILE]",
+                        help="calibration to use instead of the recorded camera_info; one file, or left and right")
     parser.add_argument("--tolerance", type=float, default=TOLERANCE_NS / 1e6, metavar="MS",
-                        help="how far the stamps of a pair may lie apart [ms]; default: %(default)g")
-    parser.add_argument("--device", default="auto", help="auto, cpu, gpu, reference, a number, or a part of a name")
-    parser.add_argument("--preset", default="default", help="fast, default or accurate")
-    parser.add_argument("--config", metavar="FILE", help="a configuration (TOML)")
+                        help="largest difference between the stamps of a pair [ms]; default: %(default)g")
+    parser.add_argument("--optical-axes", action="store_true",
+                        help="write odometry of the left camera with optical axes (x right, y down, z forward) instead "
+                             "of base_link with those of REP 103 (x forward, y left, z up)")
+    parser.add_argument("--device", help="auto, cpu, gpu, reference, an index, or a part of a name")
+    parser.add_argument("--preset", help="fast, default or accurate")
+    parser.add_argument("--config", metavar="FILE", help="a configuration file (TOML)")
     return parser
 
 
-def _track(recording: Recording, options: argparse.Namespace) -> list:
-    odometry = Odometry(recording.rig, options.device, options.preset, options.config)
-    results = []
-    for frame in recording:
-        result = odometry.track(frame.stamp_ns, frame.left, frame.right)
-        if result.warning or (result.message and not result.is_tracked):
-            print(f"frame {len(results)}: {result.warning or result.message}", file=sys.stderr)
-        results.append(result)
-    return results
+def _pgm(image: numpy.ndarray) -> bytes:
+    height, width = image.shape
+    maximum = numpy.iinfo(image.dtype).max
+    return b"P5\n%d %d\n%d\n" % (width, height, maximum) + image.astype(image.dtype.newbyteorder(">")).tobytes()
 
 
-def _run(options: argparse.Namespace) -> None:
+@contextmanager
+def _input_of(process: subprocess.Popen) -> Iterator[BinaryIO]:
+    """The standard input of a program that may end early. Interrupts the program if the body fails."""
+    try:
+        with suppress(BrokenPipeError, KeyboardInterrupt):  # Ctrl-C reaches the program, too, which keeps its results
+            yield process.stdin
+    except Exception:
+        process.send_signal(signal.SIGINT)
+        raise
+    finally:
+        with suppress(BrokenPipeError):
+            process.stdin.close()
+        process.wait()
+
+
+def _run_program(recording: Recording, options: argparse.Namespace, more: list[str]) -> int:
+    """Tracks the recording with `quadedge run` and returns its exit code."""
+    with tempfile.TemporaryDirectory() as folder:
+        times = Path(folder) / "times.txt"
+        times.write_text("".join(f"{ns // 10**9}.{ns % 10**9:09d}\n" for ns in recording.stamps_ns))
+        command = [*program(), "run", "-", "--output", options.output, "--name", recording.name, "--times", str(times),
+                   "--calibration", recording.write_calibration(Path(folder)), *more]
+        for name in ("device", "preset", "config"):
+            if value := getattr(options, name):
+                command += [f"--{name}", value]
+        process = subprocess.Popen(command, stdin=subprocess.PIPE)
+        with _input_of(process) as pipe:
+            for frame in recording:
+                pipe.write(_pgm(frame.left))
+                pipe.write(_pgm(frame.right))
+        code = process.returncode
+        return code if code >= 0 else 128 - code  # of a signal, as shells report it
+
+
+def _run(options: argparse.Namespace, more: list[str]) -> int:
     recording = open_bag(options.bag, left=options.left, right=options.right, calibration=options.calibration,
                          tolerance_ns=round(options.tolerance * 1e6))
     print(f"recording  {recording.name}\nleft       {recording.topics.left}\nright      {recording.topics.right}\n"
-          f"frames     {recording.pairing}")
+          f"frames     {recording.pairing}", flush=True)
     if options.output is None:
-        return
-    output = Path(options.output)
-    if output.exists() and any(output.iterdir()):
-        raise UsageError(f"{output}: found files in it, expected a new or an empty folder")
-    results = _track(recording, options)
-    output.mkdir(parents=True, exist_ok=True)
-    write_tum(output / "trajectory.txt", results)
-    write_mcap(output / "odometry", results)
-    print(f"tracked    {sum(result.is_tracked for result in results)} of {len(results)}\nresults    {output}")
+        return 0
+    code = _run_program(recording, options, more)
+    if code in (0, _TOO_FEW_TRACKED):
+        file = write_mcap(Path(options.output) / "odometry", read_frames(options.output),
+                          optical_axes=options.optical_axes)
+        print(f"odometry   {file}")
+    return code
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Returns the exit code of the ``quadedge`` command."""
-    return exit_code("quadedge.bag", lambda: _run(_parser().parse_args(arguments)))
+    """Returns the exit code, as documented for the ``quadedge`` command."""
+    given = sys.argv[1:] if arguments is None else arguments
+    end = given.index("--") if "--" in given else len(given)
+    options = _parser().parse_args(given[:end])
+    return exit_code("quadedge.bag", lambda: _run(options, given[end + 1:]))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The rig that the ``camera_info`` messages of two cameras describe."""
+"""The rig described by the ``camera_info`` messages of two cameras."""
 
 import json
 import tempfile
@@ -8,7 +8,7 @@ from .. import Rig
 
 
 def _field(message, name: str) -> list[float]:
-    """A matrix of a CameraInfo, whose names ROS 2 writes small."""
+    """A matrix of a CameraInfo, whose fields are lower case in ROS 2 and upper case in ROS 1."""
     return [float(value) for value in getattr(message, name, getattr(message, name.upper(), ()))]
 
 
@@ -17,7 +17,7 @@ def _matrix(rows: int, columns: int, data: list[float]) -> dict:
 
 
 def _as_file(message, rectified: bool) -> str:
-    """A CameraInfo as ROS writes it to a file; JSON is YAML. Rectified images are those of the projection matrix."""
+    """A CameraInfo in the format of ROS's calibration files (JSON is valid YAML)."""
     p = _field(message, "p")
     k = [p[0], p[1], p[2], p[4], p[5], p[6], p[8], p[9], p[10]] if rectified else _field(message, "k")
     d = [0.0] * 5 if rectified else _field(message, "d") or [0.0] * 5
@@ -31,13 +31,18 @@ def _as_file(message, rectified: bool) -> str:
     })  # fmt: skip
 
 
-def rig_of(left, right, rectified: bool, max_value: int) -> Rig:
-    """Of the CameraInfo of both cameras, read exactly as their files are.
+def write_calibration(folder: Path, left, right, rectified: bool) -> tuple[Path, Path]:
+    """Writes the CameraInfo messages of both cameras as two calibration files of ROS.
 
-    rectified: do the images show what the projection matrix says, instead of what the camera recorded?
+    rectified: True if the images are those of the projection matrix, not those recorded by the camera.
     """
+    files = (folder / "left camera_info.yaml", folder / "right camera_info.yaml")
+    for file, message in zip(files, (left, right)):
+        file.write_text(_as_file(message, rectified))
+    return files
+
+
+def rig_of(left, right, rectified: bool, max_value: int) -> Rig:
+    """The rig described by two CameraInfo messages. max_value: of a saturated pixel."""
     with tempfile.TemporaryDirectory() as folder:
-        files = (Path(folder) / "left camera_info.yaml", Path(folder) / "right camera_info.yaml")
-        for file, message in zip(files, (left, right)):
-            file.write_text(_as_file(message, rectified))
-        return Rig.from_file(files, max_value=max_value)
+        return Rig.from_file(write_calibration(Path(folder), left, right, rectified), max_value=max_value)

@@ -1,22 +1,22 @@
-"""Which left and right images show the same instant."""
+"""Pairs left and right images by their time stamps."""
 
 from dataclasses import dataclass, field
 
 
 @dataclass
 class Pairing:
-    """The frames of a recording in the order of time, and what found no partner."""
+    """The pairs of a recording in order of time, and the number of dropped images by reason."""
 
-    pairs: list[tuple[int, int]] = field(default_factory=list)  #: places in the lists of left and right stamps
-    left_dropped: int = 0  #: left images without a right one within the tolerance
-    right_dropped: int = 0  #: right images without a left one
-    without_stamp: int = 0  #: images of either side whose stamp is zero
-    repeated: int = 0  #: images whose stamp another one of the same side had before
-    largest_difference_ns: int = 0  #: of the stamps of a pair
+    pairs: list[tuple[int, int]] = field(default_factory=list)  #: indices into the lists of left and right stamps
+    left_dropped: int = 0  #: left images without a right image within the tolerance
+    right_dropped: int = 0  #: right images without a left image within the tolerance
+    without_stamp: int = 0  #: left and right images whose stamp is zero
+    repeated: int = 0  #: images that repeat an earlier stamp of the same camera
+    largest_difference_ns: int = 0  #: between the stamps of a pair
 
     @property
     def dropped(self) -> int:
-        """All images that are no part of a frame."""
+        """Number of images that belong to no pair."""
         return self.left_dropped + self.right_dropped + self.without_stamp + self.repeated
 
     def __str__(self) -> str:
@@ -25,13 +25,13 @@ class Pairing:
             text += f", stamps up to {self.largest_difference_ns / 1e6:.3f} ms apart"
         reasons = [(self.left_dropped, "left images without a right one"),
                    (self.right_dropped, "right images without a left one"),
-                   (self.without_stamp, "without a stamp"), (self.repeated, "whose stamp stood twice")]
+                   (self.without_stamp, "without a stamp"), (self.repeated, "with a repeated stamp")]
         dropped = ", ".join(f"{count} {reason}" for count, reason in reasons if count)
         return text + (f"; dropped: {dropped}" if dropped else "")
 
 
 def _in_order(stamps_ns: list[int], pairing: Pairing) -> list[int]:
-    """Places of the usable stamps in the order of time; counts the others."""
+    """Indices of the usable stamps in order of time. Counts the others in ``pairing``."""
     places, seen = [], set()
     for place, stamp in enumerate(stamps_ns):
         if stamp == 0:
@@ -45,7 +45,7 @@ def _in_order(stamps_ns: list[int], pairing: Pairing) -> list[int]:
 
 
 def _nearest(stamp: int, stamps: list[int], first: int) -> int:
-    """Place of the nearest of the ascending stamps; looks from ``first`` on, the earlier one of two as near."""
+    """Index of the nearest of the ascending stamps from index ``first`` on; the earlier one of two equally near."""
     best = first
     while best + 1 < len(stamps) and abs(stamps[best + 1] - stamp) < abs(stamps[best] - stamp):
         best += 1
@@ -53,10 +53,10 @@ def _nearest(stamp: int, stamps: list[int], first: int) -> int:
 
 
 def pair_stamps(left_ns: list[int], right_ns: list[int], tolerance_ns: int) -> Pairing:
-    """Pairs stamps [ns] that are at most ``tolerance_ns`` apart and each the nearest one of the other.
+    """Pairs stamps [ns] that are mutually nearest and differ by at most ``tolerance_ns``.
 
-    The lists may be in any order, as recorders shuffle them; places in the result are places in these lists. Stamps of
-    zero and repeated ones are left out.
+    The lists may be in any order. The pairs contain indices into these lists. Stamps that are zero or repeated are
+    dropped.
     """
     pairing = Pairing()
     left, right = _in_order(left_ns, pairing), _in_order(right_ns, pairing)

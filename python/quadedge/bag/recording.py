@@ -1,4 +1,4 @@
-"""A recording of ROS as the frames of a stereo camera."""
+"""ROS recordings as sequences of stereo frames."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy
 
 from .. import DataError, Error, Rig
-from .calibration import rig_of
+from .calibration import rig_of, write_calibration
 from .images import grey_image
 from .pairing import Pairing, pair_stamps
 from .topics import StereoTopics, find_topics
@@ -20,11 +20,11 @@ TOLERANCE_NS = 5_000_000
 
 @dataclass(frozen=True)
 class BagFrame:
-    """The two images of one time."""
+    """A stereo frame."""
 
-    stamp_ns: int  #: of the left image [ns]
+    stamp_ns: int  #: stamp of the left image [ns]
     left: numpy.ndarray  #: (height, width), uint8 or uint16
-    right: numpy.ndarray
+    right: numpy.ndarray  #: (height, width), uint8 or uint16
 
 
 def _stamp_ns(message) -> int:
@@ -33,9 +33,9 @@ def _stamp_ns(message) -> int:
 
 
 class Recording:
-    """A stereo recording; made by open_bag(). Iterating yields a BagFrame per pair of images, in the order of time.
+    """A stereo recording, opened by open_bag(). Iterating yields a BagFrame per pair of images, in order of time.
 
-    topics: which topics are the cameras. pairing: what the stamps say, and what had to be dropped.
+    name: its paths. topics: the topics of both cameras. pairing: which images form pairs, and which were dropped.
     """
 
     def __init__(self, paths: Sequence[Path], left: str, right: str, calibration, tolerance_ns: int):
@@ -56,7 +56,7 @@ class Recording:
 
     @contextmanager
     def _reader(self):
-        """The open recording. Whatever goes wrong while it is read becomes a DataError that names it."""
+        """The open recording. Errors raised while it is read become a DataError that names it."""
         try:
             from rosbags.highlevel import AnyReader
             from rosbags.typesys import Stores, get_typestore
@@ -67,18 +67,18 @@ class Recording:
                 yield reader
         except Error:
             raise
-        except Exception as error:  # damaged recordings raise whatever the place of the damage brings about
-            raise DataError(f"{self.name}: found no recording that can be read ({error}), expected a .bag file, a "
-                            "folder of ROS 2 or an .mcap file") from error
+        except Exception as error:  # damaged recordings raise many kinds of exceptions
+            raise DataError(f"{self.name}: found no readable recording ({error}), expected a .bag file, a ROS 2 folder "
+                            "or an .mcap file") from error
 
     def _messages(self, reader, topics: tuple[str, ...]) -> Iterator[tuple[str, int, object]]:
-        """Topic, time of recording [ns] and message of those topics, as recorded."""
+        """Topic, time of recording [ns] and message, in the order of recording."""
         connections = [connection for connection in reader.connections if connection.topic in topics]
         for connection, recorded_ns, data in reader.messages(connections):
             yield connection.topic, recorded_ns, reader.deserialize(data, connection.msgtype)
 
     def _first_infos(self, reader) -> dict[str, object]:
-        """The first camera_info of each camera."""
+        """The first camera_info message of each camera, by topic."""
         wanted = {self.topics.left_info, self.topics.right_info} - {""}
         found: dict[str, object] = {}
         for topic, _, message in self._messages(reader, tuple(wanted)) if wanted else ():
@@ -88,7 +88,7 @@ class Recording:
         return found
 
     def _stamps(self, reader) -> tuple[list[int], list[int]]:
-        """Stamps of all images [ns]; where no camera gave any, the times of recording."""
+        """Stamps of all left and right images [ns]; the times of recording if all stamps are zero."""
         stamps: dict[str, list[int]] = {self.topics.left: [], self.topics.right: []}
         recorded: dict[str, list[int]] = {self.topics.left: [], self.topics.right: []}
         for topic, recorded_ns, message in self._messages(reader, (self.topics.left, self.topics.right)):
@@ -98,25 +98,40 @@ class Recording:
         chosen = recorded if self._recorded_stamps else stamps
         return chosen[self.topics.left], chosen[self.topics.right]
 
-    @cached_property
-    def rig(self) -> Rig:
-        """Of the calibration given to open_bag(), or of the camera_info messages. Raises DataError without either."""
-        max_value = 65535 if next(iter(self)).left.dtype == numpy.uint16 else 255
-        if self._calibration is not None:
-            return Rig.from_file(self._calibration, max_value=max_value)
+    @property
+    def stamps_ns(self) -> list[int]:
+        """The stamps of all frames [ns]."""
+        return [self._left_ns[left] for left, _ in self.pairing.pairs]
+
+    def _camera_infos(self) -> tuple:
+        """The camera_info messages of both cameras. Raises DataError where one is missing."""
         missing = [topic for topic, info in ((self.topics.left, self.topics.left_info),
                                              (self.topics.right, self.topics.right_info)) if info not in self._infos]
         if missing:
             raise DataError(f"{self.name}: found no camera_info of {' and '.join(missing)}, expected one beside the "
                             "images, or a calibration file")
-        left, right = self._infos[self.topics.left_info], self._infos[self.topics.right_info]
-        return rig_of(left, right, self.topics.rectified, max_value)
+        return self._infos[self.topics.left_info], self._infos[self.topics.right_info]
+
+    @cached_property
+    def rig(self) -> Rig:
+        """The rig from the calibration given to open_bag(), or from camera_info. Raises DataError without either."""
+        max_value = 65535 if next(iter(self)).left.dtype == numpy.uint16 else 255
+        if self._calibration is not None:
+            return Rig.from_file(self._calibration, max_value=max_value)
+        return rig_of(*self._camera_infos(), self.topics.rectified, max_value)
+
+    def write_calibration(self, folder: Path) -> str:
+        """The calibration as ``quadedge run --calibration`` takes it; camera_info is written to files in ``folder``."""
+        given = self._calibration
+        if given is None:
+            given = write_calibration(folder, *self._camera_infos(), self.topics.rectified)
+        return ",".join(map(str, given)) if isinstance(given, (tuple, list)) else str(given)
 
     def __len__(self) -> int:
         return len(self.pairing.pairs)
 
     def __iter__(self) -> Iterator[BagFrame]:
-        """Reads the recording once; keeps images only until their pair is complete and its turn has come."""
+        """Reads the recording once. Keeps images only until they are yielded."""
         pairs = self.pairing.pairs
         wanted = {(self.topics.left, left) for left, _ in pairs} | {(self.topics.right, right) for _, right in pairs}
         waiting: dict[tuple[str, int], object] = {}
@@ -142,13 +157,13 @@ class Recording:
 
 def open_bag(path: str | PathLike | Sequence[str | PathLike], *, left: str = "", right: str = "", calibration=None,
              tolerance_ns: int = TOLERANCE_NS) -> Recording:
-    """Opens a stereo recording: a ``.bag`` file of ROS 1 (or several), a folder of ROS 2, an ``.mcap`` file.
+    """Opens a stereo recording: one or several ``.bag`` files of ROS 1, a ROS 2 folder, or an ``.mcap`` file.
 
-    left, right: topics of the cameras, ``sensor_msgs/Image`` or ``CompressedImage``; found by their names where not
-    given. calibration: files of Rig.from_file() instead of the recorded camera_info. tolerance_ns: how far the stamps
-    of a pair may lie apart [ns]; what finds no partner is dropped and counted in ``Recording.pairing``.
+    left, right: image topics, of type ``sensor_msgs/Image`` or ``CompressedImage``; by default found by their names.
+    calibration: files as for Rig.from_file(), instead of the recorded camera_info. tolerance_ns: largest difference
+    between the stamps of a pair [ns]; images without a partner are dropped and counted in ``Recording.pairing``.
 
-    Raises DataError for what is no recording or has no stereo topics, ImportError without rosbags.
+    Raises DataError for a path that is not a readable recording or has no stereo topics, ImportError without rosbags.
     """
     paths = [path] if isinstance(path, (str, PathLike)) else list(path)
     return Recording([Path(one) for one in paths], left, right, calibration, tolerance_ns)
