@@ -1,6 +1,5 @@
 """The frames in the results folder of a run."""
 
-import csv
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -8,6 +7,7 @@ from pathlib import Path
 import numpy
 
 from .errors import DataError
+from .result_files import read_columns
 
 _COUNTS = ("stereo_edges", "quads", "inliers")
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -32,11 +32,9 @@ class RunFrame:
         return not self.status.startswith("lost")
 
 
-def _table(path: Path) -> list[dict[str, str]]:
-    if not path.is_file():
-        raise DataError(f"{path}: found no such file, expected the results of `quadedge run`")
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
+def _rows(file: Path) -> list[dict[str, str]]:
+    columns = read_columns(file)
+    return [dict(zip(columns, row)) for row in zip(*columns.values())]
 
 
 def _pose(row: dict[str, str]) -> numpy.ndarray:
@@ -71,7 +69,7 @@ def _times(row: dict[str, str]) -> dict[str, float]:
 def read_frames(folder: str | PathLike) -> list[RunFrame]:
     """The frames of a results folder. Raises DataError for a folder without results, and for damaged ones."""
     folder = Path(folder)
-    frames, poses = _table(folder / "frames.csv"), _table(folder / "poses.csv")
+    frames, poses = _rows(folder / "frames.csv"), _rows(folder / "poses.csv")
     if len(frames) != len(poses):
         raise DataError(f"{folder}: found {len(frames)} rows in frames.csv and {len(poses)} in poses.csv, expected the "
                         "same number")
@@ -82,7 +80,7 @@ def read_frames(folder: str | PathLike) -> list[RunFrame]:
                 _stamp_ns(frame["stamp_s"]), frame["status"], frame["new_key_rig"] == "1", _pose(pose),
                 _covariance(pose), {name: float(frame[name]) for name in _COUNTS}, _times(frame),
                 frame["warning"] or frame["message"]))
-        except (KeyError, ValueError, TypeError) as error:
+        except (KeyError, ValueError) as error:
             raise DataError(f"{folder}: row {len(rows)} of frames.csv or poses.csv is damaged ({error}), expected "
                             "those of `quadedge run`") from error
     return rows

@@ -1,10 +1,10 @@
 """Shows the results of a run."""
 
-import json
 from os import PathLike
 from pathlib import Path
 
 from ..errors import DataError, UsageError
+from ..result_files import read_json
 from ..run_frames import read_frames
 from .viewer import Viewer
 
@@ -22,10 +22,10 @@ class Run:
 
     def _input(self) -> dict:
         report = self.folder / "report.json"
-        try:
-            return dict(json.loads(report.read_text())["input"])
-        except (OSError, ValueError, KeyError) as error:
-            raise DataError(f"{report}: found no input ({error}), expected the report of `quadedge run`") from error
+        content = read_json(report, "the report of `quadedge run`")
+        if not isinstance(content.get("input"), dict):
+            raise DataError(f"{report}: found no input, expected the report of `quadedge run`")
+        return content["input"]
 
     def open_recording(self, data: str | PathLike | None = None):
         """The Dataset that was tracked; None if it cannot be read again (a pipe, rendered images).
