@@ -2,7 +2,7 @@
 # Intel's OpenCL for CPUs from PyPI, a second implementation beside PoCL. Sourced by run_other_runtime.sh and
 # run_device_kit.sh.
 
-# install_intel_runtime VENV: once per version of requirements_intel.txt.
+# install_intel_runtime VENV: installs it once per version of requirements_intel.txt.
 install_intel_runtime() {
   local requirements
   requirements="$(dirname "${BASH_SOURCE[0]}")/requirements_intel.txt"

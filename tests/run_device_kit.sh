@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The device kit is built, is small enough, and runs on PoCL and on Intel's OpenCL for CPUs where neither OpenCV nor
-# Debian's libtbb can be loaded. Nothing fails there: self-test, device tests, variants, stages and poses.
-#   run_device_kit.sh REPOSITORY BUILD      leaves the pages in BUILD/device_kit/results_RUNTIME
+# Builds the device kit, checks its size, and runs it on PoCL and on Intel's OpenCL for CPUs, with OpenCV and Debian's
+# libtbb hidden. Self-test, device tests, variants, stages and poses must all succeed.
+#   run_device_kit.sh REPOSITORY BUILD      writes the pages to BUILD/device_kit/results_RUNTIME
 set -euo pipefail
 repository="$1" build="$(realpath "$2")"
 kit="$build/device_kit/kit" minutes=120  # of limits: CPUs are slower than GPUs, and other tests run at the same time
@@ -10,8 +10,8 @@ install_intel_runtime "$build/venv"
 rm -rf "$kit"
 "$repository/scripts/device_kit.sh" "$kit" "$build"
 
-# hidden COMMAND...: runs it where these libraries are empty files. Without the right to mount, what the page says of
-# loaded libraries has to do.
+# hidden COMMAND...: runs the command with these libraries replaced by empty files. Without permission to mount, the
+# page's list of loaded libraries is the only check.
 hidden() {
   if unshare -rm true 2>/dev/null; then
     unshare -rm bash -c 'for file in $(ldconfig -p | sed -n "s/.*=> //p" | grep -E "/lib(opencv_|tbb)"); do
@@ -23,7 +23,7 @@ hidden() {
   fi
 }
 
-# holds PAGE RUNTIME: every table is there, and nothing in it went wrong.
+# holds PAGE RUNTIME: checks that the page has every table and no failure.
 holds() {
   local heading
   for heading in Parts Drivers Device Self-test 'Device tests' 'Building the programs' 'Kernel variants' Latency \
