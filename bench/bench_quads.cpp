@@ -22,7 +22,7 @@ SyntheticOptions options() {
 }  // namespace
 
 BenchQuads::BenchQuads(std::size_t wanted) : sequence(options()) {
-  config.stereo.max_disparity = sequence.max_disparity();
+  config.stereo.max_disparity = sequence.rig().max_disparity;
   FramePrefetcher::Frame frames[2];
   for (int i = 0; i < 2; ++i) {
     frames[i].stamp_ns = sequence.stamp_ns(i);

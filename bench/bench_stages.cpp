@@ -27,7 +27,7 @@ struct Scene {
   Config config;
   FramePrefetcher::Frame frames[2];
   Scene() {
-    config.stereo.max_disparity = sequence.max_disparity();
+    config.stereo.max_disparity = sequence.rig().max_disparity;
     for (int i = 0; i < 2; ++i) {
       frames[i].stamp_ns = sequence.stamp_ns(i);
       frames[i].left = sequence.render(i, Side::left).image;

@@ -158,7 +158,7 @@ class Split {
   void add(const FrameResult& result, const FrameDetails& details, const evaluation::FrameTruth& before,
            const evaluation::FrameTruth& now) {
     truth_ = now.world_from_left->inverse() * *before.world_from_left;
-    found_ = result.current_from_reference;
+    found_ = *result.current_from_reference;
     seed_ = config_.seed + static_cast<std::uint64_t>(errors_[0].frames);
     const Quads all = gather(details, before, now);
     errors_[0].add(found_, truth_, all.size());
@@ -255,9 +255,9 @@ KeyRigErrors track(const evaluation::MatchingSource& source, Device& device, con
     errors.keys += result.new_key_rig ? 1 : 0;
     if (result.status != FrameStatus::tracked) continue;
     const auto& before = truths[static_cast<std::size_t>(result.reference_frame)];
-    errors.step.add(result.current_from_reference, truths.back().world_from_left->inverse() * *before.world_from_left,
+    errors.step.add(*result.current_from_reference, truths.back().world_from_left->inverse() * *before.world_from_left,
                     0);
-    errors.whole.add(result.world_from_left.inverse(), truths.back().world_from_left->inverse(), 0);
+    errors.whole.add(result.world_from_left->inverse(), truths.back().world_from_left->inverse(), 0);
     if (split != nullptr) split->add(result, odometry.details(), before, truths.back());
     // Only the maps of key rigs are evaluated again.
     for (int j = 0; j < i; ++j) {
@@ -291,7 +291,7 @@ int main(int argc, char** argv) {
     cli::set_size(scene, size);
     const auto source = evaluation::make_rendered_source(scene);
     Config config;
-    config.stereo.max_disparity = source->max_disparity();
+    config.stereo.max_disparity = source->rig().max_disparity;
     Device device;
     Split split(*source, config);
     const KeyRigErrors with = track(*source, device, config, &split);

@@ -15,13 +15,9 @@ int main(int count, char** arguments) try {
   // The layout (KITTI, EuRoC, ETH3D ...) is recognised. Images are not decoded yet.
   const quadedge::Dataset data = quadedge::open_dataset(arguments[1]);
 
-  // All defaults, except for the disparity range, which depends on the recording.
-  quadedge::Config config;
-  config.stereo.max_disparity = data.max_disparity;
-
-  // The first GPU, otherwise the first CPU. The constructor of the odometry builds the kernels.
-  quadedge::Device device("auto");
-  quadedge::StereoOdometry odometry(data.rig, device, config);
+  // The first GPU, otherwise the first CPU, with the default configuration and the disparity range of such recordings.
+  // The constructor builds the kernels.
+  quadedge::StereoOdometry odometry(data.rig);
 
   // Decodes the next images in another thread during tracking.
   quadedge::FramePrefetcher frames(data);
@@ -29,9 +25,10 @@ int main(int count, char** arguments) try {
   while (const auto frame = frames.next()) {
     const quadedge::FrameResult result = odometry.track(frame->view());
     std::printf("frame %d: %s, %d quads, %.0f ms %s\n", frame->number, to_string(result.status), result.counts.quads,
-                result.latency_ms, result.message.c_str());
-    // The pose of a lost frame is only predicted and does not belong in the trajectory.
-    if (is_tracked(result.status)) trajectory.push_back({frame->stamp_ns, result.world_from_left});
+                result.timing.latency_ms, result.message.c_str());
+    // A lost frame has no pose; predicted_world_from_left repeats the last motion.
+    if (result.world_from_left) trajectory.push_back({frame->stamp_ns, *result.world_from_left});
+    for (const auto& warning : result.warnings) std::fprintf(stderr, "warning: %s\n", warning.text.c_str());
   }
   quadedge::write_tum(arguments[2], trajectory);
   return 0;

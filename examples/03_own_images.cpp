@@ -26,12 +26,11 @@ int main() try {
   rig.right = rig.left;
   rig.right_from_left.translation() = Eigen::Vector3d(-baseline, 0, 0);
 
-  // Nothing is nearer than half a metre: the disparity is at most focal length x baseline / depth.
+  // If nothing is known, objects are expected at least 0.5 m away. This scene begins at 1 m.
   quadedge::Config config;
-  config.stereo.max_disparity = rig.left.fx * baseline / 0.5;
+  config.stereo.min_depth = 1;
 
-  quadedge::Device device("auto");
-  quadedge::StereoOdometry odometry(rig, device, config);
+  quadedge::StereoOdometry odometry(rig, config);
   for (int i = 0; i < camera.frames(); ++i) {
     const quadedge::Image left = camera.render(i, quadedge::Side::left).image,
                           right = camera.render(i, quadedge::Side::right).image;
@@ -41,13 +40,16 @@ int main() try {
     const quadedge::ImageView right_view{right.pixels.data(), right.width, right.height, right.width};
     const quadedge::FrameResult result = odometry.track({camera.stamp_ns(i), left_view, right_view});
 
-    // Position [m] in the frame of the first left camera: x right, y down, z forward. The covariance is that of the
-    // motion since the reference frame: rotation first, then translation.
-    const Eigen::Vector3d position = result.world_from_left.translation();
-    const double deviation = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());  // m
+    if (!result.world_from_left) {
+      std::fprintf(stderr, "%s: %s\n", to_string(result.status), result.message.c_str());
+      return 1;
+    }
+    // Position [m] in the frame of the first left camera: x right, y down, z forward. The covariance is in the order of
+    // ROS: translation first, then rotation.
+    const Eigen::Vector3d position = result.world_from_left->translation();
+    const double deviation = std::sqrt(result.covariance->topLeftCorner<3, 3>().trace());  // m
     std::printf("%s at %.4f %.4f %.4f m, +- %.5f m\n", to_string(result.status), position.x(), position.y(),
                 position.z(), deviation);
-    if (!is_tracked(result.status)) return 1;
   }
   return 0;
 } catch (const quadedge::Error& error) {

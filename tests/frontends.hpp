@@ -32,7 +32,7 @@ struct RenderedScene {
     options.supersampling = 3;
     const SyntheticSequence sequence(options);
     rig = sequence.rig();
-    config.stereo.max_disparity = sequence.max_disparity();
+    config.stereo.max_disparity = sequence.rig().max_disparity;
     for (int i = 0; i < options.frames; i += step) {
       left.push_back(sequence.render(i, Side::left).image);
       right.push_back(sequence.render(i, Side::right).image);

@@ -29,8 +29,8 @@ inline quadedge::report::RunRecord made_up_run(int frames, double drift) {
     quadedge::report::FrameRecord frame;
     frame.result.stamp_ns = 100'000'000LL * i;
     frame.result.status = i == 0 ? quadedge::FrameStatus::first : quadedge::FrameStatus::tracked;
-    frame.result.latency_ms = 10 + i * 7 % 5;
-    frame.result.stages = {{"stereo", 4}, {"temporal", 3}};
+    frame.result.timing.latency_ms = 10 + i * 7 % 5;
+    frame.result.timing.stages = {{"stereo", 4}, {"temporal", 3}};
     frame.result.counts.edges_left = 100 + i;
     Eigen::Isometry3d pose = made_up_truth(frame.result.stamp_ns);
     truth.push_back({frame.result.stamp_ns, pose});
@@ -55,7 +55,7 @@ inline void write_member(const std::string& output, const std::string& name, con
   quadedge::Trajectory estimate, truth;
   for (const auto& frame : run.frames) {
     frames.add(frame.result);
-    estimate.push_back({frame.result.stamp_ns, frame.result.world_from_left});
+    estimate.push_back({frame.result.stamp_ns, *frame.result.world_from_left});
     truth.push_back({frame.result.stamp_ns, made_up_truth(frame.result.stamp_ns)});
   }
   quadedge::write_tum(folder + "/trajectory.txt", estimate);

@@ -78,6 +78,17 @@ const std::vector<LibraryAttack>& library_attacks() {
          c.track();
        },
        LibraryAttack::data, ""},
+      {"a baseline in millimetres, without a disparity range",
+       [](C c) {
+         c.rig.right_from_left.translation() *= 1000;
+         c.rig.max_disparity = 0;
+         c.config = {};
+         c.track();
+       },
+       LibraryAttack::data, "baseline"},
+      {"a negative disparity range", [](C c) { c.rig.max_disparity = -1, c.track(); }, LibraryAttack::data, "-1"},
+      {"a disparity range that is no number", [](C c) { c.rig.max_disparity = kNoNumber, c.track(); },
+       LibraryAttack::data, "maximum disparity"},
       {"a focal length of zero", [](C c) { c.rig.left.fx = 0, c.track(); }, LibraryAttack::data, ""},
       {"a focal length of NaN", [](C c) { c.rig.right.fy = kNoNumber, c.track(); }, LibraryAttack::data, ""},
       {"an invalid rotation", [](C c) { c.rig.right_from_left.linear() *= 2, c.track(); }, LibraryAttack::data, ""},

@@ -56,7 +56,7 @@ TEST_CASE("batch summary: pooled figures are computed over all poses of all sequ
       if (std::isfinite(pose.rpe_rotation_deg)) rpe_rotation.push_back(pose.rpe_rotation_deg);
       if (std::isfinite(pose.rpe_translation_m)) rpe_translation.push_back(pose.rpe_translation_m);
     }
-    for (std::size_t i = 1; i < run->frames.size(); ++i) latencies.push_back(run->frames[i].result.latency_ms);
+    for (std::size_t i = 1; i < run->frames.size(); ++i) latencies.push_back(run->frames[i].result.timing.latency_ms);
   }
   REQUIRE(rpe_rotation.size() == 12);
   check_statistics(summary.pooled->origin_aligned.ape_rotation_deg, ape_rotation);
@@ -133,10 +133,11 @@ TEST_CASE("batch summary: the exit code for too few tracked frames ranks between
 TEST_CASE("frames.csv: a run's rows are read back, whichever frame has the first warning or message", "[report]") {
   const TemporaryFolder folder;
   auto run = made_up_run(3, 0.01);
-  run.frames[0].result.warning = "images, or their calibration, \"drift\"";  // before any frame reached a later stage
-  run.frames[0].result.stages = {{"stereo", 4}};
+  const std::string drift = "images, or their calibration, \"drift\"";  // before any frame reached a later stage
+  run.frames[0].result.warnings = {{WarningKind::doubtful_calibration, drift}};
+  run.frames[0].result.timing.stages = {{"stereo", 4}};
   run.frames[1].result.message = "a \"quoted\", cut\nmessage";
-  run.frames[2].result.stages.push_back({"pose", 1.5});
+  run.frames[2].result.timing.stages.push_back({"pose", 1.5});
   run.frames[2].result.new_key_rig = true;
   {
     report::FrameRows rows(folder / "frames.csv", report::frames_csv_columns());
@@ -147,7 +148,7 @@ TEST_CASE("frames.csv: a run's rows are read back, whichever frame has the first
   CHECK(table.texts("status") == std::vector<std::string>{"first", "tracked", "tracked"});
   CHECK(table.texts("new_key_rig") == std::vector<std::string>{"0", "0", "1"});
   CHECK(table.numbers("edges_left") == std::vector<double>{100, 101, 102});
-  CHECK(table.texts("warning") == std::vector<std::string>{run.frames[0].result.warning, "", ""});
+  CHECK(table.texts("warning") == std::vector<std::string>{drift, "", ""});
   CHECK(table.texts("message") == std::vector<std::string>{"", "a \"quoted\", cut message", ""});
   CHECK(table.texts("temporal_ms") == std::vector<std::string>{"", "3.000", "3.000"});
   CHECK(std::isnan(table.numbers("pose_ms")[0]));

@@ -57,7 +57,7 @@ TEST_CASE("calibrated rig: images of pinhole cameras stay unchanged", "[lens]") 
   CHECK(rig.left_undistortion.empty());
   CHECK(rig.left_mask.empty());
   CHECK(rig.left.fx == 100);
-  CHECK(default_max_disparity(rig) == Approx(100 * 0.1 / 0.5));
+  CHECK(rig.disparity_range() == Approx(100 * 0.1 / 0.5));
 }
 
 TEST_CASE("calibrated rig: the view keeps the lens's scale up to 120 degrees, or has the requested field of view",

@@ -217,7 +217,7 @@ TEST_CASE("no visible surface exceeds the largest disparity, on any path", "[syn
           nearest = std::min<double>(nearest, depth);
       CAPTURE(scene, path, nearest);
       REQUIRE(nearest > 0.0);  // every ray hits something
-      CHECK(options.focal * options.baseline / nearest <= sequence.max_disparity());
+      CHECK(options.focal * options.baseline / nearest <= sequence.rig().max_disparity);
     }
   }
 }

@@ -33,7 +33,7 @@ struct MadeUpRun {
         Eigen::Matrix<double, 6, 1> white;
         for (int k = 0; k < 6; ++k) white(k) = normal(random);
         result.current_from_reference = pose::perturb(root * white, pose.inverse() * Eigen::Translation3d(0, 0, 1));
-        result.covariance = claimed;
+        result.relative_covariance = claimed;
       }
       results.push_back(result);
     }
@@ -76,7 +76,7 @@ TEST_CASE("consistency: an error in rotation alone shows in the rotation alone",
 TEST_CASE("consistency: lost frames and frames without covariance or ground truth are left out", "[evaluation]") {
   MadeUpRun run(10, covariance(), covariance());
   run.results[3].status = FrameStatus::lost_no_consensus;
-  run.results[4].covariance.setZero();
+  run.results[4].relative_covariance->setZero();
   run.truth.erase(run.truth.begin() + 6);
   CHECK(evaluation::judge_covariances(run.results, run.truth).poses == 6);
   CHECK(evaluation::judge_covariances(run.results, {}).poses == 0);
@@ -97,14 +97,14 @@ TEST_CASE("consistency: a wrong baseline shows over longer motions, and the rig'
     result.stamp_ns = truth.back().stamp_ns;
     result.status = i == 0 ? FrameStatus::first : FrameStatus::tracked;
     result.reference_frame = std::max(0, i - 1);
-    result.covariance_in_reference = PoseCovariance::Zero();
+    result.diagnostics.covariance_in_reference = PoseCovariance::Zero();
     if (i > 0) {
       Eigen::Vector3d way(noise(random), noise(random), noise(random));
       way.z() -= 0.1 * (1 + config.rig_sigma_length);
-      result.current_from_reference = Eigen::Translation3d(way);
-      result.covariance = 1e-8 * Matrix6d::Identity();
-      result.rig_sensitivity = pose::rig_sensitivity(result.current_from_reference.inverse(), 0.1);
-      result.covariance_in_reference = pose::rig_covariance(result.rig_sensitivity, config);
+      result.current_from_reference = Eigen::Isometry3d(Eigen::Translation3d(way));
+      result.relative_covariance = 1e-8 * Matrix6d::Identity();
+      result.diagnostics.rig_sensitivity = pose::rig_sensitivity(result.current_from_reference->inverse(), 0.1);
+      result.diagnostics.covariance_in_reference = pose::rig_covariance(result.diagnostics.rig_sensitivity, config);
     }
     results.push_back(result);
   }
@@ -119,7 +119,7 @@ TEST_CASE("consistency: a wrong baseline shows over longer motions, and the rig'
     if (step.frames >= 10) CHECK(step.edges.translation > 50);
   }
   CHECK(evaluation::judge_steps(results, {}, config).empty());
-  results[50].covariance_in_reference = std::nullopt;  // lost: nothing connects the frames before and after
+  results[50].diagnostics.covariance_in_reference = std::nullopt;  // lost: nothing connects the frames before and after
   results[50].status = FrameStatus::lost_no_consensus;
   const auto broken = evaluation::judge_steps(results, truth, config);
   CHECK(broken[0].edges.poses == 98);

@@ -176,7 +176,7 @@ TEST_CASE("dataset: still pairs and the quad are recognised by file names", "[da
   CHECK(middlebury.format == "middlebury-2014");
   CHECK(middlebury.rig.right.cx == 23.5);
   CHECK(middlebury.rig.baseline() == Approx(0.06));
-  CHECK(middlebury.max_disparity == Approx(67.5));
+  CHECK(middlebury.rig.max_disparity == Approx(67.5));
 
   for (const char* name : {"Art/view1.png", "Art/view5.png", "Aloe/view1.png", "Aloe/view5.png"})
     write_image(folder / name, 463, 370);

@@ -83,7 +83,7 @@ TEST_CASE("real data: KITTI has the published number of frames, rig and step len
   CHECK(set.rig.left.width == 1226);
   CHECK(set.rig.left.fx == Approx(707.0912));
   CHECK(set.rig.baseline() == Approx(0.5372).epsilon(1e-3));
-  CHECK(set.max_disparity > 100);
+  CHECK(set.rig.disparity_range() > 100);
   REQUIRE(set.truth.size() == 36);
   const double length =
       (set.truth[35].world_from_left.translation() - set.truth[0].world_from_left.translation()).norm() / 35;
@@ -170,10 +170,10 @@ TEST_CASE("real data: ground-truth disparities are positive and within the reade
     REQUIRE(disparities.size() > 10'000);
     const auto [smallest, largest] = std::minmax_element(disparities.begin(), disparities.end());
     const double offset = set.rig.right.cx - set.rig.left.cx;
-    UNSCOPED_INFO("disparities " << *smallest << " to " << *largest << ", range " << set.max_disparity << ", offset "
-                                 << offset);
+    UNSCOPED_INFO("disparities " << *smallest << " to " << *largest << ", range " << set.rig.disparity_range()
+                                 << ", offset " << offset);
     CHECK(*smallest + offset > 0);
-    CHECK(*largest + offset <= set.max_disparity);
-    CHECK(*largest + offset > 0.2 * set.max_disparity);  // nor is the range far too wide
+    CHECK(*largest + offset <= set.rig.disparity_range());
+    CHECK(*largest + offset > 0.2 * set.rig.disparity_range());  // nor is the range far too wide
   }
 }

@@ -66,11 +66,13 @@ TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame 
   Device device("0", options);
   StereoOdometry odometry(scene.rig, device, scene.config);
   const auto first = odometry.track(scene.frame(0));
-  CHECK_THAT(first.warning, Contains("60 MB") && Contains("instead of all"));
+  REQUIRE(first.warnings.size() == 1);
+  CHECK(first.warnings[0].kind == WarningKind::device_memory);
+  CHECK_THAT(first.warnings[0].text, Contains("60 MB") && Contains("instead of all"));
   CHECK(first.counts.edges_left > 1000);
   CHECK(first.counts.edges_left < 5000);
   const auto second = odometry.track(scene.frame(1));
-  CHECK(second.warning == "");
+  CHECK(second.warnings.empty());
   CHECK(is_tracked(second.status));
   CHECK(odometry.device_bytes() < options.limits.memory_bytes);
 }

@@ -56,7 +56,6 @@ struct DisturbedRun {
 DisturbedRun track_disturbed(const SyntheticOptions& options, Device& device) {
   const SyntheticSequence sequence(options);
   Config config;
-  config.stereo.max_disparity = sequence.max_disparity();
   StereoOdometry odometry(sequence.rig(), device, config);
   Trajectory estimate, truth;
   std::vector<std::int64_t> stamps;
@@ -67,7 +66,7 @@ DisturbedRun track_disturbed(const SyntheticOptions& options, Device& device) {
     stamps.push_back(sequence.stamp_ns(i));
     truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
     if (is_tracked(result.status))
-      estimate.push_back({sequence.stamp_ns(i), result.world_from_left});
+      estimate.push_back({sequence.stamp_ns(i), *result.world_from_left});
     else
       ++tracked.lost;
   }

@@ -26,7 +26,6 @@ struct TrackedRoom {
     return options;
   }
   TrackedRoom() : sequence(options()) {
-    config.stereo.max_disparity = sequence.max_disparity();
     config.odometry.key_rig = false;
     for (int i = 0; i < sequence.frames(); ++i) {
       left.push_back(sequence.render(i, Side::left).image);

@@ -33,7 +33,6 @@ class ChangedRoom : public MatchingSource {
   }
   std::string name() const override { return "changed"; }
   const StereoRig& rig() const override { return rig_; }
-  double max_disparity() const override { return room_->max_disparity(); }
   int frames() const override { return 1; }
   TrueFrame load(int number) const override {
     TrueFrame frame = room_->load(number);

@@ -78,9 +78,9 @@ void show_search(MatchingObserver& observer, int number, int base_frame, const S
 FrameResult found(FrameStatus status, int search, int reference_frame, double x) {
   FrameResult result;
   result.status = status;
-  result.search = search;
+  result.diagnostics.search = search;
   result.reference_frame = reference_frame;
-  result.world_from_left.translation().x() = x;
+  result.world_from_left = Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0));
   return result;
 }
 
@@ -131,8 +131,8 @@ TEST_CASE("Two hand-made frames have the temporal recall, precision and ambiguit
   matches.competing_clusters = {3, 1, 5};
   observer.quads(matches);
   result.status = FrameStatus::tracked;
-  result.search = 0;
-  result.world_from_left.translation().x() = 0.053;
+  result.diagnostics.search = 0;
+  result.world_from_left = Eigen::Isometry3d(Eigen::Translation3d(0.053, 0, 0));
   const FrameMatching second = observer.end(result);
 
   // Pools: paired = {0, 1}, all = {0, 1, 2, 3}.
@@ -262,21 +262,21 @@ TEST_CASE("A tap receives the base frame of each search and the one that gave th
     int frame = 0, relocalisations = 0, oldest = 0;
     const auto seen = track_with_loss(device, &tap, [&](const FrameResult& result, const FrameDetails& details) {
       INFO("device " << device << ", frame " << frame);
-      CHECK((result.status == FrameStatus::tracked) == (result.search >= 0));
+      CHECK((result.status == FrameStatus::tracked) == (result.diagnostics.search >= 0));
       for (std::size_t s = 0; s < tap.observed.size(); ++s) {
         CHECK(tap.observed[s].number == static_cast<int>(s));
         CHECK(tap.observed[s].base_frame < frame);
         CHECK(tap.observed[s].base_frame >= oldest);  // the observer drops older frames
       }
       oldest = result.reference_frame;
-      if (result.search >= 0) {
-        const auto s = static_cast<std::size_t>(result.search);
+      if (result.diagnostics.search >= 0) {
+        const auto s = static_cast<std::size_t>(result.diagnostics.search);
         REQUIRE(s < tap.found.size());
         CHECK(tap.observed[s].step == 1);
-        CHECK(tap.observed[s].base_frame == result.base_frame);
+        CHECK(tap.observed[s].base_frame == result.diagnostics.base_frame);
         CHECK(tap.observed[s].left.x.size() == details.previous_stereo.size());
         CHECK(matching::same_bytes(tap.found[s], details.quads));
-        CHECK(details.quads.search == result.search);
+        CHECK(details.quads.search == result.diagnostics.search);
         if (result.message.find("relocalised") != std::string::npos) {
           ++relocalisations;
           CHECK(tap.observed[s].base_frame == frame - 1);
@@ -290,9 +290,9 @@ TEST_CASE("A tap receives the base frame of each search and the one that gave th
     for (std::size_t i = 0; i < seen.size(); ++i) {
       INFO("device " << device << ", frame " << i);
       CHECK(seen[i].status == unseen[i].status);
-      CHECK(seen[i].search == unseen[i].search);
-      CHECK(seen[i].world_from_left.matrix() == unseen[i].world_from_left.matrix());
-      CHECK(seen[i].covariance == unseen[i].covariance);
+      CHECK(seen[i].diagnostics.search == unseen[i].diagnostics.search);
+      CHECK(seen[i].pose_or_prediction().matrix() == unseen[i].pose_or_prediction().matrix());
+      CHECK(seen[i].relative_covariance == unseen[i].relative_covariance);
     }
   }
 }

@@ -33,10 +33,12 @@ double turn_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }
 
 /// The first frame is the origin in both. Metres and degrees.
-void check_pose(const FrameResult& result, const Eigen::Isometry3d& truth, double metres, double degrees) {
+void check_pose(const std::optional<Eigen::Isometry3d>& world_from_left, const Eigen::Isometry3d& truth, double metres,
+                double degrees) {
   INFO("moved " << truth.translation().norm() << " m");
-  CHECK((result.world_from_left.translation() - truth.translation()).norm() < metres);
-  CHECK(turn_between(result.world_from_left, truth) < degrees * kDegree);
+  REQUIRE(world_from_left);
+  CHECK((world_from_left->translation() - truth.translation()).norm() < metres);
+  CHECK(turn_between(*world_from_left, truth) < degrees * kDegree);
 }
 
 /// The frame at another time, for sequences in another order.
@@ -45,13 +47,19 @@ StereoFrame at(std::int64_t stamp_ns, StereoFrame frame) {
   return frame;
 }
 
+bool same_bytes(const std::optional<Eigen::Isometry3d>& a, const std::optional<Eigen::Isometry3d>& b) {
+  return a.has_value() == b.has_value() && (!a || a->matrix() == b->matrix());
+}
+
 /// All but times.
 bool same_bytes(const FrameResult& a, const FrameResult& b) {
-  return a.status == b.status && a.world_from_left.matrix() == b.world_from_left.matrix() &&
-         a.current_from_reference.matrix() == b.current_from_reference.matrix() && a.covariance == b.covariance &&
-         a.reference_frame == b.reference_frame && a.base_frame == b.base_frame && a.new_key_rig == b.new_key_rig &&
-         a.overflow == b.overflow && a.message == b.message && a.counts.quads == b.counts.quads &&
-         a.counts.inliers == b.counts.inliers;
+  return a.status == b.status && same_bytes(a.world_from_left, b.world_from_left) &&
+         same_bytes(a.predicted_world_from_left, b.predicted_world_from_left) &&
+         same_bytes(a.current_from_reference, b.current_from_reference) && a.covariance == b.covariance &&
+         a.relative_covariance == b.relative_covariance && a.reference_frame == b.reference_frame &&
+         a.diagnostics.base_frame == b.diagnostics.base_frame && a.new_key_rig == b.new_key_rig &&
+         a.diagnostics.overflow == b.diagnostics.overflow && a.message == b.message &&
+         a.counts.quads == b.counts.quads && a.counts.inliers == b.counts.inliers;
 }
 
 }  // namespace
@@ -60,7 +68,7 @@ TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][devic
   for (const auto& name : all_devices()) {
     const auto results = track(room(), name, room().config), again = track(room(), name, room().config);
     CHECK(results[0].status == FrameStatus::first);
-    CHECK(results[0].world_from_left.matrix() == Eigen::Matrix4d::Identity());
+    CHECK(results[0].world_from_left->matrix() == Eigen::Matrix4d::Identity());
     CHECK(results[0].new_key_rig);
     for (std::size_t i = 0; i < results.size(); ++i) {
       INFO("device " << name << ", frame " << i);
@@ -68,27 +76,28 @@ TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][devic
       if (i == 0) continue;
       const FrameResult& result = results[i];
       CHECK(result.status == FrameStatus::tracked);
-      check_pose(result, room().world_from_left[i], 4e-3, 0.1);
-      CHECK_FALSE(result.overflow);
+      check_pose(result.world_from_left, room().world_from_left[i], 4e-3, 0.1);
+      CHECK_FALSE(result.diagnostics.overflow);
       CHECK(result.counts.inliers > 500);
       CHECK(result.counts.inliers <= result.counts.quads);
       // The reference is the key rig: the pose is its pose and the motion from it.
       const auto& reference = results[static_cast<std::size_t>(result.reference_frame)];
       CHECK(reference.new_key_rig);
-      CHECK(result.base_frame >= result.reference_frame);
-      CHECK(
-          (reference.world_from_left * result.current_from_reference.inverse()).isApprox(result.world_from_left, 1e-9));
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(result.covariance);
-      CHECK((result.covariance - result.covariance.transpose()).norm() < 1e-9 * result.covariance.norm());
+      CHECK(result.diagnostics.base_frame >= result.reference_frame);
+      CHECK((*reference.world_from_left * result.current_from_reference.value().inverse())
+                .isApprox(*result.world_from_left, 1e-9));
+      const Eigen::Matrix<double, 6, 6>& relative = result.relative_covariance.value();
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(relative);
+      CHECK((relative - relative.transpose()).norm() < 1e-9 * relative.norm());
       CHECK(solver.eigenvalues().minCoeff() > 0);
-      CHECK(std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace()) < 0.02);
+      CHECK(std::sqrt(relative.bottomRightCorner<3, 3>().trace()) < 0.02);
       // In the world a pose is no more certain than its key rig is.
-      REQUIRE((result.covariance_in_world && reference.covariance_in_world && result.covariance_in_reference));
-      CHECK((*result.covariance_in_world - *reference.covariance_in_world).topLeftCorner<3, 3>().trace() > 0);
+      REQUIRE((result.covariance && reference.covariance && result.diagnostics.covariance_in_reference));
+      CHECK((*result.covariance - *reference.covariance).topLeftCorner<3, 3>().trace() > 0);
       // The edges' own uncertainty is only turned; the rig's comes on top.
-      const auto by_rig = pose::rig_covariance(result.rig_sensitivity, room().config.pose);
-      CHECK((*result.covariance_in_reference - by_rig).topLeftCorner<3, 3>().trace() ==
-            Approx(result.covariance.bottomRightCorner<3, 3>().trace()));
+      const auto by_rig = pose::rig_covariance(result.diagnostics.rig_sensitivity, room().config.pose);
+      CHECK((*result.diagnostics.covariance_in_reference - by_rig).topLeftCorner<3, 3>().trace() ==
+            Approx(relative.bottomRightCorner<3, 3>().trace()));
       CHECK(by_rig.trace() > 0);
     }
   }
@@ -97,12 +106,13 @@ TEST_CASE("odometry: a rendered room is tracked reproducibly", "[odometry][devic
 TEST_CASE("odometry: the C++ reference tracks too and agrees with the devices", "[odometry][device]") {
   const RenderedScene scene("room", 200, 125, 3);
   const auto truth = track(scene, "reference", scene.config);
-  for (std::size_t i = 1; i < truth.size(); ++i) check_pose(truth[i], scene.world_from_left[i], 6e-3, 0.15);
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    check_pose(truth[i].world_from_left, scene.world_from_left[i], 6e-3, 0.15);
   for (const auto& name : all_devices()) {
     const auto results = track(scene, name, scene.config);
     for (std::size_t i = 1; i < truth.size(); ++i) {
       CHECK(results[i].status == truth[i].status);
-      check_pose(results[i], truth[i].world_from_left, 2e-4, 0.005);
+      check_pose(results[i].world_from_left, *truth[i].world_from_left, 2e-4, 0.005);
     }
   }
 }
@@ -114,7 +124,7 @@ TEST_CASE("odometry: a repeated frame has not moved", "[odometry][device]") {
   for (int k = 0; k < 2; ++k) {
     const auto result = odometry.track(room().frame(0));
     CHECK(result.status == FrameStatus::tracked);
-    check_pose(result, Eigen::Isometry3d::Identity(), 1e-4, 1e-3);
+    check_pose(result.world_from_left, Eigen::Isometry3d::Identity(), 1e-4, 1e-3);
   }
 }
 
@@ -130,13 +140,18 @@ TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right po
       CHECK_FALSE(before.message.empty());
       CHECK(before.counts.stereo_edges == 0);
       // The last motion repeated: the path is smooth, so the guess is near.
-      check_pose(before, room().world_from_left[i], 0.03, 1);
+      CHECK_FALSE(before.world_from_left);
+      CHECK_FALSE(before.current_from_reference);
+      CHECK_FALSE(before.covariance);
+      CHECK_FALSE(before.relative_covariance);
+      check_pose(before.predicted_world_from_left, room().world_from_left[i], 0.03, 1);
       CHECK(odometry.details().stereo.size() == 0);
       continue;
     }
     const auto result = odometry.track(room().frame(i));
     CHECK(is_tracked(result.status));
-    check_pose(result, room().world_from_left[i], 4e-3, 0.1);
+    CHECK_FALSE(result.predicted_world_from_left);
+    check_pose(result.world_from_left, room().world_from_left[i], 4e-3, 0.1);
   }
 }
 
@@ -153,10 +168,10 @@ TEST_CASE("odometry: a frame from another place is lost, and the next one is tra
   CHECK(lost.counts.stereo_edges > 100);
   const auto result = odometry.track(room().frame(4));
   CHECK(result.status == FrameStatus::tracked);
-  CHECK(lost.base_frame == -1);
+  CHECK(lost.diagnostics.base_frame == -1);
   CHECK(result.reference_frame == 2);  // the last frame that had a pose
-  CHECK(result.base_frame == 2);
-  check_pose(result, room().world_from_left[4], 4e-3, 0.1);
+  CHECK(result.diagnostics.base_frame == 2);
+  check_pose(result.world_from_left, room().world_from_left[4], 4e-3, 0.1);
 }
 
 TEST_CASE("odometry: in another place tracking resumes from the lost frame, with a warning", "[odometry][device]") {
@@ -171,23 +186,23 @@ TEST_CASE("odometry: in another place tracking resumes from the lost frame, with
   const auto relocalised = odometry.track(room().frame(1));
   CHECK(relocalised.status == FrameStatus::tracked);
   CHECK(relocalised.reference_frame == 1);
-  CHECK(relocalised.base_frame == 1);
+  CHECK(relocalised.diagnostics.base_frame == 1);
   CHECK(relocalised.new_key_rig);  // the lost frame's own pose is a prediction
   CHECK(relocalised.message.find("relocalised against frame 1") != std::string::npos);
   const auto after = odometry.track(room().frame(2));
   CHECK(after.status == FrameStatus::tracked);
   CHECK(after.message.empty());
   for (const auto* result : {&relocalised, &after}) {
-    CHECK(result->covariance_in_reference);
-    CHECK_FALSE(result->covariance_in_world);  // nothing measured connects it with the first frame
+    CHECK(result->diagnostics.covariance_in_reference);
+    CHECK_FALSE(result->covariance);  // nothing measured connects it with the first frame
     const auto& truth = room().world_from_left[result == &after ? 2 : 1];
-    const Eigen::Isometry3d motion = lost.world_from_left.inverse() * result->world_from_left;
+    const Eigen::Isometry3d motion = lost.predicted_world_from_left.value().inverse() * result->world_from_left.value();
     CHECK((motion.translation() - truth.translation()).norm() < 4e-3);
     CHECK(turn_between(motion, truth) < 0.1 * kDegree);
   }
 }
 
-TEST_CASE("odometry: images that do not fit the calibration are lost with a reason, doubts are told once",
+TEST_CASE("odometry: images that do not fit the calibration are lost with a reason, and each warning is given once",
           "[odometry][rig][device]") {
   const RenderedScene scene("room", 320, 200, 3);
   Device device(all_devices().front(), kept_programs());
@@ -197,7 +212,7 @@ TEST_CASE("odometry: images that do not fit the calibration are lost with a reas
     const FrameResult result = exchanged.track(frame);
     CHECK(result.status == FrameStatus::lost_rig_mismatch);
     CHECK(result.message.find("are left and right exchanged") != std::string::npos);
-    CHECK(result.rig.negative_ratio > 0.9);
+    CHECK(result.diagnostics.rig_evidence.negative_ratio > 0.9);
   }
   const FrameResult first = exchanged.track(scene.frame(0));  // tracking starts at the first frame that fits
   CHECK(first.status == FrameStatus::first);
@@ -209,8 +224,45 @@ TEST_CASE("odometry: images that do not fit the calibration are lost with a reas
   for (std::size_t i = 0; i < 3; ++i) {
     const FrameResult result = doubtful.track(scene.frame(i));
     CHECK(is_tracked(result.status));
-    CHECK((result.warning.find("doubtful") != std::string::npos) == (i == 0));
+    REQUIRE(result.warnings.size() == (i == 0 ? 1U : 0U));
+    if (i > 0) continue;
+    CHECK(result.warnings[0].kind == WarningKind::doubtful_calibration);
+    CHECK(result.warnings[0].text.find("doubtful") != std::string::npos);
   }
+}
+
+TEST_CASE("odometry: all warnings of one kind come with the first frame that has any", "[odometry][rig]") {
+  // Only the left part of both images, so that both principal points lie outside.
+  StereoRig cropped = room().rig;
+  cropped.left.width = cropped.right.width = 110;
+  REQUIRE(cropped.left.cx > 110);
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(cropped, device, room().config);
+  for (std::size_t i = 0; i < 3; ++i) {
+    StereoFrame frame = room().frame(i);
+    frame.left.width = frame.right.width = 110;
+    const FrameResult result = odometry.track(frame);
+    CHECK(is_tracked(result.status));
+    REQUIRE(result.warnings.size() == (i == 0 ? 2U : 0U));
+    for (const Warning& warning : result.warnings) CHECK(warning.kind == WarningKind::implausible_calibration);
+  }
+}
+
+TEST_CASE("odometry: a rig alone is enough, and its disparity range is used", "[odometry][device]") {
+  StereoOdometry odometry(room().rig);
+  CHECK(odometry.device().name == Device("auto").info().name);
+  CHECK(odometry.config().stereo.max_disparity == room().config.stereo.max_disparity);
+  const auto expected = track(room(), "auto", room().config);
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(same_bytes(odometry.track(room().frame(i)), expected[i]));
+
+  Device reference("reference");
+  StereoRig unknown = room().rig;
+  unknown.max_disparity = 0;  // then that of a point 0.5 m away
+  CHECK(StereoOdometry(unknown, reference).config().stereo.max_disparity ==
+        Approx(unknown.left.fx * unknown.baseline() / 0.5));
+  Config nearest;
+  nearest.stereo.min_depth = 2;
+  CHECK(StereoOdometry(room().rig, reference, nearest).config().stereo.max_disparity == 0);
 }
 
 TEST_CASE("odometry: a turn by a third of the view, and one about the optical axis, are found", "[odometry][device]") {
@@ -235,7 +287,7 @@ TEST_CASE("odometry: a turn by a third of the view, and one about the optical ax
       result = odometry.track({0, left.view(), right.view()});
     }
     CHECK(result.status == FrameStatus::tracked);
-    check_pose(result, world_from_left, 0.01, 0.3);
+    check_pose(result.world_from_left, world_from_left, 0.01, 0.3);
   }
 }
 
@@ -248,7 +300,7 @@ TEST_CASE("odometry: a sequence with dark first frames starts at the first frame
   const auto result = odometry.track(room().frame(1));
   CHECK(result.status == FrameStatus::tracked);
   CHECK(result.reference_frame == 1);
-  check_pose(result, room().world_from_left[1], 4e-3, 0.1);
+  check_pose(result.world_from_left, room().world_from_left[1], 4e-3, 0.1);
 }
 
 TEST_CASE("odometry: before the first frame there are no details", "[odometry][device]") {
@@ -342,8 +394,8 @@ TEST_CASE("odometry: without key rigs every frame is tracked against the previou
   for (std::size_t i = 1; i < results.size(); ++i) {
     CHECK(results[i].status == FrameStatus::tracked);
     CHECK(results[i].reference_frame == static_cast<int>(i) - 1);
-    CHECK(results[i].base_frame == static_cast<int>(i) - 1);
-    check_pose(results[i], room().world_from_left[i], 6e-3, 0.15);
+    CHECK(results[i].diagnostics.base_frame == static_cast<int>(i) - 1);
+    check_pose(results[i].world_from_left, room().world_from_left[i], 6e-3, 0.15);
   }
 }
 
@@ -367,7 +419,7 @@ TEST_CASE("odometry: edges beyond the capacity are reported", "[odometry][device
     Device device(name, kept_programs());
     StereoOdometry odometry(room().rig, device, config);
     const auto result = odometry.track(room().frame(0));
-    CHECK(result.overflow);
+    CHECK(result.diagnostics.overflow);
     CHECK(result.message.find("max_edges") != std::string::npos);
     CHECK(result.counts.edges_left == 3000);
     CHECK(result.status == FrameStatus::first);
@@ -408,7 +460,7 @@ TEST_CASE("odometry: cameras of different sizes and orientations track too", "[o
     const auto results = track(scene, name, scene.config);
     for (std::size_t i = 1; i < results.size(); ++i) {
       CHECK(results[i].status == FrameStatus::tracked);
-      check_pose(results[i], scene.world_from_left[i], 4e-3, 0.1);
+      check_pose(results[i].world_from_left, scene.world_from_left[i], 4e-3, 0.1);
     }
   }
 }

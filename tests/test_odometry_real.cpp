@@ -23,7 +23,6 @@ struct TrackedFrames {
 /// Tracks the frames of a data set with its reader's disparity range.
 TrackedFrames track_dataset(const Dataset& dataset, const std::map<std::string, std::string>& variants = {}) {
   Config config;
-  config.stereo.max_disparity = dataset.max_disparity;
   config.variants = variants;
   Device device("auto", kept_programs());
   StereoOdometry odometry(dataset.rig, device, config);
@@ -33,7 +32,7 @@ TrackedFrames track_dataset(const Dataset& dataset, const std::map<std::string, 
     run.results.push_back(odometry.track(frame->view()));
     ++run.frames;
     if (is_tracked(run.results.back().status))
-      run.tracked.push_back({frame->stamp_ns, run.results.back().world_from_left});
+      run.tracked.push_back({frame->stamp_ns, *run.results.back().world_from_left});
   }
   return run;
 }

@@ -55,7 +55,7 @@ TEST_CASE("rig evidence: nothing contradicts the right calibration", "[odometry]
         odometry::examine_frame(scene.rig, scene.frame(0), scene.config.stereo.max_disparity, evidence);
     INFO(name << ", " << findings.mismatch);
     CHECK(findings.mismatch.empty());
-    CHECK(findings.doubts.empty());
+    CHECK(findings.warnings.empty());
     CHECK(evidence.found_ratio > 0.5);
     if (name != std::string("cables")) {  // along a cable a match may lie anywhere
       CHECK(evidence.on_line_ratio > 0.9);
@@ -92,13 +92,15 @@ TEST_CASE("rig evidence: small errors are warnings and stop nothing", "[odometry
   const RigFindings pitched =
       examine(turned_rig(0.5, Eigen::Vector3d::UnitX()), evidence_room().left[0], evidence_room().right[0], evidence);
   CHECK(pitched.mismatch.empty());
-  REQUIRE(pitched.doubts.size() == 1);
-  CHECK_THAT(pitched.doubts[0], Contains("doubtful") && Contains("pitched"));
+  REQUIRE(pitched.warnings.size() == 1);
+  CHECK(pitched.warnings[0].kind == WarningKind::doubtful_calibration);
+  CHECK_THAT(pitched.warnings[0].text, Contains("doubtful") && Contains("pitched"));
   CHECK(evidence.searched_residual == Approx(evidence_room().rig.left.fy * 0.5 * kDegree).epsilon(0.15));
   const RigFindings narrow = odometry::examine_frame(evidence_room().rig, evidence_room().frame(0), 4, evidence);
   CHECK(narrow.mismatch.empty());
-  REQUIRE(narrow.doubts.size() == 1);
-  CHECK_THAT(narrow.doubts[0], Contains("stereo.max_disparity too small"));
+  REQUIRE(narrow.warnings.size() == 1);
+  CHECK(narrow.warnings[0].kind == WarningKind::small_disparity_range);
+  CHECK_THAT(narrow.warnings[0].text, Contains("stereo.max_disparity too small"));
 }
 
 TEST_CASE("rig evidence: a frozen camera is detected while the other one moves", "[odometry][rig]") {
@@ -116,7 +118,7 @@ TEST_CASE("rig evidence: implausible numbers are reported", "[odometry][rig]") {
   CHECK(odometry::implausible_numbers(evidence_room().rig).empty());
   const auto first_of = [](const StereoRig& rig) {
     const auto found = odometry::implausible_numbers(rig);
-    return found.empty() ? std::string() : found.front();
+    return found.empty() ? std::string() : found.front().text;
   };
   StereoRig rig = evidence_room().rig;
   rig.right_from_left.translation() *= 1000;

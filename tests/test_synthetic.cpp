@@ -266,8 +266,8 @@ TEST_CASE("no visible surface exceeds the synthetic sequence's largest disparity
     REQUIRE(nearest > 0.0);  // every ray hits something
     const double largest = options.focal * options.baseline / nearest;
     CAPTURE(scene, largest);
-    CHECK(largest <= sequence.max_disparity());
-    CHECK(largest > 0.6 * (sequence.max_disparity() - 1.0));
+    CHECK(largest <= sequence.rig().max_disparity);
+    CHECK(largest > 0.6 * (sequence.rig().max_disparity - 1.0));
   }
 }
 

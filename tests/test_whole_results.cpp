@@ -19,7 +19,7 @@ TEST_CASE("whole results: every truncated, damaged or missing file is named", "[
   write_member(folder.path(), "run", run);
   const std::string place = report::member_folder(folder.path(), "run");
   Trajectory poses;
-  for (const auto& frame : run.frames) poses.push_back({frame.result.stamp_ns, frame.result.world_from_left});
+  for (const auto& frame : run.frames) poses.push_back({frame.result.stamp_ns, *frame.result.world_from_left});
   write_kitti(place + "/trajectory_kitti.txt", poses);
   write_text(place + "/errors.csv", report::errors_csv(*run.accuracy));
   write_text(place + "/config.toml", "seed = 42\n");

@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "common/disparity_range.hpp"
 #include "common/run_cost.hpp"
 #include "device_kit/parts.hpp"
 #include "device_kit/stage_arrays.hpp"
@@ -38,7 +39,7 @@ std::vector<std::string> default_programs(const Options& options, const Sequence
   // Kernels for lens distortion and masks are built only for rigs that have them.
   rig.left_undistortion = {rig.left.width, rig.left.height, std::vector<float>(pixels), std::vector<float>(pixels)};
   rig.left_mask = {rig.left.width, rig.left.height, std::vector<std::uint8_t>(pixels)};
-  Config config = sequence.completed({});
+  Config config = with_disparity_range({}, sequence.rig);
   config.stereo.sift_max = 500;
   Device device = options.open_device(false);
   const auto frontend = frontend::make_frontend(rig, device, config);
@@ -86,7 +87,7 @@ std::string pose_file(const Options& options, const std::string& preset) {
 
 std::vector<StageArray> track(const Options& options, const Sequence& sequence, const std::string& preset) {
   Device device = options.open_device(false);
-  StereoOdometry odometry(sequence.rig, device, sequence.completed(options.preset(preset)));
+  StereoOdometry odometry(sequence.rig, device, options.preset(preset));
   std::vector<FrameResult> results;
   for (const auto& frame : sequence.frames) results.push_back(odometry.track(frame.view()));
   return pose_arrays(results);
@@ -119,7 +120,7 @@ struct StageSum {
 void compare_stages(const Options& options, const Sequence& sequence) {
   Device device = options.open_device(false);
   const auto expected = read_arrays(stage_file(options));
-  const auto found = observe_arrays(sequence, device, sequence.completed(options.preset("default")));
+  const auto found = observe_arrays(sequence, device, with_disparity_range(options.preset("default"), sequence.rig));
   std::vector<std::string> order;
   std::map<std::string, StageSum> sums;
   for (const auto& array : expected) {
@@ -186,7 +187,8 @@ void compare_part(const Options& options) {
 void record_part(const Options& options) {
   const Sequence sequence = options.sequence();
   Device device = options.open_device(false);
-  write_arrays(stage_file(options), observe_arrays(sequence, device, sequence.completed(options.preset("default"))));
+  write_arrays(stage_file(options),
+               observe_arrays(sequence, device, with_disparity_range(options.preset("default"), sequence.rig)));
   for (const std::string preset : kPresets) write_arrays(pose_file(options, preset), track(options, sequence, preset));
 }
 

@@ -21,7 +21,6 @@ void write_frames(const std::string& name, const std::string& folder, cli::Frame
   device_kit::Sequence sequence;
   sequence.name = name;
   sequence.rig = source.rig();
-  sequence.max_disparity = source.max_disparity();
   for (int i = 0; i < kFrames; ++i) {
     auto frame = source.next();
     if (!frame) break;

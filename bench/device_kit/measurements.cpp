@@ -5,6 +5,7 @@
 #include "benchmark/ceilings.hpp"
 #include "benchmark/latency.hpp"
 #include "benchmark/variant_comparison.hpp"
+#include "common/disparity_range.hpp"
 #include "device_kit/parts.hpp"
 #include "quadedge/error.hpp"
 #include "report/statistics.hpp"
@@ -16,7 +17,7 @@ using namespace quadedge;
 void variants_part(const Options& options) {
   constexpr int kRepetitions = 9;
   const Sequence sequence = options.sequence();
-  const Config config = sequence.completed(options.preset("default"));
+  const Config config = with_disparity_range(options.preset("default"), sequence.rig);
   const Frame &first = sequence.frames.at(0), &second = sequence.frames.at(1);
   Device device = options.open_device(true);
   const bench::ReferenceCheck check(config);
@@ -120,7 +121,7 @@ void bench_part(const Options& options) {
   const double seconds = std::stod(options.argument(2));
   bench::BenchRecord record;
   record.warm_up = 3;
-  record.run.config = sequence.completed(options.preset(preset));
+  record.run.config = options.preset(preset);
   bench::measure_start(
       sequence.rig, [&] { return options.open_device(false); }, [](const Device&, Config&) {}, record);
   const auto measure = [&](std::size_t count, auto pass) {

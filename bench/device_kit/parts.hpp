@@ -22,7 +22,7 @@ struct Options {
 
   Device open_device(bool profiling) const;
   Sequence sequence() const;                             ///< that the first argument names
-  Config preset(const std::string& name) const;          ///< without a largest disparity
+  Config preset(const std::string& name) const;          ///< without a disparity range
   const std::string& argument(std::size_t index) const;  ///< \throws UsageError
 };
 

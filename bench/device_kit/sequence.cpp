@@ -74,7 +74,7 @@ void visit_camera(PinholeCamera& camera, UndistortionTable& table, PixelMask& ma
 template <class Number, class Block>
 void visit_sequence(Sequence& sequence, Number number, Block block) {
   StereoRig& rig = sequence.rig;
-  number(sequence.max_disparity);
+  number(rig.max_disparity);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) number(rig.right_from_left.matrix()(row, column));
   visit_camera(rig.left, rig.left_undistortion, rig.left_mask, number, block);
@@ -83,11 +83,6 @@ void visit_sequence(Sequence& sequence, Number number, Block block) {
 }
 
 }  // namespace
-
-Config Sequence::completed(Config config) const {
-  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0) config.stereo.max_disparity = max_disparity;
-  return config;
-}
 
 void write_sequence(const std::string& folder, const Sequence& sequence) {
   Sequence copy = sequence;

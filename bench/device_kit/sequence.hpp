@@ -19,11 +19,7 @@ using Frame = quadedge::FramePrefetcher::Frame;
 struct Sequence {
   std::string name;
   StereoRig rig;
-  double max_disparity = 0;  ///< [px]
   std::vector<Frame> frames;
-
-  /// The configuration with this sequence's largest disparity.
-  Config completed(Config config) const;
 };
 
 /// Images of 8 bits only. \throws std::runtime_error naming the file.

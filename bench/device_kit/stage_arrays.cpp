@@ -178,7 +178,7 @@ std::vector<StageArray> pose_arrays(const std::vector<FrameResult>& results) {
   for (const auto& result : results) {
     std::vector<double> pose;
     for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column) pose.push_back(result.world_from_left.matrix()(row, column));
+      for (int column = 0; column < 4; ++column) pose.push_back(result.pose_or_prediction().matrix()(row, column));
     arrays.add("poses", std::string(to_string(result.status)), pose);
   }
   return std::move(arrays.arrays);

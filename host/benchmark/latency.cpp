@@ -64,6 +64,7 @@ void measure_start(const StereoRig& rig, const std::function<Device()>& open_dev
   complete(device, record.run.config);
   const StereoOdometry odometry(rig, device, record.run.config);
   record.run.start_ms = milliseconds_since(start);
+  record.run.config = odometry.config();
   record.run.kernel_build_ms = odometry.kernel_build_ms();
   record.run.device = device.info();
   record.run.variants = odometry.variants();
@@ -124,11 +125,11 @@ void measure_kernels(const Subject& subject, BenchRecord& record) {
   for (std::size_t i = 0; i < subject.frames.size(); ++i) {
     const auto result = odometry.track(subject.frames[i].view());
     std::vector<StageTime> kernels;
-    for (const auto& stage : result.stages) {
+    for (const auto& stage : result.timing.stages) {
       if (stage.stage.rfind(prefix, 0) == 0) kernels.push_back({stage.stage.substr(prefix.size()), stage.ms});
     }
     if (i > 0 && !is_warm_up(i, record))
-      record.profiled.push_back({device.context()->last_profile(), result.latency_ms});
+      record.profiled.push_back({device.context()->last_profile(), result.timing.latency_ms});
     if (!is_warm_up(i, record)) record.run.kernel_times.push_back(std::move(kernels));
     subject.progress("kernel times", static_cast<int>(i) + 1, static_cast<int>(subject.frames.size()));
   }

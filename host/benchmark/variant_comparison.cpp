@@ -85,7 +85,7 @@ struct ReferenceCheck::Small {
     return options;
   }
   explicit Small(const Config& method) : sequence(options()), config(method) {
-    config.stereo.max_disparity = sequence.max_disparity();
+    config.stereo.max_disparity = sequence.rig().max_disparity;
     config.stereo.min_depth = 0;
     config.variants.clear();
     if (config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;  // every stage shall run

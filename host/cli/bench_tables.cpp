@@ -54,7 +54,7 @@ void print_benchmark(const bench::BenchRecord& record) {
   std::printf("measured frames: %d, after the first and %d for warm-up; tracked: %d of %zu\n",
               static_cast<int>(run.frames.size()) - 1, record.warm_up, run.tracked(), run.frames.size());
   std::printf("edge threshold %.4g%s: %.0f and %.0f edges per image, %.0f stereo edges, %.0f quads\n",
-              run.frames.back().result.edge_threshold, record.edges_wanted > 0 ? " (chosen)" : "",
+              run.frames.back().result.diagnostics.edge_threshold, record.edges_wanted > 0 ? " (chosen)" : "",
               count(run, "edges_left"), count(run, "edges_right"), count(run, "stereo_edges"), count(run, "quads"));
   const auto latency = report::latency_summary(run.frames);
   std::printf("\nframe             median %.2f ms, p90 %.2f, p99 %.2f, max %.2f; first %.2f\n", latency.median,

@@ -122,8 +122,6 @@ class BenchCommand : public Command {
     const auto source = open_source(rendering);
     run.input = source->facts();
     run.config = method_.config();
-    if (run.config.stereo.max_disparity == 0 && run.config.stereo.min_depth == 0)
-      run.config.stereo.max_disparity = source->max_disparity();
     record.command = command_line();
     record.warm_up = warm_up_;
     Progress progress(quiet_);

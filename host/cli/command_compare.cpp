@@ -15,6 +15,7 @@
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/saved_variants.hpp"
+#include "common/disparity_range.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
 
@@ -85,8 +86,7 @@ class CompareCommand : public Command {
     set_size(scene, size_);
     const auto source = make_synthetic_source(scene);
     const auto first = source->next(), second = source->next();
-    if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
-      config.stereo.max_disparity = source->max_disparity();
+    config = with_disparity_range(config, source->rig());
     const bench::ReferenceCheck check(config);
     if (edges_ > 0) config.edges.threshold = bench::threshold_for_edges(*first, edges_, device, config);
     const bench::Ceilings ceilings = bench::measure_ceilings(*device.context());

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
+#include "cli/console.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/source_options.hpp"
@@ -17,14 +18,10 @@
 namespace quadedge::cli {
 namespace {
 
-/// Of the width, for rectified images of unknown cameras: the published Middlebury scenes of 2014 reach 0.09 to 0.12.
-constexpr double kUsualRange = 0.12;
-
 /// A pair and its cameras.
 struct Pair {
   Image left, right;
   StereoRig rig;
-  double max_disparity = 0;  ///< px
   bool is_calibrated = false;
 };
 
@@ -57,14 +54,13 @@ class MatchCommand : public Command {
       left_.clear();
       source_.read_pipe();
     }
-    Config config = method_.config();
+    const Config config = method_.config();
     for (const auto& file : {csv_, ply_, draw_}) check_output_file(file, force_);
     const Pair pair = read_pair();
     if (!ply_.empty() && !pair.is_calibrated) throw UsageError("--ply needs --calibration");
-    if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
-      config.stereo.max_disparity = pair.max_disparity;
     Device device = method_.open_device();
     const StereoMatches matches = match_stereo({0, pair.left.view(), pair.right.view()}, pair.rig, device, config);
+    for (const Warning& warning : matches.warnings) note("warning: " + warning.text);
     if (!csv_.empty()) data::write_atomically(csv_, report::matches_csv(matches, pair.is_calibrated));
     if (!ply_.empty()) write_ply(ply_, points(matches));
     if (!draw_.empty()) draw(pair, matches);
@@ -78,13 +74,12 @@ class MatchCommand : public Command {
     if (source_.is_given()) {
       if (!left_.empty()) throw UsageError("LEFT and RIGHT exclude --left and --right");
       PairOfSource read = source_.pair(frame_);
-      return {std::move(read.pair.left), std::move(read.pair.right), std::move(read.dataset.rig),
-              read.dataset.max_disparity, true};
+      return {std::move(read.pair.left), std::move(read.pair.right), std::move(read.dataset.rig), true};
     }
     if (left_.empty() || right_.empty()) throw UsageError("nothing to match: expected LEFT and RIGHT");
     if (source_.has_calibration()) {
       Dataset dataset = source_.still_pair(left_, right_);
-      return {read_grey_image(left_), read_grey_image(right_), std::move(dataset.rig), dataset.max_disparity, true};
+      return {read_grey_image(left_), read_grey_image(right_), std::move(dataset.rig), true};
     }
     source_.refuse_all();
     pair.left = read_grey_image(left_);
@@ -95,7 +90,6 @@ class MatchCommand : public Command {
                       " and " + std::to_string(pair.left.max_value) + " as in " + left_);
     pair.rig = rectified_images(pair.left.width, pair.left.height, pair.right.width, pair.right.height);
     pair.rig.max_value = pair.left.max_value;
-    pair.max_disparity = kUsualRange * pair.left.width;
     return pair;
   }
 

@@ -40,7 +40,7 @@ class SynthCommand : public Command {
     if (!quiet_) {
       std::printf("%s of %d x %d px in %s; largest disparity %.1f px\n",
                   data::counted(sequence.frames(), "frame").c_str(), sequence.rig().left.width,
-                  sequence.rig().left.height, output_.c_str(), sequence.max_disparity());
+                  sequence.rig().left.height, output_.c_str(), sequence.rig().max_disparity);
     }
     return 0;
   }

@@ -23,7 +23,6 @@ class RecordedSource : public FrameSource {
     facts.options = options_;
     return facts;
   }
-  double max_disparity() const override { return dataset_.max_disparity; }
   std::optional<FramePrefetcher::Frame> next() override { return prefetcher_->next(); }
   void rewind() override { prefetcher_ = std::make_unique<FramePrefetcher>(dataset_, kAhead, stop_); }
   const Trajectory& truth() const override { return dataset_.truth; }
@@ -50,7 +49,6 @@ class SyntheticSource : public FrameSource {
     return {"built-in",       "synthetic",      frames_.sequence().name(), frames_.sequence().frames(),
             rig().left.width, rig().left.height};
   }
-  double max_disparity() const override { return frames_.sequence().max_disparity(); }
   std::string prepare() override {
     frames_.prepare();
     return frames_.cache_error().empty() ? "" : "rendered frames are not cached: " + frames_.cache_error();

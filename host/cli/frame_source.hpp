@@ -19,8 +19,6 @@ class FrameSource {
   virtual ~FrameSource() = default;
   virtual const StereoRig& rig() const = 0;
   virtual report::InputFacts facts() const = 0;
-  /// Default for the largest disparity [px].
-  virtual double max_disparity() const = 0;
   /// Prepares the frames where that takes long. Returns a warning for the user, or nothing.
   virtual std::string prepare() { return {}; }
   /// The next frame, or nothing at the end. \throws DataError for a frame that cannot be read.

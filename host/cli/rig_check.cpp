@@ -8,13 +8,13 @@
 namespace quadedge::cli {
 
 void check_numbers(const StereoRig& rig, DatasetCheck& check) {
-  for (const auto& warning : odometry::implausible_numbers(rig)) check.warnings.push_back(warning);
+  for (const auto& warning : odometry::implausible_numbers(rig)) check.warnings.push_back(warning.text);
 }
 
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
   RigEvidence evidence;
   const odometry::RigFindings findings = odometry::examine_frame(
-      dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, dataset.max_disparity, evidence);
+      dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, dataset.rig.disparity_range(), evidence);
   const std::string frame = "frame " + std::to_string(pair.number) + ": ";
   char text[160];
   if (evidence.is_searched()) {
@@ -26,7 +26,7 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
     check.facts.push_back(frame + "too little texture to test the calibration");
   }
   if (!findings.mismatch.empty()) check.warnings.push_back(frame + findings.mismatch);
-  for (const auto& doubt : findings.doubts) check.warnings.push_back(frame + doubt);
+  for (const Warning& warning : findings.warnings) check.warnings.push_back(frame + warning.text);
 }
 
 void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {

@@ -15,7 +15,7 @@ std::string self_test_page() {
   const SyntheticSequence rendered(scene);
   frontend::SelfTestRecord record;
   record.sequence.rig = rendered.rig();
-  record.sequence.max_disparity = rendered.max_disparity();
+  record.sequence.max_disparity = rendered.rig().max_disparity;
   for (int i = 0; i < 2; ++i) {
     record.sequence.left[i] = rendered.render(i, Side::left).image;
     record.sequence.right[i] = rendered.render(i, Side::right).image;

@@ -37,7 +37,7 @@ class GrowingFiles {
     tum_.append(data::tum_header());
   }
   void add(const FrameResult& result) {
-    const StampedPose pose{result.stamp_ns, result.world_from_left};
+    const StampedPose pose{result.stamp_ns, result.pose_or_prediction()};
     if (is_tracked(result.status)) tum_.append(data::tum_row(pose));
     kitti_.append(data::kitti_row(pose));
     frames_.add(result);
@@ -87,12 +87,6 @@ std::vector<StageTime> kernel_stages(const std::vector<StageTime>& stages) {
   return kernels;
 }
 
-/// Takes the maximum disparity from the data if the configuration has none.
-void complete(Config& config, const FrameSource& source) {
-  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
-    config.stereo.max_disparity = source.max_disparity();
-}
-
 /// Builds the pipeline and reports it: where the driver keeps no kernels from an earlier run this takes a while.
 std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet,
                                                report::RunRecord& run) {
@@ -100,6 +94,7 @@ std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& dev
   const bool builds = !device.is_reference();
   if (builds) status.show("building kernels for " + device.info().name);
   auto odometry = std::make_unique<StereoOdometry>(rig, device, run.config);
+  run.config = odometry->config();
   run.kernel_build_ms = odometry->kernel_build_ms();
   char text[64];
   std::snprintf(text, sizeof text, "kernels ready after %.1f s", run.kernel_build_ms / 1000);
@@ -119,7 +114,7 @@ void end_if_interrupted(const Interruption& interruption, const FrameSource& sou
 /// Reports doubts about the recording, and why a frame was lost where the one before was not lost for the same reason.
 void report_doubts(const FrameResult& result, const report::RunRecord& run) {
   const std::string warning = "warning: frame " + std::to_string(run.frames.size()) + ": ";
-  if (!result.warning.empty()) note(warning + result.warning);
+  for (const Warning& found : result.warnings) note(warning + found.text);
   const bool is_new = run.frames.empty() || run.frames.back().result.status != result.status;
   if (!is_tracked(result.status) && is_new) note(warning + "lost: " + result.message);
 }
@@ -160,7 +155,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     lost += is_tracked(record.result.status) ? 0 : 1;
     run.frames.push_back(std::move(record));
     char text[64];
-    std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.latency_ms);
+    std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
     progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
     if (interruption.signal() != 0) break;
   }
@@ -181,7 +176,7 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
   source.prepare();
   Progress progress(options.quiet, "frames");
   while (const auto frame = source.next()) {
-    run.kernel_times.push_back(kernel_stages(odometry.track(frame->view()).stages));
+    run.kernel_times.push_back(kernel_stages(odometry.track(frame->view()).timing.stages));
     progress.update(run.input.name + " profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
     if (interruption.signal() != 0) return;
   }
@@ -190,7 +185,7 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
 Trajectory tracked_poses(const report::RunRecord& run) {
   Trajectory trajectory;
   for (const auto& frame : run.frames) {
-    if (is_tracked(frame.result.status)) trajectory.push_back({frame.result.stamp_ns, frame.result.world_from_left});
+    if (frame.result.world_from_left) trajectory.push_back({frame.result.stamp_ns, *frame.result.world_from_left});
   }
   return trajectory;
 }
@@ -274,7 +269,6 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.command = command_line();
   run.input = source.facts();
   run.config = method.config();
-  complete(run.config, source);
   const FolderLock lock = prepare_output_folder(options.output, options.force);
   check_output_file(options.trace, options.force);
   options.map.check(options.force);

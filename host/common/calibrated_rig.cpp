@@ -14,8 +14,6 @@ namespace {
 
 /// Beyond 60 degrees from the axis, a pinhole image is stretched by a factor of four or more.
 constexpr double kWidestView = 120;  // degrees
-/// Nearest objects in front of a handheld camera or a small robot.
-constexpr double kNearestDepth = 0.5;  // m
 
 /// The pinhole camera to which the images of a lens are resampled, with the same size and principal point.
 PinholeCamera view_of(const Lens& lens, double fov) {
@@ -92,7 +90,5 @@ StereoCalibration pinhole_calibration(const StereoRig& rig) {
   calibration.right_from_left = rig.right_from_left;
   return calibration;
 }
-
-double default_max_disparity(const StereoRig& rig) { return rig.left.fx * rig.baseline() / kNearestDepth; }
 
 }  // namespace quadedge

@@ -8,6 +8,9 @@
 namespace quadedge {
 namespace {
 
+/// Nearest objects in front of a handheld camera or a small robot.
+constexpr double kNearestDepth = 0.5;  // m
+
 void check_camera(const PinholeCamera& camera, const std::string& where) {
   const auto require = [&](bool good, const char* what, double value, const char* expected) {
     if (!good) throw DataError(where + ": found " + what + " " + std::to_string(value) + ", expected " + expected);
@@ -41,6 +44,10 @@ void check_mask(const PixelMask& mask, const PinholeCamera& camera, const std::s
 
 }  // namespace
 
+double StereoRig::disparity_range() const {
+  return max_disparity > 0 ? max_disparity : left.fx * baseline() / kNearestDepth;
+}
+
 void check_rig(const StereoRig& rig, const char* source) {
   /// Largest permitted entry of R^T R - I. Readers project the stored matrix onto the rotations, so that only rounding
   /// remains.
@@ -58,6 +65,10 @@ void check_rig(const StereoRig& rig, const char* source) {
   if (!std::isfinite(rig.baseline()) || rig.baseline() <= 0) {
     throw DataError(where + ": found a baseline of " + std::to_string(rig.baseline()) +
                     " m, expected a finite positive length");
+  }
+  if (!(rig.max_disparity >= 0 && std::isfinite(rig.max_disparity))) {
+    throw DataError(where + ": found a maximum disparity of " + std::to_string(rig.max_disparity) +
+                    " px, expected a finite number, or 0 if it is unknown");
   }
   check_table(rig.left_undistortion, rig.left, where + " (left camera)");
   check_table(rig.right_undistortion, rig.right, where + " (right camera)");

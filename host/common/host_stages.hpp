@@ -1,5 +1,5 @@
 #pragma once
-/// \file host_stages.hpp  The stages of a frame that the host times: FrameResult::stages, and columns of frames.csv.
+/// \file host_stages.hpp  The stages of a frame that the host times: FrameTiming::stages, and columns of frames.csv.
 
 #include <array>
 

@@ -91,7 +91,7 @@ std::string dataset_hash(const Dataset& dataset) {
   add_table(hash, dataset.rig.right_undistortion);
   add_mask(hash, dataset.rig.left_mask);
   add_mask(hash, dataset.rig.right_mask);
-  hash.add({dataset.max_disparity});
+  hash.add({dataset.rig.disparity_range()});
   std::set<std::string> added;  // videos are listed with every frame
   for (const auto& frame : dataset.frames) {
     hash.add(std::to_string(frame.stamp_ns));

@@ -1,8 +1,8 @@
 #include "quadedge/dataset.hpp"
 
 #include <algorithm>
-#include <sstream>
 
+#include "common/disparity_range.hpp"
 #include "data/calibration_formats.hpp"
 #include "data/image_file.hpp"
 #include "data/layout.hpp"
@@ -58,16 +58,6 @@ void check_stamps(const Dataset& dataset, Findings& findings) {
   }
 }
 
-/// \throws DataError for a calibration that is implausible because it implies excessive disparities.
-void check_disparities(const Dataset& dataset) {
-  constexpr double kLargest = 10'000;  // px; constants.inc allows no more for stereo.max_disparity
-  if (dataset.max_disparity <= kLargest) return;
-  std::ostringstream found;
-  found << "a focal length of " << dataset.rig.left.fx << " px and a baseline of " << dataset.rig.baseline()
-        << " m, so that nearby objects have disparities of " << dataset.max_disparity << " px";
-  fail(calibration_of(dataset), found.str(), "pixels and metres that give at most 10000 px");
-}
-
 /// Sets the image sizes from the first images. \throws DataError if the calibration contains other sizes
 void set_sizes_from_images(StereoCalibration& calibration, const Dataset& dataset) {
   const FrameFiles& first = dataset.frames.front();
@@ -84,10 +74,12 @@ void apply_users_cameras(Dataset& dataset, const DatasetOptions& options) {
     throw UsageError("--fov: " + dataset.path + " does not describe lenses; give --calibration or omit --fov");
   }
   if (dataset.calibration && (!options.calibration.empty() || options.fov != 0)) {
-    const double usual_before = default_max_disparity(dataset.rig);  // includes the layout's nearest depth
+    const StereoRig before = dataset.rig;
     dataset.rig = make_rig(*dataset.calibration, options.fov);
-    const double usual = default_max_disparity(dataset.rig);
-    dataset.max_disparity = usual_before > 0 ? dataset.max_disparity * (usual / usual_before) : usual;
+    if (before.max_disparity > 0) {  // from the layout's nearest depth
+      dataset.rig.max_disparity =
+          before.max_disparity * (dataset.rig.left.fx * dataset.rig.baseline()) / (before.left.fx * before.baseline());
+    }
   }
   if (!options.mask.empty()) mask_rig(dataset.rig, options.mask);
 }
@@ -122,7 +114,7 @@ void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings&
   if (!dataset.frames.empty()) cut_frames(dataset, first_frame, last_frame);
   findings.attempt([&] {
     check_rig(dataset.rig, calibration_of(dataset).c_str());
-    check_disparities(dataset);
+    check_disparity_range(dataset.rig, calibration_of(dataset));
   });
 }
 

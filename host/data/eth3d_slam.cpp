@@ -90,7 +90,7 @@ Eigen::Isometry3d read_pinhole_cameras(Dataset& dataset, const fs::path& folder,
   dataset.rig.left = first_is_left ? camera1 : camera2;
   dataset.rig.right = first_is_left ? camera2 : camera1;
   dataset.rig.right_from_left = first_is_left ? camera1_from_camera2.inverse() : camera1_from_camera2;
-  dataset.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestDepth;
+  dataset.rig.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestDepth;
   return camera1_from_camera2;
 }
 

@@ -37,7 +37,6 @@ bool is_eth3d_two_view(const fs::path& folder) {
 
 Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findings& findings) {
   Dataset dataset = still_pair(folder, (folder / "im0.png").string(), (folder / "im1.png").string(), findings);
-  dataset.max_disparity = kMaxDisparity;
   dataset.disparity_truth = truth_of(folder);
   findings.attempt([&] {
     if (fs::exists(folder / "calib.txt")) {
@@ -56,6 +55,7 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
     dataset.notes.push_back("no calib.txt: nominal calibration (f " + std::to_string(dataset.rig.left.fx) +
                             " px, baseline 0.06 m); matches are valid, depths and poses are nominal");
   });
+  dataset.rig.max_disparity = kMaxDisparity;
   return dataset;
 }
 

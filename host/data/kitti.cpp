@@ -141,7 +141,7 @@ Dataset read_kitti_odometry(const fs::path& root, const DatasetOptions& options,
     left_from_camera0 = set_camera(dataset.rig.left, projections, grey ? "P0" : "P2", file);
     const Eigen::Vector3d right_from_camera0 = set_camera(dataset.rig.right, projections, grey ? "P1" : "P3", file);
     dataset.rig.right_from_left.translation() = right_from_camera0 - left_from_camera0;
-    dataset.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestRoadDepth;
+    dataset.rig.max_disparity = dataset.rig.left.fx * dataset.rig.baseline() / kNearestRoadDepth;
     set_sizes_from_first_frame(dataset);
   });
 

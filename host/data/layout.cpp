@@ -108,7 +108,6 @@ void set_calibration(Dataset& dataset, const StereoCalibration& calibration) {
   dataset.rig.right_from_left = calibration.right_from_left;
   // Tables of a wrong resolution might exhaust the memory; the mismatch is reported when the images are read.
   if (sizes_fit(dataset)) dataset.rig = make_rig(calibration);
-  dataset.max_disparity = default_max_disparity(dataset.rig);
 }
 
 void check_sizes(const Dataset& dataset, const std::string& calibration) {

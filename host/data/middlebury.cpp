@@ -46,7 +46,7 @@ void set_reduced_rig(Dataset& dataset, int full_rows, double offset) {
   dataset.rig.left.height = left.height;
   dataset.rig.right.width = right.width;
   dataset.rig.right.height = right.height;
-  dataset.max_disparity = (kLargestGrey + offset) / reduction;
+  dataset.rig.max_disparity = (kLargestGrey + offset) / reduction;
   dataset.disparity_truth_scale = 1 / reduction;
 }
 
@@ -121,7 +121,7 @@ Dataset read_middlebury_2014(const fs::path& folder, const DatasetOptions&, Find
       disparities = kDefaultRange2014 * calibration.rig.left.width;
       dataset.notes.push_back("calib.txt has no ndisp: disparities up to 12 % of the width are expected");
     }
-    dataset.max_disparity = disparities + calibration.disparity_offset;
+    dataset.rig.max_disparity = disparities + calibration.disparity_offset;
   });
   return dataset;
 }

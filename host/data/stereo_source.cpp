@@ -239,7 +239,6 @@ void set_rig(const StereoSource& source, ImageSize left, ImageSize right, const 
   dataset.rig = make_rig(*dataset.calibration, source.fov);
   if (!source.mask.empty()) mask_rig(dataset.rig, source.mask);
   dataset.rig.max_value = left.max_value;
-  dataset.max_disparity = default_max_disparity(dataset.rig);
 }
 
 /// \throws DataError for files and folders that do not exist, and for a folder beside a file.

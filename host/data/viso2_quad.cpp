@@ -30,7 +30,7 @@ Dataset read_viso2_quad(const fs::path& folder, const DatasetOptions&, Findings&
   }
   dataset.rig = rectified_rig(kFocal, kCentreX, kCentreY, kCentreX, kQuadBaseline);
   findings.attempt([&] { set_sizes_from_first_frame(dataset); });
-  dataset.max_disparity = kFocal * kQuadBaseline / kNearestQuadDepth;
+  dataset.rig.max_disparity = kFocal * kQuadBaseline / kNearestQuadDepth;
   dataset.notes.push_back("calibration of the libviso2 demo; nominal times 0.1 s apart");
   return dataset;
 }

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::int64_t kToleranceNs = 10'000'000;
 
-/// The left perturbation (rotation, translation) that turns `truth` into `estimate`, as in FrameResult::covariance.
+/// The left perturbation (rotation, translation) that turns `truth` into `estimate`, as in
+/// FrameResult::relative_covariance.
 Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
   const Eigen::Matrix3d turn = estimate.linear() * truth.linear().transpose();
   const Eigen::AngleAxisd rotation(turn);
@@ -27,7 +28,7 @@ Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& estimate, cons
 /// The chain of references of a frame: the frame itself, its key rig, the key rig of that frame ... up to the first.
 std::vector<int> references(const std::vector<FrameResult>& results, int frame) {
   std::vector<int> chain{frame};
-  while (results[static_cast<std::size_t>(chain.back())].covariance_in_reference &&
+  while (results[static_cast<std::size_t>(chain.back())].diagnostics.covariance_in_reference &&
          results[static_cast<std::size_t>(chain.back())].status == FrameStatus::tracked)
     chain.push_back(results[static_cast<std::size_t>(chain.back())].reference_frame);
   return chain;
@@ -39,8 +40,8 @@ pose::UncertainPose pose_along(const std::vector<FrameResult>& results, const st
   pose::UncertainPose result;
   for (std::size_t k = length; k-- > 0;) {
     const FrameResult& link = results[static_cast<std::size_t>(chain[k])];
-    pose::UncertainPose step = pose::pose_in_earlier({link.current_from_reference, link.covariance});
-    step.by_rig = link.rig_sensitivity;
+    pose::UncertainPose step = pose::pose_in_earlier({*link.current_from_reference, *link.relative_covariance});
+    step.by_rig = link.diagnostics.rig_sensitivity;
     result = result * step;
   }
   return result;
@@ -113,16 +114,17 @@ StepConsistency judge_length(const std::vector<FrameResult>& results, const Traj
 Consistency judge_covariances(const std::vector<FrameResult>& results, const Trajectory& truth) {
   Consistency sums;
   for (const auto& result : results) {
-    if (result.status != FrameStatus::tracked || !(result.covariance.diagonal().minCoeff() > 0)) continue;
+    if (result.status != FrameStatus::tracked) continue;
+    const Eigen::Matrix<double, 6, 6>& covariance = *result.relative_covariance;
+    if (!(covariance.diagonal().minCoeff() > 0)) continue;
     const auto& reference = results.at(static_cast<std::size_t>(result.reference_frame));
     const auto* true_reference = pose_at(truth, reference.stamp_ns, kToleranceNs);
     const auto* true_current = pose_at(truth, result.stamp_ns, kToleranceNs);
     if (true_reference == nullptr || true_current == nullptr) continue;
-    const auto error = perturbation(result.current_from_reference, true_current->inverse() * *true_reference);
-    const Eigen::Matrix3d turning = result.covariance.topLeftCorner<3, 3>(),
-                          moving = result.covariance.bottomRightCorner<3, 3>();
+    const auto error = perturbation(*result.current_from_reference, true_current->inverse() * *true_reference);
+    const Eigen::Matrix3d turning = covariance.topLeftCorner<3, 3>(), moving = covariance.bottomRightCorner<3, 3>();
     ++sums.poses;
-    sums.pose += error.dot(result.covariance.ldlt().solve(error)) / 6;
+    sums.pose += error.dot(covariance.ldlt().solve(error)) / 6;
     sums.rotation += error.head<3>().dot(turning.ldlt().solve(error.head<3>())) / 3;
     sums.translation += error.tail<3>().dot(moving.ldlt().solve(error.tail<3>())) / 3;
   }

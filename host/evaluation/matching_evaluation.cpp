@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/disparity_range.hpp"
 #include "evaluation/matching_observer.hpp"
 #include "quadedge/error.hpp"
 
@@ -11,8 +12,7 @@ MatchingResult evaluate_matching(const MatchingSource& source, Device& device, C
                                  const MatchingOptions& options) {
   if (device.is_reference())
     throw UsageError("evaluate matching needs an OpenCL device, because the reference has no taps");
-  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
-    config.stereo.max_disparity = source.max_disparity();
+  config = with_disparity_range(config, source.rig());
   config.odometry.key_rig = false;  // the tables refer to consecutive frames
   MatchingObserver observer(source.rig(), config, options.tolerance, options.distributions);
   StereoOdometry odometry(source.rig(), device, config);

@@ -62,8 +62,8 @@ FrameMatching MatchingObserver::end(const FrameResult& result) {
   measured_.counts = result.counts;
   measured_.status = result.status;
   measured_.message = result.message;
-  current().world_from_left = result.world_from_left;
-  const auto found = searches_.find(result.search);
+  current().world_from_left = result.pose_or_prediction();
+  const auto found = searches_.find(result.diagnostics.search);
   if (found != searches_.end()) {
     const Rig& base = rigs_.at(found->second.base_frame);
     if (is_known_motion(base)) {

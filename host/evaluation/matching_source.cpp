@@ -76,7 +76,6 @@ class RecordedSource : public MatchingSource {
   explicit RecordedSource(const Dataset& dataset) : dataset_(dataset) {}
   std::string name() const override { return dataset_.name; }
   const StereoRig& rig() const override { return dataset_.rig; }
-  double max_disparity() const override { return dataset_.max_disparity; }
   int frames() const override { return static_cast<int>(dataset_.frames.size()); }
   TrueFrame load(int number) const override {
     const FrameFiles& files = dataset_.frames[static_cast<std::size_t>(number)];
@@ -108,7 +107,6 @@ class RenderedSource : public MatchingSource {
   explicit RenderedSource(const SyntheticOptions& options) : sequence_(options) {}
   std::string name() const override { return sequence_.name(); }
   const StereoRig& rig() const override { return sequence_.rig(); }
-  double max_disparity() const override { return sequence_.max_disparity(); }
   int frames() const override { return sequence_.frames(); }
   TrueFrame load(int number) const override {
     RenderedView left = sequence_.render(number, Side::left), right = sequence_.render(number, Side::right);

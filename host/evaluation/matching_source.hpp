@@ -23,7 +23,6 @@ class MatchingSource {
   virtual ~MatchingSource() = default;
   virtual std::string name() const = 0;
   virtual const StereoRig& rig() const = 0;
-  virtual double max_disparity() const = 0;  ///< px
   virtual int frames() const = 0;
   /// \throws DataError for a file that cannot be read.
   virtual TrueFrame load(int number) const = 0;

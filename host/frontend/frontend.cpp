@@ -7,13 +7,13 @@
 
 namespace quadedge::frontend {
 
-std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config) {
+std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,
+                                        std::vector<Warning>* warnings) {
   opencl::check_variants(config.variants);
   if (device.is_reference()) return std::make_unique<ReferenceFrontend>(rig, config);
   const MemoryFit fit = fit_memory(rig, config, device.context()->limits().memory_bytes);
-  auto frontend = std::make_unique<DeviceFrontend>(rig, *device.context(), fit.config);
-  frontend->notice = fit.message;
-  return frontend;
+  if (warnings != nullptr && !fit.message.empty()) warnings->push_back({WarningKind::device_memory, fit.message});
+  return std::make_unique<DeviceFrontend>(rig, *device.context(), fit.config);
 }
 
 }  // namespace quadedge::frontend

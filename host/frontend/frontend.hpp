@@ -2,7 +2,7 @@
 /// \file frontend.hpp  The front end: from two images to stereo edges and quads (doc/design.md section 1).
 
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "common/temporal_search.hpp"
 #include "frontend/rig.hpp"
@@ -12,6 +12,7 @@
 #include "quadedge/edges.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
+#include "quadedge/warning.hpp"
 
 namespace quadedge::frontend {
 
@@ -52,8 +53,6 @@ class Frontend {
 
   const FrontendCounts& counts() const { return counts_; }
 
-  std::string notice;  ///< empty, or a message about the device for the user
-
   /// Edges of one of the current images.
   virtual EdgeSet edges(Side side) = 0;
   virtual std::size_t device_bytes() const = 0;
@@ -68,6 +67,8 @@ class Frontend {
 
 /// Creates the OpenCL front end on `device`, or the reference if `device` is the reference.
 /// \throws UsageError for an unknown variant or invalid limits; DeviceError if kernels do not build
-std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config);
+/// \param warnings receives warnings about the device; null: discarded
+std::unique_ptr<Frontend> make_frontend(const StereoRig& rig, Device& device, const Config& config,
+                                        std::vector<Warning>* warnings = nullptr);
 
 }  // namespace quadedge::frontend

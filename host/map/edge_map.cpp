@@ -109,11 +109,11 @@ class EdgeMap::Implementation {
 
 bool EdgeMap::Implementation::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
   const int number_of_frame = frames_++;
-  if (!result.new_key_rig || !is_tracked(result.status) || result.ambiguous_motion) return false;
+  if (!result.new_key_rig || !result.world_from_left || result.ambiguous_motion) return false;
   const StereoEdges& edges = odometry.stereo_edges();
   StereoRig rig = odometry::with_disparity_offset(odometry.rig(), result.disparity_offset);
   rig.left_undistortion = odometry.rig().left_undistortion;
-  views_.push_back({number_of_frame, result.stamp_ns, result.world_from_left});
+  views_.push_back({number_of_frame, result.stamp_ns, *result.world_from_left});
   const Measured measured = map::measure_points(rig, edges, frame.left, config_);
   offer(rig, edges, measured);
   for (std::size_t i = 0; i < edges.size(); ++i) {

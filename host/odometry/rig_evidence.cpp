@@ -112,8 +112,8 @@ RigFindings RigWatch::judge(const StereoFrame& frame, const StereoEdges& edges, 
   return findings;
 }
 
-std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now, int frame,
-                                     const TemporalMatches& matches) {
+std::optional<Warning> RigWatch::observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now,
+                                                int frame, const TemporalMatches& matches) {
   constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
   if (base_frame == frame - 1) {
     last_x_ = base.left_x;
@@ -143,13 +143,13 @@ std::string RigWatch::observe_motion(const StereoEdges& base, int base_frame, co
   last_x_.swap(next_x_);
   last_y_.swap(next_y_);
   const double time_offset = synchronisation_.time_offset_frames();
-  if (time_offset == 0) return {};
+  if (time_offset == 0) return std::nullopt;
   char text[200];
   std::snprintf(text, sizeof text,
                 "distances from the epipolar lines are proportional to the image motion: are the cameras out of sync, "
                 "by about %.1f frames?",
                 std::abs(time_offset));
-  return text;
+  return Warning{WarningKind::unsynchronised_cameras, text};
 }
 
 RigFindings examine_frame(const StereoRig& rig, const StereoFrame& frame, double max_disparity, RigEvidence& evidence) {

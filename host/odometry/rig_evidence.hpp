@@ -26,11 +26,11 @@ class RigWatch {
   /// \param evidence receives the measured quantities
   RigFindings judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, RigEvidence& evidence);
 
-  /// Adds the image motion of that frame's edges; returns a warning if one camera seems to lag, else an empty string.
+  /// Adds the image motion of that frame's edges; returns a warning if one camera seems to lag.
   /// \param base_frame number of the frame of `base`, which `matches` refers to \param frame number of the current
   /// frame
-  std::string observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now, int frame,
-                             const TemporalMatches& matches);
+  std::optional<Warning> observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now, int frame,
+                                        const TemporalMatches& matches);
 
  private:
   /// Reports a camera whose image is identical to the previous one while the other camera's is not; empty if there is

@@ -57,22 +57,22 @@ std::string cause_across(const EpipolarFit& fit) {
 
 }  // namespace
 
-std::vector<std::string> implausible_numbers(const StereoRig& rig) {
-  std::vector<std::string> found;
+std::vector<Warning> implausible_numbers(const StereoRig& rig) {
+  std::vector<Warning> found;
+  const auto add = [&](const std::string& text) { found.push_back({WarningKind::implausible_calibration, text}); };
   const double baseline = rig.baseline();
-  if (baseline > 5) found.push_back("the baseline is " + number(baseline, 3) + " m: is it given in millimetres?");
-  if (baseline < 0.005) found.push_back("the baseline is " + number(baseline, 6) + " m: is it given in metres?");
+  if (baseline > 5) add("the baseline is " + number(baseline, 3) + " m: is it given in millimetres?");
+  if (baseline < 0.005) add("the baseline is " + number(baseline, 6) + " m: is it given in metres?");
   for (const bool is_left : {true, false}) {
     const PinholeCamera& camera = is_left ? rig.left : rig.right;
     const std::string name = is_left ? "the left camera's " : "the right camera's ";
     const double widths = camera.fx / camera.width, shape = camera.fx / camera.fy;
     if (widths < 0.2 || widths > 20)
-      found.push_back(name + "focal length is " + number(widths, 2) + " image widths: is it given in pixels?");
+      add(name + "focal length is " + number(widths, 2) + " image widths: is it given in pixels?");
     if (shape < 1 / 1.5 || shape > 1.5)
-      found.push_back(name + "fx is " + number(shape, 2) + " times its fy: are the pixels really not square?");
+      add(name + "fx is " + number(shape, 2) + " times its fy: are the pixels really not square?");
     if (!(camera.cx >= 0 && camera.cx < camera.width && camera.cy >= 0 && camera.cy < camera.height))
-      found.push_back(name + "principal point (" + number(camera.cx, 1) + ", " + number(camera.cy, 1) +
-                      ") lies outside its image");
+      add(name + "principal point (" + number(camera.cx, 1) + ", " + number(camera.cy, 1) + ") lies outside its image");
   }
   return found;
 }
@@ -129,18 +129,22 @@ RigFindings judge_search(const ProbeSearch& search, const EpipolarFit& fit, cons
   } else if (fit.residual > kLostResidual) {
     does_not_fit(seen_across(fit), cause_across(fit));
   } else if (!fit.is_coarse && fit.residual > kDoubtfulResidual && !(evidence.matched_ratio > kReliableMatchedRatio)) {
-    findings.doubts.push_back("the calibration is doubtful: " + matched(evidence) + seen_across(fit) + "; " +
-                              cause_across(fit));
+    findings.warnings.push_back(
+        {WarningKind::doubtful_calibration,
+         "the calibration is doubtful: " + matched(evidence) + seen_across(fit) + "; " + cause_across(fit)});
   }
   if (!findings.mismatch.empty()) return findings;
   if (evidence.beyond_ratio > kWarningRatio) {
-    findings.doubts.push_back(percent(evidence.beyond_ratio) + " of the corners exceed the maximum disparity, " +
-                              number(search.max_disparity, 1) +
-                              " px: is stereo.max_disparity too small, or stereo.min_depth too large?");
+    findings.warnings.push_back({WarningKind::small_disparity_range,
+                                 percent(evidence.beyond_ratio) + " of the corners exceed the maximum disparity, " +
+                                     number(search.max_disparity, 1) +
+                                     " px: is stereo.max_disparity too small, or stereo.min_depth too large?"});
   }
   if (evidence.negative_ratio > kWarningRatio) {
-    findings.doubts.push_back(percent(evidence.negative_ratio) +
-                              " of the disparities are negative: is the right camera's yaw or principal point wrong?");
+    findings.warnings.push_back(
+        {WarningKind::negative_disparities,
+         percent(evidence.negative_ratio) +
+             " of the disparities are negative: is the right camera's yaw or principal point wrong?"});
   }
   return findings;
 }

@@ -8,18 +8,19 @@
 #include "odometry/epipolar_probe.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/rig_evidence.hpp"
+#include "quadedge/warning.hpp"
 
 namespace quadedge::odometry {
 
 /// Messages for the user.
 struct RigFindings {
-  std::string mismatch;             ///< why the frame cannot be used; empty if it can
-  std::vector<std::string> doubts;  ///< warnings about a frame that can be used
+  std::string mismatch;           ///< why the frame cannot be used; empty if it can
+  std::vector<Warning> warnings;  ///< about a frame that can be used
 };
 
 /// Reports implausible values of a calibration: a baseline outside 5 mm to 5 m, a focal length outside 0.2 to 20 image
 /// widths, a ratio of fx to fy outside 1 / 1.5 to 1.5, a principal point outside the image.
-std::vector<std::string> implausible_numbers(const StereoRig& rig);
+std::vector<Warning> implausible_numbers(const StereoRig& rig);
 
 /// Adds the results of a search to the evidence.
 void add_search_results(const ProbeSearch& search, const EpipolarFit& fit, RigEvidence& evidence);

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "common/disparity_range.hpp"
 #include "common/host_stages.hpp"
 #include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
@@ -46,6 +47,14 @@ void add_message(const std::string& message, FrameResult& result) {
   result.message += (result.message.empty() ? "" : "; ") + message;
 }
 
+/// The configuration with the rig's disparity range. \throws DataError, UsageError.
+Config checked(const StereoRig& rig, const Config& config) {
+  check_rig(rig, "stereo rig");
+  Config complete = with_disparity_range(config, rig);
+  check_config(complete);
+  return complete;
+}
+
 }  // namespace
 
 const char* to_string(FrameStatus status) {
@@ -62,12 +71,14 @@ const char* to_string(FrameStatus status) {
 
 class StereoOdometry::Implementation {
  public:
-  Implementation(const StereoRig& rig, Device& device, const Config& config)
+  /// \param own the device if this object owns it, else null
+  Implementation(const StereoRig& rig, std::unique_ptr<Device> own, Device& device, const Config& config)
       : recorded_(rig),
         rig_(odometry::with_equal_scales(rig)),
+        own_device_(std::move(own)),
         device_(device),
         config_(config),
-        frontend_(frontend::make_frontend(rig_, device, config)),
+        frontend_(frontend::make_frontend(rig_, device, config, &start_warnings_)),
         offset_(rig_, config.pose),
         motion_search_(config, *frontend_, offset_),
         rig_watch_(rig_, config) {}
@@ -90,12 +101,14 @@ class StereoOdometry::Implementation {
   odometry::StepHandle search(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
-  void warn(const std::string& doubt, FrameResult& result);
+  void warn(const Warning& warning, FrameResult& result) const;
 
   RecordedImages recorded_;
   StereoRig rig_;  ///< the cameras in which edges are detected
+  std::unique_ptr<Device> own_device_;
   Device& device_;
   Config config_;
+  std::vector<Warning> start_warnings_;  ///< for the first frame
   std::unique_ptr<frontend::Frontend> frontend_;
   odometry::DisparityOffset offset_;
   odometry::MotionSearch motion_search_;
@@ -107,7 +120,7 @@ class StereoOdometry::Implementation {
   odometry::StepHandle step_;    ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
   std::vector<double> distances_;   ///< buffer of median_parallax()
-  std::set<std::string> reported_;  ///< kinds of warnings: their text up to the first number
+  std::set<WarningKind> reported_;  ///< kinds of warnings of the frames before
 };
 
 FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
@@ -122,9 +135,10 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   result.stamp_ns = frame.stamp_ns;
 
   process(frame, result);
-  const odometry::RigFindings findings = rig_watch_.judge(frame, current_->edges, result.counts.edges_left, result.rig);
-  for (const auto& doubt : findings.doubts) warn(doubt, result);
-  result.stages.push_back({kStereoStage, clock.lap()});
+  const odometry::RigFindings findings =
+      rig_watch_.judge(frame, current_->edges, result.counts.edges_left, result.diagnostics.rig_evidence);
+  for (const Warning& warning : findings.warnings) warn(warning, result);
+  result.timing.stages.push_back({kStereoStage, clock.lap()});
   if (result.counts.stereo_edges < config_.pose.min_inliers) {
     lose(FrameStatus::lost_too_few_edges, std::to_string(result.counts.stereo_edges) + " stereo edges", result);
   } else if (!findings.mismatch.empty()) {
@@ -134,19 +148,20 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   } else {
     step_ = search(result);
     const double pose_ms = motion_search_.take_pose_ms();
-    result.stages.push_back({kTemporalStage, clock.lap() - pose_ms});
+    result.timing.stages.push_back({kTemporalStage, clock.lap() - pose_ms});
     if (step_->ok()) {
       locate(*step_, result);
     } else {
       lose(lost_status(step_->motion.status), pose::to_string(step_->motion.status), result);
     }
-    result.stages.push_back({kPoseStage, pose_ms + clock.lap()});
+    result.timing.stages.push_back({kPoseStage, pose_ms + clock.lap()});
   }
-  state_.world_from_last = result.world_from_left;
-  result.latency_ms = latency.lap();
+  state_.world_from_last = result.pose_or_prediction();
+  for (const Warning& warning : result.warnings) reported_.insert(warning.kind);
+  result.timing.latency_ms = latency.lap();
   if (device_.context() != nullptr && device_.context()->profiling()) {
     for (const auto& row : device_.context()->take_profile())
-      result.stages.push_back({"device " + row.stage, row.kernel_ms});
+      result.timing.stages.push_back({"device " + row.stage, row.kernel_ms});
   }
   return result;
 }
@@ -157,13 +172,13 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   current_ = nullptr;
   current_ = frontend_->process(frame);
   const frontend::FrontendCounts& counts = frontend_->counts();
-  warn(frontend_->notice, result);
-  result.edge_threshold = counts.edge_threshold;
+  result.warnings = std::exchange(start_warnings_, {});
+  result.diagnostics.edge_threshold = counts.edge_threshold;
   result.counts.edges_left = counts.edges_left;
   result.counts.edges_right = counts.edges_right;
   result.counts.stereo_edges = static_cast<int>(current_->edges.size());
   if (counts.dropped_edges == 0) return;
-  result.overflow = true;
+  result.diagnostics.overflow = true;
   result.message = std::to_string(counts.dropped_edges) + " edges beyond edges.max_edges were dropped";
 }
 
@@ -173,9 +188,11 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   result.world_from_left = state_.world_from_last;
   result.new_key_rig = true;
   result.reference_frame = current_->frame;
-  result.covariance_in_reference = result.covariance_in_world = PoseCovariance::Zero();
-  for (const auto& doubt : odometry::implausible_numbers(rig_)) warn(doubt, result);
-  state_.set_key(current_, {result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
+  result.current_from_reference = Eigen::Isometry3d::Identity();
+  result.relative_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  result.covariance = result.diagnostics.covariance_in_reference = PoseCovariance::Zero();
+  for (const Warning& warning : odometry::implausible_numbers(rig_)) warn(warning, result);
+  state_.set_key(current_, {*result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
 /// Finds the motion since the base. After a loss, also tries the motion since the lost frame, which becomes the key
@@ -215,8 +232,9 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   const bool by_key = step.base == state_.key.rig();
   pose::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
-  warn(rig_watch_.observe_motion(step.base->edges, step.base->frame, current_->edges, current_->frame, step.matches),
-       result);
+  const auto late =
+      rig_watch_.observe_motion(step.base->edges, step.base->frame, current_->edges, current_->frame, step.matches);
+  if (late) warn(*late, result);
   velocity_.observe(current_from_key.transform * state_.base.from_key.transform.inverse(),
                     current_->frame - state_.base.rig->frame);
 
@@ -231,19 +249,19 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.counts.inliers = step.motion.inliers;
   result.disparity_offset = offset_.value() + step.motion.offset;
   result.ambiguous_motion = step.ambiguous;
-  result.moving_ratio = step.moving_ratio;
+  result.diagnostics.moving_ratio = step.moving_ratio;
   if (step.ambiguous) add_message("ambiguous motion: another motion, or none, explains much of the image", result);
-  result.base_frame = step.base->frame;
-  result.search = step.matches.search;
+  result.diagnostics.base_frame = step.base->frame;
+  result.diagnostics.search = step.matches.search;
   result.reference_frame = state_.key.frame();
   result.current_from_reference = current_from_key.transform;
-  result.covariance = current_from_key.covariance;
+  result.relative_covariance = current_from_key.covariance;
   pose::UncertainPose key_from_current = pose::pose_in_earlier(current_from_key);
   key_from_current.by_rig = pose::rig_sensitivity(key_from_current.fixed_from_camera, step.mean_inverse_depth());
   const pose::UncertainPose world_from_current = state_.key.pose() * key_from_current;
-  result.rig_sensitivity = key_from_current.by_rig;
-  result.covariance_in_reference = pose::whole_covariance(key_from_current, config_.pose);
-  result.covariance_in_world = pose::whole_covariance(world_from_current, config_.pose);
+  result.diagnostics.rig_sensitivity = key_from_current.by_rig;
+  result.diagnostics.covariance_in_reference = pose::whole_covariance(key_from_current, config_.pose);
+  result.covariance = pose::whole_covariance(world_from_current, config_.pose);
   result.world_from_left = world_from_current.fixed_from_camera;
   result.new_key_rig = !config_.odometry.key_rig || !by_key || state_.key.needs_replacement(fitness, config_.odometry);
 
@@ -265,18 +283,16 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   add_message(message, result);
   if (state_.lost) velocity_.forget();  // lost twice in a row
   const auto repeated = velocity_.predict(1);
-  result.world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
+  result.predicted_world_from_left = repeated ? state_.world_from_last * repeated->inverse() : state_.world_from_last;
   result.reference_frame = state_.key.frame();
   if (status == FrameStatus::lost_too_few_edges || status == FrameStatus::lost_rig_mismatch) return;
   if (!state_.base_is_key()) state_.set_key(state_.base.rig, state_.world_from_base());
-  state_.lost = odometry::LostRig{current_, result.world_from_left};
+  state_.lost = odometry::LostRig{current_, *result.predicted_world_from_left};
 }
 
-/// Reports each kind of warning once.
-void StereoOdometry::Implementation::warn(const std::string& doubt, FrameResult& result) {
-  if (doubt.empty() || !reported_.insert(doubt.substr(doubt.find_first_of("abcdefghijklmnopqrstuvwxyz"), 25)).second)
-    return;
-  result.warning += (result.warning.empty() ? "" : "; ") + doubt;
+/// Reports each kind of warning in one frame only.
+void StereoOdometry::Implementation::warn(const Warning& warning, FrameResult& result) const {
+  if (reported_.count(warning.kind) == 0) result.warnings.push_back(warning);
 }
 
 FrameDetails StereoOdometry::Implementation::details() const {
@@ -294,17 +310,23 @@ FrameDetails StereoOdometry::Implementation::details() const {
   return details;
 }
 
-StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Config& config) {
-  check_rig(rig, "stereo rig");
-  check_config(config);
-  implementation_ = std::make_unique<Implementation>(rig, device, config);
+StereoOdometry::StereoOdometry(const StereoRig& rig, const Config& config) {
+  const Config complete = checked(rig, config);
+  auto device = std::make_unique<Device>();
+  Device& opened = *device;
+  implementation_ = std::make_unique<Implementation>(rig, std::move(device), opened, complete);
 }
+
+StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Config& config)
+    : implementation_(std::make_unique<Implementation>(rig, nullptr, device, checked(rig, config))) {}
 
 StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
 const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }
 const StereoRig& StereoOdometry::rig() const { return implementation_->rig(); }
+const Config& StereoOdometry::config() const { return implementation_->config(); }
+const DeviceInfo& StereoOdometry::device() const { return implementation_->device().info(); }
 void StereoOdometry::set_tap(Tap* tap) { implementation_->frontend().set_tap(tap); }
 std::size_t StereoOdometry::device_bytes() const { return implementation_->frontend().device_bytes(); }
 

@@ -25,10 +25,16 @@ std::string four_digits(double value) { return printed("%.4g", value); }
 /// Time that a frame spent in a stage [ms]; NaN where it did not reach it.
 double stage_ms(const FrameResult& result, const std::string& stage) {
   double sum = kNan;
-  for (const auto& part : result.stages) {
+  for (const auto& part : result.timing.stages) {
     if (part.stage == stage) sum = (std::isnan(sum) ? 0 : sum) + part.ms;
   }
   return sum;
+}
+
+std::string joined_warnings(const FrameResult& result) {
+  std::string text;
+  for (const Warning& warning : result.warnings) text += (text.empty() ? "" : "; ") + warning.text;
+  return text;
 }
 
 FrameColumns columns_of_frames() {
@@ -41,22 +47,24 @@ FrameColumns columns_of_frames() {
   add("status", [](const FrameResult& result) { return std::string(to_string(result.status)); });
   add("key_rig", [](const FrameResult& result) { return std::to_string(result.reference_frame); });
   add("new_key_rig", [](const FrameResult& result) { return std::string(result.new_key_rig ? "1" : "0"); });
-  add("edge_threshold", [](const FrameResult& result) { return four_digits(result.edge_threshold); });
+  add("edge_threshold", [](const FrameResult& result) { return four_digits(result.diagnostics.edge_threshold); });
   const auto counts = named_counts({});
   for (std::size_t i = 0; i < counts.size(); ++i) {
     add(counts[i].first,
         [i](const FrameResult& result) { return std::to_string(named_counts(result.counts)[i].second); });
   }
-  add("matched_ratio", [](const FrameResult& result) { return four_digits(result.rig.matched_ratio); });
-  add("epipolar_residual", [](const FrameResult& result) { return four_digits(result.rig.epipolar_residual); });
-  add("moving_ratio", [](const FrameResult& result) { return four_digits(result.moving_ratio); });
+  add("matched_ratio",
+      [](const FrameResult& result) { return four_digits(result.diagnostics.rig_evidence.matched_ratio); });
+  add("epipolar_residual",
+      [](const FrameResult& result) { return four_digits(result.diagnostics.rig_evidence.epipolar_residual); });
+  add("moving_ratio", [](const FrameResult& result) { return four_digits(result.diagnostics.moving_ratio); });
   add("ambiguous_motion", [](const FrameResult& result) { return std::string(result.ambiguous_motion ? "1" : "0"); });
-  add("latency_ms", [](const FrameResult& result) { return milliseconds(result.latency_ms); });
+  add("latency_ms", [](const FrameResult& result) { return milliseconds(result.timing.latency_ms); });
   for (const char* stage : kHostStages) {
     add(std::string(stage) + "_ms",
         [stage](const FrameResult& result) { return milliseconds(stage_ms(result, stage)); });
   }
-  add("warning", [](const FrameResult& result) { return result.warning; });
+  add("warning", &joined_warnings);
   add("message", [](const FrameResult& result) { return result.message; });
   return columns;
 }

@@ -48,7 +48,7 @@ std::string report_json(const RunRecord& run) {
   int key_rigs = 0, overflows = 0, ambiguous = 0;
   for (const auto& frame : run.frames) {
     key_rigs += frame.result.new_key_rig ? 1 : 0;
-    overflows += frame.result.overflow ? 1 : 0;
+    overflows += frame.result.diagnostics.overflow ? 1 : 0;
     ambiguous += frame.result.ambiguous_motion ? 1 : 0;
   }
   Json report;
@@ -74,8 +74,8 @@ std::string report_json(const RunRecord& run) {
   report["warnings"] = Json::array();
   for (const auto& warning : run.input.warnings) report["warnings"].push_back({{"frame", nullptr}, {"text", warning}});
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const std::string& warning = run.frames[i].result.warning;
-    if (!warning.empty()) report["warnings"].push_back({{"frame", i}, {"text", warning}});
+    for (const Warning& warning : run.frames[i].result.warnings)
+      report["warnings"].push_back({{"frame", i}, {"kind", to_string(warning.kind)}, {"text", warning.text}});
   }
   report["latency_ms"] = to_json(latency_summary(run.frames));
   report["stages_ms"] = stages(stage_times(run.frames));
@@ -142,10 +142,10 @@ std::string trace_json(const RunRecord& run) {
   };
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const auto& frame = run.frames[i];
-    add("frame " + std::to_string(i), "frame", frame.start_ms, frame.result.latency_ms, 1)["args"] = {
+    add("frame " + std::to_string(i), "frame", frame.start_ms, frame.result.timing.latency_ms, 1)["args"] = {
         {"status", to_string(frame.result.status)}, {"inliers", frame.result.counts.inliers}};
     double start = frame.start_ms;
-    for (const auto& stage : frame.result.stages) {
+    for (const auto& stage : frame.result.timing.stages) {
       add(stage.stage, "stage", start, stage.ms, 1);
       start += stage.ms;
     }

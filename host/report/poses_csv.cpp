@@ -8,6 +8,7 @@ namespace quadedge::report {
 namespace {
 
 using Value = std::optional<double>;
+using Covariance = const std::optional<PoseCovariance>& (*)(const FrameResult&);
 
 constexpr std::array<const char*, 7> kPose = {"x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr std::array<const char*, 6> kErrorNames = {"x", "y", "z", "rx", "ry", "rz"};
@@ -29,12 +30,12 @@ FrameColumns columns_of_poses() {
                          return found ? data::format_exact(*found) : std::string();
                        }});
   };
-  const auto add_covariance = [&](const std::string& prefix, std::optional<PoseCovariance> FrameResult::*covariance) {
+  const auto add_covariance = [&](const std::string& prefix, Covariance covariance) {
     for (int i = 0; i < 6; ++i) {
       for (int j = i; j < 6; ++j) {
         add(prefix + kErrorNames[static_cast<std::size_t>(i)] + "_" + kErrorNames[static_cast<std::size_t>(j)],
             [=](const FrameResult& result) {
-              const auto& matrix = result.*covariance;
+              const auto& matrix = covariance(result);
               return matrix ? Value((*matrix)(i, j)) : Value();
             });
       }
@@ -47,14 +48,17 @@ FrameColumns columns_of_poses() {
   columns.push_back(
       {"reference_frame", [](const NumberedFrame& frame) { return std::to_string(frame.result.reference_frame); }});
   for (std::size_t i = 0; i < kPose.size(); ++i)
-    add(kPose[i], [i](const FrameResult& result) { return Value(pose_value(result.world_from_left, i)); });
+    add(kPose[i], [i](const FrameResult& result) { return Value(pose_value(result.pose_or_prediction(), i)); });
   for (std::size_t i = 0; i < kPose.size(); ++i) {
     add(std::string("reference_") + kPose[i], [i](const FrameResult& result) {
-      return is_tracked(result.status) ? Value(pose_value(result.current_from_reference.inverse(), i)) : Value();
+      return result.current_from_reference ? Value(pose_value(result.current_from_reference->inverse(), i)) : Value();
     });
   }
-  add_covariance("covariance_", &FrameResult::covariance_in_world);
-  add_covariance("reference_covariance_", &FrameResult::covariance_in_reference);
+  add_covariance("covariance_",
+                 [](const FrameResult& result) -> const std::optional<PoseCovariance>& { return result.covariance; });
+  add_covariance("reference_covariance_", [](const FrameResult& result) -> const std::optional<PoseCovariance>& {
+    return result.diagnostics.covariance_in_reference;
+  });
   return columns;
 }
 

@@ -18,13 +18,13 @@ std::size_t first_counted(std::size_t frames) { return frames > 1 ? 1 : 0; }
 LatencySummary latency_summary(const std::vector<FrameRecord>& frames) {
   std::vector<double> values;
   for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i)
-    values.push_back(frames[i].result.latency_ms);
+    values.push_back(frames[i].result.timing.latency_ms);
   LatencySummary summary;
   summary.median = median(values);
   summary.p90 = percentile(values, 0.9);
   summary.p99 = percentile(values, 0.99);
   summary.max = percentile(values, 1.0);
-  summary.first = frames.empty() ? std::numeric_limits<double>::quiet_NaN() : frames.front().result.latency_ms;
+  summary.first = frames.empty() ? std::numeric_limits<double>::quiet_NaN() : frames.front().result.timing.latency_ms;
   return summary;
 }
 
@@ -55,7 +55,7 @@ std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>
 
 std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& frames) {
   std::vector<std::vector<StageTime>> times;
-  for (const auto& frame : frames) times.push_back(frame.result.stages);
+  for (const auto& frame : frames) times.push_back(frame.result.timing.stages);
   return times;
 }
 

@@ -128,6 +128,7 @@ class SyntheticSequence::Implementation {
         scene(synthetic::make_scene(asked.scene, asked.seed, asked.focal)),
         path(asked.path, asked.seed, asked.frames, scene.lane),
         exposure(exposure_of(asked, path, rig.left)) {
+    rig.max_disparity = std::ceil(rig.left.fx * options.baseline / scene.nearest);
     if (options.mover > 0.0) board.emplace(rig.left, options.mover, options.seed);
   }
 
@@ -195,10 +196,6 @@ RenderedView SyntheticSequence::render(int frame, Side side) const {
                    static_cast<int>(std::floor(value + 0.5)));
   }
   return view;
-}
-
-double SyntheticSequence::max_disparity() const {
-  return std::ceil(implementation_->rig.left.fx * implementation_->options.baseline / implementation_->scene.nearest);
 }
 
 }  // namespace quadedge

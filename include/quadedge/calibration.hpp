@@ -43,8 +43,4 @@ void mask_rig(StereoRig& rig, const std::string& files);
 /// The calibration of a rig whose recorded images are pinhole images.
 StereoCalibration pinhole_calibration(const StereoRig& rig);
 
-/// Disparity of a point 0.5 m in front of the rig [px]: the default maximum disparity if nothing is known about the
-/// scene.
-double default_max_disparity(const StereoRig& rig);
-
 }  // namespace quadedge

@@ -58,11 +58,19 @@ struct StereoRig {
 
   int max_value = 255;  ///< largest pixel value of the recorded images, see ImageView
 
+  /// Largest disparity of the nearest objects [px], relative to a point at infinity; 0: unknown. Readers of data sets
+  /// set it for the kind of scene that they hold.
+  double max_disparity = 0;
+
   double baseline() const { return right_from_left.translation().norm(); }
+  /// Disparity range if the configuration has neither stereo.max_disparity nor stereo.min_depth [px]: max_disparity, or
+  /// if that is 0, the disparity of a point 0.5 m in front of the left camera.
+  double disparity_range() const;
 };
 
-/// Checks that focal lengths, image sizes and the baseline are finite and positive and that the rotation is
-/// orthonormal. \throws DataError that names `source` (the calibration file) and the offending value.
+/// Checks that focal lengths, image sizes and the baseline are finite and positive, that the rotation is orthonormal
+/// and that max_disparity is finite and not negative. \throws DataError that names `source` (the calibration file) and
+/// the offending value.
 void check_rig(const StereoRig& rig, const char* source);
 
 }  // namespace quadedge

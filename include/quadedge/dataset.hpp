@@ -21,22 +21,20 @@ struct FrameFiles {
   std::string left, right;
 };
 
-/// A sequence or an image pair: calibration, list of frames, maximum disparity. Images are not loaded yet.
+/// A sequence or an image pair: cameras, list of frames. Images are not loaded yet.
 struct Dataset {
   /// kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 | middlebury-2006 |
   /// middlebury-2014 | viso2-quad; or images | video | pipe, see open_stereo_source()
   std::string format;
   std::string path;  ///< folder of the sequence, or its first file
   std::string name;  ///< short name for tables
+  /// Its max_disparity is that of this kind of data, f x baseline / nearest depth. Where the principal points differ
+  /// (`doffs` of Middlebury), the plain difference of columns is smaller by `doffs`.
   StereoRig rig;
   std::optional<StereoCalibration> calibration;  ///< calibration that the rig was made from, if it describes lenses
   std::vector<FrameFiles> frames;                ///< for a video, its file names in every frame; empty for a pipe
   std::shared_ptr<const PairStream>
       stream;  ///< source of pairs that are not stored as separate image files; otherwise null
-  /// Maximum disparity expected for this kind of data [px], relative to a point at infinity: f x baseline / nearest
-  /// depth. Where the principal points differ (`doffs` of Middlebury), the plain difference of columns is smaller by
-  /// `doffs`.
-  double max_disparity = 0;
   /// Ground-truth poses of the left camera; empty if there is no ground truth. Used for evaluation only.
   Trajectory truth;
   std::string truth_file;       ///< file that the ground truth was read from

@@ -13,6 +13,6 @@ namespace quadedge {
 /// `mask`.
 /// \throws DeviceError; UsageError if there are more than edges.max_edges edges; DataError if the stride is smaller
 /// than a row.
-EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config, const PixelMask& mask = {});
+EdgeSet detect_edges(const ImageView& image, Device& device, const Config& config = {}, const PixelMask& mask = {});
 
 }  // namespace quadedge

@@ -52,7 +52,8 @@ struct MapSighting {
 /// discarded first.
 class EdgeMap {
  public:
-  EdgeMap(const Config& config, const EdgeMapOptions& options);
+  /// \param config StereoOdometry::config()
+  explicit EdgeMap(const Config& config, const EdgeMapOptions& options = {});
   ~EdgeMap();
 
   /// To be called for every frame after it was tracked. Adds the frame's edges if the frame became the key stereo rig

@@ -10,6 +10,7 @@
 #include "quadedge/edge_map.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/warning.hpp"
 
 namespace quadedge {
 
@@ -21,13 +22,16 @@ struct StereoMatches {
   /// both cameras.
   std::vector<std::optional<MapPoint>> points;
   StereoRig rig;  ///< the cameras that edge positions refer to; see StereoOdometry::rig()
+  std::vector<Warning> warnings;
 };
 
-/// Matches the edges of an image pair on `device`. \throws DataError for an unusable rig and for images that do not fit
+/// Matches the edges of an image pair on `device`. A configuration without disparity range gets that of the rig,
+/// StereoRig::disparity_range(). \throws DataError for an unusable rig and for images that do not fit
 /// it; UsageError for an invalid configuration; DeviceError.
-StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config);
+StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config = {});
 
-/// A rig for rectified images of unknown cameras: rows correspond, and depths are meaningless. Sizes in pixels.
+/// A rig for rectified images of unknown cameras: rows correspond, and depths are meaningless. Sizes in pixels. Its
+/// max_disparity is 0.12 times the width.
 StereoRig rectified_images(int width, int height, int right_width, int right_height);
 
 }  // namespace quadedge

@@ -15,6 +15,7 @@
 #include "quadedge/image.hpp"
 #include "quadedge/pose_covariance.hpp"
 #include "quadedge/rig_evidence.hpp"
+#include "quadedge/warning.hpp"
 
 namespace quadedge {
 
@@ -46,45 +47,64 @@ struct StageTime {
   double ms = 0;
 };
 
+/// Computing time of one frame.
+struct FrameTiming {
+  std::vector<StageTime> stages;  ///< host stages always; device stages if the device profiles
+  double latency_ms = 0;          ///< from images in host memory to the pose on the host, steady clock
+};
+
+/// Internal quantities of one frame, for evaluation.
+struct FrameDiagnostics {
+  double edge_threshold = 0;  ///< gradient threshold of the edges in both images [grey levels per px]
+  bool overflow = false;      ///< whether a capacity was exceeded (edges or candidates); see FrameResult::message
+  /// Number of the frame that the pose was measured against: the key stereo rig or, if that is out of view, the last
+  /// frame with a pose; -1 without a pose.
+  int base_frame = -1;
+  int search = -1;  ///< number of the frame's temporal search that gave its motion; -1: no motion
+  /// Fraction of the edges in view that lie in image cells whose edges do not follow the camera's motion.
+  double moving_ratio = 0;
+  RigEvidence rig_evidence;
+  /// Covariance of the pose in the reference's left camera frame, the inverse of current_from_reference, including
+  /// calibration errors (`pose.rig_sigma_*`); empty for a lost frame.
+  std::optional<PoseCovariance> covariance_in_reference;
+  /// Sensitivity of that pose to calibration errors.
+  RigSensitivity rig_sensitivity = RigSensitivity::Zero();
+};
+
 /// Result of one frame.
 struct FrameResult {
   std::int64_t stamp_ns = 0;
   FrameStatus status = FrameStatus::first;
-  /// Pose of the left camera in the frame of the first left camera. For a lost frame, the last motion is repeated.
-  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-  /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key stereo rig.
-  Eigen::Isometry3d current_from_reference = Eigen::Isometry3d::Identity();
-  /// Covariance of current_from_reference (rotation [rad^2], translation [m^2]), as a left perturbation in the current
-  /// left camera frame.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /// Covariance of the pose in the reference's left camera frame (the inverse of current_from_reference), including
-  /// calibration errors (`pose.rig_sigma_*`); nothing for a lost frame.
-  std::optional<PoseCovariance> covariance_in_reference;
-  /// Covariance of world_from_left, composed over the key stereo rigs: edge errors are independent between rigs,
-  /// calibration errors are common to all. Nothing for a lost frame, and after tracking resumed from a predicted pose.
-  std::optional<PoseCovariance> covariance_in_world;
-  /// Sensitivity of the pose in the reference's frame to calibration errors.
-  RigSensitivity rig_sensitivity = RigSensitivity::Zero();
-  double edge_threshold = 0;    ///< gradient threshold of the edges in both images [grey levels per px]
-  double disparity_offset = 0;  ///< estimated so far, added to every disparity [px]
+  /// Pose of the left camera in the frame of the first left camera; empty for a lost frame.
+  std::optional<Eigen::Isometry3d> world_from_left;
+  /// Pose of a lost frame if the last motion is repeated; empty for any other frame.
+  std::optional<Eigen::Isometry3d> predicted_world_from_left;
+  /// Covariance of world_from_left, translation first as in ROS. Composed over the key stereo rigs: edge errors are
+  /// independent between rigs, calibration errors (`pose.rig_sigma_*`) are common to all. Empty for a lost frame, and
+  /// after tracking resumed from a predicted pose.
+  std::optional<PoseCovariance> covariance;
+  /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key stereo rig. Empty for a lost
+  /// frame.
+  std::optional<Eigen::Isometry3d> current_from_reference;
+  /// Covariance of current_from_reference due to edge errors alone, ROTATION first: rotation about x, y, z [rad], then
+  /// x, y, z [m], as a left perturbation in the current left camera frame. Empty for a lost frame.
+  std::optional<Eigen::Matrix<double, 6, 6>> relative_covariance;
   int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first
-  /// Number of the frame that the pose was measured against: the key stereo rig or, if that is out of view, the last
-  /// frame with a pose; -1 without a pose.
-  int base_frame = -1;
-  int search = -1;           ///< number of the frame's temporal search that gave its motion; -1: no motion
-  bool new_key_rig = false;  ///< whether this frame becomes the key stereo rig of the following frames
-  bool overflow = false;     ///< whether a capacity was exceeded (edges or candidates); see the message
-  std::string message;       ///< empty, or one sentence for the user
-  /// Empty, or a warning that concerns the whole recording; each warning is reported once per run.
-  std::string warning;
-  RigEvidence rig;
+  bool new_key_rig = false;     ///< whether this frame becomes the key stereo rig of the following frames
+  double disparity_offset = 0;  ///< estimated so far, added to every disparity [px]
   /// Another motion explains nearly as much of the image, so that the camera's motion is ambiguous.
   bool ambiguous_motion = false;
-  /// Fraction of the edges in view that lie in image cells whose edges do not follow the camera's motion.
-  double moving_ratio = 0;
   FrameCounts counts;
-  std::vector<StageTime> stages;  ///< host stages always; device stages if the device profiles
-  double latency_ms = 0;          ///< from images in host memory to the pose on the host, steady clock
+  std::string message;  ///< empty, or one sentence for the user about this frame
+  /// Warnings that concern the whole recording. Those of one kind are reported with the first frame that has any.
+  std::vector<Warning> warnings;
+  FrameTiming timing;
+  FrameDiagnostics diagnostics;
+
+  /// world_from_left or, for a lost frame, predicted_world_from_left; identity for a default-constructed result.
+  Eigen::Isometry3d pose_or_prediction() const {
+    return world_from_left.value_or(predicted_world_from_left.value_or(Eigen::Isometry3d::Identity()));
+  }
 };
 
 /// Edges and quads of one frame, for drawing and for evaluation. Copied only on request.
@@ -101,9 +121,12 @@ class Tap;
 /// bytes.
 class StereoOdometry {
  public:
-  /// \throws DataError for an unusable rig; UsageError for an invalid configuration; DeviceError if kernels do not
-  /// build.
-  StereoOdometry(const StereoRig& rig, Device& device, const Config& config);
+  /// Tracks on the device "auto": the first GPU, else the first CPU. A configuration without disparity range gets that
+  /// of the rig, StereoRig::disparity_range(). \throws DataError for an unusable rig; UsageError for an invalid
+  /// configuration; DeviceError if there is no device or kernels do not build.
+  explicit StereoOdometry(const StereoRig& rig, const Config& config = {});
+  /// The same on `device`, which must outlive the object.
+  StereoOdometry(const StereoRig& rig, Device& device, const Config& config = {});
   ~StereoOdometry();
 
   /// Processes the next frame. Tracking failures are reported as a status. \throws DataError for images that do not fit
@@ -120,6 +143,10 @@ class StereoOdometry {
   /// The cameras that edge positions refer to: the rig passed to the constructor. If the resolution of one camera is at
   /// least one and a half times that of the other, that camera is reduced.
   const StereoRig& rig() const;
+  /// The configuration in effect, including the disparity range.
+  const Config& config() const;
+  /// The device that it runs on.
+  const DeviceInfo& device() const;
 
   /// Observes all filters in the following frames; null stops. A tap cannot change results.
   void set_tap(Tap* tap);

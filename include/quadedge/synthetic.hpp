@@ -71,14 +71,14 @@ class SyntheticSequence {
 
   /// Scene and path, such as "facade-drive"; for the ellipse the scene alone.
   std::string name() const;
-  const StereoRig& rig() const;                  ///< pinhole cameras; for other lenses with undistortion tables
+  /// Pinhole cameras; for other lenses with undistortion tables. No surface exceeds its max_disparity in any frame.
+  const StereoRig& rig() const;
   const StereoCalibration& calibration() const;  ///< the rendered lenses
   int frames() const;
   std::int64_t stamp_ns(int frame) const;  ///< 20 frames per second
   Eigen::Isometry3d world_from_left(
       int frame) const;  ///< exact, at the middle of the exposure; identity for the first frame
   RenderedView render(int frame, Side side) const;  ///< thread-safe
-  double max_disparity() const;                     ///< [px]; no surface is nearer in any frame
 
  private:
   class Implementation;

@@ -88,7 +88,7 @@ const Sequence& rendered(const std::string& scene, int frames, int step, double 
   const SyntheticSequence source(options);
   Sequence sequence;
   sequence.rig = source.rig();
-  sequence.config.stereo.max_disparity = source.max_disparity();
+  sequence.config.stereo.max_disparity = source.rig().max_disparity;
   for (int i = 0; i < options.frames; i += step) {
     sequence.left.push_back(source.render(i, Side::left).image);
     sequence.right.push_back(source.render(i, Side::right).image);
@@ -106,7 +106,7 @@ const Sequence& recorded(const std::string& path, int frames) {
   options.last_frame = frames;
   const Dataset dataset = open_dataset(std::string(root) + "/" + path, options);
   sequence.rig = dataset.rig;
-  sequence.config.stereo.max_disparity = dataset.max_disparity;
+  sequence.config.stereo.max_disparity = dataset.rig.disparity_range();
   FramePrefetcher prefetcher(dataset);
   while (auto frame = prefetcher.next()) {
     const auto pose = std::min_element(dataset.truth.begin(), dataset.truth.end(), [&](const auto& a, const auto& b) {

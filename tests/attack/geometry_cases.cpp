@@ -289,18 +289,20 @@ Verdict judge(const Sequence& sequence, const std::string& device_name, bool pri
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     results.push_back(odometry.track(sequence.frame(i)));
     const FrameResult& result = results.back();
-    verdict.has_warning = verdict.has_warning || !result.warning.empty();
-    for (const std::string* text : {&result.warning, &result.message})
+    verdict.has_warning = verdict.has_warning || !result.warnings.empty();
+    const std::string warning = result.warnings.empty() ? "" : result.warnings.front().text;
+    for (const std::string* text : {&warning, &result.message})
       if (verdict.words.empty()) verdict.words = *text;
     if (print_evidence) {
-      const RigEvidence& rig = result.rig;
+      const RigEvidence& rig = result.diagnostics.rig_evidence;
       std::printf(
           "  %zu %-18s matched %.3f residual %.2f (%+.2f %+.2f x %+.2f y; %d) found %.2f line %.2f neg %.2f beyond "
           "%.2f inl %d/%d moving %.2f%s %s %s\n",
           i, to_string(result.status), rig.matched_ratio, rig.epipolar_residual, rig.epipolar_offset,
           rig.epipolar_slope_x, rig.epipolar_slope_y, rig.epipolar_samples, rig.found_ratio, rig.on_line_ratio,
-          rig.negative_ratio, rig.beyond_ratio, result.counts.inliers, result.counts.quads, result.moving_ratio,
-          result.ambiguous_motion ? " AMBIGUOUS" : "", result.message.c_str(), result.warning.c_str());
+          rig.negative_ratio, rig.beyond_ratio, result.counts.inliers, result.counts.quads,
+          result.diagnostics.moving_ratio, result.ambiguous_motion ? " AMBIGUOUS" : "", result.message.c_str(),
+          warning.c_str());
     }
     if (i == 0) continue;
     const FrameResult& before = results[i - 1];
@@ -309,7 +311,7 @@ Verdict judge(const Sequence& sequence, const std::string& device_name, bool pri
       continue;
     }
     const Eigen::Isometry3d truth = sequence.world_from_left[i - 1].inverse() * sequence.world_from_left[i];
-    const Eigen::Isometry3d error = truth.inverse() * (before.world_from_left.inverse() * result.world_from_left);
+    const Eigen::Isometry3d error = truth.inverse() * (before.world_from_left->inverse() * *result.world_from_left);
     const bool right =
         error.translation().norm() < 0.005 + 0.2 * truth.translation().norm() &&
         Eigen::AngleAxisd(error.linear()).angle() < 0.3 * kDegree + 0.2 * Eigen::AngleAxisd(truth.linear()).angle();

@@ -1,0 +1,17 @@
+#include "quadedge/warning.hpp"
+
+namespace quadedge {
+
+const char* to_string(WarningKind kind) {
+  switch (kind) {
+    case WarningKind::device_memory: return "device_memory";
+    case WarningKind::implausible_calibration: return "implausible_calibration";
+    case WarningKind::doubtful_calibration: return "doubtful_calibration";
+    case WarningKind::small_disparity_range: return "small_disparity_range";
+    case WarningKind::negative_disparities: return "negative_disparities";
+    case WarningKind::unsynchronised_cameras: return "unsynchronised_cameras";
+  }
+  return "unknown";
+}
+
+}  // namespace quadedge
