@@ -48,13 +48,7 @@ struct Room {
 };
 
 struct Tracker {
-  Tracker(const Room& room, const std::string& choice)
-      : device(choice), odometry(room.sequence.rig(), device, configuration(room)) {}
-  static Config configuration(const Room& room) {
-    Config config;
-    config.stereo.max_disparity = room.sequence.max_disparity();
-    return config;
-  }
+  Tracker(const Room& room, const std::string& choice) : device(choice), odometry(room.sequence.rig(), device) {}
   Device device;
   StereoOdometry odometry;
 };
@@ -64,7 +58,7 @@ std::vector<double> track(Tracker& tracker, const Room& room) {
   FrameResult last;
   for (int i = 0; i < room.sequence.frames(); ++i) last = tracker.odometry.track(room.frame(i));
   if (!is_tracked(last.status)) throw Error(ExitCode::internal, "the last frame is lost");
-  const auto& pose = last.world_from_left.matrix();
+  const auto& pose = last.world_from_left->matrix();
   return {pose.data(), pose.data() + pose.size()};
 }
 

@@ -20,7 +20,8 @@ tracked = []
 with quadedge.Odometry(images) as odometry:
     for frame in images:
         result = odometry.track(frame.stamp_ns, frame.left, frame.right)
-        print(frame.stamp_ns, result.status, *numpy.round(result.world_from_left[:3, 3], 3), result.message)
+        position = numpy.round(result.world_from_left[:3, 3], 3) if result.is_tracked else []
+        print(frame.stamp_ns, result.status, *position, result.message)
         if result.is_tracked:
             tracked.append(result)
 

@@ -46,5 +46,6 @@ with quadedge.Odometry(rig, preset="fast") as odometry:
         green = picture[:, :, 1]  # a view of one channel; images may be strided
         middle = green.shape[1] // 2
         result = odometry.track(time.monotonic_ns(), green[:, :middle], green[:, middle:])
-        x, y, z = result.world_from_left[:3, 3]
-        print(f"{result.status:20} {x:8.3f} {y:8.3f} {z:8.3f} m  {result.latency_ms:6.1f} ms  {result.message}")
+        x, y, z = result.pose_or_prediction[:3, 3]
+        time_ms = result.timing.latency_ms
+        print(f"{result.status:20} {x:8.3f} {y:8.3f} {z:8.3f} m  {time_ms:6.1f} ms  {result.message}")

@@ -106,6 +106,9 @@ void bind_rig(nb::module_& module) {
           "(4, 4) float64: maps points from the left to the right camera frame [m].")
       .def_prop_ro("baseline", &StereoRig::baseline, "Distance between the cameras [m].")
       .def_ro("max_value", &StereoRig::max_value, "Value of a saturated pixel.")
+      .def_prop_ro("disparity_range", &StereoRig::disparity_range,
+                   "Largest disparity that is searched for if the configuration has neither stereo.max_disparity nor\n"
+                   "stereo.min_depth [px]: from the data set's reader, or that of a point 0.5 m away.")
       .def("__repr__", [](const StereoRig& self) {
         return "<Rig " + std::to_string(self.left.width) + "x" + std::to_string(self.left.height) + ", baseline " +
                std::to_string(self.baseline()) + " m>";
@@ -124,23 +127,18 @@ std::string files_of(nb::handle files) {
   return both;
 }
 
-Cameras cameras_of(nb::handle source) {
+StereoRig rig_of(nb::handle source) {
   if (const StereoRig* rig = nullptr; nb::try_cast(source, rig) && rig != nullptr) {
-    return {*rig, default_max_disparity(*rig)};
+    return *rig;
   }
   if (const Dataset* dataset = nullptr; nb::try_cast(source, dataset) && dataset != nullptr) {
-    return {dataset->rig, dataset->max_disparity};
+    return dataset->rig;
   }
   if (const RenderedSequence* sequence = nullptr; nb::try_cast(source, sequence) && sequence != nullptr) {
-    return {sequence->rig(), sequence->max_disparity()};
+    return sequence->rig();
   }
   const std::string found = source.is_none() ? "None" : nb::cast<std::string>(nb::str(source.type().attr("__name__")));
   throw nb::type_error(("found " + found + ", expected a Rig, a Dataset or a Synthetic").c_str());
-}
-
-void complete(Config& config, const Cameras& cameras) {
-  if (config.stereo.max_disparity == 0 && config.stereo.min_depth == 0)
-    config.stereo.max_disparity = cameras.max_disparity;
 }
 
 void bind_cameras(nb::module_& module) {

@@ -89,7 +89,6 @@ void bind_dataset(nb::module_& module) {
       .def_ro("name", &Dataset::name)
       .def_ro("rig", &Dataset::rig)
       .def_ro("frames", &Dataset::frames, "Image files of every frame, a list of FrameFiles.")
-      .def_ro("max_disparity", &Dataset::max_disparity, "Largest disparity expected in this kind of data [px].")
       .def_ro("truth", &Dataset::truth, "Ground-truth poses of the left camera; empty if there are none.")
       .def_ro("truth_file", &Dataset::truth_file, "File that the ground truth was read from.")
       .def_ro("notes", &Dataset::notes, "Remarks on the data, such as assumed time stamps; a list of sentences.")

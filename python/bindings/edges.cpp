@@ -88,13 +88,12 @@ EdgeSet detect(nb::handle image, nb::handle device, const std::string& preset, n
 
 StereoEdgesInSpace match(nb::handle left, nb::handle right, nb::handle source, nb::handle device,
                          const std::string& preset, nb::handle config) {
-  const Cameras cameras = cameras_of(source);
-  Config constants = make_config(preset, config);
-  complete(constants, cameras);
-  const int max_value = cameras.rig.max_value > kMaxValue8 ? cameras.rig.max_value : kMaxValue16;
+  const StereoRig rig = rig_of(source);
+  const Config constants = make_config(preset, config);
+  const int max_value = rig.max_value > kMaxValue8 ? rig.max_value : kMaxValue16;
   const ImageArgument left_image(left, "the left image", max_value), right_image(right, "the right image", max_value);
   return DeviceArgument(device).run([&](Device& chosen) {
-    StereoOdometry odometry(cameras.rig, chosen, constants);
+    StereoOdometry odometry(rig, chosen, constants);
     odometry.track({0, left_image.view(), right_image.view()});
     StereoEdgesInSpace found{odometry.details().stereo, {}};
     found.points = edge_points(found.edges, odometry.rig(), constants);

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
 #include "cameras.hpp"
@@ -31,12 +32,11 @@ struct Details {
 /// The library's odometry with its device. Calls from several threads are serialised.
 class Odometry {
  public:
-  Odometry(const Cameras& cameras, const std::string& device, Config config) : config_(std::move(config)) {
-    complete(config_, cameras);
-    running_ = std::make_unique<Running>(cameras.rig, device, config_);
-    rig_ = running_->odometry.rig();
-    max_value_ = cameras.rig.max_value > kMaxValue8 ? cameras.rig.max_value : kMaxValue16;
-  }
+  Odometry(const StereoRig& rig, const std::string& device, const Config& config)
+      : max_value_(rig.max_value > kMaxValue8 ? rig.max_value : kMaxValue16),
+        running_(std::make_unique<Running>(rig, device, config)),
+        config_(running_->odometry.config()),
+        rig_(running_->odometry.rig()) {}
 
   FrameResult track(const StereoFrame& frame) {
     const std::lock_guard<std::mutex> alone(in_use_);
@@ -84,12 +84,12 @@ class Odometry {
     return {std::move(edges), std::move(points)};
   }
 
+  int max_value_ = kMaxValue16;
+  std::unique_ptr<Running> running_;
   Config config_;
   StereoRig rig_;
-  int max_value_ = kMaxValue16;
   double disparity_offset_ = 0;
   std::mutex in_use_;
-  std::unique_ptr<Running> running_;
 };
 
 void bind_evidence(nb::module_& module) {
@@ -121,62 +121,44 @@ void bind_evidence(nb::module_& module) {
               "Share of the found corners within 1 px of their epipolar line, 0 to 1.");
 }
 
-nb::object optional_matrix(const std::optional<PoseCovariance>& covariance, nb::handle owner) {
-  if (!covariance) return nb::none();
-  return nb::cast(ArrayView<double>(covariance->data(), {6, 6}, owner));
+/// A matrix of the object `owner` as an array that keeps it alive; None if there is none.
+template <class Matrix>
+nb::object optional_matrix(const std::optional<Matrix>& matrix, nb::handle owner) {
+  if (!matrix) return nb::none();
+  constexpr std::size_t kSize = Matrix::RowsAtCompileTime;
+  return nb::cast(ArrayView<double>(matrix->data(), {kSize, kSize}, owner, {1, static_cast<std::int64_t>(kSize)}));
 }
 
-/// LONG: one statement per member.
-void bind_result(nb::module_& module) {
-  using Self = FrameResult;
-  nb::class_<Self> result(module, "FrameResult", "The result of tracking one frame. Can be pickled and copied.");
-  add_pickling(result);
-  result.def_ro("stamp_ns", &Self::stamp_ns, "Time stamp of the frame [ns].")
+/// A property of T that is an optional matrix.
+template <class T, class Matrix>
+void def_optional(nb::class_<T>& bound, const char* name, std::optional<Matrix> T::*member, const char* help) {
+  const std::string signature = std::string("def ") + name + "(self) -> numpy.typing.NDArray[numpy.float64] | None";
+  bound.def_prop_ro(
+      name, [member](nb::handle_t<T> self) { return optional_matrix(nb::cast<const T&>(self).*member, self); },
+      nb::sig(signature.c_str()), help);
+}
+
+void bind_warning(nb::module_& module) {
+  using Self = Warning;
+  nb::class_<Self> warning(module, "FrameWarning", "A warning that concerns a whole recording.");
+  add_pickling(warning);
+  warning
       .def_prop_ro(
-          "status", [](const Self& self) { return to_string(self.status); },
-          "first, tracked, lost_too_few_edges, lost_too_few_quads, lost_no_consensus or lost_rig_mismatch.")
-      .def_prop_ro(
-          "is_tracked", [](const Self& self) { return is_tracked(self.status); },
-          "True if the pose was measured: status first or tracked.")
-      .def_prop_ro(
-          "world_from_left", [](const Self& self) { return view_of_matrix(self.world_from_left.matrix()); }, kView,
-          "(4, 4) float64: pose of the left camera in the world frame [m], which is the left camera frame of the\n"
-          "first frame (x right, y down, z forward). For a lost frame it is predicted by repeating the last motion.")
-      .def_prop_ro(
-          "current_from_reference",
-          [](const Self& self) { return view_of_matrix(self.current_from_reference.matrix()); }, kView,
-          "(4, 4) float64: maps points from the left camera frame of the key rig to that of this frame [m].")
-      .def_prop_ro(
-          "covariance",
-          [](nb::handle_t<Self> self) {
-            return optional_matrix(nb::cast<const Self&>(self).covariance_in_world, self);
-          },
-          nb::sig("def covariance(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(6, 6) float64: covariance of ``world_from_left`` in the convention of ROS's PoseWithCovariance: x, y, z\n"
-          "[m] and rotation about x, y, z [rad], along and about the axes of the world frame. None for a lost frame\n"
-          "and for all frames after tracking resumed from a predicted pose.")
-      .def_prop_ro(
-          "covariance_in_reference",
-          [](nb::handle_t<Self> self) {
-            return optional_matrix(nb::cast<const Self&>(self).covariance_in_reference, self);
-          },
-          nb::sig("def covariance_in_reference(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(6, 6) float64: covariance, in the same convention, of the pose in the left camera frame of the key rig\n"
-          "(the inverse of ``current_from_reference``). None for a lost frame.")
-      .def_ro("reference_frame", &Self::reference_frame,
-              "Number of the key rig's frame, counted from 0; -1 before the first one.")
-      .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the key rig of the following frames.")
-      .def_ro("disparity_offset", &Self::disparity_offset, "Offset estimated so far and added to every disparity [px].")
-      .def_ro("overflow", &Self::overflow, "True if a buffer was full; ``message`` names it.")
-      .def_ro("message", &Self::message, "Why the frame was lost or is doubtful, in one sentence; may be empty.")
-      .def_ro("warning", &Self::warning,
-              "What is doubtful about the recording as a whole, or empty. Each warning is given once per sequence.")
-      .def_ro("ambiguous_motion", &Self::ambiguous_motion,
-              "True if a second motion explains nearly as much of the image as the estimated one.")
-      .def_ro("moving_ratio", &Self::moving_ratio,
-              "Share of the visible edges in image regions that do not follow the camera's motion, 0 to 1.")
-      .def_ro("rig_evidence", &Self::rig, "How well the images agree with the calibration.")
-      .def_ro("counts", &Self::counts, "Numbers of edges and quads.")
+          "kind", [](const Self& self) { return to_string(self.kind); },
+          "device_memory, implausible_calibration, doubtful_calibration, small_disparity_range,\n"
+          "negative_disparities or unsynchronised_cameras.")
+      .def_ro("text", &Self::text, "The warning in one sentence.")
+      .def("__str__", [](const Self& self) { return self.text; })
+      .def("__repr__", [](const Self& self) {
+        return std::string("<FrameWarning ") + to_string(self.kind) + ": " + self.text + ">";
+      });
+}
+
+void bind_timing(nb::module_& module) {
+  using Self = FrameTiming;
+  nb::class_<Self> timing(module, "FrameTiming", "Computing time of one frame.");
+  add_pickling(timing);
+  timing
       .def_prop_ro(
           "stages",
           [](const Self& self) {
@@ -185,7 +167,103 @@ void bind_result(nb::module_& module) {
             return times;
           },
           nb::sig("def stages(self) -> dict[str, float]"), "Duration of each processing stage by its name [ms].")
-      .def_ro("latency_ms", &Self::latency_ms, "Time from the images in memory to the pose [ms].")
+      .def_ro("latency_ms", &Self::latency_ms, "Time from the images in memory to the pose [ms].");
+}
+
+void bind_diagnostics(nb::module_& module) {
+  using Self = FrameDiagnostics;
+  nb::class_<Self> diagnostics(module, "FrameDiagnostics", "Internal quantities of one frame, for evaluation.");
+  add_pickling(diagnostics);
+  diagnostics
+      .def_ro("edge_threshold", &Self::edge_threshold,
+              "Gradient threshold of the edges in both images [grey levels per px].")
+      .def_ro("overflow", &Self::overflow, "True if a buffer was full; ``message`` of the FrameResult names it.")
+      .def_ro("base_frame", &Self::base_frame,
+              "Number of the frame that the pose was measured against: the key rig's, or the last one with a pose; -1\n"
+              "without a pose.")
+      .def_ro("search", &Self::search, "Number of the frame's temporal search that gave its motion; -1: no motion.")
+      .def_ro("moving_ratio", &Self::moving_ratio,
+              "Share of the visible edges in image regions that do not follow the camera's motion, 0 to 1.")
+      .def_ro("rig_evidence", &Self::rig_evidence, "How well the images agree with the calibration.")
+      .def_prop_ro(
+          "rig_sensitivity", [](const Self& self) { return view_of_matrix(self.rig_sensitivity); }, kView,
+          "(6, 8) float64: derivative of the pose in the frame of the key rig with respect to the calibration errors\n"
+          "listed in doc/method.md section 7: x, y, z [m], then rotation about x, y, z [rad], per unit of each error.");
+  def_optional(diagnostics, "covariance_in_reference", &Self::covariance_in_reference,
+               "(6, 6) float64: covariance, in the convention of ROS's PoseWithCovariance (x, y, z [m], then rotation\n"
+               "about x, y, z [rad]), of the pose in the left camera frame of the key rig, the inverse of\n"
+               "``current_from_reference``. None for a lost frame.");
+}
+
+void bind_poses(nb::class_<FrameResult>& result) {
+  using Self = FrameResult;
+  using Pose = std::optional<Eigen::Isometry3d>;
+  def_optional(
+      result, "covariance", &Self::covariance,
+      "(6, 6) float64: covariance of ``world_from_left`` in the convention of ROS's PoseWithCovariance: x, y, z\n"
+      "[m], then rotation about x, y, z [rad], along and about the axes of the world frame. None for a lost\n"
+      "frame and for all frames after tracking resumed from a predicted pose.");
+  def_optional(
+      result, "relative_covariance", &Self::relative_covariance,
+      "(6, 6) float64: covariance of ``current_from_reference`` due to edge errors alone, ROTATION first:\n"
+      "rotation about x, y, z [rad], then x, y, z [m], as a left perturbation in the frame of this left camera.\n"
+      "None for a lost frame.");
+  const auto def_pose = [&](const char* name, const Pose& (*pose_of)(const Self&), const char* help) {
+    const std::string signature = std::string("def ") + name + "(self) -> numpy.typing.NDArray[numpy.float64] | None";
+    result.def_prop_ro(
+        name,
+        [pose_of](nb::handle_t<Self> self) -> nb::object {
+          const Pose& pose = pose_of(nb::cast<const Self&>(self));
+          if (!pose) return nb::none();
+          return nb::cast(ArrayView<double>(pose->matrix().data(), {4, 4}, self, {1, 4}));
+        },
+        nb::sig(signature.c_str()), help);
+  };
+  def_pose(
+      "world_from_left", [](const Self& self) -> const Pose& { return self.world_from_left; },
+      "(4, 4) float64: pose of the left camera in the world frame [m], which is the left camera frame of the first\n"
+      "frame (x right, y down, z forward). None for a lost frame.");
+  def_pose(
+      "predicted_world_from_left", [](const Self& self) -> const Pose& { return self.predicted_world_from_left; },
+      "(4, 4) float64: for a lost frame, the pose if the last motion is repeated [m]. None for any other frame.");
+  def_pose(
+      "pose_or_prediction",
+      [](const Self& self) -> const Pose& {
+        return self.world_from_left ? self.world_from_left : self.predicted_world_from_left;
+      },
+      "(4, 4) float64: ``world_from_left`` or, for a lost frame, ``predicted_world_from_left`` [m].");
+  def_pose(
+      "current_from_reference", [](const Self& self) -> const Pose& { return self.current_from_reference; },
+      "(4, 4) float64: maps points from the left camera frame of the key rig to that of this frame [m]. None for a\n"
+      "lost frame.");
+}
+
+void bind_result(nb::module_& module) {
+  using Self = FrameResult;
+  nb::class_<Self> result(module, "FrameResult", "The result of tracking one frame. Can be pickled and copied.");
+  add_pickling(result);
+  bind_poses(result);
+  result.def_ro("stamp_ns", &Self::stamp_ns, "Time stamp of the frame [ns].")
+      .def_prop_ro(
+          "status", [](const Self& self) { return to_string(self.status); },
+          "first, tracked, lost_too_few_edges, lost_too_few_quads, lost_no_consensus or lost_rig_mismatch.")
+      .def_prop_ro(
+          "is_tracked", [](const Self& self) { return is_tracked(self.status); },
+          "True if the pose was measured: status first or tracked.")
+      .def_ro("reference_frame", &Self::reference_frame,
+              "Number of the key rig's frame, counted from 0; -1 before the first one.")
+      .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the key rig of the following frames.")
+      .def_ro("disparity_offset", &Self::disparity_offset, "Offset estimated so far and added to every disparity [px].")
+      .def_ro("ambiguous_motion", &Self::ambiguous_motion,
+              "True if a second motion explains nearly as much of the image as the estimated one.")
+      .def_ro("counts", &Self::counts, "Numbers of edges and quads, a FrameCounts.")
+      .def_ro("message", &Self::message, "Why the frame was lost or is doubtful, in one sentence; may be empty.")
+      .def_ro(
+          "warnings", &Self::warnings,
+          "List of FrameWarning: what is doubtful about the recording as a whole. Those of one kind are given with\n"
+          "the first frame that has any.")
+      .def_ro("timing", &Self::timing, "Computing time, a FrameTiming.")
+      .def_ro("diagnostics", &Self::diagnostics, "Internal quantities for evaluation, a FrameDiagnostics.")
       .def("__repr__", [](const Self& self) {
         return "<FrameResult " + std::to_string(self.stamp_ns) + ": " + to_string(self.status) + ">";
       });
@@ -225,13 +303,16 @@ constexpr const char* kOdometryHelp =
 /// LONG: one statement per member.
 void bind_odometry(nb::module_& module) {
   bind_evidence(module);
+  bind_warning(module);
+  bind_timing(module);
+  bind_diagnostics(module);
   bind_result(module);
   bind_details(module);
   nb::class_<Odometry>(module, "Odometry", kOdometryHelp)
       .def(
           "__init__",
           [](Odometry* self, nb::handle rig, nb::handle device, const std::string& preset, nb::handle config) {
-            const Cameras cameras = cameras_of(rig);
+            const StereoRig cameras = rig_of(rig);
             const std::string choice = device_choice(device);
             const Config constants = make_config(preset, config);
             const nb::gil_scoped_release released;

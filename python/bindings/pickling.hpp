@@ -33,7 +33,7 @@ auto members(Self& self, const PixelMask&) {
 template <class Self>
 auto members(Self& self, const StereoRig&) {
   return std::tie(self.left, self.right, self.right_from_left.matrix(), self.left_undistortion, self.right_undistortion,
-                  self.left_mask, self.right_mask, self.max_value);
+                  self.left_mask, self.right_mask, self.max_value, self.max_disparity);
 }
 template <class Self>
 auto members(Self& self, const FrameCounts&) {
@@ -51,12 +51,28 @@ auto members(Self& self, const StageTime&) {
   return std::tie(self.stage, self.ms);
 }
 template <class Self>
+auto members(Self& self, const Eigen::Isometry3d&) {
+  return std::tie(self.matrix());
+}
+template <class Self>
+auto members(Self& self, const Warning&) {
+  return std::tie(self.kind, self.text);
+}
+template <class Self>
+auto members(Self& self, const FrameTiming&) {
+  return std::tie(self.stages, self.latency_ms);
+}
+template <class Self>
+auto members(Self& self, const FrameDiagnostics&) {
+  return std::tie(self.edge_threshold, self.overflow, self.base_frame, self.search, self.moving_ratio,
+                  self.rig_evidence, self.covariance_in_reference, self.rig_sensitivity);
+}
+template <class Self>
 auto members(Self& self, const FrameResult&) {
-  return std::tie(self.stamp_ns, self.status, self.world_from_left.matrix(), self.current_from_reference.matrix(),
-                  self.covariance, self.covariance_in_reference, self.covariance_in_world, self.rig_sensitivity,
-                  self.edge_threshold, self.disparity_offset, self.reference_frame, self.base_frame, self.search,
-                  self.new_key_rig, self.overflow, self.message, self.warning, self.rig, self.ambiguous_motion,
-                  self.moving_ratio, self.counts, self.stages, self.latency_ms);
+  return std::tie(self.stamp_ns, self.status, self.world_from_left, self.predicted_world_from_left, self.covariance,
+                  self.current_from_reference, self.relative_covariance, self.reference_frame, self.new_key_rig,
+                  self.disparity_offset, self.ambiguous_motion, self.counts, self.message, self.warnings, self.timing,
+                  self.diagnostics);
 }
 
 template <class T>

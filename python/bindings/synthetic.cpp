@@ -52,7 +52,6 @@ void bind_synthetic(nb::module_& module) {
                                "Indexing and iterating render Frames. The same options give the same bytes.")
       .def_prop_ro("name", &RenderedSequence::name)
       .def_prop_ro("rig", &RenderedSequence::rig, kView)
-      .def_prop_ro("max_disparity", &RenderedSequence::max_disparity, "Largest disparity of any visible surface [px].")
       .def_prop_ro("truth", &truth, "Exact poses of the left camera, a Trajectory.")
       .def("__len__", &RenderedSequence::frames)
       .def("__getitem__", &render, "frame"_a)

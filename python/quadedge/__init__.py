@@ -5,7 +5,7 @@
     rig = quadedge.Rig.from_file("camchain.yaml")
     odometry = quadedge.Odometry(rig)
     result = odometry.track(stamp_ns, left, right)     # numpy arrays, height x width
-    print(result.status, result.world_from_left)
+    print(result.status, result.world_from_left)       # None for a lost frame
 
 Images, edges and poses come from the compiled module ``quadedge._quadedge``, which is loaded when the first of its
 names is used; ``quadedge.report`` needs none of it. ``quadedge.bag`` reads recordings of ROS (``pip install
@@ -28,11 +28,12 @@ if TYPE_CHECKING:
 
 _ERRORS = ("DataError", "DeviceError", "Error", "UsageError")
 _COMPILED = (
-    "Dataset", "Device", "DeviceInfo", "Edges", "ErrorStatistics", "Frame", "FrameCounts", "FrameDetails", "FrameFiles",
-    "FrameIterator", "FrameResult", "Odometry", "PinholeCamera", "PoseErrors", "Quads", "Rig", "RigEvidence",
-    "StereoEdges", "Synthetic", "Trajectory", "TrajectoryEvaluation", "configuration", "dataset_formats",
-    "decode_grey_image", "detect_edges", "devices", "evaluate_matching", "evaluate_trajectory", "match", "open_dataset",
-    "open_stereo_source", "presets", "read_grey_image", "synthetic",
+    "Dataset", "Device", "DeviceInfo", "Edges", "ErrorStatistics", "Frame", "FrameCounts", "FrameDetails",
+    "FrameDiagnostics", "FrameFiles", "FrameIterator", "FrameResult", "FrameTiming", "FrameWarning", "Odometry",
+    "PinholeCamera", "PoseErrors", "Quads", "Rig", "RigEvidence", "StereoEdges", "Synthetic", "Trajectory",
+    "TrajectoryEvaluation", "configuration", "dataset_formats", "decode_grey_image", "detect_edges", "devices",
+    "evaluate_matching", "evaluate_trajectory", "match", "open_dataset", "open_stereo_source", "presets",
+    "read_grey_image", "synthetic",
 )  # fmt: skip
 
 __all__ = [*_ERRORS, *_COMPILED, "__version__"]

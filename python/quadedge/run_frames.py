@@ -21,7 +21,8 @@ class RunFrame:
     stamp_ns: int
     status: str
     new_key_rig: bool
-    world_from_left: numpy.ndarray  #: (4, 4) [m]
+    world_from_left: numpy.ndarray | None  #: (4, 4) [m]
+    predicted_world_from_left: numpy.ndarray | None  #: (4, 4) [m], of a lost frame
     covariance: numpy.ndarray | None  #: (6, 6) of world_from_left [m, rad]
     counts: dict[str, float]
     times_ms: dict[str, float]
@@ -30,6 +31,10 @@ class RunFrame:
     @property
     def is_tracked(self) -> bool:
         return not self.status.startswith("lost")
+
+    @property
+    def pose_or_prediction(self) -> numpy.ndarray:
+        return self.predicted_world_from_left if self.world_from_left is None else self.world_from_left
 
 
 def _rows(file: Path) -> list[dict[str, str]]:
@@ -77,7 +82,8 @@ def read_frames(folder: str | PathLike) -> list[RunFrame]:
     for frame, pose in zip(frames, poses):
         try:
             rows.append(RunFrame(
-                _stamp_ns(frame["stamp_s"]), frame["status"], frame["new_key_rig"] == "1", _pose(pose),
+                _stamp_ns(frame["stamp_s"]), frame["status"], frame["new_key_rig"] == "1",
+                *((None, _pose(pose)) if frame["status"].startswith("lost") else (_pose(pose), None)),
                 _covariance(pose), {name: float(frame[name]) for name in _COUNTS}, _times(frame),
                 frame["warning"] or frame["message"]))
         except (KeyError, ValueError) as error:

@@ -10,7 +10,7 @@ import quadedge
 
 def test_a_recording(room_folder, frames):
     dataset = quadedge.open_dataset(room_folder)
-    assert len(dataset) == len(dataset.frames) == 6 and dataset.max_disparity > 0
+    assert len(dataset) == len(dataset.frames) == 6 and dataset.rig.disparity_range > 0
     assert dataset.frames[0].left.endswith(".png")
     for recorded, rendered in zip(dataset, frames):
         assert recorded.stamp_ns == rendered.stamp_ns and recorded.number == rendered.number

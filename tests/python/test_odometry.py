@@ -75,7 +75,31 @@ def test_result_has_pose_and_covariance(room, frames):
     numpy.testing.assert_allclose(second.covariance, second.covariance.T, rtol=1e-9)
     assert (numpy.linalg.eigvalsh(second.covariance) > 0).all()
     assert second.counts.quads >= second.counts.inliers > 100
-    assert second.latency_ms > 0 and second.stages
+    assert second.timing.latency_ms > 0 and second.timing.stages
+    assert second.predicted_world_from_left is None
+    assert second.diagnostics.base_frame == 0 and second.diagnostics.rig_evidence.matched_ratio > 0.3
+
+
+def test_the_covariance_of_the_motion_has_the_rotation_first(room, frames):
+    """Turned to the axes of the reference, it is the covariance of the pose there, without calibration errors."""
+    config = {f"pose.rig_sigma_{name}": 0 for name in ("length", "axis", "focal", "lens")}
+    result = track_all(room, config=config)[1]
+    turn = result.current_from_reference[:3, :3].T
+    rotation = turn @ result.relative_covariance[:3, :3] @ turn.T
+    numpy.testing.assert_allclose(rotation, result.diagnostics.covariance_in_reference[3:, 3:], rtol=1e-9)
+    assert result.diagnostics.rig_sensitivity.shape == (6, 8)
+
+
+def test_warnings_have_a_kind_and_come_once(room, frames):
+    """The right camera pitched by half a degree."""
+    pitch = numpy.radians(0.5)
+    right_from_left = room.rig.right_from_left.copy()
+    right_from_left[1:3, 1:3] = [[numpy.cos(pitch), -numpy.sin(pitch)], [numpy.sin(pitch), numpy.cos(pitch)]]
+    with quadedge.Odometry(quadedge.Rig(room.rig.left, room.rig.right, right_from_left)) as odometry:
+        results = [odometry.track(frame.stamp_ns, frame.left, frame.right) for frame in frames[:3]]
+    assert [warning.kind for warning in results[0].warnings] == ["doubtful_calibration"]
+    assert "pitched" in results[0].warnings[0].text
+    assert results[1].warnings == results[2].warnings == []
 
 
 def test_a_lost_frame_says_so_and_has_no_covariance(odometry, frames):
@@ -83,7 +107,9 @@ def test_a_lost_frame_says_so_and_has_no_covariance(odometry, frames):
     grey = numpy.full_like(frames[0].left, 128)
     lost = odometry.track(1, grey, grey)
     assert lost.status == "lost_too_few_edges" and not lost.is_tracked
-    assert lost.covariance is None and "stereo edges" in lost.message
+    assert lost.world_from_left is None and lost.current_from_reference is None
+    assert lost.covariance is None and lost.relative_covariance is None and "stereo edges" in lost.message
+    numpy.testing.assert_array_equal(lost.predicted_world_from_left, numpy.eye(4))  # no motion was found yet
 
 
 def test_arrays_outlive_everything_and_cannot_be_written(room, frames):

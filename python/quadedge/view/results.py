@@ -63,7 +63,7 @@ class Run:
         """
         for number, row in enumerate(self.frames):
             viewer.start_frame(row.stamp_ns, number)
-            viewer.log_pose(row.world_from_left, row.is_tracked, row.new_key_rig)
+            viewer.log_pose(row.pose_or_prediction, row.is_tracked, row.new_key_rig)
             viewer.log_numbers(row.counts, row.times_ms, row.message)
         if recording is not None:
             self._show_edges(viewer, recording, device)
@@ -81,7 +81,7 @@ class Run:
             odometry.track(frame.stamp_ns, frame.left, frame.right)
             viewer.start_frame(row.stamp_ns, number)
             viewer.log_images(odometry.rig, frame.left, frame.right)
-            viewer.log_edges(odometry.details(), row.world_from_left, row.new_key_rig)
+            viewer.log_edges(odometry.details(), row.pose_or_prediction, row.new_key_rig)
 
 
 def show_results(folder: str | PathLike, viewer: Viewer, *, images: bool = True, data: str | PathLike | None = None,

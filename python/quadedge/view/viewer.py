@@ -168,14 +168,15 @@ class Viewer:
 
     def log(self, odometry, result, left: numpy.ndarray, right: numpy.ndarray) -> None:
         """Logs everything about the frame that ``odometry`` has just tracked: its FrameResult and its two images."""
-        pose, counts = result.world_from_left, result.counts
+        pose, counts, timing = result.pose_or_prediction, result.counts, result.timing
+        warnings = "; ".join(warning.text for warning in result.warnings)
         self.start_frame(result.stamp_ns)
         self.log_pose(pose, result.is_tracked, result.new_key_rig)
         self.log_images(odometry.rig, left, right)
         self.log_edges(odometry.details(), pose, result.new_key_rig)
         self.log_numbers({"stereo_edges": counts.stereo_edges, "quads": counts.quads, "inliers": counts.inliers},
-                         {"latency": result.latency_ms, **result.stages},
-                         result.warning or ("" if result.is_tracked else result.message))
+                         {"latency": timing.latency_ms, **timing.stages},
+                         warnings or ("" if result.is_tracked else result.message))
 
     def close(self) -> None:
         """Flushes what has been logged and closes the connection or file."""
