@@ -78,9 +78,9 @@ double path_length_m(const std::vector<FrameRecord>& frames) {
   double length = 0;
   const FrameResult* last = nullptr;
   for (const auto& frame : frames) {
-    if (!is_tracked(frame.result.status)) continue;
+    if (!frame.result.world_from_left) continue;
     if (last != nullptr)
-      length += (frame.result.world_from_left.translation() - last->world_from_left.translation()).norm();
+      length += (frame.result.world_from_left->translation() - last->world_from_left->translation()).norm();
     last = &frame.result;
   }
   return length;
