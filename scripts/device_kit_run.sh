@@ -51,7 +51,7 @@ part() {
   shift 2
   echo "== $name" >>"$log"
   start="$(date +%s)"
-  timeout -s KILL "$limit" "$@"  # Catch2 would report a test that gets SIGTERM as failed >>"$log" 2>&1
+  timeout -s KILL "$limit" "$@" >>"$log" 2>&1  # Catch2 would report a test that gets SIGTERM as failed
   code=$?
   case $code in
     0) outcome='done' ;;
