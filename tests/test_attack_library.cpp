@@ -59,7 +59,7 @@ const std::vector<LibraryAttack>& library_attacks() {
       {"an image of another size than the distorted one of the calibration",
        [](C c) { c.distort(), c.frame.left = c.small.view(), c.track(); }, LibraryAttack::data,
        "80x60 pixels, the calibration expects 160x100"},
-      {"an image of another depth", [](C c) { c.frame.right = c.deep.view(), c.track(); }, LibraryAttack::data,
+      {"an image of another bit depth", [](C c) { c.frame.right = c.deep.view(), c.track(); }, LibraryAttack::data,
        "right"},
       {"rows that overlap", [](C c) { c.frame.left.stride = 10, c.track(); }, LibraryAttack::data, "stride"},
       {"rows that run backwards", [](C c) { c.frame.left.stride = -160, c.track(); }, LibraryAttack::data, "stride"},

@@ -196,7 +196,7 @@ TEST_CASE("run: images of a pipe take the timestamps of --times; the report has 
   CHECK_THAT(read_text(folder / "log"), Contains("few.txt: found 2 times, expected one for every pair"));
 }
 
-TEST_CASE("batch: a list may name cameras of one's own", "[cli][device]") {
+TEST_CASE("batch: a list may contain own cameras", "[cli][device]") {
   const TemporaryFolder folder;
   own_camera::write_bytes(folder / "list.txt", "--video " + camera().video + " --split left-right --calibration " +
                                                    camera().calibration + "\n--video absent.mkv --split left-right" +

@@ -195,7 +195,7 @@ assert len(poses) == 4 and all(pose == poses[0] for pose in poses)
 
 
 def test_four_threads_build_and_track_from_the_start():
-    """OpenCL is used for the first time by all of them at once, in a new process each time."""
+    """All threads use OpenCL for the first time at once, in a new process each time."""
     for _ in range(5):
         done = subprocess.run([sys.executable, "-c", IN_THREADS], capture_output=True, text=True, timeout=300)
         assert done.returncode == 0, done.stderr
@@ -256,7 +256,7 @@ def distorted_rig(folder, **arguments):
 
 
 def values_of(value):
-    """Everything that an object's attributes say, arrays as nested lists."""
+    """All attributes of an object, arrays as nested lists."""
     if type(value).__module__.startswith("quadedge"):
         return {name: values_of(getattr(value, name)) for name in dir(value) if not name.startswith("_")}
     return value.tolist() if isinstance(value, numpy.ndarray) else value

@@ -61,7 +61,7 @@ def test_results_from_the_shell(results, tmp_path):
 
 @pytest.mark.parametrize("kind", ["images", "video"])
 def test_results_of_own_cameras(command, room_folder, tmp_path, kind):
-    """Images in folders, and a video with both views in each picture."""
+    """Images in folders, and a video with both views in each frame."""
     calibration = tmp_path / "rig.yaml"
     assert command("check", room_folder, "--write-calibration", calibration).returncode == 0
     if kind == "video":
