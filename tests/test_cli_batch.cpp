@@ -122,13 +122,13 @@ TEST_CASE("batch: finished sequences are run again only if the input, the config
   CHECK_THAT(read_text(first + "/config.toml"), Contains("seed = 77"));
   before_first = write_times(first);
   other.insert(other.end(), {"--force", "--jobs", "2"});
-  CHECK_THAT(run_program(other).err, Contains("0 finished already") && Contains("2 at the same time"));
+  CHECK_THAT(run_program(other).err, Contains("0 finished already") && Contains("2 in parallel"));
   CHECK(write_times(first) != before_first);
   // Results of parallel runs are not reused if times are measured.
   CHECK_THAT(read_text(out + "/summary.md"), Contains("at the same time"));
   other.erase(other.end() - 3, other.end());
   other.push_back("--timing");
-  CHECK_THAT(run_program(other).err, Contains("0 finished already") && Contains("1 at the same time"));
+  CHECK_THAT(run_program(other).err, Contains("0 finished already") && Contains("1 in parallel"));
 }
 
 TEST_CASE("batch: a kill leaves no partial files, and the next start ends with the same bytes", "[cli][device]") {
@@ -178,7 +178,7 @@ TEST_CASE("batch: a signal ends its children and removes partial results, and th
   CHECK(WTERMSIG(status) == SIGINT);
   CHECK_FALSE(fs::exists(out + "/unfinished/second"));
   CHECK_FALSE(fs::exists(out + "/sequences/second"));
-  CHECK_THAT(read_text(folder / "log"), Contains("interrupted") && Contains("0 of 2 sequences are finished"));
+  CHECK_THAT(read_text(folder / "log"), Contains("interrupted") && Contains("0 of 2 sequences finished"));
   CHECK(run_program(batch).code == 0);
 }
 

@@ -120,9 +120,9 @@ def test_configuration():
     ({"seed": 1, "stereo.max_disparity": "far"}, quadedge.UsageError,
      "config:2: stereo.max_disparity: expected a number, found"),
     ({"no such key": 3}, quadedge.UsageError, "unknown key .no such key."),
-    ({"device": "cpu"}, quadedge.UsageError, "the device is an argument of its own"),
+    ({"device": "cpu"}, quadedge.UsageError, "the device is a separate argument"),
     ({"stereo.max_disparity": None}, TypeError, "stereo.max_disparity is NoneType, expected a number"),
-    ({3: 3}, TypeError, "expected texts as keys"),
+    ({3: 3}, TypeError, "expected strings as keys"),
     ("no_such.toml", quadedge.UsageError, "no_such.toml: the configuration file cannot be read"),
 ])  # fmt: skip
 def test_invalid_configurations_are_refused(config, error, words):

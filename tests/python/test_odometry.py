@@ -224,11 +224,12 @@ def track(odometry):
 assert status_of_fork(lambda: track(quadedge.Odometry(room))) == 10  # nothing was used before
 odometry = quadedge.Odometry(room)
 track(odometry)
-assert status_of_fork(lambda: track(odometry)) == 11
+last = frames[-1]
+assert status_of_fork(lambda: odometry.track(last.stamp_ns, last.left, last.right)) == 11
 assert status_of_fork(lambda: quadedge.Odometry(room)) == 11
 assert status_of_fork(quadedge.devices) == 11
 assert status_of_fork(lambda: track(quadedge.Odometry(room, "reference"))) == 10
-odometry.track(frames[-1].stamp_ns, frames[-1].left, frames[-1].right)
+odometry.track(last.stamp_ns, last.left, last.right)
 """
 
 
