@@ -14,7 +14,7 @@ Every constant of the method is a field of `quadedge::Config` (`config.stereo.nc
 ```toml
 seed = 7
 device = "gpu"
-variant = ["edge_detection=tile"]
+variant = ["edge_detection=tile256"]
 
 [stereo]
 ncc_min = 0.5
