@@ -123,7 +123,7 @@ TEST_CASE("compare: run refuses an invalid variants file, or another device's, b
     CHECK(run.code == 2);
     CHECK_THAT(run.err, Contains(file) && Contains(reason) && Contains("compare --save"));
   };
-  refused("no JSON", "no file of kernel variants");
+  refused("no JSON", "is not a file of kernel variants");
   Json good = {{"content", "quadedge kernel variants"},
                {"schema", 1},
                {"device",
@@ -137,7 +137,7 @@ TEST_CASE("compare: run refuses an invalid variants file, or another device's, b
   refused(changed.dump(), "no such variant");
   changed = good;
   changed["content"] = "something else";
-  refused(changed.dump(), "something else than kernel variants");
+  refused(changed.dump(), "does not contain kernel variants");
   changed = good;
   changed["schema"] = 99;
   refused(changed.dump(), "99");

@@ -62,7 +62,7 @@ TEST_CASE("dataset: different numbers of left and right images are an error", "[
   check_fault(eth3d, "rgb2", "5 images");
   const std::string euroc = write_euroc(folder / "e");
   write_text(euroc + "/mav0/cam1/data.csv", "1403715273312143104,1403715273312143104.png\n");
-  check_fault(euroc, "cam1/data.csv", "1 stamps");
+  check_fault(euroc, "cam1/data.csv", "1 timestamp in common");
 }
 
 TEST_CASE("dataset: errors about unreadable calibrations name the file and the value", "[dataset]") {

@@ -68,7 +68,7 @@ TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame 
   const auto first = odometry.track(scene.frame(0));
   REQUIRE(first.warnings.size() == 1);
   CHECK(first.warnings[0].kind == WarningKind::device_memory);
-  CHECK_THAT(first.warnings[0].text, Contains("60 MB") && Contains("reduced to that from all"));
+  CHECK_THAT(first.warnings[0].text, Contains("60 MB") && Contains("edges.budget (all edges) is reduced"));
   CHECK(first.counts.edges_left > 1000);
   CHECK(first.counts.edges_left < 5000);
   const auto second = odometry.track(scene.frame(1));
@@ -91,7 +91,7 @@ TEST_CASE("limits: memory_fit keeps what fits and refuses images that fill the m
   CHECK(fit.config.edges.max_edges == 118168);
   CHECK_THAT(fit.message, Contains("512 MB") && Contains("59084 edges per image"));
   config.edges.budget = 100000;
-  CHECK_THAT(frontend::fit_memory(rig, config, 512'000'000).message, Contains("reduced to that from 100000"));
+  CHECK_THAT(frontend::fit_memory(rig, config, 512'000'000).message, Contains("edges.budget (100000) is reduced"));
   rig.left.width = rig.left.height = 2000;
   CHECK_THROWS_WITH(frontend::fit_memory(rig, config, 512'000'000), Contains("2000x2000") && Contains("656 MB"));
 }

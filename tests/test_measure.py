@@ -88,7 +88,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert "handheld" not in result_tables.render("systems", results)
     later = {**row, "title": "KITTI 06, from frame 2", "from_frame": 2}
     flight = {**row, "title": "EuRoC MH_01, flight", "sequence": "flight"}
-    shown = result_tables.render("beside", {"accuracy": {**result, "rows": [later, flight]}})
+    others = {part: json.loads((result_tables.RESULTS / f"{part}.json").read_text()) for part in ("peers", "speed")}
+    shown = result_tables.render("beside", {**others, "accuracy": {**result, "rows": [later, flight]}})
     assert "| KITTI 06, 1 frame from frame 2 |" in shown and "| EuRoC MH_01, 3 frames |" in shown, shown
     shown = result_tables.render("paths", results)
     assert "| cables | QuadEdge | 3 / 3 | 2 | 0 | 0 |" in shown and "| cables, handheld | QuadEdge |" in shown, shown

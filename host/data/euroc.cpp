@@ -32,7 +32,7 @@ void read_frames(Dataset& dataset, const fs::path& folder, Findings& findings) {
   }
   if (2 * alone > left.size()) {
     findings.error((folder / "cam1" / "data.csv").string(),
-                   std::to_string(left.size() - alone) + " timestamps that are also in cam0/data.csv",
+                   counted(left.size() - alone, "timestamp") + " in common with cam0/data.csv",
                    "the " + std::to_string(left.size()) + " of the left camera");
   } else if (alone > 0 || right.size() != left.size()) {  // the published recordings lack a few images
     const std::string note = std::to_string(alone) + " left and " + std::to_string(right.size() + alone - left.size()) +

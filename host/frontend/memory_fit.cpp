@@ -35,8 +35,8 @@ MemoryFit fit_memory(const StereoRig& rig, const Config& config, std::size_t mem
   fit.config.edges.budget = budget;
   fit.config.edges.max_edges = std::min(config.edges.max_edges, 2 * budget);
   fit.message = "the device memory of " + megabytes(static_cast<double>(memory_bytes)) + " holds about " +
-                std::to_string(budget) + " edges per image: edges.budget is reduced to that from " +
-                (all ? "all" : std::to_string(config.edges.budget));
+                std::to_string(budget) + " edges per image: edges.budget (" +
+                (all ? "all edges" : std::to_string(config.edges.budget)) + ") is reduced to that";
   return fit;
 }
 
