@@ -137,8 +137,8 @@ TEST_CASE("self-test: `auto` goes on to the next device with a warning, a device
   }
   const auto automatic = edges({});
   CHECK(automatic.code == 0);
-  CHECK_THAT(automatic.err, Contains("warning: device 0 is skipped: ") && Contains("fails the self-test at stage patches") &&
-                                Contains("trying device 1"));
+  CHECK_THAT(automatic.err, Contains("warning: device 0 is skipped: ") &&
+                                Contains("fails the self-test at stage patches") && Contains("trying device 1"));
   const auto by_hand = edges({"--device", "0"});
   CHECK(by_hand.code == 4);
   CHECK_THAT(by_hand.err, Contains("fails the self-test at stage patches") && !Contains("skipped"));
