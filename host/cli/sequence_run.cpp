@@ -244,7 +244,7 @@ void write_results(const FrameSource& source, const SequenceRunOptions& options,
   run.map = map.facts();
   try {
     write_results(source, options, run);
-  } catch (const DataError&) {  // a full disk, which `error` reports already
+  } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, which `error` reports already
   }
   throw DataError(run.ended_early + "\n" + data::counted(run.frames.size(), "finished frame") + " in " +
                   options.output);

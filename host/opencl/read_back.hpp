@@ -59,7 +59,7 @@ class ReadBack {
     try {
       context_->queue().enqueueUnmapMemObject(memory_, pinned_);
       context_->queue().finish();
-    } catch (const std::exception&) {
+    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
       // The device is lost, or this is a forked process: the memory goes with the context.
     }
     pinned_ = nullptr;
