@@ -1,7 +1,7 @@
 # Single modules of OpenCV. The package configuration of Debian's libopencv-dev is of one piece: it asks for the files
 # of all modules, so that find_package(OpenCV) would need all 50 of them.
-#   find_package(OpenCVModules 4.5 REQUIRED COMPONENTS core imgcodecs)
-# gives the targets OpenCVModules::core and OpenCVModules::imgcodecs, and their list OpenCVModules_LIBRARIES.
+#   find_package(OpenCVModules 4.5 REQUIRED COMPONENTS core imgproc)
+# gives the targets OpenCVModules::core and OpenCVModules::imgproc, and their list OpenCVModules_LIBRARIES.
 find_path(OpenCVModules_INCLUDE_DIR opencv2/core/version.hpp PATH_SUFFIXES opencv4)
 mark_as_advanced(OpenCVModules_INCLUDE_DIR)
 if(OpenCVModules_INCLUDE_DIR)
