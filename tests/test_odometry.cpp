@@ -1,4 +1,5 @@
 #include <Eigen/Eigenvalues>
+#include <tbb/global_control.h>
 
 #include "frontends.hpp"
 #include "pose/rig_uncertainty.hpp"
@@ -199,6 +200,42 @@ TEST_CASE("odometry: in another place tracking resumes from the lost frame, with
     const Eigen::Isometry3d motion = lost.predicted_world_from_left.value().inverse() * result->world_from_left.value();
     CHECK((motion.translation() - truth.translation()).norm() < 4e-3);
     CHECK(turn_between(motion, truth) < 0.1 * kDegree);
+  }
+}
+
+TEST_CASE("odometry: the search beside the rig check leaves no trace of a frame that does not fit the rig",
+          "[odometry][rig][device]") {
+  // The right camera freezes in frame 4. A frame without edges is not searched at all; what follows is the same.
+  const auto last_frames = [](const StereoFrame& fourth) {
+    Device device(all_devices().front(), kept_programs());
+    StereoOdometry odometry(room().rig, device, room().config);
+    std::vector<FrameResult> results;
+    for (std::size_t i = 0; i < room().left.size(); ++i) {
+      const FrameResult result = odometry.track(at(static_cast<std::int64_t>(i), i == 4 ? fourth : room().frame(i)));
+      if (i >= 4) results.push_back(result);
+    }
+    return results;
+  };
+  const Image grey(room().rig.left.width, room().rig.left.height);
+  const auto frozen = last_frames({0, room().left[4].view(), room().right[3].view()}),
+             empty = last_frames({0, grey.view(), grey.view()});
+  CHECK(frozen[0].status == FrameStatus::lost_rig_mismatch);
+  CHECK(frozen[0].counts.quads == 0);
+  CHECK(empty[0].status == FrameStatus::lost_too_few_edges);
+  for (std::size_t i = 1; i < frozen.size(); ++i) {
+    CHECK(frozen[i].status == FrameStatus::tracked);
+    CHECK(same_bytes(frozen[i], empty[i]));
+  }
+}
+
+TEST_CASE("odometry: one processor gives the same bytes as several", "[odometry][device]") {
+  const auto several = track(room(), all_devices().front(), room().config);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const auto alone = track(room(), all_devices().front(), room().config);
+  for (std::size_t i = 0; i < several.size(); ++i) {
+    CHECK(same_bytes(several[i], alone[i]));
+    CHECK(several[i].diagnostics.rig_evidence.matched_ratio == alone[i].diagnostics.rig_evidence.matched_ratio);
+    CHECK(several[i].diagnostics.rig_evidence.epipolar_residual == alone[i].diagnostics.rig_evidence.epipolar_residual);
   }
 }
 

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "odometry/synchronisation.hpp"
+#include "rig_check/synchronisation.hpp"
 
-using quadedge::odometry::Synchronisation;
+using quadedge::rig_check::Synchronisation;
 
 namespace {
 
@@ -26,13 +26,13 @@ Synchronisation watched(double late, double calibration) {
 
 }  // namespace
 
-TEST_CASE("synchronisation: the time offset of a late or early camera is measured", "[odometry][rig]") {
+TEST_CASE("synchronisation: the time offset of a late or early camera is measured", "[rig]") {
   CHECK(watched(1, 0).time_offset_frames() == Approx(1).margin(0.02));
   CHECK(watched(1, 2).time_offset_frames() == Approx(1).margin(0.02));
   CHECK(watched(-0.5, 0).time_offset_frames() == Approx(-0.5).margin(0.02));
 }
 
-TEST_CASE("synchronisation: calibration errors and too few samples give no time offset", "[odometry][rig]") {
+TEST_CASE("synchronisation: calibration errors and too few samples give no time offset", "[rig]") {
   CHECK(watched(0, 0).time_offset_frames() == 0);
   CHECK(watched(0, 2).time_offset_frames() == 0);
   CHECK(watched(0.05, 0).time_offset_frames() == 0);  // below the warning threshold

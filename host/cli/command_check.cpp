@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/calibration_check.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
-#include "cli/rig_check.hpp"
 #include "cli/source_options.hpp"
 #include "data/check_tree.hpp"
 #include "data/text.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "odometry/pinhole_view.hpp"
+#include "common/pinhole_view.hpp"
 #include "pose/noise_model.hpp"
 #include "pose/oriented_point.hpp"
 
@@ -29,7 +29,7 @@ Eigen::Matrix3d information_of(const Eigen::Vector3d& ray, const Eigen::Vector3d
 std::vector<std::optional<MeasuredPoint>> measure_points(const StereoRig& rig, const StereoEdges& edges,
                                                          const ImageView& image, const Config& config) {
   const pose::NoiseModel noise(config.pose);
-  const odometry::PinholeView view(image, rig.left_undistortion, rig.left);
+  const PinholeView view(image, rig.left_undistortion, rig.left);
   std::vector<std::optional<MeasuredPoint>> points;
   points.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {

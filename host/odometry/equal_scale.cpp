@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "odometry/bilinear.hpp"
+#include "common/bilinear.hpp"
 
 namespace quadedge::odometry {
 namespace {

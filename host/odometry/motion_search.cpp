@@ -26,14 +26,12 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, c
   add(RemainingMotion(steps_, config));
 }
 
-StepHandle MotionSearch::find(const MotionQuery& query) {
-  StepHandle found = search(query);
-  acceptance_.remember(*found);
-  in_doubt_ = found->ambiguous;
-  return found;
+void MotionSearch::remember(const MotionStep& found) {
+  acceptance_.remember(found);
+  in_doubt_ = found.ambiguous;
 }
 
-StepHandle MotionSearch::search(const MotionQuery& query) {
+StepHandle MotionSearch::find(const MotionQuery& query) {
   Evidence evidence;
   std::vector<Trial> trials;
   trials.reserve(hypotheses_.size());

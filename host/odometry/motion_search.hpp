@@ -23,16 +23,16 @@ class MotionSearch {
   MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset);
 
   /// Returns the motion of the query's current rig; its status says whether one was found. The search must outlive the
-  /// handle.
+  /// handle. The same query gives the same result until remember() is called.
   StepHandle find(const MotionQuery& query);
+
+  /// Takes note of the motion that was chosen for a frame: what is expected of the next frame depends on it.
+  void remember(const MotionStep& found);
 
   /// See StepBuilder::take_pose_ms().
   double take_pose_ms() { return steps_.take_pose_ms(); }
 
  private:
-  /// find() without recording its result.
-  StepHandle search(const MotionQuery& query);
-
   /// A hypothesis, its proposal and the result of the confirmation.
   struct Trial {
     const MotionHypothesis* hypothesis = nullptr;

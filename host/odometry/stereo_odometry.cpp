@@ -1,6 +1,7 @@
 /// \file stereo_odometry.cpp  The processing of a frame (doc/design.md section 1), from two images to a pose.
 #include <chrono>
 #include <set>
+#include <tbb/task_group.h>
 #include <utility>
 
 #include "common/disparity_range.hpp"
@@ -12,7 +13,6 @@
 #include "odometry/equal_scale.hpp"
 #include "odometry/key_rig.hpp"
 #include "odometry/motion_search.hpp"
-#include "odometry/rig_evidence.hpp"
 #include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
@@ -21,6 +21,7 @@
 #include "quadedge/error.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/tap.hpp"
+#include "rig_check/rig_monitor.hpp"
 
 namespace quadedge {
 namespace {
@@ -81,7 +82,7 @@ class StereoOdometry::Implementation {
         frontend_(frontend::make_frontend(rig_, device, config, &start_warnings_)),
         offset_(rig_, config.pose),
         motion_search_(config, *frontend_, offset_),
-        rig_watch_(rig_, config) {}
+        rig_monitor_(rig_, config) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
@@ -96,11 +97,21 @@ class StereoOdometry::Implementation {
   const Config& config() const { return config_; }
 
  private:
+  /// The motion of the current rig, found before it is known whether the frame can be used. Until adopt() it changes
+  /// nothing.
+  struct FoundMotion {
+    odometry::StepHandle step;  ///< null if none was searched for
+    bool is_from_lost_rig = false;
+    double pose_ms = 0;
+  };
+
   void process(const StereoFrame& frame, FrameResult& result);
   void start(FrameResult& result);
-  odometry::StepHandle search(FrameResult& result);
+  FoundMotion search();
+  void adopt(FoundMotion& found, FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
+  void take(const rig_check::RigReport& report, FrameResult& result) const;
   void warn(const Warning& warning, FrameResult& result) const;
 
   RecordedImages recorded_;
@@ -112,7 +123,7 @@ class StereoOdometry::Implementation {
   std::unique_ptr<frontend::Frontend> frontend_;
   odometry::DisparityOffset offset_;
   odometry::MotionSearch motion_search_;
-  odometry::RigWatch rig_watch_;
+  rig_check::RigMonitor rig_monitor_;
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
@@ -135,26 +146,33 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   result.stamp_ns = frame.stamp_ns;
 
   process(frame, result);
-  const odometry::RigFindings findings =
-      rig_watch_.judge(frame, current_->edges, result.counts.edges_left, result.diagnostics.rig_evidence);
-  for (const Warning& warning : findings.warnings) warn(warning, result);
-  result.timing.stages.push_back({kStereoStage, clock.lap()});
-  if (result.counts.stereo_edges < config_.pose.min_inliers) {
+  const bool has_edges = result.counts.stereo_edges >= config_.pose.min_inliers;
+  // The images are checked on a processor that the search leaves idle. An error in the search waits for the check.
+  rig_check::RigReport rig_report;
+  tbb::task_group beside;
+  beside.run([&] { rig_report = rig_monitor_.judge(frame, current_->edges, result.counts.edges_left); });
+  double stereo_ms = clock.lap();
+  FoundMotion found = has_edges && state_.has_started() ? search() : FoundMotion();
+  const double search_ms = clock.lap();
+  beside.wait();
+  stereo_ms += clock.lap();
+  result.timing.stages.push_back({kStereoStage, stereo_ms});
+  take(rig_report, result);
+  if (!has_edges) {
     lose(FrameStatus::lost_too_few_edges, std::to_string(result.counts.stereo_edges) + " stereo edges", result);
-  } else if (!findings.mismatch.empty()) {
-    lose(FrameStatus::lost_rig_mismatch, findings.mismatch, result);
+  } else if (const auto* mismatch = rig_report.mismatch()) {
+    lose(FrameStatus::lost_rig_mismatch, rig_check::sentence(*mismatch), result);
   } else if (!state_.has_started()) {
     start(result);
   } else {
-    step_ = search(result);
-    const double pose_ms = motion_search_.take_pose_ms();
-    result.timing.stages.push_back({kTemporalStage, clock.lap() - pose_ms});
+    adopt(found, result);
+    result.timing.stages.push_back({kTemporalStage, search_ms - found.pose_ms});
     if (step_->ok()) {
       locate(*step_, result);
     } else {
       lose(lost_status(step_->motion.status), pose::to_string(step_->motion.status), result);
     }
-    result.timing.stages.push_back({kPoseStage, pose_ms + clock.lap()});
+    result.timing.stages.push_back({kPoseStage, found.pose_ms + clock.lap()});
   }
   state_.world_from_last = result.pose_or_prediction();
   for (const Warning& warning : result.warnings) reported_.insert(warning.kind);
@@ -191,13 +209,12 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   result.current_from_reference = Eigen::Isometry3d::Identity();
   result.relative_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   result.covariance = result.diagnostics.covariance_in_reference = PoseCovariance::Zero();
-  for (const Warning& warning : odometry::implausible_numbers(rig_)) warn(warning, result);
+  for (const auto& finding : rig_check::implausible_numbers(rig_)) warn(rig_check::warning(finding), result);
   state_.set_key(current_, {*result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
-/// Finds the motion since the base. After a loss, also tries the motion since the lost frame, which becomes the key
-/// rig.
-odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result) {
+/// Finds the motion since the base. After a loss, also tries the motion since the lost frame.
+StereoOdometry::Implementation::FoundMotion StereoOdometry::Implementation::search() {
   odometry::MotionQuery query;
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
@@ -207,23 +224,34 @@ odometry::StepHandle StereoOdometry::Implementation::search(FrameResult& result)
     query.key = state_.key.rig();
     query.base_from_key = state_.base.from_key.transform;
   }
-  odometry::StepHandle step = motion_search_.find(query);
-  if (!step->ok() && state_.lost) {
+  FoundMotion found;
+  found.step = motion_search_.find(query);
+  if (!found.step->ok() && state_.lost) {
     query.base = state_.lost->rig;
     query.prediction = std::nullopt;
     odometry::StepHandle relocalised = motion_search_.find(query);
     if (relocalised->ok()) {
-      step = std::move(relocalised);
-      state_.set_key(state_.lost->rig, {state_.lost->world_from_left, std::nullopt, RigSensitivity::Zero()},
-                     odometry::PoseOrigin::predicted);
-      add_message("relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose was predicted",
-                  result);
+      found.step = std::move(relocalised);
+      found.is_from_lost_rig = true;
     }
+  }
+  found.pose_ms = motion_search_.take_pose_ms();
+  return found;
+}
+
+/// Takes over the result of the search. A lost frame from which the motion was found becomes the key rig.
+void StereoOdometry::Implementation::adopt(FoundMotion& found, FrameResult& result) {
+  step_ = std::move(found.step);
+  motion_search_.remember(*step_);
+  if (found.is_from_lost_rig) {
+    state_.set_key(state_.lost->rig, {state_.lost->world_from_left, std::nullopt, RigSensitivity::Zero()},
+                   odometry::PoseOrigin::predicted);
+    add_message("relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose was predicted",
+                result);
   }
   result.counts.temporal_left = frontend_->counts().temporal_left;
   result.counts.temporal_right = frontend_->counts().temporal_right;
-  result.counts.quads = static_cast<int>(step->matches.size());
-  return step;
+  result.counts.quads = static_cast<int>(step_->matches.size());
 }
 
 /// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
@@ -233,8 +261,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   pose::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
   const auto late =
-      rig_watch_.observe_motion(step.base->edges, step.base->frame, current_->edges, current_->frame, step.matches);
-  if (late) warn(*late, result);
+      rig_monitor_.observe_motion(step.base->edges, step.base->frame, current_->edges, current_->frame, step.matches);
+  if (late) warn(rig_check::warning(*late), result);
   velocity_.observe(current_from_key.transform * state_.base.from_key.transform.inverse(),
                     current_->frame - state_.base.rig->frame);
 
@@ -288,6 +316,12 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
   if (status == FrameStatus::lost_too_few_edges || status == FrameStatus::lost_rig_mismatch) return;
   if (!state_.base_is_key()) state_.set_key(state_.base.rig, state_.world_from_base());
   state_.lost = odometry::LostRig{current_, *result.predicted_world_from_left};
+}
+
+void StereoOdometry::Implementation::take(const rig_check::RigReport& report, FrameResult& result) const {
+  result.diagnostics.rig_evidence = report.evidence;
+  if (report.mismatch() != nullptr) return;
+  for (const auto& finding : report.findings) warn(rig_check::warning(finding), result);
 }
 
 /// Reports each kind of warning in one frame only.

@@ -1,9 +1,9 @@
-#include "odometry/synchronisation.hpp"
+#include "rig_check/synchronisation.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 namespace {
 
 constexpr int kMinSamples = 200;
@@ -31,4 +31,4 @@ double Synchronisation::time_offset_frames() const {
   return std::abs(terms[6]) > kMinTimeOffset && std::abs(terms[6]) > kSigmas * sigma ? terms[6] : 0;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

@@ -7,7 +7,7 @@
 #include <tbb/parallel_for.h>
 #include <vector>
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 
 /// A small grey image of floats with the patch statistics that normalised correlation needs.
 struct GreyPlane {
@@ -58,4 +58,4 @@ struct PatchMatch {
 std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to, const Eigen::Vector2i& corner,
                                      const SearchBox& box);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "odometry/epipolar_probe.hpp"
+#include "rig_check/epipolar_probe.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 
 /// across = offset + slope_x u + slope_y v, where u and v range from -1/2 to 1/2 over the left image.
 struct EpipolarFit {
@@ -19,4 +19,4 @@ struct EpipolarFit {
 /// Robust fit (iteratively reweighted least squares with Cauchy weights); all zero for fewer than 12 corners.
 EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

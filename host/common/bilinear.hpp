@@ -6,7 +6,7 @@
 
 #include "quadedge/camera.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge {
 
 /// Bilinear interpolation of value(column, row) at a position with grid points on all four sides.
 template <class Value>
@@ -40,4 +40,4 @@ inline float bilinear(const UndistortionTable& table, const std::vector<float>& 
   });
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge

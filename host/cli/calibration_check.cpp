@@ -1,20 +1,20 @@
-#include "cli/rig_check.hpp"
+#include "cli/calibration_check.hpp"
 
 #include <cstdio>
 #include <set>
 
-#include "odometry/rig_evidence.hpp"
+#include "rig_check/rig_monitor.hpp"
 
 namespace quadedge::cli {
 
 void check_numbers(const StereoRig& rig, DatasetCheck& check) {
-  for (const auto& warning : odometry::implausible_numbers(rig)) check.warnings.push_back(warning.text);
+  for (const auto& finding : rig_check::implausible_numbers(rig))
+    check.warnings.push_back(rig_check::sentence(finding));
 }
 
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
-  RigEvidence evidence;
-  const odometry::RigFindings findings = odometry::examine_frame(
-      dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, dataset.rig.disparity_range(), evidence);
+  const auto [evidence, findings] = rig_check::RigMonitor::examine(
+      dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, dataset.rig.disparity_range());
   const std::string frame = "frame " + std::to_string(pair.number) + ": ";
   char text[160];
   if (evidence.is_searched()) {
@@ -25,8 +25,7 @@ void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetC
   } else {
     check.facts.push_back(frame + "too little texture to test the calibration");
   }
-  if (!findings.mismatch.empty()) check.warnings.push_back(frame + findings.mismatch);
-  for (const Warning& warning : findings.warnings) check.warnings.push_back(frame + warning.text);
+  for (const auto& finding : findings) check.warnings.push_back(frame + rig_check::sentence(finding));
 }
 
 void check_rig_evidence(const Dataset& dataset, DatasetCheck& check) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file rig_check.hpp  Whether the images of a dataset fit its calibration.
+/// \file calibration_check.hpp  Whether the images of a dataset fit its calibration.
 
 #include <optional>
 

@@ -1,10 +1,10 @@
-#include "odometry/epipolar_fit.hpp"
+#include "rig_check/epipolar_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 namespace {
 
 constexpr std::size_t kMinFitCorners = 12;
@@ -55,4 +55,4 @@ EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int h
   return fit;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

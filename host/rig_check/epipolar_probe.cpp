@@ -1,13 +1,13 @@
-#include "odometry/epipolar_probe.hpp"
+#include "rig_check/epipolar_probe.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <tbb/parallel_for.h>
 
-#include "odometry/patch_search.hpp"
+#include "rig_check/patch_search.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 namespace {
 
 constexpr int kAlignedSpots = 240;
@@ -248,4 +248,4 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) cons
   return result;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

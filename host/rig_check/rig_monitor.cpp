@@ -1,16 +1,14 @@
-#include "odometry/rig_evidence.hpp"
+#include "rig_check/rig_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <utility>
 
 #include "common/epipolar_geometry.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 namespace {
 
 constexpr int kSearchPeriod = 50;               // frames
@@ -40,21 +38,17 @@ std::uint64_t fingerprint(const ImageView& image) {
   return hash;
 }
 
-/// Describes the transformation of the right image with which a search finds most corners; empty if there is none.
-std::string find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
-  const std::pair<ImageTurn, const char*> turns[] = {{ImageTurn::mirrored, "mirrored"},
-                                                     {ImageTurn::half, "rotated by 180 degrees"},
-                                                     {ImageTurn::quarter, "rotated by 90 degrees"},
-                                                     {ImageTurn::three_quarters, "rotated by -90 degrees"}};
-  for (const auto& [turn, name] : turns) {
+/// The transformation of the right image with which a search finds most corners; none if there is no such.
+ImageTurn find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
+  for (const ImageTurn turn : {ImageTurn::mirrored, ImageTurn::half, ImageTurn::quarter, ImageTurn::three_quarters}) {
     const ProbeSearch search = probe.search(frame, turn);
-    if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return name;
+    if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return turn;
   }
-  return {};
+  return ImageTurn::none;
 }
 
-RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const StereoFrame& frame,
-                             RigEvidence& evidence) {
+/// Adds a search and its findings to the report.
+void search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const StereoFrame& frame, RigReport& report) {
   const ProbeSearch search = probe.search(frame);
   // On thin curves, coarse positions do not determine the distance from the line.
   std::vector<CornerMatch> aligned;
@@ -65,33 +59,36 @@ RigFindings search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, c
     fit = fit_across(search.found, rig.left.width, rig.left.height);
     fit.is_coarse = true;
   }
-  add_search_results(search, fit, evidence);
-  return judge_search(search, fit, evidence, finds_few_corners(search, evidence) ? find_turn(probe, frame) : "");
+  add_search_results(search, fit, report.evidence);
+  const ImageTurn turn = finds_few_corners(search, report.evidence) ? find_turn(probe, frame) : ImageTurn::none;
+  report.findings = judge_search(search, fit, report.evidence, turn);
 }
 
 }  // namespace
 
-RigWatch::RigWatch(const StereoRig& rig, const Config& config)
+RigMonitor::RigMonitor(const StereoRig& rig, const Config& config)
     : rig_(rig), probe_(rig, largest_disparity(rig, config)) {}
 
-std::string RigWatch::find_frozen_camera(const StereoFrame& frame) {
+std::optional<RigFinding> RigMonitor::find_frozen_camera(const StereoFrame& frame) {
   const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
   const bool same_left = last_left_ == left, same_right = last_right_ == right;
   last_left_ = left;
   last_right_ = right;
-  if (same_left == same_right) return {};
-  return std::string("the ") + (same_left ? "left" : "right") +
-         " image is identical to that of the previous frame, the " + (same_left ? "right" : "left") +
-         " one is not: has the " + (same_left ? "left" : "right") + " camera frozen?";
+  if (same_left == same_right) return std::nullopt;
+  RigFinding frozen{RigFindingKind::frozen_camera};
+  frozen.camera = same_left ? Side::left : Side::right;
+  return frozen;
 }
 
-bool RigWatch::needs_search(const RigEvidence& evidence) const {
+bool RigMonitor::needs_search(const RigEvidence& evidence) const {
   if (!searched_ || !fits_ || frames_since_search_ >= kSearchPeriod) return true;
   return evidence.matched_ratio < kMatchedDecrease * searched_->matched_ratio ||
          evidence.epipolar_residual > searched_->epipolar_residual + kResidualIncrease;
 }
 
-RigFindings RigWatch::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, RigEvidence& evidence) {
+RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges) {
+  RigReport report;
+  RigEvidence& evidence = report.evidence;
   if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
   probe_.align(frame, edges, corner_matches_);
   if (const EpipolarFit fit = fit_across(corner_matches_, rig_.left.width, rig_.left.height); fit.samples > 0) {
@@ -101,19 +98,20 @@ RigFindings RigWatch::judge(const StereoFrame& frame, const StereoEdges& edges, 
     evidence.epipolar_slope_y = fit.slope_y;
     evidence.epipolar_samples = fit.samples;
   }
-  RigFindings findings;
-  findings.mismatch = find_frozen_camera(frame);
   ++frames_since_search_;
-  if (!findings.mismatch.empty() || left_edges == 0 || !needs_search(evidence)) return findings;
-  findings = search_and_judge(probe_, rig_, frame, evidence);
-  frames_since_search_ = 0;
-  searched_ = evidence;
-  fits_ = findings.mismatch.empty();
-  return findings;
+  if (const auto frozen = find_frozen_camera(frame)) {
+    report.findings.push_back(*frozen);
+  } else if (left_edges > 0 && needs_search(evidence)) {
+    search_and_judge(probe_, rig_, frame, report);
+    frames_since_search_ = 0;
+    searched_ = evidence;
+    fits_ = report.mismatch() == nullptr;
+  }
+  return report;
 }
 
-std::optional<Warning> RigWatch::observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now,
-                                                int frame, const TemporalMatches& matches) {
+std::optional<RigFinding> RigMonitor::observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now,
+                                                     int frame, const TemporalMatches& matches) {
   constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
   if (base_frame == frame - 1) {
     last_x_ = base.left_x;
@@ -144,16 +142,15 @@ std::optional<Warning> RigWatch::observe_motion(const StereoEdges& base, int bas
   last_y_.swap(next_y_);
   const double time_offset = synchronisation_.time_offset_frames();
   if (time_offset == 0) return std::nullopt;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "distances from the epipolar lines are proportional to the image motion: are the cameras out of sync, "
-                "by about %.1f frames?",
-                std::abs(time_offset));
-  return Warning{WarningKind::unsynchronised_cameras, text};
+  RigFinding late{RigFindingKind::late_camera};
+  late.time_offset = time_offset;
+  return late;
 }
 
-RigFindings examine_frame(const StereoRig& rig, const StereoFrame& frame, double max_disparity, RigEvidence& evidence) {
-  return search_and_judge(EpipolarProbe(rig, max_disparity), rig, frame, evidence);
+RigReport RigMonitor::examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity) {
+  RigReport report;
+  search_and_judge(EpipolarProbe(rig, max_disparity), rig, frame, report);
+  return report;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

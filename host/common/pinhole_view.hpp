@@ -6,7 +6,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge {
 
 /// Samples a recorded image through its undistortion table at individual positions, on the host.
 class PinholeView {
@@ -52,4 +52,4 @@ class PinholeView::Patch {
   Eigen::Matrix2d steps_;   ///< recorded pixels per column and row
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge

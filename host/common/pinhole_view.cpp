@@ -1,8 +1,8 @@
-#include "odometry/pinhole_view.hpp"
+#include "common/pinhole_view.hpp"
 
-#include "odometry/bilinear.hpp"
+#include "common/bilinear.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge {
 
 namespace {
 
@@ -56,4 +56,4 @@ void PinholeView::Patch::sample(int half, float* values) const {
   take([&](double x, double y) { return bilinear_inside(x, y, value); });
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 
 /// If the right camera lags by t frame intervals, it shows points where they were t intervals ago, so that their
 /// distance from the epipolar line is proportional to the image motion across that line. Calibration errors also cause
@@ -26,4 +26,4 @@ class Synchronisation {
   int count_ = 0;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

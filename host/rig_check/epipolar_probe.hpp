@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "odometry/pinhole_view.hpp"
+#include "common/pinhole_view.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 
 /// A corner of the left image, found in the right one.
 struct CornerMatch {
@@ -69,4 +69,4 @@ class EpipolarProbe {
   Eigen::Vector3d t_;  ///< K_R T0
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

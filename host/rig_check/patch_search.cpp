@@ -1,11 +1,11 @@
-#include "odometry/patch_search.hpp"
+#include "rig_check/patch_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/vector_clones.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::rig_check {
 namespace {
 
 constexpr int kPatchHalf = 4, kPatchSide = 2 * kPatchHalf + 1;  // patches of 9 x 9 px
@@ -152,4 +152,4 @@ std::optional<PatchMatch> best_match(const GreyPlane& from, const GreyPlane& to,
                     static_cast<double>(*best)};
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::rig_check

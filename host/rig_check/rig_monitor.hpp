@@ -1,0 +1,57 @@
+#pragma once
+/// \file rig_monitor.hpp  Checks whether the images match the calibration (doc/method.md section 7).
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "quadedge/config.hpp"
+#include "quadedge/edges.hpp"
+#include "rig_check/epipolar_probe.hpp"
+#include "rig_check/rig_finding.hpp"
+#include "rig_check/rig_judgement.hpp"
+#include "rig_check/rig_sentences.hpp"
+#include "rig_check/synchronisation.hpp"
+
+namespace quadedge::rig_check {
+
+/// Monitors a rig from frame to frame. In every frame, some hundred patches are aligned. The search around the epipolar
+/// lines, which takes about ten times as long, is run only when needed: in the first frame with edges, when fewer edges
+/// match or their distance from the lines has grown, while the images do not match the calibration, and periodically.
+class RigMonitor {
+ public:
+  RigMonitor(const StereoRig& rig, const Config& config);
+
+  /// Checks the next frame. May run beside anything that leaves the frame and its edges as they are.
+  /// \param edges its stereo edges \param left_edges number of edges in its left image
+  RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges);
+
+  /// Adds the image motion of that frame's edges; reports a camera that seems to lag.
+  /// \param base_frame number of the frame of `base`, which `matches` refers to \param frame number of the current
+  /// frame
+  std::optional<RigFinding> observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now, int frame,
+                                           const TemporalMatches& matches);
+
+  /// Checks a single frame without edges, as `quadedge check` does. \param max_disparity of the cascade [px]
+  static RigReport examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity);
+
+ private:
+  /// Reports a camera whose image is identical to the previous one while the other camera's is not.
+  std::optional<RigFinding> find_frozen_camera(const StereoFrame& frame);
+  bool needs_search(const RigEvidence& evidence) const;
+
+  StereoRig rig_;
+  EpipolarProbe probe_;
+  Synchronisation synchronisation_;
+  std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
+  std::vector<int> sampled_;  ///< index in corner_matches_ of every stereo edge, or -1; kept between calls
+  // Positions of the base's edges in the previous frame:
+  int base_frame_ = -1, last_frame_ = -1;
+  std::vector<float> last_x_, last_y_, next_x_, next_y_;
+  std::optional<RigEvidence> searched_;  ///< of the last frame that was searched
+  bool fits_ = true;                     ///< whether that search found a match with the calibration
+  int frames_since_search_ = 0;
+  std::optional<std::uint64_t> last_left_, last_right_;  ///< fingerprints of the previous images
+};
+
+}  // namespace quadedge::rig_check

@@ -1,0 +1,152 @@
+#include <catch2/catch.hpp>
+
+#include "frontends.hpp"
+#include "rig_check/rig_monitor.hpp"
+
+using namespace quadedge;
+using Catch::Matchers::Contains;
+using matching::RenderedScene;
+using rig_check::RigFindingKind;
+using rig_check::RigMonitor;
+using rig_check::RigReport;
+
+namespace {
+
+/// Two frames of the room, rendered once.
+const RenderedScene& evidence_room() {
+  static const RenderedScene scene("room", 320, 200, 2, 6);
+  return scene;
+}
+
+RigReport examine(const StereoRig& rig, const Image& left, const Image& right) {
+  return RigMonitor::examine(rig, {0, left.view(), right.view()}, evidence_room().config.stereo.max_disparity);
+}
+
+/// The kind of the mismatch, and its sentence.
+void check_mismatch(const StereoRig& rig, const Image& left, const Image& right, RigFindingKind kind,
+                    const std::string& cause) {
+  const RigReport report = examine(rig, left, right);
+  REQUIRE(report.findings.size() == 1);
+  REQUIRE(report.mismatch() != nullptr);
+  CHECK(report.mismatch()->kind == kind);
+  CHECK_THAT(rig_check::sentence(*report.mismatch()), Contains(cause));
+}
+
+StereoRig turned_rig(double degrees, const Eigen::Vector3d& axis) {
+  StereoRig rig = evidence_room().rig;
+  rig.right_from_left.linear() = Eigen::AngleAxisd(degrees * kDegree, axis).toRotationMatrix();
+  return rig;
+}
+
+/// Pixel (x, y) of the result is that of `image` at from(x, y).
+template <class From>
+Image rearranged(const Image& image, const From& from) {
+  Image result(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto [u, v] = from(x, y);
+      result.set(x, y, image.view().value(u, v));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("rig monitor: nothing contradicts the right calibration", "[rig]") {
+  for (const char* name : {"room", "cables", "facade"}) {
+    const RenderedScene scene(name, 320, 200, 1);
+    const auto [evidence, findings] = RigMonitor::examine(scene.rig, scene.frame(0), scene.config.stereo.max_disparity);
+    INFO(name << ", " << (findings.empty() ? "" : rig_check::sentence(findings.front())));
+    CHECK(findings.empty());
+    CHECK(evidence.found_ratio > 0.5);
+    if (name != std::string("cables")) {  // along a cable a match may lie anywhere
+      CHECK(evidence.on_line_ratio > 0.9);
+      CHECK(evidence.searched_residual < 0.1);
+    }
+    CHECK(evidence.negative_ratio < 0.1);
+  }
+}
+
+TEST_CASE("rig monitor: a mismatch is reported with its likely cause", "[rig]") {
+  const Image &left = evidence_room().left[0], &right = evidence_room().right[0];
+  check_mismatch(evidence_room().rig, right, left, RigFindingKind::negative_disparities, "exchanged");
+  StereoRig rig = evidence_room().rig;
+  rig.right_from_left.translation() *= -1;
+  check_mismatch(rig, left, right, RigFindingKind::negative_disparities, "sign of the baseline");
+  check_mismatch(turned_rig(3, Eigen::Vector3d::UnitX()), left, right, RigFindingKind::far_off_lines, "pitched");
+  check_mismatch(turned_rig(4, Eigen::Vector3d::UnitZ()), left, right, RigFindingKind::far_off_lines, "rolled");
+  rig = evidence_room().rig;
+  rig.left.fx *= 1.2;
+  rig.left.fy *= 1.2;
+  check_mismatch(rig, left, right, RigFindingKind::far_off_lines, "focal length in the calibration");
+  rig = evidence_room().rig;
+  Image negative = right;
+  for (auto& value : negative.pixels) value = static_cast<std::uint8_t>(255 - value);
+  check_mismatch(rig, left, negative, RigFindingKind::negative_image, "as their negative");
+  const int last_column = right.width - 1, last_row = right.height - 1;
+  const Image mirrored = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, y); });
+  check_mismatch(rig, left, mirrored, RigFindingKind::turned_image, "is the right image mirrored?");
+  const Image upside_down = rearranged(right, [&](int x, int y) { return std::pair(last_column - x, last_row - y); });
+  check_mismatch(rig, left, upside_down, RigFindingKind::turned_image, "is the right image rotated by 180 degrees?");
+}
+
+TEST_CASE("rig monitor: small errors are warnings and stop nothing", "[rig]") {
+  const Image &left = evidence_room().left[0], &right = evidence_room().right[0];
+  const RigReport pitched = examine(turned_rig(0.5, Eigen::Vector3d::UnitX()), left, right);
+  CHECK(pitched.mismatch() == nullptr);
+  REQUIRE(pitched.findings.size() == 1);
+  const Warning warning = rig_check::warning(pitched.findings[0]);
+  CHECK(warning.kind == WarningKind::doubtful_calibration);
+  CHECK_THAT(warning.text, Contains("doubtful") && Contains("pitched"));
+  CHECK(pitched.evidence.searched_residual == Approx(evidence_room().rig.left.fy * 0.5 * kDegree).epsilon(0.15));
+  const RigReport narrow = RigMonitor::examine(evidence_room().rig, evidence_room().frame(0), 4);
+  CHECK(narrow.mismatch() == nullptr);
+  REQUIRE(narrow.findings.size() == 1);
+  CHECK(rig_check::warning(narrow.findings[0]).kind == WarningKind::small_disparity_range);
+  CHECK_THAT(rig_check::warning(narrow.findings[0]).text, Contains("stereo.max_disparity too small"));
+}
+
+TEST_CASE("rig monitor: a frozen camera is detected while the other one moves", "[rig]") {
+  RigMonitor monitor(evidence_room().rig, evidence_room().config);
+  const Image &left = evidence_room().left[0], &right = evidence_room().right[0], &next = evidence_room().left[1];
+  CHECK(monitor.judge({0, left.view(), right.view()}, {}, 0).findings.empty());
+  CHECK(monitor.judge({1, left.view(), right.view()}, {}, 0).findings.empty());  // the same pair again
+  const RigReport frozen = monitor.judge({2, next.view(), right.view()}, {}, 0);
+  REQUIRE(frozen.mismatch() != nullptr);
+  CHECK_THAT(rig_check::sentence(*frozen.mismatch()), Contains("has the right camera frozen?"));
+  CHECK(monitor.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0).findings.empty());
+}
+
+TEST_CASE("rig monitor: implausible numbers are reported", "[rig]") {
+  CHECK(rig_check::implausible_numbers(evidence_room().rig).empty());
+  const auto first_of = [](const StereoRig& rig) {
+    const auto found = rig_check::implausible_numbers(rig);
+    return found.empty() ? std::string() : rig_check::warning(found.front()).text;
+  };
+  StereoRig rig = evidence_room().rig;
+  rig.right_from_left.translation() *= 1000;
+  CHECK_THAT(first_of(rig), Contains("millimetres"));
+  rig = evidence_room().rig;
+  rig.left.fx = rig.left.fy = 0.004;
+  CHECK_THAT(first_of(rig), Contains("is it given in pixels?"));
+  rig = evidence_room().rig;
+  rig.right.cx = -3;
+  CHECK_THAT(first_of(rig), Contains("right camera's principal point") && Contains("outside"));
+  rig = evidence_room().rig;
+  rig.left.fy /= 2;
+  CHECK_THAT(first_of(rig), Contains("not square"));
+}
+
+TEST_CASE("rig monitor: aligned patches measure a pitch error of 0.3 degrees", "[rig][device]") {
+  const StereoRig rig = turned_rig(0.3, Eigen::Vector3d::UnitX());
+  Device device(all_devices().front(), kept_programs());
+  const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);
+  const auto seen = frontend->process(evidence_room().frame(0));
+  std::vector<rig_check::CornerMatch> matches;
+  rig_check::EpipolarProbe(rig, evidence_room().config.stereo.max_disparity)
+      .align(evidence_room().frame(0), seen->edges, matches);
+  const rig_check::EpipolarFit fit = rig_check::fit_across(matches, rig.left.width, rig.left.height);
+  REQUIRE(fit.samples > 30);
+  CHECK(fit.offset == Approx(rig.left.fy * 0.3 * kDegree).epsilon(0.2));
+}
