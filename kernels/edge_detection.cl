@@ -27,6 +27,16 @@
 #define PAD_X (16 * ((RADIUS + 18) / 16))
 #define PAD_Y (RADIUS + 2)
 
+// Vectors at any float's address. PoCL splits vload16 into pairs of floats; a packed structure becomes two plain loads.
+typedef struct __attribute__((packed)) {
+  float16 lanes;
+} packed16;
+typedef struct __attribute__((packed)) {
+  float8 lanes;
+} packed8;
+#define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
+#define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
+
 // Weights of one phase and order.
 #define SMOOTH_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS)
 #define SLOPE_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS + PAIRS)

@@ -1,16 +1,6 @@
 // edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs
 // edge_detection.cl.
 
-// Vectors at any float's address. PoCL splits vload16 into pairs of floats; a packed structure becomes two plain loads.
-typedef struct __attribute__((packed)) {
-  float16 lanes;
-} packed16;
-typedef struct __attribute__((packed)) {
-  float8 lanes;
-} packed8;
-#define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
-#define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
-
 // Lanes of a comparison as bits: lane k at bit 2 k.
 static inline uint lane_bits(const int16 lanes) {
   const int16 bits = lanes & (int16)(1, 1 << 2, 1 << 4, 1 << 6, 1 << 8, 1 << 10, 1 << 12, 1 << 14, 1 << 16, 1 << 18,

@@ -13,11 +13,6 @@
 #define GROUP 1
 #endif
 
-typedef struct __attribute__((packed)) {
-  float16 lanes;
-} packed16;
-#define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
-
 #define HALF_STEP (kThresholdStep / 2)
 #if GROUP == 1
 #define FORM IN_VECTORS

@@ -20,14 +20,16 @@ enum {
   kPatchLanes = kPatchSide + 1,                  // bytes of one row of a patch; work-items that share a patch
   kEdgePatchBytes = 128,                         // both patches of an edge
   kInverseNorms = 2 * kPatchLanes * kPatchSide,  // where they begin
+  kPatchItems = 2 * kPatchLanes,                 // work-items that share an edge
   kPatchLargest = 127                            // magnitude of the largest sample
 };
 FLOAT_CONSTANT kFlatPatchContrast = 1e-5f;  // grey levels: a patch that stays as close to its mean is flat
 
 // SIFT descriptors of an edge (sift.cl): dark side, then bright side; bytes [cell across][cell along][angle].
 enum {
-  kSiftCells = 4,   // spatial bins along each axis
-  kSiftAngles = 8,  // orientation bins
+  kSiftCells = 4,                            // spatial bins along each axis
+  kSiftAngles = 8,                           // orientation bins
+  kSiftItems = 2 * kSiftCells * kSiftCells,  // work-items that share an edge
   kSiftBytes = kSiftCells * kSiftCells * kSiftAngles,
   kEdgeSiftBytes = 2 * kSiftBytes,
   kSiftPadding = 16  // of the gradient's maps, px

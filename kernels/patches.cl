@@ -3,22 +3,19 @@
 //
 // In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]). Out: 128 bytes per edge, laid out as
 // in host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
-//   ITEMS_PER_EDGE 1: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
-//   ITEMS_PER_EDGE 16: eight work-items per side, one per lane; groups of GROUP work-items, local memory
+//   without GROUP: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
+//   with GROUP: kPatchItems work-items per edge, eight per side, one per lane; groups of GROUP work-items, local memory
 //   EXCHANGE_FLOATS floats.
-// Needs direction.cl, photometric.cl and photometric_lanes.cl before it. Reference: host/reference/patches.cpp.
+// Needs direction.cl and photometric.cl, with GROUP photometric_lanes.cl too. Reference: host/reference/patches.cpp.
 
-#ifndef ITEMS_PER_EDGE
-#define ITEMS_PER_EDGE 1
-#endif
 // Adding and subtracting it rounds to the nearest integer, halves to even, because floats of about 1.5 * 2^23 have no
 // fraction bits.
 #define NO_FRACTION 12582912.0f
 
-#if ITEMS_PER_EDGE == 1
-#define SIDES float2  // a value of both sides
+#ifdef GROUP
+#define SIDES float  // a value of the work-item's side
 #else
-#define SIDES float  // of the work-item's side
+#define SIDES float2  // of both sides
 #endif
 
 // Patches are stored as integers of magnitude up to kPatchLargest, flat ones as zeros. Sums of their squares are below
@@ -28,7 +25,7 @@ static inline SIDES scale_of(const SIDES largest) {
 }
 static inline SIDES inverse_norm(const SIDES squares) { return squares == 0.0f ? (SIDES)(0.0f) : 1.0f / sqrt(squares); }
 
-#if ITEMS_PER_EDGE == 1
+#ifndef GROUP
 
 static inline float16 both_used(const float16 v) { return (float16)(used_lanes(v.lo), used_lanes(v.hi)); }
 
@@ -96,7 +93,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(cons
   global const float* directions = ys + args.edges.stride;
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), side = patch_in_group() & 1;
-  const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
+  const int wanted = (int)(get_global_id(0) / kPatchItems);
   const int edge =
       min(wanted, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
   float cosine;

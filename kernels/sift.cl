@@ -12,17 +12,11 @@
 //                  central difference, (height + 2 kSiftPadding) rows.
 // sift_describe    In: both maps, edges (x, y [px], direction [rad]). Out: 256 bytes per edge, laid out as in
 //                  host/reference/sift.hpp. Two forms with the same arithmetic in the same order:
-//                  ITEMS_PER_EDGE 1: one work-item = one edge; the 8 angle bins of a cell are the lanes of a float8;
-//                  ITEMS_PER_EDGE 32: one work-item = one cell of one side; groups of GROUP work-items, local memory
-//                  28 * 121 bytes + 1 KiB per edge.
+//                  without GROUP: one work-item = one edge; the 8 angle bins of a cell are the lanes of a float8;
+//                  with GROUP: kSiftItems work-items per edge, each a cell of one side; groups of GROUP work-items,
+//                  local memory 28 * 121 bytes + 1 KiB per edge.
 // Needs direction.cl before it. Reference: host/reference/sift.cpp.
 
-#ifndef ITEMS_PER_EDGE
-#define ITEMS_PER_EDGE 1
-#endif
-#ifndef GROUP
-#define GROUP 64
-#endif
 #define RADIUS 5
 #define WINDOW (2 * RADIUS + 1)
 #define CELL_WIDTH 1.5f
@@ -104,7 +98,7 @@ static inline float sum_lanes(const float8 v) {
   return two.x + two.y;
 }
 
-#if ITEMS_PER_EDGE == 1
+#ifndef GROUP
 
 #define ROW (kSiftCells + 2)  // cells with a ring around them for samples outside
 
@@ -245,7 +239,7 @@ kernel IN_VECTORS void sift_describe(const SiftArguments args, global const floa
 #else
 
 #define SIDES 2
-#define EDGES_PER_GROUP (GROUP / ITEMS_PER_EDGE)
+#define EDGES_PER_GROUP (GROUP / kSiftItems)
 
 // LONG: the histogram stays in registers from the first sample to the last byte.
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(const SiftArguments args,
@@ -266,8 +260,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
   global const float* xs = positions + args.edges.first;
   global const float* ys = xs + args.edges.stride;
   global const float* directions = ys + args.edges.stride;
-  const int local_edge = (int)get_local_id(0) / ITEMS_PER_EDGE, item = (int)get_local_id(0) % ITEMS_PER_EDGE;
-  const int wanted = (int)(get_global_id(0) / ITEMS_PER_EDGE);
+  const int local_edge = (int)get_local_id(0) / kSiftItems, item = (int)get_local_id(0) % kSiftItems;
+  const int wanted = (int)(get_global_id(0) / kSiftItems);
   const int edge =
       min(wanted, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
   const float direction = directions[edge], x = xs[edge], y = ys[edge];
@@ -281,7 +275,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sift_describe(con
                             (nearest(y - to_dark_y, height) + kSiftPadding - RADIUS) * stride +
                                 nearest(x - to_dark_x, width) + kSiftPadding - RADIUS};
 
-  for (int k = item; k < WINDOW * WINDOW; k += ITEMS_PER_EDGE) {
+  for (int k = item; k < WINDOW * WINDOW; k += kSiftItems) {
     const int row = k / WINDOW, column = k % WINDOW;
     const float i = (float)(row - RADIUS), j = (float)(column - RADIUS);
     const float along = j * c + i * s, across = i * c - j * s;

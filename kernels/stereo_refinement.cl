@@ -34,45 +34,33 @@ kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, g
   if (i >= args.left.count) return;
   const int begin = first[i], end = min(first[i + 1], args.capacity);
   if (begin >= end) return;
-  global const float* left_x = left_edges + args.left.first;
-  global const float* left_y = left_x + args.left.stride;
-  global const float* left_direction = left_y + args.left.stride;
-  global const float* right_x = right_edges + args.right.first;
-  global const float* right_y = right_x + args.right.stride;
-  global const float* right_direction = right_y + args.right.stride;
-  const float x = left_x[i], y = left_y[i];
-  const EpipolarLine line = epipolar_line(&args.geometry, x, y);
-  // The smaller the angle between edge and line, the less a position across the edge says about that along the line.
-  const float line_sine = left_epipolar_sine(&args.geometry, x, y, left_direction[i]);
-  const float edge_stiffness = args.stiffness * line_sine * line_sine;
-  float cosine;
-  const float sine = sine_cosine(left_direction[i], &cosine);
+  const RefinedEdge edge = open_edge(&args, left_edges, i);
+  const EpipolarLine line = edge.line;
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
+  const PatchFrame frame = patch_frame(edge.x, edge.y, edge.cosine, edge.sine, 0.0f, 0.0f);
   float8 fixed[kPatchSide], derivative[kPatchSide], values[kPatchSide];
   float fixed_norm = 0.0f;
   int ready = 0;
   for (int c = begin; c < end; ++c) {
     if (state[c] != kCandidateAlive) continue;
-    const int j = target[c];
-    position[c] = epipolar_shift(line, right_x[j], right_y[j], right_direction[j], args.shift_min_sine, args.shift_max);
+    position[c] = epipolar_shift(&args, line, right_edges, target[c]);
     choose_representative(begin, c, ncc, position, state);
   }
   for (int c = begin; c < end; ++c) {
     if (state[c] != kCandidateAlive) continue;
     if (!ready) {
-      cut_patch(left_corners, args.left_width, args.left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f), 0.0f,
-                0.0f, fixed);
+      cut_patch(left_corners, args.left_width, args.left_height, frame, 0.0f, 0.0f, fixed);
       fixed_norm = patch_norm(fixed);
-      patch_derivative(left_corners, args.left_width, args.left_height, patch_frame(x, y, cosine, sine, 0.0f, 0.0f),
-                       line.ex, line.ey, derivative);
+      patch_derivative(left_corners, args.left_width, args.left_height, frame, line.ex, line.ey, derivative);
       ready = 1;
     }
     float s = position[c];
     // Patches are cut with the left direction in both images.
-    const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
+    const PatchFrame moving =
+        patch_frame(line.x + s * line.ex, line.y + s * line.ey, edge.cosine, edge.sine, 0.0f, 0.0f);
     float move = 0.0f;
     const int aligned = align_edge(right_corners, args.right_width, args.right_height, moving, line.ex, line.ey, fixed,
-                                   fixed_norm, derivative, edge_stiffness, args.alignment, values, &move);
+                                   fixed_norm, derivative, edge.stiffness, args.alignment, values, &move);
     if (aligned == ALIGN_LEFT) {
       state[c] = (uchar)args.rejected_order;
       continue;
@@ -82,15 +70,16 @@ kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, g
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
     if (aligned == ALIGN_MOVED) {
       cut_patch(right_corners, args.right_width, args.right_height,
-                patch_frame(right_x_now, right_y_now, cosine, sine, 0.0f, 0.0f), 0.0f, 0.0f, values);
+                patch_frame(right_x_now, right_y_now, edge.cosine, edge.sine, 0.0f, 0.0f), 0.0f, 0.0f, values);
     }
     const float on_edge = rows_ncc(fixed, fixed_norm, values);
     // A similar side cannot compensate for a dissimilar centre, which gets the lowest similarity of a side.
     float beside = -1.0f;
     if (0.5f * (on_edge + 1.0f) >= args.similarity_min) {
       beside = better_side(right_corners, args.right_width, args.right_height,
-                           patch_frame(right_x_now, right_y_now, cosine, sine, 1.0f, args.patch_offset),
-                           patch_frame(right_x_now, right_y_now, cosine, sine, -1.0f, args.patch_offset), side_patches);
+                           patch_frame(right_x_now, right_y_now, edge.cosine, edge.sine, 1.0f, args.patch_offset),
+                           patch_frame(right_x_now, right_y_now, edge.cosine, edge.sine, -1.0f, args.patch_offset),
+                           side_patches);
     }
     similarity[c] = 0.5f * (on_edge + beside);
   }

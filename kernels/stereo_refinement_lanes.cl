@@ -25,27 +25,13 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   const int i = min(wanted, left_count - 1);
   const int begin = wanted < left_count ? first[i] : 0,
             end = wanted < left_count ? min(first[i + 1], args.capacity) : 0;
-  global const float* left_x = left_edges + args.left.first;
-  global const float* left_y = left_x + args.left.stride;
-  global const float* left_direction = left_y + args.left.stride;
-  global const float* right_x = right_edges + args.right.first;
-  global const float* right_y = right_x + args.right.stride;
-  global const float* right_direction = right_y + args.right.stride;
-  const float x = left_x[i], y = left_y[i];
-  const EpipolarLine line = epipolar_line(&args.geometry, x, y);
-  // The smaller the angle between edge and line, the less a position across the edge says about that along the line.
-  const float line_sine = left_epipolar_sine(&args.geometry, x, y, left_direction[i]);
-  const float edge_stiffness = args.stiffness * line_sine * line_sine;
-  float cosine;
-  const float sine = sine_cosine(left_direction[i], &cosine);
+  const RefinedEdge edge = open_edge(&args, left_edges, i);
+  const EpipolarLine line = edge.line;
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
   const float2 inverse_norms = *(global const float2*)(side_patches + kInverseNorms);
 
   for (int c = begin + lane; c < end; c += kPatchLanes) {
-    const int j = target[c];
-    if (state[c] == kCandidateAlive)
-      position[c] =
-          epipolar_shift(line, right_x[j], right_y[j], right_direction[j], args.shift_min_sine, args.shift_max);
+    if (state[c] == kCandidateAlive) position[c] = epipolar_shift(&args, line, right_edges, target[c]);
   }
   barrier(CLK_GLOBAL_MEM_FENCE);
   // From here on only the first lane reads and writes the row.
@@ -65,7 +51,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
 #pragma unroll 1  // one copy of cut_column(): registers
   for (int part = 0; part < 3; ++part) {
     const float ahead = part == 0 ? 0.0f : part == 1 ? 0.5f : -0.5f;
-    const PatchFrame frame = patch_frame(x + ahead * line.ex, y + ahead * line.ey, cosine, sine, 0.0f, 0.0f);
+    const PatchFrame frame =
+        patch_frame(edge.x + ahead * line.ex, edge.y + ahead * line.ey, edge.cosine, edge.sine, 0.0f, 0.0f);
     cut_column(left_corners, args.left_width, args.left_height, frame, has_candidates, &exchange, values);
     const float norm = sqrt(sum_lanes(&exchange, column_product(values, values)));
     fixed_norm = part == 0 ? norm : fixed_norm;
@@ -83,11 +70,12 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     float s = told[GROUP + first_item];
     if (!any_patch(told)) break;
     // Patches are cut with the left direction in both images.
-    const PatchFrame moving = patch_frame(line.x + s * line.ex, line.y + s * line.ey, cosine, sine, 0.0f, 0.0f);
+    const PatchFrame moving =
+        patch_frame(line.x + s * line.ex, line.y + s * line.ey, edge.cosine, edge.sine, 0.0f, 0.0f);
     float move = 0.0f;
     const int aligned =
         align_columns(right_corners, args.right_width, args.right_height, moving, line.ex, line.ey, fixed, fixed_norm,
-                      derivative, edge_stiffness, args.alignment, living, &exchange, values, &move);
+                      derivative, edge.stiffness, args.alignment, living, &exchange, values, &move);
     s += move;
     const float right_x_now = line.x + s * line.ex, right_y_now = line.y + s * line.ey;
     // On the edge, then on its dark and on its bright side.
@@ -97,8 +85,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     for (int place = 0; place < 3; ++place) {
       const float side = place == 0 ? 0.0f : place == 1 ? 1.0f : -1.0f;
       cut_column(right_corners, args.right_width, args.right_height,
-                 patch_frame(right_x_now, right_y_now, cosine, sine, side, args.patch_offset), alike, &exchange,
-                 values);
+                 patch_frame(right_x_now, right_y_now, edge.cosine, edge.sine, side, args.patch_offset), alike,
+                 &exchange, values);
       float own[kPatchSide];
 #pragma unroll
       for (int k = 0; k < kPatchSide; ++k)

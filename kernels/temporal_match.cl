@@ -3,7 +3,7 @@
 // temporal_candidates.cl, candidate_filters.cl without SIFT and temporal_quads.cl one after the other, without lists in
 // global memory.
 //
-// Needs similarity.cl, edge_positions.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in
+// Needs similarity.cl, edge_groups.cl and indexed_points.cl. In: predicted positions of the base's stereo edges in
 // both current images (NaN: none), the point indices of the current stereo edges of both sides, side patches, with the
 // number of each stereo edge's left patch; right patches are in the order of the stereo edges.
 // Out per row, which belongs to base edge row * row_step: kQuadRowInts ints (layouts.cl).
@@ -149,28 +149,7 @@ static inline int similar_near(const TemporalMatchArguments* args, const float3 
   return kept;
 }
 
-// Groups of edges that chain up by position and direction: single linkage.
-static inline int count_groups(const int* edges, const int count, const PackedPositions at, global const float* current,
-                               const float gap, const float orientation) {
-  int label[MOST];
-  for (int c = 0; c < count; ++c) label[c] = c;
-  for (int changed = 1; changed;) {
-    changed = 0;
-    for (int c = 1; c < count; ++c) {
-      for (int d = 0; d < c; ++d) {
-        if (label[d] == label[c]) continue;
-        const float3 a = edge_at(at, current, edges[c]), b = edge_at(at, current, edges[d]);
-        const float dx = a.x - b.x, dy = a.y - b.y;
-        if (dx * dx + dy * dy >= gap * gap || angle_between(a.z, b.z) > orientation) continue;
-        label[c] = label[d] = min(label[c], label[d]);
-        changed = 1;
-      }
-    }
-  }
-  int groups = 0;
-  for (int c = 0; c < count; ++c) groups += label[c] == c;
-  return groups;
-}
+DEFINE_COUNT_GROUPS(private)
 
 // LONG: a row from the index to its quad, all of it in private memory.
 #ifdef LANES
@@ -242,7 +221,8 @@ kernel void temporal_match(const TemporalMatchArguments args, global const float
     highest = weighed;
     score = mean;
   }
-  const int groups = count_groups(left_target, agreeing, args.current, current, args.choice.cluster_gap,
-                                  args.choice.cluster_orientation);
+  int label[MOST];
+  for (int c = 0; c < agreeing; ++c) label[c] = c;
+  const int groups = count_groups(0, agreeing, left_target, args.current, current, &args.choice, label);
   ((global int4*)result)[row] = (int4)(winner, groups - 1, as_int(score), flags);
 }

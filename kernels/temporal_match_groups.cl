@@ -1,7 +1,7 @@
 // temporal_match_groups.cl: temporal_match.cl with one work-group of GROUP work-items per row, for GPUs. Candidates are
 // kept in local memory, GROUP points of the index are tested at a time, and eight work-items share a pair of patches.
 //
-// Needs similarity.cl (for taps), similarity_lanes.cl, edge_positions.cl and indexed_points.cl. In and out as in
+// Needs similarity.cl (for taps), similarity_lanes.cl, edge_groups.cl and indexed_points.cl. In and out as in
 // temporal_match.cl, and the same bits: what work-items add up are whole numbers.
 // GROUP is at most 32, so that one word holds a bit per work-item.
 // Reference: host/reference/temporal_match.cpp.
@@ -178,12 +178,10 @@ static inline void keep_agreeing(const RowSide* side, const int left_count, cons
   }
 }
 
-// Groups of edges that chain up by position and direction: single linkage, the lowest number of a group spreads from
-// one half of `labels` to the other.
-static inline int count_groups(const TemporalMatchArguments* args, local const int* edges, const int count,
-                               global const float* current, local int* labels, Votes* votes) {
+// count_groups() by all work-items: the lowest number of a group spreads from one half of `labels` to the other.
+static inline int count_groups_together(const TemporalMatchArguments* args, local const int* edges, const int count,
+                                        global const float* current, local int* labels, Votes* votes) {
   const int item = (int)get_local_id(0);
-  const float gap2 = args->choice.cluster_gap * args->choice.cluster_gap;
   for (int c = item; c < count; c += GROUP) labels[c] = c;
   barrier(CLK_LOCAL_MEM_FENCE);
   int turn = 0, moving;
@@ -192,13 +190,9 @@ static inline int count_groups(const TemporalMatchArguments* args, local const i
     local int* next = labels + (1 - turn) * MOST;
     int moves = 0;
     for (int c = item; c < count; c += GROUP) {
-      const float3 a = edge_at(args->current, current, edges[c]);
       int lowest = now[c];
       for (int d = 0; d < count; ++d) {
-        if (now[d] >= lowest) continue;
-        const float3 b = edge_at(args->current, current, edges[d]);
-        const float dx = a.x - b.x, dy = a.y - b.y;
-        if (dx * dx + dy * dy < gap2 && angle_between(a.z, b.z) <= args->choice.cluster_orientation) lowest = now[d];
+        if (now[d] < lowest && are_chained(args->current, current, edges[c], edges[d], &args->choice)) lowest = now[d];
       }
       moves |= lowest < now[c];
       next[c] = lowest;
@@ -284,6 +278,6 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void temporal_match(
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   local int labels[2 * MOST];
-  const int groups = count_groups(&args, right->target, agreeing, current, labels, &votes);
+  const int groups = count_groups_together(&args, right->target, agreeing, current, labels, &votes);
   if (item == 0) ((global int4*)result)[row] = (int4)(winner, groups - 1, as_int(score), flags);
 }

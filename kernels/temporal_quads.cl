@@ -1,7 +1,7 @@
 // temporal_quads.cl: the circle is closed (a candidate must be alive in the left and in the right images), and the best
 // of what remains makes the quad.
 //
-// Needs edge_positions.cl. Row r belongs to stereo edge r * row_step of the base.
+// Needs edge_groups.cl. Row r belongs to stereo edge r * row_step of the base.
 // Reference: host/reference/temporal_quads.cpp.
 
 // One work-item = one row. A living left candidate stays if the right list holds the same current edge alive; `score`
@@ -28,28 +28,7 @@ kernel void temporal_agreement(const TemporalAgreementArguments args, global con
   }
 }
 
-// Groups of the candidates begin .. end - 1 with a label that chain up by position and direction: single linkage.
-static inline int count_groups(const int begin, const int end, global const int* target, const PackedPositions at,
-                               global const float* current, const float gap, const float orientation,
-                               global int* label) {
-  for (int changed = 1; changed;) {
-    changed = 0;
-    for (int c = begin; c < end; ++c) {
-      if (label[c] < 0) continue;
-      for (int d = begin; d < c; ++d) {
-        if (label[d] < 0 || label[d] == label[c]) continue;
-        const float3 a = edge_at(at, current, target[c]), b = edge_at(at, current, target[d]);
-        const float dx = a.x - b.x, dy = a.y - b.y;
-        if (dx * dx + dy * dy >= gap * gap || angle_between(a.z, b.z) > orientation) continue;
-        label[c] = label[d] = min(label[c], label[d]);
-        changed = 1;
-      }
-    }
-  }
-  int groups = 0;
-  for (int c = begin; c < end; ++c) groups += label[c] == c;
-  return groups;
-}
+DEFINE_COUNT_GROUPS(global)
 
 // One work-item = one row. Joins living candidates whose left positions chain up within cluster_gap with directions
 // within cluster_orientation. The member with the highest score wins; a score counts less by distance_weight for the
@@ -78,7 +57,6 @@ kernel void temporal_best(const TemporalBestArguments args, global const int* fi
     ((global int4*)result)[row] = (int4)(-1, 0, 0, 0);
     return;
   }
-  const int groups = count_groups(begin, end, target, args.current, current, args.choice.cluster_gap,
-                                  args.choice.cluster_orientation, label);
+  const int groups = count_groups(begin, end, target, args.current, current, &args.choice, label);
   ((global int4*)result)[row] = (int4)(target[winner], groups - 1, as_int(score[winner]), 0);
 }

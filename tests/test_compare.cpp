@@ -163,7 +163,7 @@ TEST_CASE("compare: a variant with a different result is refused and never saved
   // In all but one form every patch counts as flat and has no similarity.
   const std::string kernel = read_text(folder / "kernels/patches.cl");
   REQUIRE(kernel.find("kFlatPatchContrast") != std::string::npos);
-  const std::string text = "#if ITEMS_PER_EDGE != 1\n#define kFlatPatchContrast 1e30f\n#endif\n" + kernel;
+  const std::string text = "#ifdef GROUP\n#define kFlatPatchContrast 1e30f\n#endif\n" + kernel;
   std::ofstream(folder / "kernels/patches.cl") << text;
   const auto result = run_program(
       compare_arguments({"--stage", "patches", "--json", folder / "compare.json", "--kernels", folder / "kernels"}));

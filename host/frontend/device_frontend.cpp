@@ -69,8 +69,8 @@ void DeviceFrontend::detect(DeviceRig& current) {
   threshold_.request();
   selection_.request();
   left_.edges.request_count();
-  right_.edges.read_count();
-  left_.edges.take_count();
+  right_.edges.request_count();
+  context_.finish();
   counts_ = {};
   counts_.edge_threshold = threshold_.host_threshold();
   current.edges_spacing = selection_.host_spacing();

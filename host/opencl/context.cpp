@@ -128,6 +128,7 @@ std::vector<std::string> Context::programs() const {
 }
 
 void Context::finish() {
+  count_wait();
   try {
     queue().finish();
   } catch (const cl::Error& error) {

@@ -9,16 +9,29 @@
 
 namespace quadedge::opencl {
 
+/// How a variant shares out the work; decides what the stage's host code launches.
+enum class Form {
+  items,   ///< every work-item on its own, for example one per edge
+  groups,  ///< the work-items of a group share an edge, row or tile through local memory, or share out a scan
+  blocks,  ///< as `items`, after a rearrangement of the input into blocks
+  lists    ///< no kernel of its own: the stages that pass lists on take its place
+};
+
 /// A variant of a stage. All variants of a stage give the same result.
 struct Variant {
-  std::string stage;  ///< "edge_detection", "patches", "sift", ...
-  std::string name;   ///< "cpu", "gpu", ...
-  Defines defines;    ///< compile-time parameters
-  int local_size;     ///< work-items per group in x
+  std::string stage;               ///< "edge_detection", "patches", "sift", ...
+  std::string name;                ///< "strip", "group64", ...
+  std::vector<std::string> files;  ///< of its program, in order
+  Form form;
+  Defines defines;  ///< compile-time parameters
+  int local_size;   ///< work-items per group in x
   bool default_on_cpu;
   bool default_on_gpu;
   std::string about;    ///< one sentence for `quadedge variants`
   int local_bytes = 0;  ///< upper bound of the local memory of a group
+
+  /// Builds `files`, with `others` in addition to `defines`. \throws DeviceError
+  cl::Program program(Context& context, Defines others = {}) const;
 };
 
 /// Every variant of every stage, in the order of the stages.

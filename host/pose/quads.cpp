@@ -8,7 +8,7 @@ namespace quadedge::pose {
 
 namespace {
 
-/// All columns of the arrays, in a fixed order.
+/// All columns of the arrays.
 constexpr std::vector<float> ScoringArrays::*kColumns[] = {
     &ScoringArrays::ray_x,     &ScoringArrays::ray_y,     &ScoringArrays::inverse_depth, &ScoringArrays::tangent_x,
     &ScoringArrays::tangent_y, &ScoringArrays::tangent_z, &ScoringArrays::left_x,        &ScoringArrays::left_y,
@@ -61,22 +61,20 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
   current[i] = after;
   const double doubt = before.slope_per_radian * limits.direction_sigma / QuadLimits::kSlopePrior;
   const Eigen::Vector3d tangent = (before.direction + before.slope / (1.0 + doubt * doubt) * before.ray).normalized();
-  const double values[] = {before.ray.x(),
-                           before.ray.y(),
-                           before.inverse_depth,
-                           tangent.x(),
-                           tangent.y(),
-                           tangent.z(),
-                           current_edge.left.x(),
-                           current_edge.left.y(),
-                           std::cos(current_edge.left_direction),
-                           std::sin(current_edge.left_direction),
-                           current_edge.right.x(),
-                           current_edge.right.y(),
-                           std::cos(current_edge.right_direction),
-                           std::sin(current_edge.right_direction)};
-  const double* value = values;
-  for (auto column : kColumns) (scoring.*column)[i] = static_cast<float>(*value++);
+  scoring.ray_x[i] = static_cast<float>(before.ray.x());
+  scoring.ray_y[i] = static_cast<float>(before.ray.y());
+  scoring.inverse_depth[i] = static_cast<float>(before.inverse_depth);
+  scoring.tangent_x[i] = static_cast<float>(tangent.x());
+  scoring.tangent_y[i] = static_cast<float>(tangent.y());
+  scoring.tangent_z[i] = static_cast<float>(tangent.z());
+  scoring.left_x[i] = static_cast<float>(current_edge.left.x());
+  scoring.left_y[i] = static_cast<float>(current_edge.left.y());
+  scoring.left_cos[i] = static_cast<float>(std::cos(current_edge.left_direction));
+  scoring.left_sin[i] = static_cast<float>(std::sin(current_edge.left_direction));
+  scoring.right_x[i] = static_cast<float>(current_edge.right.x());
+  scoring.right_y[i] = static_cast<float>(current_edge.right.y());
+  scoring.right_cos[i] = static_cast<float>(std::cos(current_edge.right_direction));
+  scoring.right_sin[i] = static_cast<float>(std::sin(current_edge.right_direction));
   ncc[i] = ncc_value;
   competing_clusters[i] = competing;
   match[i] = match_number;

@@ -20,8 +20,6 @@ namespace quadedge::pose {
 /// both of its coordinates would count the noise of the left image twice. The true inverse depth of the point is an
 /// unknown, so that the depths of both rigs are treated alike and forward and backward errors have equal weights;
 /// refinement.hpp gives the benefit.
-///
-/// The members, in this order, are also the columns of ReprojectionTerms.
 struct ReprojectionTerm {
   double ray_x, ray_y;                     ///< previous left pixel as a ray (x, y, 1), previous left frame
   double inverse_depth;                    ///< previous, as measured [1/m]

@@ -1,6 +1,6 @@
 #include "pose/reprojection_terms.hpp"
 
-#include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "common/row_blocks.hpp"
@@ -10,18 +10,38 @@ namespace quadedge::pose {
 
 namespace {
 
+/// The member of a term that each column holds.
+constexpr double ReprojectionTerm::*kMembers[] = {&ReprojectionTerm::ray_x,
+                                                  &ReprojectionTerm::ray_y,
+                                                  &ReprojectionTerm::inverse_depth,
+                                                  &ReprojectionTerm::inverse_depth_sigma,
+                                                  &ReprojectionTerm::inverse_depth_per_pixel,
+                                                  &ReprojectionTerm::current_inverse_depth_per_pixel,
+                                                  &ReprojectionTerm::current_x,
+                                                  &ReprojectionTerm::current_y,
+                                                  &ReprojectionTerm::scale_drift_x,
+                                                  &ReprojectionTerm::scale_drift_y,
+                                                  &ReprojectionTerm::across_x,
+                                                  &ReprojectionTerm::across_y,
+                                                  &ReprojectionTerm::along_x,
+                                                  &ReprojectionTerm::along_y,
+                                                  &ReprojectionTerm::current_inverse_depth,
+                                                  &ReprojectionTerm::current_inverse_depth_weight};
+static_assert(std::size(kMembers) == ReprojectionTerms::kColumns);
+
 struct Columns {
   explicit Columns(const ReprojectionTerms& terms) {
     for (std::size_t k = 0; k < ReprojectionTerms::kColumns; ++k) values[k] = terms.column(k);
   }
   const double* values[ReprojectionTerms::kColumns];
 };
-static_assert(sizeof(ReprojectionTerm) == ReprojectionTerms::kColumns * sizeof(double));
 
 template <std::size_t... Column>
 [[gnu::always_inline]] inline ReprojectionTerm term_at(const Columns& columns, std::size_t row,
                                                        std::index_sequence<Column...>) {
-  return {columns.values[Column][row]...};
+  ReprojectionTerm term;
+  ((term.*kMembers[Column] = columns.values[Column][row]), ...);
+  return term;
 }
 
 /// Processes kLanes quads from row `first` on; the compiler vectorises the loop.
@@ -110,9 +130,7 @@ void ReprojectionTerms::assign(const QuadObservations& quads, const std::vector<
       }
       const ReprojectionTerm term =
           per_ray_unit(make_reprojection_term(quads, static_cast<std::size_t>(rows[k]), noise, scale), left);
-      std::array<double, kColumns> values;
-      std::memcpy(values.data(), &term, sizeof term);
-      for (std::size_t which = 0; which < kColumns; ++which) columns_[which][k] = values[which];
+      for (std::size_t which = 0; which < kColumns; ++which) columns_[which][k] = term.*kMembers[which];
     }
   });
 }

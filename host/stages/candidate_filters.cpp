@@ -8,13 +8,8 @@ CandidateFilters::CandidateFilters(opencl::Context& context, const std::map<std:
     : context_(context) {
   const auto& variant = opencl::choose_variant("candidate_filters", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const bool grouped = variant.defines.count("GROUP") > 0;
-  items_per_row_ = grouped ? local_size_ : 1;
-  const auto program =
-      grouped ? context.program({"described_edges.cl", "similarity_lanes.cl", "candidate_filters_groups.cl"},
-                                variant.defines)
-              : context.program({"described_edges.cl", "similarity.cl", "candidate_filters.cl"}, variant.defines);
-  kernel_ = {context, program, "candidate_filters"};
+  items_per_row_ = variant.form == opencl::Form::groups ? local_size_ : 1;
+  kernel_ = {context, variant.program(context), "candidate_filters"};
 }
 
 void CandidateFilters::run(const DescribedEdges& a, const DescribedEdges& b, const FilterLimits& limits, int row_step,

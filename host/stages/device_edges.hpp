@@ -14,9 +14,8 @@ struct DeviceEdges {
   int stride = 0;
   opencl::Buffer<cl_int> row_first;  ///< 2 * height + 1 starts of the rows of the doubled grid
   opencl::Buffer<cl_int> count;      ///< {number of edges, edges cut off because the capacity ran out}
-  cl_int host_values[2] = {0, 0};    ///< `count` on its way to the host
-  int host_count = 0;                ///< count[0] after read_count()
-  int host_dropped = 0;              ///< count[1] after read_count(); if not 0, the frame reports an overflow
+  cl_int host_count = 0;             ///< count[0] after read_count()
+  cl_int host_dropped = 0;           ///< count[1] after read_count(); if not 0, the frame reports an overflow
 
   /// Allocates room for `capacity` edges. Growing discards the contents.
   void reserve(opencl::Context& context, int capacity) {
@@ -26,14 +25,13 @@ struct DeviceEdges {
 
   /// Waits for the detection and copies the two numbers of `count` to the host.
   void read_count() {
-    count.read(host_values, 2);
-    take_count();
+    request_count();
+    count.context()->finish();
   }
-  /// read_count() in two steps, with a read() of another buffer between them.
-  void request_count() { count.read_later(host_values, 2); }
-  void take_count() {
-    host_count = host_values[0];
-    host_dropped = host_values[1];
+  /// read_count() without the wait: both numbers are valid after the next one.
+  void request_count() {
+    count.read_later(&host_count, 1);
+    count.read_later(&host_dropped, 1, 1);
   }
 
   /// After read_count().

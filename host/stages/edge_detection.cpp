@@ -38,20 +38,18 @@ EdgeDetection::EdgeDetection(opencl::Context& context, int width, int height, co
 
 void EdgeDetection::build(const std::map<std::string, std::string>& variants) {
   const auto& variant = opencl::choose_variant("edge_detection", context_, variants);
-  strips_ = variant.name.rfind("strip", 0) == 0;
+  strips_ = variant.form == opencl::Form::items;
   local_size_ = static_cast<std::size_t>(variant.local_size);
   opencl::Defines defines = gradient_defines(config_);
-  defines.insert(variant.defines.begin(), variant.defines.end());
+  if (!strips_) defines["LOCAL"] = std::to_string(variant.local_size);
+  const cl::Program program = variant.program(context_, defines);
   if (strips_) {
-    const cl::Program program = context_.program({"edge_detection.cl", "edge_detection_strip.cl"}, defines);
     strip_maxima_ = {context_, program, "edges_strip_maxima"};
     strip_directions_ = {context_, program, "edges_strip_directions"};
   } else {
-    const int tile_x = std::stoi(defines.at("TILE_X")), tile_y = std::stoi(defines.at("TILE_Y"));
+    const int tile_x = std::stoi(variant.defines.at("TILE_X")), tile_y = std::stoi(variant.defines.at("TILE_Y"));
     tiles_x_ = (width_ + tile_x - 1) / tile_x;
     tiles_y_ = (height_ + tile_y - 1) / tile_y;
-    defines["LOCAL"] = std::to_string(variant.local_size);
-    const cl::Program program = context_.program({"edge_detection.cl", "edge_detection_tile.cl"}, defines);
     tile_maxima_ = {context_, program, "edges_tile_maxima"};
     tile_count_ = {context_, program, "edges_tile_count"};
     tile_compact_ = {context_, program, "edges_tile_compact"};

@@ -19,7 +19,7 @@ class EdgeSelection {
   /// Enqueues the selection in both images. Does nothing if edges.budget is 0.
   void run(EdgeMaxima& left, EdgeMaxima& right);
 
-  /// Copies the spacing to host_spacing(), which is valid after the next read() of any buffer.
+  /// Copies the spacing to host_spacing(), which is valid after the next wait for the queue.
   void request() { spacing_.read_later(&host_spacing_, 1); }
   /// Spacing of the lines in the last frame [px]; 0: all edges were kept.
   double host_spacing() const { return static_cast<double>(host_spacing_); }

@@ -14,7 +14,7 @@ EdgeThreshold::EdgeThreshold(opencl::Context& context, const EdgesConfig& config
   local_size_ = static_cast<std::size_t>(variant.local_size);
   opencl::Defines defines = gradient_defines(config);
   defines["GROUP"] = std::to_string(variant.local_size);
-  const cl::Program program = context.program({"edge_detection.cl", "edge_threshold.cl"}, defines);
+  const cl::Program program = variant.program(context, defines);
   tally_ = {context, program, "edges_tally"};
   choose_ = {context, program, "edges_threshold"};
 }

@@ -27,7 +27,7 @@ class EdgeThreshold {
   /// frame.
   const opencl::Buffer<cl_float>& values() const { return values_; }
 
-  /// Copies them to the host, where they are valid after the next read() of any buffer.
+  /// Copies them to the host, where they are valid after the next wait for the queue.
   void request() { values_.read_later(host_values_, 2); }
   double host_threshold() const { return static_cast<double>(host_values_[0]); }
   double host_noise() const { return static_cast<double>(host_values_[1]); }

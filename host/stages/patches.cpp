@@ -14,10 +14,8 @@ Patches::Patches(opencl::Context& context, int width, int height, const PatchesC
       corners_(context, max_value) {
   const auto& variant = opencl::choose_variant("patches", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  items_per_edge_ = std::stoul(variant.defines.at("ITEMS_PER_EDGE"));
-  const auto program = context.program({"direction.cl", "photometric.cl", "photometric_lanes.cl", "patches.cl"},
-                                       image_defines(max_value, variant.defines));
-  kernel_ = {context, program, "side_patches"};
+  items_per_edge_ = variant.form == opencl::Form::groups ? kPatchItems : 1;
+  kernel_ = {context, variant.program(context, image_defines(max_value)), "side_patches"};
 }
 
 void Patches::prepare(const opencl::Buffer<cl_uchar>& image) {

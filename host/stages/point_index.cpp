@@ -19,12 +19,12 @@ PointIndex::PointIndex(opencl::Context& context, const std::map<std::string, std
     : context_(context) {
   const auto& variant = opencl::choose_variant("point_index", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  grouped_ = variant.defines.count("GROUP") > 0;
+  grouped_ = variant.form == opencl::Form::groups;
+  const auto program = variant.program(context);
   if (!grouped_) {
-    kernel_ = {context, context.program({"indexed_points.cl", "point_index.cl"}, variant.defines), "point_index"};
+    kernel_ = {context, program, "point_index"};
     return;
   }
-  const auto program = context.program({"indexed_points.cl", "point_index_groups.cl"}, variant.defines);
   scan_ = Scan(context, variants);
   count_ = {context, program, "point_index_count"};
   place_ = {context, program, "point_index_place"};

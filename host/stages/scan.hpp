@@ -23,7 +23,7 @@ class Scan {
 
  private:
   opencl::Context* context_ = nullptr;
-  std::size_t local_size_ = 1;
+  std::size_t local_size_ = 1, groups_ = 1;  ///< groups for large scans
   opencl::Kernel<opencl::In<cl_int>, cl_int, cl_int, opencl::Out<cl_int>, opencl::Out<cl_int>> kernel_;
 };
 

@@ -20,8 +20,8 @@ Sift::Sift(opencl::Context& context, int width, int height, const SiftConfig& co
       offset_(static_cast<float>(config.offset)) {
   const auto& variant = opencl::choose_variant("sift", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  items_per_edge_ = std::stoul(variant.defines.at("ITEMS_PER_EDGE"));
-  const auto program = context.program({"direction.cl", "sift.cl"}, image_defines(max_value, variant.defines));
+  items_per_edge_ = variant.form == opencl::Form::groups ? kSiftItems : 1;
+  const auto program = variant.program(context, image_defines(max_value));
   blur_down_ = {context, program, "sift_blur_down"};
   blur_along_ = {context, program, "sift_blur_along"};
   gradient_ = {context, program, "sift_gradient"};

@@ -13,7 +13,7 @@ StereoCandidates::StereoCandidates(opencl::Context& context, const std::map<std:
     : context_(context), scan_(context, variants) {
   const auto& variant = opencl::choose_variant("stereo_candidates", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"direction.cl", "epipolar.cl", "stereo_candidates.cl"}, variant.defines);
+  const auto program = variant.program(context);
   count_ = {context, program, "stereo_candidates_count"};
   fill_ = {context, program, "stereo_candidates_fill"};
 }

@@ -10,7 +10,7 @@ StereoClusters::StereoClusters(opencl::Context& context, const StereoConfig& con
     : context_(context), config_(config) {
   const auto& variant = opencl::choose_variant("stereo_clusters", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"direction.cl", "stereo_clusters.cl"}, variant.defines);
+  const auto program = variant.program(context);
   cluster_ = {context, program, "stereo_clusters"};
 }
 

@@ -11,7 +11,7 @@ StereoMutual::StereoMutual(opencl::Context& context, const StereoConfig& config,
     : context_(context), mutual_radius_(static_cast<float>(config.mutual_radius)), scan_(context, variants) {
   const auto& variant = opencl::choose_variant("stereo_mutual", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"direction.cl", "epipolar.cl", "stereo_mutual.cl"}, variant.defines);
+  const auto program = variant.program(context);
   claim_ = {context, program, "stereo_claim"};
   owner_ = {context, program, "stereo_owner"};
   mutual_ = {context, program, "stereo_mutual"};

@@ -13,16 +13,8 @@ StereoRefinement::StereoRefinement(opencl::Context& context, const StereoConfig&
     : context_(context), config_(config), patch_offset_(static_cast<float>(patch_offset)) {
   const auto& variant = opencl::choose_variant("stereo_refinement", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const bool lanes = variant.defines.count("GROUP") != 0;
-  items_per_edge_ = lanes ? kPatchLanes : 1;
-  const opencl::Defines defines = image_defines(max_value, variant.defines);
-  const auto program = lanes ? context.program({"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl",
-                                                "candidate_positions.cl", "stereo_refinement_lanes.cl"},
-                                               defines)
-                             : context.program({"direction.cl", "epipolar.cl", "photometric.cl",
-                                                "candidate_positions.cl", "stereo_refinement.cl"},
-                                               defines);
-  kernel_ = {context, program, "stereo_refinement"};
+  items_per_edge_ = variant.form == opencl::Form::groups ? kPatchLanes : 1;
+  kernel_ = {context, variant.program(context, image_defines(max_value)), "stereo_refinement"};
 }
 
 void StereoRefinement::run(const PixelCorners& left_image, const PixelCorners& right_image, const DeviceEdges& left,

@@ -12,7 +12,7 @@ StereoRelaxation::StereoRelaxation(opencl::Context& context, int width, int heig
     : context_(context), columns_(relaxation_cells(width)), cell_rows_(relaxation_cells(height)), config_(config) {
   const auto& variant = opencl::choose_variant("stereo_relaxation", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"direction.cl", "epipolar.cl", "stereo_relaxation.cl"}, variant.defines);
+  const auto program = variant.program(context);
   start_ = {context, program, "relaxation_start"};
   round_ = {context, program, "relaxation_round"};
   choose_ = {context, program, "relaxation_choose"};

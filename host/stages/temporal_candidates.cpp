@@ -13,8 +13,7 @@ TemporalCandidates::TemporalCandidates(opencl::Context& context, const std::map<
     : context_(context), scan_(context, variants) {
   const auto& variant = opencl::choose_variant("temporal_candidates", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program =
-      context.program({"edge_positions.cl", "indexed_points.cl", "temporal_candidates.cl"}, variant.defines);
+  const auto program = variant.program(context);
   count_ = {context, program, "temporal_candidates_count"};
   fill_ = {context, program, "temporal_candidates_fill"};
 }

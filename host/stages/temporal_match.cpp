@@ -7,36 +7,19 @@
 #include "stages/quad_rows.hpp"
 
 namespace quadedge::stages {
-namespace {
-
-bool in_groups(const opencl::Defines& defines) { return defines.count("GROUP") != 0; }
-
-cl::Program match_program(opencl::Context& context, const opencl::Defines& defines) {
-  if (in_groups(defines)) {
-    return context.program({"described_edges.cl", "similarity.cl", "similarity_lanes.cl", "edge_positions.cl",
-                            "indexed_points.cl", "temporal_match_groups.cl"},
-                           defines);
-  }
-  return context.program(
-      {"described_edges.cl", "similarity.cl", "edge_positions.cl", "indexed_points.cl", "temporal_match.cl"}, defines);
-}
-
-}  // namespace
-
 TemporalMatch::TemporalMatch(opencl::Context& context, const TemporalConfig& config,
                              const std::map<std::string, std::string>& variants)
     : context_(context), config_(config), variants_(variants) {
   const auto& variant = opencl::choose_variant("temporal_match", context, variants);
-  fused_ = variant.name != "lists";
+  fused_ = variant.form != opencl::Form::lists;
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  items_per_row_ = in_groups(variant.defines) ? local_size_ : 1;
-  if (fused_) kernel_ = {context, match_program(context, variant.defines), "temporal_match"};
+  items_per_row_ = variant.form == opencl::Form::groups ? local_size_ : 1;
+  if (fused_) kernel_ = {context, variant.program(context), "temporal_match"};
 }
 
 void TemporalMatch::prepare_tap() {
   if (tap_ || !fused_) return;
-  opencl::Defines defines = opencl::choose_variant("temporal_match", context_, variants_).defines;
-  defines["TAP"] = "1";
+  opencl::Defines defines = {{"TAP", "1"}};
   for (const auto& [name, filter] : {std::pair("ORIENTATION_ORDER", TemporalFilter::orientation),
                                      {"NCC_ORDER", TemporalFilter::ncc},
                                      {"NEARLY_BEST_NCC_ORDER", TemporalFilter::nearly_best_ncc},
@@ -45,7 +28,8 @@ void TemporalMatch::prepare_tap() {
   }
   tap_.emplace();
   tap_->scan = Scan(context_, variants_);
-  tap_->kernel = {context_, match_program(context_, defines), "temporal_match"};
+  const auto& variant = opencl::choose_variant("temporal_match", context_, variants_);
+  tap_->kernel = {context_, variant.program(context_, defines), "temporal_match"};
 }
 
 /// Sorts what the kernel wrote of both sides into lists of their own.

@@ -11,7 +11,7 @@ TemporalQuads::TemporalQuads(opencl::Context& context, const TemporalConfig& con
     : context_(context), config_(config) {
   const auto& variant = opencl::choose_variant("temporal_quads", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const auto program = context.program({"edge_positions.cl", "temporal_quads.cl"}, variant.defines);
+  const auto program = variant.program(context);
   agree_ = {context, program, "temporal_agreement"};
   best_ = {context, program, "temporal_best"};
 }

@@ -14,7 +14,7 @@ Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& ta
   if (!active_) return;
   const auto& variant = opencl::choose_variant("undistortion", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  kernel_ = {context, context.program({"undistortion.cl"}, image_defines(max_value, variant.defines)), "undistort"};
+  kernel_ = {context, variant.program(context, image_defines(max_value)), "undistort"};
   source_x_.write(context, table.source_x);
   source_y_.write(context, table.source_y);
 }

@@ -11,11 +11,8 @@ WideDescription::WideDescription(opencl::Context& context, int width, int height
     : context_(context), width_(width), small_width_(width / kWideShrink), small_height_(height / kWideShrink) {
   const auto& variant = opencl::choose_variant("wide_description", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
-  const bool grouped = variant.defines.count("GROUP") > 0;
-  items_per_row_ = grouped ? kWideCells * kWideCells : 1;
-  const auto program = context.program(
-      {"direction.cl", "wide_samples.cl", grouped ? "wide_description_groups.cl" : "wide_description.cl"},
-      image_defines(max_value, variant.defines));
+  items_per_row_ = variant.form == opencl::Form::groups ? kWideCells * kWideCells : 1;
+  const auto program = variant.program(context, image_defines(max_value));
   shrink_ = {context, program, "wide_shrink"};
   describe_ = {context, program, "wide_describe"};
 }

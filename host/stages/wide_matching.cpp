@@ -19,15 +19,14 @@ WideMatching::WideMatching(opencl::Context& context, const TemporalConfig& confi
   local_size_ = static_cast<std::size_t>(variant.local_size);
   const auto rows = variant.defines.find("ROWS");
   rows_at_once_ = rows == variant.defines.end() ? 1 : std::stoul(rows->second);
-  grouped_ = variant.defines.count("GROUP") > 0;
-  in_blocks_ = !grouped_ && rows != variant.defines.end();
-  if (!in_blocks_) {
-    kernel_ = {context, context.program({grouped_ ? "wide_matching_tiles.cl" : "wide_matching.cl"}, variant.defines),
-               "wide_match"};
-  } else {
-    const auto program = context.program({"wide_matching_blocks.cl"}, variant.defines);
+  grouped_ = variant.form == opencl::Form::groups;
+  in_blocks_ = variant.form == opencl::Form::blocks;
+  const auto program = variant.program(context);
+  if (in_blocks_) {
     transpose_ = {context, program, "wide_transpose"};
     blocks_kernel_ = {context, program, "wide_match"};
+  } else {
+    kernel_ = {context, program, "wide_match"};
   }
 }
 
