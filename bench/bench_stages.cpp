@@ -1,18 +1,19 @@
-/// \file bench_stages.cpp  Kernel times of all stages (bench_STAGE.cpp) on the device QUADEDGE_DEVICE ("auto" if
-/// unset): bench_stages --benchmark_filter=patches
+/// \file bench_stages.cpp  Kernel times of every variant of every stage, by OpenCL events, on the device
+/// QUADEDGE_DEVICE
+/// ("auto" if unset): bench_stages --benchmark_filter=patches
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <iostream>
 #include <vector>
 
 #include "benchmark/frontend_agreement.hpp"
+#include "opencl/buffer.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/synthetic.hpp"
-#include "stage_bench.hpp"
+#include "stages/scan.hpp"
 
-namespace stage_bench {
 namespace {
 
 using namespace quadedge;
@@ -40,14 +41,46 @@ const Scene& scene() {
   return made;
 }
 
-/// `variant`: empty for the default.
-void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant, const Prepare& prepare) {
+std::string device_choice() {
+  const char* chosen = std::getenv("QUADEDGE_DEVICE");
+  return chosen == nullptr ? "auto" : chosen;
+}
+
+Device profiled_device() {
   DeviceOptions profiling;
   profiling.profiling = true;
-  Device device(stage_bench::device_choice(), profiling);
+  return Device(device_choice(), profiling);
+}
+
+/// Moves every pixel by a fraction.
+UndistortionTable shifting_table(const PinholeCamera& camera) {
+  UndistortionTable table{camera.width, camera.height, {}, {}};
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      table.source_x.push_back(static_cast<float>(x) + 0.25f);
+      table.source_y.push_back(static_cast<float>(y) + 0.25f);
+    }
+  }
+  return table;
+}
+
+/// Changes configuration and rig so that the built-in sequence runs a stage that it would skip.
+void enable(const std::string& stage, Config& config, StereoRig& rig) {
+  if (stage == "candidate_filters" || stage == "temporal_candidates" || stage == "temporal_quads")
+    config.variants["temporal_match"] = "lists";
+  if (stage == "sift") config.stereo.sift_max = 500;  // as in the paper
+  if (stage != "undistortion") return;
+  rig.left_undistortion = shifting_table(rig.left);
+  rig.right_undistortion = shifting_table(rig.right);
+}
+
+/// Each repetition processes the second frame and matches it with the first one, guided and globally; only the kernels
+/// of the stage count.
+void run_stage(benchmark::State& state, const std::string& stage, const std::string& variant) {
+  Device device = profiled_device();
   Config config = scene().config;
   StereoRig rig = scene().sequence.rig();
-  if (prepare) prepare(config, rig);
+  enable(stage, config, rig);
   if (!variant.empty()) config.variants[stage] = variant;
   const auto frontend = frontend::make_frontend(rig, device, config);
   const auto warm = bench::run_frontend(*frontend, scene().frames[0], scene().frames[1], config);
@@ -70,42 +103,45 @@ void run_stage(benchmark::State& state, const std::string& stage, const std::str
   state.counters["edges"] = frontend->counts().edges_left + frontend->counts().edges_right;
 }
 
+/// Exclusive prefix sums of one count per edge of a frame.
+void run_scan(benchmark::State& state, const std::string& variant) {
+  constexpr int kCounts = 50000;
+  Device device = profiled_device();
+  auto& context = *device.context();
+  stages::Scan scan(context, {{"scan", variant}});
+  opencl::Buffer<cl_int> counts, first, total;
+  counts.write(context, std::vector<cl_int>(kCounts, 8));
+  context.begin_stage("scan");
+  for (auto unused : state) {
+    (void)unused;
+    scan.run(counts, kCounts, 8 * kCounts, first, total);
+    double ms = 0;
+    for (const auto& row : context.take_profile()) ms += row.kernel_ms;
+    state.SetIterationTime(ms * 1e-3);
+  }
+}
+
+void add(const std::string& stage, const std::string& variant) {
+  const auto run = [=](benchmark::State& state) {
+    stage == "scan" ? run_scan(state, variant) : run_stage(state, stage, variant);
+  };
+  benchmark::RegisterBenchmark((stage + (variant.empty() ? "" : "/" + variant)).c_str(), run)
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
 }  // namespace
-
-std::string device_choice() {
-  const char* chosen = std::getenv("QUADEDGE_DEVICE");
-  return chosen == nullptr ? "auto" : chosen;
-}
-
-bool register_stage(const std::string& stage, const Prepare& prepare) {
-  std::vector<std::string> variants;
-  for (const auto& variant : opencl::all_variants()) {
-    if (variant.stage == stage) variants.push_back(variant.name);
-  }
-  if (variants.empty()) variants.emplace_back();
-  for (const auto& variant : variants) {
-    const std::string name = variant.empty() ? stage : stage + "/" + variant;
-    benchmark::RegisterBenchmark(name.c_str(),
-                                 [=](benchmark::State& state) { run_stage(state, stage, variant, prepare); })
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
-  }
-  return true;
-}
-
-void match_by_lists(Config& config, StereoRig&) { config.variants["temporal_match"] = "lists"; }
-void match_with_sift(Config& config, StereoRig&) { config.stereo.sift_max = 500; }
-
-}  // namespace stage_bench
 
 int main(int argc, char** argv) {
   try {
     benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(quadedge::ExitCode::usage);
-    benchmark::AddCustomContext("device", quadedge::Device(stage_bench::device_choice()).info().name);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(ExitCode::usage);
+    for (const auto& variant : opencl::all_variants()) add(variant.stage, variant.name);
+    add("edge_selection", "");  // has no variants
+    benchmark::AddCustomContext("device", Device(device_choice()).info().name);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
-  } catch (const quadedge::Error& error) {
+  } catch (const Error& error) {
     std::cerr << "bench_stages: " << error.what() << "\n";
     return static_cast<int>(error.exit_code());
   }

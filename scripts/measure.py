@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Measures the figures of README and doc/: accuracy, matching, speed and disturbances. Writes doc/results.
+"""Measures the figures of README and doc/: accuracy, matching, speed, disturbances, light and drift.
+Writes doc/results.
 
     scripts/measure.py                         all parts, several minutes; recorded data from --data or QUADEDGE_DATA
     scripts/measure.py --only speed            one part; the others remain unchanged

@@ -1,15 +1,16 @@
-"""The measurements of scripts/measure.py: accuracy, matching, speed and disturbances, as rows with their commands."""
+"""The measurements of scripts/measure.py, one function per part, as rows with their commands."""
 
-import argparse
 import itertools
 import json
+import math
 import shlex
 import shutil
+import statistics
 import subprocess
 import sys
 from pathlib import Path
 
-import disturbance_sweep
+import disturbances
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 RECORDED = {
@@ -19,7 +20,7 @@ RECORDED = {
     "flight": "euroc_mh_01_easy",
     "keyframes": "euroc_v1_01_easy_keyframes",
 }
-SCENES = disturbance_sweep.SCENES
+SCENES = disturbances.SCENES
 PATHS = ("handheld", "drive", "loop")  # besides the ellipse
 # Run -> scene and path; a run on the ellipse has the name of its scene.
 RENDERED = {
@@ -279,26 +280,14 @@ def measure_speed(programs):
 def measure_disturbances(programs):
     """Every disturbance in every scene, and the plot if matplotlib is installed."""
     options = programs.options
-    sweep = argparse.Namespace(
-        out=options.work / "disturbances",
-        scenes=[scene for scene in SCENES if scene in options.sequences],
-        frames=options.frames or 5,
-        size="640x332",
-        device=None,
-        scene_seed=None,
-        quadedge=options.quadedge,
-    )
     rows = []
+    for scene in (scene for scene in SCENES if scene in options.sequences):
+        for kind, (_, values, _) in disturbances.KINDS.items():
+            print(f"disturbances: {scene}, {kind}", file=sys.stderr, flush=True)
+            size = (options.frames or 5, "640x332")
+            rows += [disturbances.measure(scene, kind, value, 0, size, programs) for value in values]
     try:
-        for scene in sweep.scenes:
-            for kind, (_, values, _) in disturbance_sweep.KINDS.items():
-                print(f"disturbances: {scene}, {kind}", file=sys.stderr, flush=True)
-                rows += [disturbance_sweep.measure(scene, kind, value, sweep) for value in values]
-    except disturbance_sweep.Problem as problem:
-        raise Problem(str(problem)) from problem
-    try:
-        sweep.out = options.out
-        disturbance_sweep.plot(rows, sweep)
+        disturbances.plot(rows, options.out)
     except ImportError:
         print("measure: matplotlib is missing; the plot of the disturbances remains unchanged", file=sys.stderr)
     return rows
@@ -307,23 +296,44 @@ def measure_disturbances(programs):
 def measure_light(programs):
     """Low contrast and low light in two scenes, with the former fixed edge threshold and with the automatic one."""
     options = programs.options
-    sweep = argparse.Namespace(
-        out=options.work / "light",
-        frames=options.frames or 26,
-        size="480x249",
-        device=None,
-        scene_seed=None,
-        quadedge=options.quadedge,
-    )
     rows = []
-    try:
-        for scene in (scene for scene in ("room", "cables") if scene in options.sequences):
-            for kind, (_, values, _) in disturbance_sweep.LIGHT.items():
-                print(f"light: {scene}, {kind}", file=sys.stderr, flush=True)
-                for value in values:
-                    rows += [disturbance_sweep.measure(scene, kind, value, sweep, threshold) for threshold in (2, 0)]
-    except disturbance_sweep.Problem as problem:
-        raise Problem(str(problem)) from problem
+    for scene in (scene for scene in ("room", "cables") if scene in options.sequences):
+        for kind, (_, values, _) in disturbances.LIGHT.items():
+            print(f"light: {scene}, {kind}", file=sys.stderr, flush=True)
+            size = (options.frames or 26, "480x249")
+            rows += [disturbances.measure(scene, kind, value, threshold, size, programs)
+                     for value in values for threshold in (2, 0)]
+    return rows
+
+
+def drift_of(scene, seed, programs):
+    """End error and RMS error of the positions, origin-aligned [mm], parts of the end error [mm], path length [m]."""
+    options = programs.options
+    folder = options.work / "drift" / f"{scene}_{seed}"
+    if not (options.keep and (folder / "trajectory.txt").exists()):
+        print(f"drift: {scene}, texture {seed}", file=sys.stderr, flush=True)
+        programs.call([options.quadedge, "demo", "--scene", scene, "--scene-seed", seed, "--frames",
+                       options.frames or 480, "--size", "480x249", "-o", folder, "--quiet", "--force"], allowed=(0, 5))
+    truth, found = ([[float(value) for value in line.split()] for line in (folder / name).open(encoding="utf-8")
+                     if line[0] != "#"] for name in ("groundtruth.txt", "trajectory.txt"))
+    true = {round(row[0], 6): row[1:4] for row in truth}
+    parts = [[1e3 * (b - a) for a, b in zip(true[round(row[0], 6)], row[1:4])] for row in found]
+    lengths = [math.hypot(*part) for part in parts]
+    return {"end_mm": lengths[-1], "rms_mm": math.hypot(*lengths) / math.sqrt(len(lengths)), "end_parts_mm": parts[-1],
+            "path_m": sum(math.dist(one[1:4], other[1:4]) for one, other in zip(found, found[1:])),
+            "frames": len(found)}
+
+
+def measure_drift(programs):
+    """Long rendered sequences with three textures, and the part of the drift that all textures share."""
+    rows = []
+    for scene in (scene for scene in ("room", "cables") if scene in programs.options.sequences):
+        runs = [drift_of(scene, seed, programs) for seed in (1, 2, 3)]
+        rows.append({"scene": scene, "end_mm": statistics.mean(run["end_mm"] for run in runs),
+                     "rms_mm": statistics.mean(run["rms_mm"] for run in runs),
+                     "end_percent": statistics.mean(run["end_mm"] / run["path_m"] for run in runs) / 10,
+                     "mean_end_parts_mm": [*map(statistics.mean, zip(*(run["end_parts_mm"] for run in runs)))],
+                     "runs": runs})
     return rows
 
 
@@ -333,4 +343,5 @@ PARTS = {
     "speed": measure_speed,
     "disturbances": measure_disturbances,
     "light": measure_light,
+    "drift": measure_drift,
 }

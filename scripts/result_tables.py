@@ -49,11 +49,6 @@ PAGES = {
         ("speed",),
     ),
 }
-# Scripts that write the parts not written by measure.py.
-MADE_BY = {
-    "drift": "scripts/drift.py",
-    "truth": "scripts/truth_consistency.py",
-}
 NAMES = "DATA is the folder with the recorded sequences, OUT a folder for results."
 
 
@@ -62,7 +57,7 @@ def render(name, results):
     part = PART_OF.get(name, name)
     if part in results:
         return TABLES[name](results)
-    return f"*Not measured yet: `{MADE_BY.get(part, f'scripts/measure.py --only {part}')}`.*\n"
+    return f"*Not measured yet: `scripts/measure.py --only {part}`.*\n"
 
 
 def page(part, results):

@@ -1,10 +1,9 @@
 """The tables that scripts/result_tables.py writes: one function per table, from the JSON of doc/results to Markdown.
 
-`results`: part ("accuracy", "matching" ...) -> what doc/results/PART.json holds; scripts/measure.py, drift.py and
-truth_consistency.py say what that is.
+`results`: part ("accuracy", "matching" ...) -> what doc/results/PART.json holds; scripts/measure.py says what that is.
 """
 
-import disturbance_sweep
+import disturbances as sweeps
 
 PRESETS = ("fast", "default", "accurate")
 SYSTEMS = {
@@ -169,8 +168,8 @@ def step_error(row):
 def disturbances(results):
     """Mean error of a step, a block of rows per disturbance."""
     rows, kept = [], results["disturbances"]["rows"]
-    width = max(len(values) for _, values, _ in disturbance_sweep.KINDS.values())
-    for kind, (label, values, _) in disturbance_sweep.KINDS.items():
+    width = max(len(values) for _, values, _ in sweeps.KINDS.values())
+    for kind, (label, values, _) in sweeps.KINDS.items():
         if not any(row["kind"] == kind for row in kept):
             continue
         rows.append([label, "", *values, *[""] * (width - len(values))])
@@ -316,7 +315,7 @@ def light(results):
         if not automatic:
             continue
         fixed, found = runs[scene, kind, value, False], runs[scene, kind, value, True]
-        cells = [f"{disturbance_sweep.LIGHT[kind][0]} {value:g}", scene]
+        cells = [f"{sweeps.LIGHT[kind][0]} {value:g}", scene]
         for row in (fixed, found):
             cells += [f"{row['right']}, {row['wrong']}, {row['lost']}", f"{row['edges']:.0f}"]
         lines.append([*cells, number(found["edge_threshold"])])
@@ -376,21 +375,6 @@ def consistency(results):
     return table(head, rows) + "\n" + stamp(results["accuracy"])
 
 
-def truth(results):
-    """Errors of a recording before and after fitted constants of its ground truth are removed."""
-    found = results["truth"]
-    rows = [
-        [row["frames"], length(row["way_mm"] / 1e3),
-         *(length(row[name] / 1e3) for name in ("as_it_is_mm", "constants_removed_mm", "of_other_half_mm",
-                                                "promised_mm"))]
-        for row in found["rows"]
-    ]
-    head = ["frames apart", "displacement, mean", "error, rms", "after removing eight constants of the ground truth",
-            "constants fitted on the other half", "predicted"]
-    constants = ", ".join(f"{name} {value:+.4f}" for name, value in found["constants"].items())
-    return table(head, rows) + f"\nConstants (radians, seconds, metres): {constants}. " + stamp(found)
-
-
 TABLES = {
     "accuracy": accuracy,
     "systems": systems,
@@ -406,5 +390,4 @@ TABLES = {
     "peers": peers,
     "consistency": consistency,
     "drift": drift_over_scenes,
-    "truth": truth,
 }

@@ -4,6 +4,7 @@
 test_measure.py SCRIPTS QUADEDGE
 """
 
+import argparse
 import json
 import subprocess
 import sys
@@ -12,7 +13,9 @@ from pathlib import Path
 
 scripts, quadedge = Path(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, str(scripts))
+import disturbances  # noqa: E402
 import result_tables  # noqa: E402
+from measurements import Programs  # noqa: E402
 
 
 def run(script, *options):
@@ -61,6 +64,27 @@ with tempfile.TemporaryDirectory() as folder:
     assert "| rendered cables, 3 frames | QuadEdge | 3 / 3 |" in page and result["commit"] in page, page
     assert row["commands"][1] in page, page
     assert "<svg" in (out / "cables.svg").read_text()
+
+    # Drift and disturbances agree with the evaluation of the same runs.
+    done = run("measure.py", *small, "--only", "drift")
+    assert done.returncode == 0, done.stderr
+    (row_of_drift,) = json.loads((out / "drift.json").read_text())["rows"]
+    for seed, drift in enumerate(row_of_drift["runs"], 1):
+        folder_of_run = work / f"drift/cables_{seed}"
+        judged = folder_of_run / "judged.json"
+        subprocess.run([quadedge, "evaluate", "trajectory", folder_of_run / "trajectory.txt",
+                        folder_of_run / "groundtruth.txt", "--json", judged], check=True, stdout=subprocess.DEVNULL)
+        errors = json.loads(judged.read_text())["accuracy"]["origin_aligned"]["ape_translation_m"]
+        assert abs(drift["rms_mm"] - 1e3 * errors["rmse"]) < 1e-6, (drift, errors)
+        assert abs(drift["end_mm"] - sum(part**2 for part in drift["end_parts_mm"]) ** 0.5) < 1e-9, drift
+    programs = Programs(argparse.Namespace(quadedge=quadedge, baseline=None, work=work, data=None))
+    swept = [disturbances.measure("cables", "noise", noise, 0, (3, "320x200"), programs) for noise in (0, 8)]
+    assert all(found["right"] + found["wrong"] + found["lost"] == 2 for found in swept), swept
+    assert swept[0]["tracked"] == 3 and swept[0]["rpe_translation_m"] < swept[1]["rpe_translation_m"], swept
+    disturbances.plot(swept, out)
+    assert "<svg" in (out / "disturbances.svg").read_text()
+    failed = run("measure.py", *small[2:], "--quadedge", "/bin/false", "--only", "drift")
+    assert failed.returncode == 1 and "/bin/false" in failed.stderr, failed
 
     # Complete runs are reused; a changed page is detected.
     stamp = (work / "default/cables/report.json").stat().st_mtime_ns

@@ -90,17 +90,15 @@ class CheckCommand : public Command {
     if (options_.format != "auto" || !options_.sequence.empty() || !calibration_.empty() ||
         source_.has_camera_options() || !std::filesystem::is_directory(path_, ignored))
       return false;
-    if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList, ignored)) return true;
     const auto members = data::find_members(path_);
     return members.size() > 1 || (members.size() == 1 && members[0].path != "." && members[0].format != "kitti");
   }
 
-  /// Checks every recording and pair below PATH, and that all published ones are there.
+  /// Checks every recording and pair below PATH.
   int check_tree() {
     int damaged = 0;
     StatusLine status(quiet_);
     const auto members = data::find_members(path_);
-    const auto missing = data::missing_members(path_);
     for (std::size_t i = 0; i < members.size(); ++i) {
       const auto& member = members[i];
       if (status.due())
@@ -114,12 +112,7 @@ class CheckCommand : public Command {
       for (const auto& error : check.errors) std::fprintf(stderr, "error: %s\n", error.c_str());
     }
     if (quiet_) return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
-    for (const auto& name : missing) std::printf("missing  %s\n", name.c_str());
-    std::printf("%zu there, %d of them damaged", members.size(), damaged);
-    if (std::filesystem::exists(std::filesystem::path(path_) / data::kPublishedList)) {
-      std::printf(", %zu published ones missing", missing.size());
-    }
-    std::printf("\n");
+    std::printf("%zu there, %d of them damaged\n", members.size(), damaged);
     return static_cast<int>(damaged == 0 ? ExitCode::done : ExitCode::data);
   }
 

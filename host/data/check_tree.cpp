@@ -1,9 +1,8 @@
 #include "data/check_tree.hpp"
 
-#include <set>
+#include <filesystem>
 
 #include "data/find_sequences.hpp"
-#include "data/layout.hpp"
 #include "data/text.hpp"
 
 namespace quadedge::data {
@@ -11,20 +10,9 @@ namespace quadedge::data {
 std::vector<TreeMember> find_members(const std::string& root) {
   std::vector<TreeMember> members;
   for (const auto& found : find_recordings(root, true)) {
-    members.push_back({fs::path(found.path).lexically_relative(fs::path(root)).string(), found.format});
+    members.push_back({std::filesystem::path(found.path).lexically_relative(root).string(), found.format});
   }
   return members;
-}
-
-std::vector<std::string> missing_members(const std::string& root) {
-  const fs::path list = fs::path(root) / kPublishedList;
-  std::vector<std::string> missing;
-  std::error_code ignored;
-  if (!fs::exists(list, ignored)) return missing;
-  for (const auto& line : data_lines(list.string())) {
-    if (!fs::is_directory(fs::path(root) / line.text, ignored)) missing.push_back(line.text);
-  }
-  return missing;
 }
 
 std::string one_line(const DatasetCheck& check) {

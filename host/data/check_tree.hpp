@@ -1,5 +1,5 @@
 #pragma once
-/// \file check_tree.hpp  Lists the recordings and pairs in a folder, and those missing from a published set.
+/// \file check_tree.hpp  Lists the recordings and pairs in a folder.
 
 #include <string>
 #include <vector>
@@ -17,14 +17,6 @@ struct TreeMember {
 /// Recordings and still pairs in and below a folder, sorted by path. A folder that is one itself yields one member with
 /// the path ".".
 std::vector<TreeMember> find_members(const std::string& root);
-
-/// Name of the list that scripts/download_eth3d.py writes into a tree: one published folder per line; '#' starts a
-/// comment.
-inline constexpr const char* kPublishedList = "eth3d_published.txt";
-
-/// Folders of the published list that are missing from the tree; empty if there is no list. \throws DataError for an
-/// unreadable list
-std::vector<std::string> missing_members(const std::string& root);
 
 /// One line about a checked member: layout, number of frames, size, ground truth, number of warnings.
 std::string one_line(const DatasetCheck& check);
