@@ -5,7 +5,8 @@
 
 OLD and NEW are `quadedge` programs. DIR contains recorded data (default: QUADEDGE_DATA); without it, only the
 built-in scenes that both programs can render are run. Both trajectory files and the edges of one image are compared
-byte by byte, and every column of frames.csv except the times; of a message, only its presence is compared.
+byte by byte, and every column of frames.csv that both write except the times; of a message, only its presence is
+compared.
 The results of OLD are kept in the work folder and reused.
 Exit code: 0 identical, 1 some differ, 2 a run failed.
 """
@@ -54,12 +55,12 @@ def run(program, name, arguments, folder):
         sys.exit(2)
 
 
-def untimed_rows(path):
-    """Rows of frames.csv without the columns in milliseconds; messages are replaced by whether there is one."""
+def untimed_columns(path):
+    """Columns of frames.csv except those in milliseconds; messages are replaced by whether there is one."""
     with open(path, newline="") as file:
         header, *rows = list(csv.reader(file))
-    kept = [i for i, name in enumerate(header) if not name.endswith("_ms")]
-    return [[bool(row[i]) if header[i] == "message" else row[i] for i in kept] for row in rows]
+    columns = {name: [row[i] for row in rows] for i, name in enumerate(header) if not name.endswith("_ms")}
+    return columns | {"message": [bool(text) for text in columns["message"]]}
 
 
 def differences(old, new):
@@ -67,7 +68,8 @@ def differences(old, new):
         return [] if filecmp.cmp(old, new, shallow=False) else [old.name]
     found = [name for name in ("trajectory.txt", "trajectory_kitti.txt")
              if not filecmp.cmp(old / name, new / name, shallow=False)]
-    if untimed_rows(old / "frames.csv") != untimed_rows(new / "frames.csv"):
+    before, after = (untimed_columns(folder / "frames.csv") for folder in (old, new))
+    if any(before[name] != after[name] for name in before.keys() & after.keys()):
         found.append("frames.csv")
     return found
 

@@ -153,7 +153,7 @@ TEST_CASE("frames.csv: a run's rows are read back, whichever frame has the first
   CHECK(table.texts("temporal_ms") == std::vector<std::string>{"", "3.000", "3.000"});
   CHECK(std::isnan(table.numbers("pose_ms")[0]));
   CHECK(table.numbers("pose_ms")[2] == 1.5);
-  CHECK_THROWS_WITH(table.texts("segment"), Catch::Matchers::Contains("no column segment"));
+  CHECK_THROWS_WITH(table.texts("colour"), Catch::Matchers::Contains("no column colour"));
   write_text(folder / "cut.csv", "a,b\n1,2\n3\n");
   CHECK_THROWS_WITH(report::read_frames_csv(folder / "cut.csv"), Catch::Matchers::Contains("cut.csv:3: found 1 field"));
 }

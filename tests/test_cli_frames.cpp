@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "damaged_sequence.hpp"
@@ -15,19 +17,22 @@ void blacken(const DamagedSequence& sequence, std::size_t frame) {
   }
 }
 
-/// Status of every frame in frames.csv.
-std::vector<std::string> statuses(const std::string& path) {
+/// A column of a CSV file.
+std::vector<std::string> column(const std::string& path, int number) {
   std::vector<std::string> result;
   std::ifstream stream(path);
   std::string row, field;
   std::getline(stream, row);
   while (std::getline(stream, row)) {
     std::istringstream fields(row);
-    for (int i = 0; i < 3; ++i) std::getline(fields, field, ',');
+    for (int i = 0; i <= number; ++i) std::getline(fields, field, ',');
     result.push_back(field);
   }
   return result;
 }
+
+/// Status of every frame in frames.csv.
+std::vector<std::string> statuses(const std::string& path) { return column(path, 2); }
 
 /// Positions of the left camera in a KITTI file.
 std::vector<std::array<double, 3>> positions(const std::string& path) {
@@ -66,6 +71,58 @@ TEST_CASE("run: a black frame is lost, and tracking resumes after it", "[cli][de
   const auto here = positions(folder / "out/trajectory_kitti.txt"),
              there = positions(folder / "whole/trajectory_kitti.txt");
   CHECK(distance(here[3], there[3]) < 0.05 * distance(there[0], there[3]));
+}
+
+TEST_CASE("run, evaluate: an unknown motion divides the trajectory into segments", "[cli][device]") {
+  // Black images, then another scene: its first frame is lost, the next one is located against it.
+  const TemporaryFolder folder;
+  for (const std::string scene : {"room", "cables"}) {
+    REQUIRE(run_program({"synth", folder / scene, "--scene", scene, "--frames", "6", "--size", "320x200", "--quiet"})
+                .code == 0);
+  }
+  for (const std::string camera : {"/rgb", "/rgb2"}) {
+    const auto images = [&](const std::string& scene) {
+      std::vector<std::string> files;
+      for (const auto& entry : std::filesystem::directory_iterator((folder / scene) + camera))
+        files.push_back(entry.path().string());
+      std::sort(files.begin(), files.end());
+      return files;
+    };
+    const auto room = images("room"), cables = images("cables");
+    cv::imwrite(room[2], cv::Mat::zeros(200, 320, CV_8UC1));
+    for (const std::size_t i : {3, 4, 5})
+      std::filesystem::copy_file(cables[i], room[i], std::filesystem::copy_options::overwrite_existing);
+  }
+  const auto run = run_program({"run", folder / "room", "-o", folder / "out", "--stereo.max_disparity", "60"});
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(column(folder / "out/frames.csv", 3) == std::vector<std::string>{"0", "0", "0", "0", "1", "1"});
+  CHECK_THAT(run.err, Contains("warning: frame 4: the motion between frames 1 and 4 is unknown"));
+  CHECK_THAT(run.out, Contains("broken     2 segments: an unknown motion lies between frames 1 and 4"));
+  CHECK_THAT(run.out, Contains("segments, each aligned by itself"));
+  const auto report = nlohmann::json::parse(read_text(folder / "out/report.json"));
+  CHECK(report["segments"] == 2);
+  CHECK(report["segments_text"] == "2 segments: an unknown motion lies between frames 1 and 4");
+  CHECK(report["warnings"][0]["kind"] == "unknown_motion");
+  CHECK(report["accuracy"]["matched_poses"] == 4);
+  CHECK(report["accuracy"]["rpe_steps"] == 2);
+  REQUIRE(report["accuracy"]["segments"].size() == 2);
+  CHECK(report["accuracy"]["segments"][1]["segment"] == 1);
+  const auto rows = read_lines(folder / "out/trajectory.txt");
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[3] == "# segment 1: the motion since the poses above is unknown");
+  const auto errors = column(folder / "out/errors.csv", 3);
+  REQUIRE(errors.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(errors[i].empty() == (i % 2 == 0));
+
+  for (const std::string estimate : {"out", "out/trajectory.txt"}) {
+    const auto evaluated = run_program(
+        {"evaluate", "trajectory", folder / estimate, folder / "room", "--json", folder / (estimate + ".json")});
+    INFO(evaluated.err);
+    REQUIRE(evaluated.code == 0);
+    const auto json = nlohmann::json::parse(read_text(folder / (estimate + ".json")));
+    CHECK(json["accuracy"]["segments"] == report["accuracy"]["segments"]);
+  }
 }
 
 TEST_CASE("run: with too few tracked frames it ends with code 5 after writing everything", "[cli][device]") {

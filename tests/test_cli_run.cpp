@@ -86,10 +86,10 @@ TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[
     return values;
   };
   const auto names = fields(rows[0]);
-  REQUIRE(names.size() == 4 + 7 + 7 + 21 + 21);
-  CHECK(names[18] == "covariance_x_x");
-  CHECK(names[39] == "reference_covariance_x_x");
-  CHECK(names[59] == "reference_covariance_rz_rz");
+  REQUIRE(names.size() == 5 + 7 + 7 + 21 + 21);
+  CHECK(names[19] == "covariance_x_x");
+  CHECK(names[40] == "reference_covariance_x_x");
+  CHECK(names[60] == "reference_covariance_rz_rz");
   const auto tum = read_lines(shared_run().out("trajectory.txt"));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto values = fields(rows[i]);
@@ -98,9 +98,9 @@ TEST_CASE("run: poses.csv has the pose of every frame with both covariances", "[
     std::string value;
     pose >> value;
     CHECK(value == values[1]);
-    for (std::size_t column = 4; column < 11 && pose >> value; ++column) CHECK(value == values[column]);
+    for (std::size_t column = 5; column < 12 && pose >> value; ++column) CHECK(value == values[column]);
     // A covariance valid for ROS has variances on the diagonal; the first pose is exact by definition.
-    for (const std::size_t first : {18, 39}) {
+    for (const std::size_t first : {19, 40}) {
       std::size_t column = first;
       for (std::size_t length = 6; length > 0; column += length--) {
         const double variance = std::stod(values[column]);

@@ -178,3 +178,37 @@ TEST_CASE("evaluation: an error about too few matches states timestamps and coun
   CHECK_THROWS_AS(evaluate_trajectory(truth, truth, 19), DataError);
   CHECK_THROWS_AS(evaluate_trajectory(truth, truth, 500), DataError);
 }
+
+TEST_CASE("evaluation: every segment is judged by itself, and no step across segments", "[evaluation]") {
+  const Trajectory truth = curve(12);
+  const Eigen::Isometry3d jump = Eigen::Translation3d(1, 2, 3) * turn(40, {1, 2, 3});
+  Trajectory estimate = truth;
+  for (std::size_t i = 5; i < 12; ++i) estimate[i] = {truth[i].stamp_ns, jump * truth[i].world_from_left, 1};
+  estimate[11].segment = 2;
+  const TrajectoryEvaluation whole = evaluate_trajectory(estimate, truth);
+  CHECK(whole.matched == 12);
+  CHECK(whole.rpe_steps == 9);
+  CHECK(whole.origin_aligned.ape_translation_m.max > 1);  // the unknown motion
+  CHECK(whole.origin_aligned.rpe_translation_m.max < 1e-9);
+  CHECK(whole.se3_aligned.rpe_rotation_deg.max < 1e-9);
+  for (std::size_t i = 0; i < 12; ++i)
+    CHECK(std::isnan(whole.per_pose[i].rpe_rotation_deg) == (i == 0 || i == 5 || i == 11));
+  REQUIRE(whole.segments.size() == 3);
+  for (int segment = 0; segment < 2; ++segment) {
+    const TrajectoryEvaluation& part = whole.segments[static_cast<std::size_t>(segment)];
+    CHECK(part.segment == segment);
+    CHECK(part.matched == (segment == 0 ? 5 : 6));
+    CHECK(part.rpe_steps == part.matched - 1);
+    for (const PoseErrors& errors : {part.origin_aligned, part.se3_aligned}) {
+      CHECK(errors.ape_translation_m.max < 1e-9);
+      CHECK(errors.ape_rotation_deg.max < 1e-6);
+    }
+    CHECK(part.segments.empty());
+  }
+  const TrajectoryEvaluation& single = whole.segments[2];
+  CHECK((single.segment == 2 && single.matched == 1 && single.rpe_steps == 0));
+  CHECK(std::isnan(single.origin_aligned.ape_translation_m.mean));
+  CHECK(std::isnan(single.se3_aligned.rpe_rotation_deg.max));
+  CHECK(evaluate_trajectory(truth, truth).segments.empty());
+  CHECK(evaluate_trajectory(truth, truth).rpe_steps == 11);
+}

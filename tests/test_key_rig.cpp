@@ -29,7 +29,7 @@ StereoEdges row_of_edges(int count, float shift = 0) {
 KeyRig key_rig(int frame, const Eigen::Isometry3d& world_from_left = Eigen::Isometry3d::Identity()) {
   auto rig = std::make_shared<frontend::Rig>();
   rig->start(frame);
-  return KeyRig(rig, {world_from_left, std::nullopt});
+  return KeyRig(rig, {world_from_left});
 }
 
 }  // namespace
@@ -105,6 +105,6 @@ TEST_CASE("key rig: one with a predicted pose is replaced by the first tracked f
   fitness.quads = 1000;
   KeyRig found = key_rig(3);
   CHECK_FALSE(found.needs_replacement(fitness, config));
-  KeyRig predicted(found.rig(), {found.world_from_left(), std::nullopt}, odometry::PoseOrigin::predicted);
+  KeyRig predicted(found.rig(), {found.world_from_left()}, odometry::PoseOrigin::predicted);
   CHECK(predicted.needs_replacement(fitness, config));
 }

@@ -59,7 +59,7 @@ bool same_bytes(const FrameResult& a, const FrameResult& b) {
          same_bytes(a.current_from_reference, b.current_from_reference) && a.covariance == b.covariance &&
          a.relative_covariance == b.relative_covariance && a.reference_frame == b.reference_frame &&
          a.diagnostics.base_frame == b.diagnostics.base_frame && a.new_key_rig == b.new_key_rig &&
-         a.diagnostics.overflow == b.diagnostics.overflow && a.message == b.message &&
+         a.diagnostics.overflow == b.diagnostics.overflow && a.message == b.message && a.segment == b.segment &&
          a.counts.quads == b.counts.quads && a.counts.inliers == b.counts.inliers;
 }
 
@@ -144,6 +144,7 @@ TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right po
       CHECK_FALSE(before.world_from_left);
       CHECK_FALSE(before.current_from_reference);
       CHECK_FALSE(before.covariance);
+      CHECK(before.segment == 0);
       CHECK_FALSE(before.relative_covariance);
       check_pose(before.predicted_world_from_left, room().world_from_left[i], 0.03, 1);
       CHECK(odometry.details().stereo.size() == 0);
@@ -152,6 +153,7 @@ TEST_CASE("odometry: a black frame is lost, and tracking resumes at the right po
     const auto result = odometry.track(room().frame(i));
     CHECK(is_tracked(result.status));
     CHECK_FALSE(result.predicted_world_from_left);
+    CHECK(result.segment == 0);  // located against the frame before the loss
     check_pose(result.world_from_left, room().world_from_left[i], 4e-3, 0.1);
   }
 }
@@ -172,10 +174,12 @@ TEST_CASE("odometry: a frame from another place is lost, and the next one is tra
   CHECK(lost.diagnostics.base_frame == -1);
   CHECK(result.reference_frame == 2);  // the last frame that had a pose
   CHECK(result.diagnostics.base_frame == 2);
+  CHECK(result.segment == 0);
+  CHECK(result.warnings.empty());
   check_pose(result.world_from_left, room().world_from_left[4], 4e-3, 0.1);
 }
 
-TEST_CASE("odometry: in another place tracking resumes from the lost frame, with a warning", "[odometry][device]") {
+TEST_CASE("odometry: in another place a new segment starts from the lost frame", "[odometry][device]") {
   const RenderedScene before("cables", 240, 150, 1);
   Config config = room().config;
   config.stereo.max_disparity = std::max(config.stereo.max_disparity, before.config.stereo.max_disparity);
@@ -189,13 +193,23 @@ TEST_CASE("odometry: in another place tracking resumes from the lost frame, with
   CHECK(relocalised.reference_frame == 1);
   CHECK(relocalised.diagnostics.base_frame == 1);
   CHECK(relocalised.new_key_rig);  // the lost frame's own pose is a prediction
-  CHECK(relocalised.message.find("relocalised against frame 1") != std::string::npos);
+  CHECK(lost.segment == 0);
+  CHECK_THAT(relocalised.message, Catch::Matchers::Contains("segment 1 starts: relocalised against frame 1"));
+  REQUIRE(relocalised.warnings.size() == 1);
+  CHECK(relocalised.warnings[0].kind == WarningKind::unknown_motion);
+  CHECK_THAT(relocalised.warnings[0].text, Catch::Matchers::Contains("between frames 0 and 2 is unknown"));
   const auto after = odometry.track(room().frame(2));
   CHECK(after.status == FrameStatus::tracked);
   CHECK(after.message.empty());
   for (const auto* result : {&relocalised, &after}) {
-    CHECK(result->diagnostics.covariance_in_reference);
-    CHECK_FALSE(result->covariance);  // nothing measured connects it with the first frame
+    CHECK(result->segment == 1);
+    // The lost frame's predicted pose counts as exact, so that the first pose measured against it is as uncertain as
+    // the motion, seen along other axes.
+    REQUIRE((result->covariance && result->diagnostics.covariance_in_reference));
+    const auto position = [](const PoseCovariance& covariance) { return covariance.topLeftCorner<3, 3>().trace(); };
+    CHECK(position(*result->covariance) > 0);
+    if (result == &relocalised)
+      CHECK(position(*result->covariance) == Approx(position(*result->diagnostics.covariance_in_reference)));
     const auto& truth = room().world_from_left[result == &after ? 2 : 1];
     const Eigen::Isometry3d motion = lost.predicted_world_from_left.value().inverse() * result->world_from_left.value();
     CHECK((motion.translation() - truth.translation()).norm() < 4e-3);
@@ -236,6 +250,38 @@ TEST_CASE("odometry: one processor gives the same bytes as several", "[odometry]
     CHECK(same_bytes(several[i], alone[i]));
     CHECK(several[i].diagnostics.rig_evidence.matched_ratio == alone[i].diagnostics.rig_evidence.matched_ratio);
     CHECK(several[i].diagnostics.rig_evidence.epipolar_residual == alone[i].diagnostics.rig_evidence.epipolar_residual);
+  }
+}
+
+TEST_CASE("odometry: black frames between two places make two segments, and a third back in the first place",
+          "[odometry][device]") {
+  const RenderedScene elsewhere("cables", 240, 150, 3);
+  Config config = room().config;
+  config.stereo.max_disparity = std::max(config.stereo.max_disparity, elsewhere.config.stereo.max_disparity);
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(room().rig, device, config);
+  const Image black(240, 150);
+  std::vector<StereoFrame> frames;
+  for (std::size_t i : {0, 1, 2}) frames.push_back(room().frame(i));
+  for (int k = 0; k < 2; ++k) frames.push_back({0, black.view(), black.view()});
+  for (std::size_t i : {0, 1, 2}) frames.push_back(elsewhere.frame(i));
+  for (std::size_t i : {5, 6, 7}) frames.push_back(room().frame(i));
+  std::vector<int> segments, warned;
+  std::vector<FrameResult> results;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    results.push_back(odometry.track(at(static_cast<std::int64_t>(i), frames[i])));
+    segments.push_back(results[i].segment);
+    for (const Warning& warning : results[i].warnings)
+      if (warning.kind == WarningKind::unknown_motion) warned.push_back(static_cast<int>(i));
+  }
+  CHECK(segments == std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2});
+  CHECK(warned == std::vector<int>{6});  // each kind once
+  CHECK_THAT(results[9].message, Catch::Matchers::Contains("segment 2 starts: relocalised against frame 8"));
+  for (const auto& [first, truth, index] :
+       {std::tuple<std::size_t, const RenderedScene&, std::size_t>{6, elsewhere, 1}, {9, room(), 6}}) {
+    const Eigen::Isometry3d motion =
+        results[first].world_from_left.value().inverse() * results[first + 1].world_from_left.value();
+    check_pose(motion, truth.world_from_left[index].inverse() * truth.world_from_left[index + 1], 6e-3, 0.15);
   }
 }
 

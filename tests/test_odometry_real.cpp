@@ -32,7 +32,7 @@ TrackedFrames track_dataset(const Dataset& dataset, const std::map<std::string, 
     run.results.push_back(odometry.track(frame->view()));
     ++run.frames;
     if (is_tracked(run.results.back().status))
-      run.tracked.push_back({frame->stamp_ns, *run.results.back().world_from_left});
+      run.tracked.push_back({frame->stamp_ns, *run.results.back().world_from_left, run.results.back().segment});
   }
   return run;
 }
@@ -68,6 +68,35 @@ TEST_CASE("KITTI 01: all 25 frames tracked within 0.06 degrees per frame", "[rea
   CHECK(run.frames == 25);
   REQUIRE(run.tracked.size() == 25);
   CHECK(evaluate_trajectory(run.tracked, dataset.truth).origin_aligned.rpe_rotation_deg.mean <= 0.06);
+}
+
+TEST_CASE("EuRoC key frames: every unknown motion starts a segment, and each segment is right by itself",
+          "[real][device]") {
+  const std::string path = real_data("euroc_v1_01_easy_keyframes");
+  if (path.empty()) return;
+  DatasetOptions options;
+  options.first_frame = 40;
+  options.last_frame = 64;
+  const Dataset dataset = open_dataset(path, options);
+  const TrackedFrames run = track_dataset(dataset);
+  const TrajectoryEvaluation whole = evaluate_trajectory(run.tracked, dataset.truth);
+  REQUIRE(run.results.back().segment > 0);
+  REQUIRE(whole.segments.size() == static_cast<std::size_t>(run.results.back().segment) + 1);
+  CHECK(whole.origin_aligned.ape_rotation_deg.max > 5);  // the unknown motions
+  for (const TrajectoryEvaluation& segment : whole.segments) {
+    INFO("segment " << segment.segment << ", " << segment.matched << " poses");
+    if (segment.matched < 2) continue;
+    CHECK(segment.end_drift_percent < 3);
+    CHECK(segment.origin_aligned.rpe_translation_m.max < 0.05);
+    CHECK(segment.origin_aligned.rpe_rotation_deg.max < 2);
+  }
+  // A new segment starts with the frame after a lost one, and with nothing else.
+  for (std::size_t i = 1; i < run.results.size(); ++i) {
+    const FrameResult &before = run.results[i - 1], &result = run.results[i];
+    const bool starts = result.segment != before.segment;
+    CHECK(starts == (result.message.find("segment " + std::to_string(result.segment) + " starts") == 0));
+    if (starts) CHECK((!is_tracked(before.status) && is_tracked(result.status)));
+  }
 }
 
 TEST_CASE("EuRoC at rest: stays within 3 mm and 0.2 degrees over 40 frames", "[real][device]") {

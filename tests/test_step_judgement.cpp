@@ -67,3 +67,12 @@ TEST_CASE("steps: both steps at a frame without a pose are lost, and those witho
   for (auto& pose : estimate) pose.stamp_ns += 2'000'000;  // beyond the tolerance
   CHECK(judge_steps(estimate, walk.truth, walk.frames).lost == 5);
 }
+
+TEST_CASE("steps: one from a segment to another is lost", "[evaluation]") {
+  const Walk walk(4);
+  Trajectory estimate = walk.truth;
+  estimate[2].segment = estimate[3].segment = 1;
+  const auto steps = judge_steps(estimate, walk.truth, walk.frames);
+  CHECK(steps.right == 2);
+  CHECK(steps.lost == 1);
+}

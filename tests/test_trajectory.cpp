@@ -42,6 +42,28 @@ TEST_CASE("trajectory: a TUM file keeps timestamps to the nanosecond and poses u
   }
 }
 
+TEST_CASE("trajectory: a TUM file keeps the segments in comments", "[trajectory]") {
+  const TemporaryFolder folder;
+  Trajectory written = winding(6);
+  for (std::size_t i = 2; i < 6; ++i) written[i].segment = i < 5 ? 1 : 4;
+  write_tum(folder / "t.txt", written);
+  const Trajectory read = read_tum(folder / "t.txt");
+  REQUIRE(read.size() == 6);
+  for (std::size_t i = 0; i < 6; ++i) CHECK(read[i].segment == written[i].segment);
+
+  const std::string pose = " 0 0 0 0 0 0 1\n";
+  const auto segments = [&](const std::string& comment) {
+    write_text(folder / "c.txt", "1" + pose + comment + "\r\n2" + pose);
+    return read_tum(folder / "c.txt")[1].segment;
+  };
+  CHECK(segments("# segment 3") == 3);
+  CHECK(segments("# segment 3: other words") == 3);
+  for (const char* other : {"# segments 3", "#segment 3", "# segment", "# segment x", "# segment 3b", "# segment -1"})
+    CHECK(segments(other) == 0);
+  write_text(folder / "c.txt", "1" + pose + "# segment 2\n2" + pose + "# segment 2\n3" + pose);
+  CHECK_THROWS_WITH(read_tum(folder / "c.txt"), Contains("c.txt:4: found segment 2 after segment 2"));
+}
+
 TEST_CASE("trajectory: a KITTI file keeps the matrices", "[trajectory]") {
   const TemporaryFolder folder;
   const Trajectory written = winding(5);

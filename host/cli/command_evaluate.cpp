@@ -59,7 +59,7 @@ class EvaluateTrajectoryCommand : public Command {
            "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --steps --json errors.json";
   }
   void declare(Options& options) override {
-    options.positional("ESTIMATE", estimate_, "TUM or KITTI file");
+    options.positional("ESTIMATE", estimate_, "TUM or KITTI file, or results folder of a run");
     options.positional("TRUTH", truth_, "TUM or KITTI file, or folder of a sequence with ground truth");
     options.number("--from-frame", from_frame_, "ignore poses of the estimate before this one");
     options.text("--sequence", dataset_.sequence, "KITTI: name of the sequence if TRUTH is a folder with several",
@@ -79,6 +79,7 @@ class EvaluateTrajectoryCommand : public Command {
       throw UsageError("--step-metres, --step-degrees: expected at least 0 m and more than 0 degrees");
     }
     check_output_file(json_, force_);
+    if (std::filesystem::is_directory(estimate_)) estimate_ += "/trajectory.txt";
     Loaded estimate = load_file(estimate_);
     Trajectory truth;
     std::vector<std::int64_t> frames;

@@ -55,6 +55,29 @@ std::string rate_and_rest(int done, int total, const std::string& unit, std::chr
   return done < total ? std::string(text) + ", " + duration_text((total - done) / rate) + " left" : text;
 }
 
+/// Each segment by itself, in one row.
+void print_segments(const std::vector<TrajectoryEvaluation>& segments) {
+  std::printf(
+      "\nsegments, each aligned by itself: mean errors, origin-aligned; end drift\n%-8s %6s %10s %11s %11s %11s %11s "
+      "%9s\n",
+      "segment", "poses", "path [m]", "APE [deg]", "APE [m]", "RPE [deg]", "RPE [m]", "drift [%]");
+  for (const auto& segment : segments) {
+    const PoseErrors& errors = segment.origin_aligned;
+    std::printf("%-8d %6d %10.3f", segment.segment, segment.matched, segment.path_length_m);
+    for (const double value : {errors.ape_rotation_deg.mean, errors.ape_translation_m.mean,
+                               errors.rpe_rotation_deg.mean, errors.rpe_translation_m.mean}) {
+      if (std::isfinite(value))
+        std::printf(" %11.6f", value);
+      else
+        std::printf(" %11s", "-");
+    }
+    if (segment.matched > 1)
+      std::printf(" %9.3f\n", segment.end_drift_percent);
+    else
+      std::printf(" %9s\n", "-");
+  }
+}
+
 /// Errors beside what was promised of them, over motions of several lengths.
 void print_consistency(const std::vector<evaluation::StepConsistency>& steps) {
   std::printf(
@@ -164,6 +187,8 @@ void print_run(const report::RunRecord& run, const std::string& output) {
               data::counted(key_rigs, "key stereo rig").c_str());
   const std::string lost = report::lost_reasons(run.frames);
   if (!lost.empty()) std::printf("lost       %s\n", lost.c_str());
+  const std::string segments = report::segments_text(run.frames);
+  if (!segments.empty()) std::printf("broken     %s\n", segments.c_str());
   if (run.input.dropped > 0) {
     std::printf("dropped    %s from the pipe, which came faster than they were tracked\n",
                 data::counted(run.input.dropped, "pair").c_str());
@@ -197,6 +222,7 @@ void print_evaluation(const TrajectoryEvaluation& evaluation) {
   print_errors("SE(3)-aligned (least squares over all positions, no scale)", evaluation.se3_aligned);
   if (std::isfinite(evaluation.se3_aligned.ape_translation_m.mean) && !evaluation.se3_open_rotation.empty())
     std::printf("no APE rotation: %s\n", evaluation.se3_open_rotation.c_str());
+  if (!evaluation.segments.empty()) print_segments(evaluation.segments);
 }
 
 }  // namespace quadedge::cli

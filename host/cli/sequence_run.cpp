@@ -37,7 +37,8 @@ class GrowingFiles {
     tum_.append(data::tum_header());
   }
   void add(const FrameResult& result) {
-    const StampedPose pose{result.stamp_ns, result.pose_or_prediction()};
+    const StampedPose pose{result.stamp_ns, result.pose_or_prediction(), result.segment};
+    if (result.segment != segment_) tum_.append(data::tum_segment(segment_ = result.segment));
     if (is_tracked(result.status)) tum_.append(data::tum_row(pose));
     kitti_.append(data::kitti_row(pose));
     frames_.add(result);
@@ -45,6 +46,7 @@ class GrowingFiles {
   }
 
  private:
+  int segment_ = 0;
   report::AppendFile tum_, kitti_;
   report::FrameRows frames_, poses_;
 };
@@ -111,12 +113,15 @@ void end_if_interrupted(const Interruption& interruption, const FrameSource& sou
   interruption.end_process();
 }
 
-/// Reports doubts about the recording, and why a frame was lost where the one before was not lost for the same reason.
+/// Reports doubts about the recording, why a frame was lost where the one before was not lost for the same reason, and
+/// every new segment.
 void report_doubts(const FrameResult& result, const report::RunRecord& run) {
   const std::string warning = "warning: frame " + std::to_string(run.frames.size()) + ": ";
   for (const Warning& found : result.warnings) note(warning + found.text);
   const bool is_new = run.frames.empty() || run.frames.back().result.status != result.status;
   if (!is_tracked(result.status) && is_new) note(warning + "lost: " + result.message);
+  const bool starts_segment = !run.frames.empty() && run.frames.back().result.segment != result.segment;
+  if (starts_segment && result.warnings.empty()) note(warning + result.message);
 }
 
 /// First pass: poses and latencies.
@@ -185,7 +190,8 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
 Trajectory tracked_poses(const report::RunRecord& run) {
   Trajectory trajectory;
   for (const auto& frame : run.frames) {
-    if (frame.result.world_from_left) trajectory.push_back({frame.result.stamp_ns, *frame.result.world_from_left});
+    const FrameResult& result = frame.result;
+    if (result.world_from_left) trajectory.push_back({result.stamp_ns, *result.world_from_left, result.segment});
   }
   return trajectory;
 }

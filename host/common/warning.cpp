@@ -10,6 +10,7 @@ const char* to_string(WarningKind kind) {
     case WarningKind::small_disparity_range: return "small_disparity_range";
     case WarningKind::negative_disparities: return "negative_disparities";
     case WarningKind::unsynchronised_cameras: return "unsynchronised_cameras";
+    case WarningKind::unknown_motion: return "unknown_motion";
   }
   return "unknown";
 }

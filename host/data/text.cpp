@@ -55,7 +55,7 @@ std::string read_text(const std::string& file) {
   return text;
 }
 
-std::vector<Line> data_lines(const std::string& file) {
+std::vector<Line> text_lines(const std::string& file) {
   const std::string all = read_text(file);
   std::vector<Line> lines;
   int number = 0;
@@ -65,9 +65,20 @@ std::vector<Line> data_lines(const std::string& file) {
     ++number;
     begin = end + 1;
     if (!text.empty() && text.back() == '\r') text.pop_back();
-    const std::size_t first = text.find_first_not_of(" \t");
-    if (first != std::string::npos && text[first] != '#') lines.push_back({number, std::move(text)});
+    lines.push_back({number, std::move(text)});
   }
+  return lines;
+}
+
+bool has_data(const Line& line) {
+  const std::size_t first = line.text.find_first_not_of(" \t");
+  return first != std::string::npos && line.text[first] != '#';
+}
+
+std::vector<Line> data_lines(const std::string& file) {
+  std::vector<Line> lines = text_lines(file);
+  lines.erase(std::remove_if(lines.begin(), lines.end(), [](const Line& line) { return !has_data(line); }),
+              lines.end());
   return lines;
 }
 

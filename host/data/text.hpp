@@ -29,8 +29,13 @@ struct Line {
   std::string text;
 };
 
-/// The lines with data: not empty and not starting with '#'. Both kinds of line endings are supported. \throws
-/// DataError as read_text()
+/// All lines. Both kinds of line endings are supported. \throws DataError as read_text()
+std::vector<Line> text_lines(const std::string& file);
+
+/// Whether a line is neither empty nor a comment, which starts with '#'.
+bool has_data(const Line& line);
+
+/// The lines with data: not empty and not starting with '#'. \throws DataError as read_text()
 std::vector<Line> data_lines(const std::string& file);
 
 /// The non-empty parts between any of the `separators`.

@@ -33,8 +33,18 @@ StampedPose tum_pose(const data::Line& line, const std::string& path) {
 
 Trajectory read_tum(const std::string& path) {
   Trajectory trajectory;
-  for (const auto& line : data::data_lines(path)) {
+  int segment = 0;
+  for (const auto& line : data::text_lines(path)) {
+    if (const auto next = data::announced_segment(line.text)) {
+      if (*next <= segment) {
+        data::fail(path, line.number, "segment " + std::to_string(*next) + " after segment " + std::to_string(segment),
+                   "increasing numbers");
+      }
+      segment = *next;
+    }
+    if (!data::has_data(line)) continue;
     trajectory.push_back(tum_pose(line, path));
+    trajectory.back().segment = segment;
     const std::size_t count = trajectory.size();
     if (count > 1 && trajectory[count - 1].stamp_ns <= trajectory[count - 2].stamp_ns) {
       data::fail(path, line.number,
@@ -48,7 +58,11 @@ Trajectory read_tum(const std::string& path) {
 
 void write_tum(const std::string& path, const Trajectory& trajectory) {
   std::string text = data::tum_header();
-  for (const auto& pose : trajectory) text += data::tum_row(pose);
+  int segment = 0;
+  for (const auto& pose : trajectory) {
+    if (pose.segment != segment) text += data::tum_segment(segment = pose.segment);
+    text += data::tum_row(pose);
+  }
   data::write_atomically(path, text);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 /// \file trajectory_rows.hpp  Single rows of trajectory files, for incremental writing.
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "quadedge/trajectory.hpp"
 
@@ -9,6 +11,10 @@ namespace quadedge::data {
 
 /// First line of a TUM file: a comment with column names and units.
 std::string tum_header();
+/// The comment that precedes the first pose of a segment other than the first.
+std::string tum_segment(int segment);
+/// The segment that such a comment announces; nothing for any other line.
+std::optional<int> announced_segment(std::string_view line);
 /// One TUM row with line ending; the quaternion has a non-negative w.
 std::string tum_row(const StampedPose& pose);
 /// One KITTI row with line ending.

@@ -88,13 +88,13 @@ StepConsistency judge_length(const std::vector<FrameResult>& results, const Traj
     const auto* true_to = pose_at(truth, to.stamp_ns, kToleranceNs);
     if (true_from == nullptr || true_to == nullptr || !is_tracked(from.status) || !is_tracked(to.status)) continue;
     const auto motion = motion_between(results, first, first + frames);
-    if (!motion || !motion->covariance || !(motion->covariance->diagonal().minCoeff() > 0)) continue;
-    const Eigen::Isometry3d true_motion = true_from->inverse() * *true_to;
+    if (!motion || !(motion->covariance.diagonal().minCoeff() > 0)) continue;
+    const Eigen::Isometry3d true_motion = true_from->world_from_left.inverse() * true_to->world_from_left;
     const Eigen::AngleAxisd turn(motion->fixed_from_camera.linear() * true_motion.linear().transpose());
     Eigen::Matrix<double, 6, 1> error;
     error << motion->fixed_from_camera.translation() - true_motion.translation(), turn.angle() * turn.axis();
-    const PoseCovariance whole = *pose::whole_covariance(*motion, config);
-    add(error, *motion->covariance, step.edges);
+    const PoseCovariance whole = pose::whole_covariance(*motion, config);
+    add(error, motion->covariance, step.edges);
     add(error, whole, step.with_rig);
     squares += Eigen::Vector4d(error.head<3>().squaredNorm(), whole.topLeftCorner<3, 3>().trace(),
                                error.tail<3>().squaredNorm(), whole.bottomRightCorner<3, 3>().trace());
@@ -121,7 +121,8 @@ Consistency judge_covariances(const std::vector<FrameResult>& results, const Tra
     const auto* true_reference = pose_at(truth, reference.stamp_ns, kToleranceNs);
     const auto* true_current = pose_at(truth, result.stamp_ns, kToleranceNs);
     if (true_reference == nullptr || true_current == nullptr) continue;
-    const auto error = perturbation(*result.current_from_reference, true_current->inverse() * *true_reference);
+    const auto error = perturbation(*result.current_from_reference,
+                                    true_current->world_from_left.inverse() * true_reference->world_from_left);
     const Eigen::Matrix3d turning = covariance.topLeftCorner<3, 3>(), moving = covariance.bottomRightCorner<3, 3>();
     ++sums.poses;
     sums.pose += error.dot(covariance.ldlt().solve(error)) / 6;

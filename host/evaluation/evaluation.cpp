@@ -22,6 +22,7 @@ using Pose = Eigen::Isometry3d;
 struct Match {
   std::int64_t stamp_ns;
   Pose estimate, truth;
+  int segment;
 };
 
 /// Nearest truth pose for each estimated pose, both in increasing order and each used at most once.
@@ -32,7 +33,7 @@ std::vector<Match> match_by_stamp(const Trajectory& estimate, const Trajectory& 
     const auto distance = [&](std::size_t i) { return std::abs(truth[i].stamp_ns - pose.stamp_ns); };
     while (next + 1 < truth.size() && distance(next + 1) <= distance(next)) ++next;
     if (next >= truth.size() || distance(next) > tolerance_ns) continue;
-    matches.push_back({pose.stamp_ns, pose.world_from_left, truth[next].world_from_left});
+    matches.push_back({pose.stamp_ns, pose.world_from_left, truth[next].world_from_left, pose.segment});
     ++next;
   }
   return matches;
@@ -44,7 +45,11 @@ double angle_deg(const Eigen::Matrix3d& rotation) {
   return 2 * std::atan2(q.vec().norm(), std::abs(q.w())) * kDegreesPerRadian;
 }
 
-ErrorStatistics statistics(const std::vector<double>& errors) {
+/// Of all errors that have a value.
+ErrorStatistics statistics(std::vector<double> errors) {
+  errors.erase(std::remove_if(errors.begin(), errors.end(), [](double error) { return std::isnan(error); }),
+               errors.end());
+  if (errors.empty()) return {kNan, kNan, kNan, kNan};
   ErrorStatistics result;
   const double count = static_cast<double>(errors.size());
   double sum = 0, squares = 0, deviations = 0;
@@ -60,7 +65,8 @@ ErrorStatistics statistics(const std::vector<double>& errors) {
   return result;
 }
 
-/// The four errors of every matched pose after the estimate is transformed by `world_from_estimate`.
+/// The four errors of every matched pose after the estimate is transformed by `world_from_estimate`; RPE is NaN for the
+/// first pose of a segment.
 struct Errors {
   std::vector<double> ape_rotation, ape_translation, rpe_rotation, rpe_translation;
 
@@ -71,7 +77,10 @@ struct Errors {
       const Pose ape = matches[i].truth.inverse() * estimate;
       ape_rotation.push_back(angle_deg(ape.linear()));
       ape_translation.push_back((estimate.translation() - matches[i].truth.translation()).norm());
-      if (i > 0) {
+      if (i == 0 || matches[i].segment != matches[i - 1].segment) {
+        rpe_rotation.push_back(kNan);
+        rpe_translation.push_back(kNan);
+      } else {
         const Pose truth_step = matches[i - 1].truth.inverse() * matches[i].truth;
         const Pose rpe = truth_step.inverse() * (previous.inverse() * estimate);
         rpe_rotation.push_back(angle_deg(rpe.linear()));
@@ -146,6 +155,50 @@ std::string stamp_range(const Trajectory& trajectory) {
          " to " + data::format_seconds(trajectory.back().stamp_ns) + " s";
 }
 
+/// The errors of at least two poses.
+TrajectoryEvaluation evaluate(const std::vector<Match>& matches) {
+  TrajectoryEvaluation evaluation;
+  evaluation.matched = static_cast<int>(matches.size());
+  evaluation.segment = matches[0].segment;
+  const Errors origin(matches, matches[0].truth * matches[0].estimate.inverse());
+  evaluation.origin_aligned = origin.summary();
+  const auto alignment = se3_alignment(matches);
+  evaluation.se3_aligned = alignment ? Errors(matches, *alignment).summary() : undefined();
+  evaluation.se3_open_rotation =
+      alignment ? open_rotation(matches, evaluation.se3_aligned.ape_translation_m.rmse,
+                                evaluation.origin_aligned.ape_rotation_deg.rmse)
+                : std::string("the positions lie on a straight line, so that the rotation is undetermined");
+  if (!evaluation.se3_open_rotation.empty()) evaluation.se3_aligned.ape_rotation_deg = {kNan, kNan, kNan, kNan};
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (i > 0) evaluation.path_length_m += (matches[i].truth.translation() - matches[i - 1].truth.translation()).norm();
+    evaluation.rpe_steps += std::isnan(origin.rpe_rotation[i]) ? 0 : 1;
+    evaluation.per_pose.push_back({matches[i].stamp_ns, origin.ape_rotation[i], origin.ape_translation[i],
+                                   origin.rpe_rotation[i], origin.rpe_translation[i]});
+  }
+  if (evaluation.path_length_m > 0) {
+    evaluation.end_drift_percent = 100 * origin.ape_translation.back() / evaluation.path_length_m;
+  }
+  return evaluation;
+}
+
+/// Every segment by itself; nothing if there is only one.
+std::vector<TrajectoryEvaluation> evaluate_segments(const std::vector<Match>& matches) {
+  std::vector<TrajectoryEvaluation> segments;
+  if (matches.front().segment == matches.back().segment) return segments;
+  for (auto begin = matches.begin(); begin != matches.end();) {
+    const auto end =
+        std::find_if(begin, matches.end(), [&](const Match& match) { return match.segment != begin->segment; });
+    TrajectoryEvaluation single;
+    single.matched = 1;
+    single.segment = begin->segment;
+    single.origin_aligned = single.se3_aligned = undefined();
+    single.se3_open_rotation = "a single pose";
+    segments.push_back(end - begin > 1 ? evaluate({begin, end}) : single);
+    begin = end;
+  }
+  return segments;
+}
+
 }  // namespace
 
 TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth, int from_frame,
@@ -158,28 +211,10 @@ TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Traje
                     data::format_seconds(max_stamp_difference_ns) + " s, expected at least 2; estimate: " +
                     stamp_range(kept) + " (from frame " + std::to_string(first) + "), truth: " + stamp_range(truth));
   }
-  TrajectoryEvaluation evaluation;
-  evaluation.matched = static_cast<int>(matches.size());
+  TrajectoryEvaluation evaluation = evaluate(matches);
   evaluation.estimate_poses = static_cast<int>(estimate.size());
   evaluation.truth_poses = static_cast<int>(truth.size());
-  const Errors origin(matches, matches[0].truth * matches[0].estimate.inverse());
-  evaluation.origin_aligned = origin.summary();
-  const auto alignment = se3_alignment(matches);
-  evaluation.se3_aligned = alignment ? Errors(matches, *alignment).summary() : undefined();
-  evaluation.se3_open_rotation =
-      alignment ? open_rotation(matches, evaluation.se3_aligned.ape_translation_m.rmse,
-                                evaluation.origin_aligned.ape_rotation_deg.rmse)
-                : std::string("the positions lie on a straight line, so that the rotation is undetermined");
-  if (!evaluation.se3_open_rotation.empty()) evaluation.se3_aligned.ape_rotation_deg = {kNan, kNan, kNan, kNan};
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (i > 0) evaluation.path_length_m += (matches[i].truth.translation() - matches[i - 1].truth.translation()).norm();
-    evaluation.per_pose.push_back({matches[i].stamp_ns, origin.ape_rotation[i], origin.ape_translation[i],
-                                   i == 0 ? kNan : origin.rpe_rotation[i - 1],
-                                   i == 0 ? kNan : origin.rpe_translation[i - 1]});
-  }
-  if (evaluation.path_length_m > 0) {
-    evaluation.end_drift_percent = 100 * origin.ape_translation.back() / evaluation.path_length_m;
-  }
+  evaluation.segments = evaluate_segments(matches);
   return evaluation;
 }
 

@@ -9,7 +9,7 @@
 namespace quadedge::evaluation {
 
 /// The pose nearest in time, among poses with increasing timestamps; null if none is within the tolerance.
-inline const Eigen::Isometry3d* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
+inline const StampedPose* pose_at(const Trajectory& poses, std::int64_t stamp_ns, std::int64_t tolerance_ns) {
   const auto later =
       std::lower_bound(poses.begin(), poses.end(), stamp_ns,
                        [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
@@ -17,7 +17,7 @@ inline const Eigen::Isometry3d* pose_at(const Trajectory& poses, std::int64_t st
   auto nearest = later;
   if (later != poses.begin() && (later == poses.end() || distance(std::prev(later)) < distance(later)))
     nearest = std::prev(later);
-  return nearest != poses.end() && distance(nearest) <= tolerance_ns ? &nearest->world_from_left : nullptr;
+  return nearest != poses.end() && distance(nearest) <= tolerance_ns ? &*nearest : nullptr;
 }
 
 }  // namespace quadedge::evaluation

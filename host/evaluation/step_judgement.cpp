@@ -14,12 +14,13 @@ StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
     if (true_before == nullptr || true_after == nullptr) continue;
     const auto* before = pose_at(estimate, frames_ns[i - 1], max_stamp_difference_ns);
     const auto* after = pose_at(estimate, frames_ns[i], max_stamp_difference_ns);
-    if (before == nullptr || after == nullptr) {
+    if (before == nullptr || after == nullptr || before->segment != after->segment) {
       ++result.lost;
       continue;
     }
-    const Eigen::Isometry3d true_step = true_before->inverse() * *true_after;
-    const Eigen::Isometry3d error = true_step.inverse() * (before->inverse() * *after);
+    const Eigen::Isometry3d true_step = true_before->world_from_left.inverse() * true_after->world_from_left;
+    const Eigen::Isometry3d step = before->world_from_left.inverse() * after->world_from_left;
+    const Eigen::Isometry3d error = true_step.inverse() * step;
     const double degrees = Eigen::AngleAxisd(error.linear()).angle() * kDegreesPerRadian;
     const double allowed = limits.translation_m + limits.translation_ratio * true_step.translation().norm();
     if (error.translation().norm() < allowed && degrees < limits.rotation_deg) {

@@ -20,7 +20,7 @@ struct StepLimits {
 struct StepJudgement {
   int right = 0;
   int wrong = 0;                              ///< reported as tracked, but beyond a limit
-  int lost = 0;                               ///< at least one of the two frames has no pose
+  int lost = 0;                               ///< at least one of the two frames has no pose, or their segments differ
   std::vector<std::int64_t> wrong_stamps_ns;  ///< the later frame of each wrong step
   int steps() const { return right + wrong + lost; }
 };

@@ -109,6 +109,7 @@ class StereoOdometry::Implementation {
   void start(FrameResult& result);
   FoundMotion search();
   void adopt(FoundMotion& found, FrameResult& result);
+  void start_segment(FrameResult& result);
   void locate(const odometry::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
   void take(const rig_check::RigReport& report, FrameResult& result) const;
@@ -174,6 +175,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     }
     result.timing.stages.push_back({kPoseStage, found.pose_ms + clock.lap()});
   }
+  result.segment = state_.segment;
   state_.world_from_last = result.pose_or_prediction();
   for (const Warning& warning : result.warnings) reported_.insert(warning.kind);
   result.timing.latency_ms = latency.lap();
@@ -239,19 +241,29 @@ StereoOdometry::Implementation::FoundMotion StereoOdometry::Implementation::sear
   return found;
 }
 
-/// Takes over the result of the search. A lost frame from which the motion was found becomes the key rig.
+/// Takes over the result of the search. If the motion was found from a lost frame, a segment starts.
 void StereoOdometry::Implementation::adopt(FoundMotion& found, FrameResult& result) {
   step_ = std::move(found.step);
   motion_search_.remember(*step_);
-  if (found.is_from_lost_rig) {
-    state_.set_key(state_.lost->rig, {state_.lost->world_from_left, std::nullopt, RigSensitivity::Zero()},
-                   odometry::PoseOrigin::predicted);
-    add_message("relocalised against frame " + std::to_string(state_.lost->rig->frame) + ", whose pose was predicted",
-                result);
-  }
+  if (found.is_from_lost_rig) start_segment(result);
   result.counts.temporal_left = frontend_->counts().temporal_left;
   result.counts.temporal_right = frontend_->counts().temporal_right;
   result.counts.quads = static_cast<int>(step_->matches.size());
+}
+
+/// Makes the lost frame the key rig of a new segment, in which its predicted pose counts as exact.
+void StereoOdometry::Implementation::start_segment(FrameResult& result) {
+  const auto number = [](int of) { return std::to_string(of); };
+  const int last = state_.base.rig->frame, lost = state_.lost->rig->frame, segment = ++state_.segment;
+  state_.set_key(state_.lost->rig, {state_.lost->world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()},
+                 odometry::PoseOrigin::predicted);
+  add_message("segment " + number(segment) + " starts: relocalised against frame " + number(lost) +
+                  ", whose pose was predicted",
+              result);
+  warn({WarningKind::unknown_motion, "the motion between frames " + number(last) + " and " + number(current_->frame) +
+                                         " is unknown; the poses from here on are segment " + number(segment) +
+                                         ", whose place relative to the earlier ones is a prediction"},
+       result);
 }
 
 /// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame

@@ -30,6 +30,7 @@ struct TrackingState {
   BaseRig base;
   KeyRig key;
   std::optional<LostRig> lost;  ///< set from a loss until the next frame with a pose; the base is then the key rig
+  int segment = 0;              ///< see FrameResult::segment
   Eigen::Isometry3d world_from_last = Eigen::Isometry3d::Identity();  ///< pose of the last frame, measured or predicted
 
   bool has_started() const { return base.rig != nullptr; }

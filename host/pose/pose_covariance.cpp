@@ -23,7 +23,8 @@ UncertainPose pose_in_earlier(const RelativePose& current_from_earlier) {
 }
 
 UncertainPose operator*(const UncertainPose& world_from_key, const UncertainPose& key_from_current) {
-  UncertainPose result{world_from_key.fixed_from_camera * key_from_current.fixed_from_camera, std::nullopt};
+  UncertainPose result;
+  result.fixed_from_camera = world_from_key.fixed_from_camera * key_from_current.fixed_from_camera;
   // A rotation error of the key rig also displaces the current camera, by its distance from the key rig.
   const Eigen::Matrix3d turn = world_from_key.fixed_from_camera.linear();
   const Eigen::Vector3d offset = turn * key_from_current.fixed_from_camera.translation();
@@ -32,20 +33,20 @@ UncertainPose operator*(const UncertainPose& world_from_key, const UncertainPose
   turned.topLeftCorner<3, 3>() = turn;
   turned.bottomRightCorner<3, 3>() = turn;
   result.by_rig = carried * world_from_key.by_rig + turned * key_from_current.by_rig;
-  if (!world_from_key.covariance || !key_from_current.covariance) return result;
-  result.covariance = carried * *world_from_key.covariance * carried.transpose() +
-                      turned * *key_from_current.covariance * turned.transpose();
+  result.covariance = carried * world_from_key.covariance * carried.transpose() +
+                      turned * key_from_current.covariance * turned.transpose();
   return result;
 }
 
 UncertainPose inverse(const UncertainPose& fixed_from_camera) {
-  UncertainPose result{fixed_from_camera.fixed_from_camera.inverse(), std::nullopt};
+  UncertainPose result;
+  result.fixed_from_camera = fixed_from_camera.fixed_from_camera.inverse();
   const Eigen::Matrix3d back = result.fixed_from_camera.linear();
   PoseCovariance change = PoseCovariance::Zero();
   change.topLeftCorner<3, 3>() = change.bottomRightCorner<3, 3>() = -back;
   change.topRightCorner<3, 3>() = -back * cross_matrix(fixed_from_camera.fixed_from_camera.translation());
   result.by_rig = change * fixed_from_camera.by_rig;
-  if (fixed_from_camera.covariance) result.covariance = change * *fixed_from_camera.covariance * change.transpose();
+  result.covariance = change * fixed_from_camera.covariance * change.transpose();
   return result;
 }
 

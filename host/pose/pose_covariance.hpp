@@ -2,7 +2,6 @@
 /// \file pose_covariance.hpp  Covariances of poses from covariances of motions (doc/method.md section 7).
 
 #include <Eigen/Geometry>
-#include <optional>
 
 #include "pose/relative_pose.hpp"
 #include "quadedge/pose_covariance.hpp"
@@ -12,9 +11,7 @@ namespace quadedge::pose {
 /// Pose of a camera in a fixed frame [m].
 struct UncertainPose {
   Eigen::Isometry3d fixed_from_camera = Eigen::Isometry3d::Identity();
-  /// Covariance due to edge errors; nothing if no measurement connects the camera with the fixed frame, so that the
-  /// pose is a prediction.
-  std::optional<PoseCovariance> covariance = PoseCovariance::Zero();
+  PoseCovariance covariance = PoseCovariance::Zero();  ///< due to edge errors
   RigSensitivity by_rig = RigSensitivity::Zero();
 };
 

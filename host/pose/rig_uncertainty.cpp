@@ -27,9 +27,8 @@ PoseCovariance rig_covariance(const RigSensitivity& by_rig, const PoseConfig& co
   return scaled * scaled.transpose();
 }
 
-std::optional<PoseCovariance> whole_covariance(const UncertainPose& pose, const PoseConfig& config) {
-  if (!pose.covariance) return std::nullopt;
-  return *pose.covariance + rig_covariance(pose.by_rig, config);
+PoseCovariance whole_covariance(const UncertainPose& pose, const PoseConfig& config) {
+  return pose.covariance + rig_covariance(pose.by_rig, config);
 }
 
 }  // namespace quadedge::pose

@@ -19,7 +19,7 @@ RigSensitivity rig_sensitivity(const Eigen::Isometry3d& fixed_from_camera, doubl
 /// Covariance due to calibration errors, which are independent of each other and have the sizes `pose.rig_sigma_*`.
 PoseCovariance rig_covariance(const RigSensitivity& by_rig, const PoseConfig& config);
 
-/// Covariance due to edge and calibration errors; nothing for a predicted pose.
-std::optional<PoseCovariance> whole_covariance(const UncertainPose& pose, const PoseConfig& config);
+/// Covariance due to edge and calibration errors.
+PoseCovariance whole_covariance(const UncertainPose& pose, const PoseConfig& config);
 
 }  // namespace quadedge::pose

@@ -49,6 +49,7 @@ void add_paths(SummaryAccuracy& total, const std::vector<const SummaryAccuracy*>
   double drift = 0;
   for (const auto* part : parts) {
     total.matched += part->matched;
+    total.rpe_steps += part->rpe_steps;
     total.path_length_m += part->path_length_m;
     drift += part->end_drift_percent * part->path_length_m;
   }
@@ -114,8 +115,7 @@ std::optional<SummaryAccuracy> pooled_accuracy(const std::vector<const SummaryAc
       Pool pool;
       for (const auto* part : parts) {
         const ErrorStatistics& statistics = (part->*alignment).*kErrors[error];
-        const int steps = error < 2 ? part->matched : part->matched - 1;  // relative errors belong to pairs of poses
-        if (std::isfinite(statistics.mean)) pool.add(statistics, steps);
+        if (std::isfinite(statistics.mean)) pool.add(statistics, error < 2 ? part->matched : part->rpe_steps);
       }
       (total.*alignment).*kErrors[error] = pool.result();
     }

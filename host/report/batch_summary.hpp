@@ -21,6 +21,7 @@ struct SummaryAccuracy {
   PoseErrors origin_aligned, se3_aligned;  ///< NaN where an alignment is not defined
   std::string se3_open_rotation;           ///< as in TrajectoryEvaluation; only of single runs
   int matched = 0;                         ///< poses compared
+  int rpe_steps = 0;                       ///< steps compared
   double path_length_m = 0, end_drift_percent = 0;
 };
 
@@ -28,7 +29,7 @@ struct SummaryAccuracy {
 struct SummaryRow {
   MemberRecord member;
   MemberStatus status = MemberStatus::missing;
-  int frames = 0, tracked = 0, key_rigs = 0;
+  int frames = 0, tracked = 0, key_rigs = 0, segments = 0;
   std::string device;
   LatencySummary latency;                   ///< [ms]; NaN where the run failed
   std::optional<SummaryAccuracy> accuracy;  ///< only with ground truth

@@ -115,9 +115,9 @@ class Comparison {
     try {
       if (!truth.empty()) {
         const auto evaluation = evaluate_trajectory(poses, truth);
-        const SummaryAccuracy accuracy{evaluation.origin_aligned,    evaluation.se3_aligned,
-                                       evaluation.se3_open_rotation, evaluation.matched,
-                                       evaluation.path_length_m,     evaluation.end_drift_percent};
+        const SummaryAccuracy accuracy{
+            evaluation.origin_aligned, evaluation.se3_aligned,   evaluation.se3_open_rotation, evaluation.matched,
+            evaluation.rpe_steps,      evaluation.path_length_m, evaluation.end_drift_percent};
         json["accuracy"] = to_json(accuracy);
         json["per_pose"] = per_pose(evaluation);
         if (system != kBaseline) accuracies_.emplace_back(system, accuracy);

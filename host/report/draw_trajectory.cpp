@@ -16,6 +16,17 @@ constexpr double kSmallestExtent = 1e-3;                         // m; a rig at 
 const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225), kTruth(150, 150, 150), kEstimate(200, 90, 20),
     kStart(60, 140, 30);
 
+/// Points (x, z) of a trajectory, one list per segment [m].
+std::vector<std::vector<cv::Point2d>> segments_from_above(const Trajectory& trajectory) {
+  std::vector<std::vector<cv::Point2d>> segments;
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    if (i == 0 || trajectory[i].segment != trajectory[i - 1].segment) segments.emplace_back();
+    const auto& position = trajectory[i].world_from_left.translation();
+    segments.back().emplace_back(position.x(), position.z());
+  }
+  return segments;
+}
+
 /// Points (x, z) of a trajectory [m].
 std::vector<cv::Point2d> from_above(const Trajectory& trajectory) {
   std::vector<cv::Point2d> points;
@@ -143,7 +154,7 @@ void draw_trajectory(const std::string& path, const Trajectory& estimate, const 
     draw_path(picture, plot, truth_points, kTruth, 5);
     legend.emplace_back("ground truth, origin-aligned", kTruth);
   }
-  draw_path(picture, plot, estimate_points, kEstimate, 2);
+  for (const auto& segment : segments_from_above(estimate)) draw_path(picture, plot, segment, kEstimate, 2);
   if (!estimate_points.empty()) {
     const auto start = plot.position(estimate_points.front());
     cv::circle(picture, {static_cast<int>(std::lround(start.x)), static_cast<int>(std::lround(start.y))}, 6, kStart, 2,

@@ -9,7 +9,7 @@
 namespace quadedge::report {
 
 /// Columns: stamp_s, ape_rotation_deg, ape_translation_m, rpe_rotation_deg, rpe_translation_m; origin-aligned. The
-/// first pose has no step before it: its RPE fields are empty.
+/// first pose of a segment has no step before it: its RPE fields are empty.
 std::string errors_csv(const TrajectoryEvaluation& evaluation);
 
 /// \throws DataError for a missing or damaged file.

@@ -45,6 +45,7 @@ FrameColumns columns_of_frames() {
   columns.push_back({"frame", [](const NumberedFrame& frame) { return std::to_string(frame.number); }});
   add("stamp_s", [](const FrameResult& result) { return data::format_seconds(result.stamp_ns); });
   add("status", [](const FrameResult& result) { return std::string(to_string(result.status)); });
+  add("segment", [](const FrameResult& result) { return std::to_string(result.segment); });
   add("key_rig", [](const FrameResult& result) { return std::to_string(result.reference_frame); });
   add("new_key_rig", [](const FrameResult& result) { return std::string(result.new_key_rig ? "1" : "0"); });
   add("edge_threshold", [](const FrameResult& result) { return four_digits(result.diagnostics.edge_threshold); });

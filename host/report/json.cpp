@@ -6,15 +6,25 @@
 namespace quadedge::report {
 namespace {
 
-Json accuracy(const TrajectoryEvaluation& evaluation) {
+Json errors(const TrajectoryEvaluation& evaluation) {
   Json json = {{"origin_aligned", to_json(evaluation.origin_aligned)},
                {"se3_aligned", to_json(evaluation.se3_aligned)},
                {"matched_poses", evaluation.matched},
-               {"estimate_poses", evaluation.estimate_poses},
-               {"truth_poses", evaluation.truth_poses},
+               {"rpe_steps", evaluation.rpe_steps},
                {"path_length_m", to_json(evaluation.path_length_m)},
                {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
   if (!evaluation.se3_open_rotation.empty()) json["se3_open_rotation"] = evaluation.se3_open_rotation;
+  return json;
+}
+
+Json accuracy(const TrajectoryEvaluation& evaluation) {
+  Json json = errors(evaluation);
+  json["estimate_poses"] = evaluation.estimate_poses;
+  json["truth_poses"] = evaluation.truth_poses;
+  for (const auto& segment : evaluation.segments) {
+    json["segments"].push_back(errors(segment));
+    json["segments"].back()["segment"] = segment.segment;
+  }
   return json;
 }
 
@@ -70,6 +80,8 @@ std::string report_json(const RunRecord& run) {
   report["frames_overflowed"] = overflows;
   report["key_rigs"] = key_rigs;
   report["frames_ambiguous"] = ambiguous;
+  report["segments"] = run.frames.empty() ? 0 : run.frames.back().result.segment + 1;
+  if (const std::string text = segments_text(run.frames); !text.empty()) report["segments_text"] = text;
   report["path_length_m"] = path_length_m(run.frames);
   report["warnings"] = Json::array();
   for (const auto& warning : run.input.warnings) report["warnings"].push_back({{"frame", nullptr}, {"text", warning}});

@@ -45,6 +45,7 @@ FrameColumns columns_of_poses() {
   columns.push_back(
       {"stamp_s", [](const NumberedFrame& frame) { return data::format_seconds(frame.result.stamp_ns); }});
   columns.push_back({"status", [](const NumberedFrame& frame) { return to_string(frame.result.status); }});
+  columns.push_back({"segment", [](const NumberedFrame& frame) { return std::to_string(frame.result.segment); }});
   columns.push_back(
       {"reference_frame", [](const NumberedFrame& frame) { return std::to_string(frame.result.reference_frame); }});
   for (std::size_t i = 0; i < kPose.size(); ++i)

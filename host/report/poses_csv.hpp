@@ -5,9 +5,9 @@
 
 namespace quadedge::report {
 
-/// The columns of poses.csv: frame, stamp_s, status, reference_frame; the left camera's pose in the world (x, y, z [m],
-/// qx, qy, qz, qw) and in the frame of the reference's left camera (reference_x ... reference_qw); then the upper
-/// triangles of both covariances, row by row (covariance_x_x, covariance_x_y ... covariance_rz_rz and
+/// The columns of poses.csv: frame, stamp_s, status, segment, reference_frame; the left camera's pose in the world (x,
+/// y, z [m], qx, qy, qz, qw) and in the frame of the reference's left camera (reference_x ... reference_qw); then the
+/// upper triangles of both covariances, row by row (covariance_x_x, covariance_x_y ... covariance_rz_rz and
 /// reference_covariance_...), in the order x, y, z, rotation about x, y, z of the frame that the pose is in; see
 /// PoseCovariance. Fields without a value are empty: a lost frame has the predicted pose in the world and nothing else.
 const FrameColumns& poses_csv_columns();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "report/statistics.hpp"
 
@@ -74,12 +75,29 @@ std::string lost_reasons(const std::vector<FrameRecord>& frames) {
   return text;
 }
 
+std::string segments_text(const std::vector<FrameRecord>& frames) {
+  constexpr std::size_t kMostNamed = 5;
+  std::vector<std::string> breaks;
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!is_tracked(frames[i].result.status)) continue;
+    if (last && frames[*last].result.segment != frames[i].result.segment)
+      breaks.push_back("between frames " + std::to_string(*last) + " and " + std::to_string(i));
+    last = i;
+  }
+  if (breaks.empty()) return {};
+  std::string text = std::to_string(breaks.size() + 1) + " segments: an unknown motion lies ";
+  const std::size_t named = std::min(breaks.size(), kMostNamed);
+  for (std::size_t i = 0; i < named; ++i) text += (i == 0 ? "" : ", ") + breaks[i];
+  return text + (named < breaks.size() ? ", and at " + std::to_string(breaks.size() - named) + " more places" : "");
+}
+
 double path_length_m(const std::vector<FrameRecord>& frames) {
   double length = 0;
   const FrameResult* last = nullptr;
   for (const auto& frame : frames) {
     if (!frame.result.world_from_left) continue;
-    if (last != nullptr)
+    if (last != nullptr && last->segment == frame.result.segment)
       length += (frame.result.world_from_left->translation() - last->world_from_left->translation()).norm();
     last = &frame.result;
   }

@@ -91,7 +91,11 @@ std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& 
 /// Why frames were lost: "5 no consensus, 2 too few quads"; empty where none was.
 std::string lost_reasons(const std::vector<FrameRecord>& frames);
 
-/// Length of the estimated path, from each tracked frame to the next [m].
+/// The segments of a run, and the tracked frames with an unknown motion between them: "3 segments: an unknown motion
+/// lies between frames 33 and 35, ..."; empty for a single segment.
+std::string segments_text(const std::vector<FrameRecord>& frames);
+
+/// Length of the estimated path, from each tracked frame to the next of the same segment [m].
 double path_length_m(const std::vector<FrameRecord>& frames);
 
 /// Medians of the counts over all frames but the first, in the order of FrameCounts.

@@ -64,7 +64,8 @@ std::string tracked(int tracked, int frames) {
 
 std::string summary_csv(const BatchSummary& summary) {
   std::string text =
-      "kind,sequence,status,exit_code,path,format,frames,tracked,tracked_fraction,key_rigs,matched_poses,path_length_m,"
+      "kind,sequence,status,exit_code,path,format,frames,tracked,tracked_fraction,key_rigs,segments,matched_poses,path_"
+      "length_m,"
       "end_drift_percent" +
       names_of_errors() +
       ",latency_ms_median,latency_ms_p90,latency_ms_p99,latency_ms_max,latency_ms_first,jobs,device,message\n";
@@ -72,12 +73,12 @@ std::string summary_csv(const BatchSummary& summary) {
     const bool ran = row.status == MemberStatus::done || row.status == MemberStatus::too_few_tracked;
     text += "sequence," + field(row.member.name) + "," + to_string(row.status) + "," +
             std::to_string(row.member.exit_code) + "," + field(row.member.path) + "," + row.member.format + "," +
-            (ran ? tracked(row.tracked, row.frames) : ",,") + "," + (ran ? std::to_string(row.key_rigs) : "") +
-            accuracy(row.accuracy) + latency(row.latency) + "," +
-            (row.status == MemberStatus::missing ? "" : std::to_string(row.member.jobs)) + "," + field(row.device) +
-            "," + field(row.member.message) + "\n";
+            (ran ? tracked(row.tracked, row.frames) : ",,") + "," +
+            (ran ? std::to_string(row.key_rigs) + "," + std::to_string(row.segments) : ",") + accuracy(row.accuracy) +
+            latency(row.latency) + "," + (row.status == MemberStatus::missing ? "" : std::to_string(row.member.jobs)) +
+            "," + field(row.device) + "," + field(row.member.message) + "\n";
   }
-  const std::string all = tracked(summary.tracked, summary.frames) + ",";
+  const std::string all = tracked(summary.tracked, summary.frames) + ",,";
   const std::string code = ",all,," + std::to_string(summary.exit_code) + ",,,",
                     end = latency(summary.latency) + ",,,\n";
   text += "pooled" + code + all + accuracy(summary.pooled) + end;

@@ -26,6 +26,7 @@ void take_report(SummaryRow& row, const Json& report) {
   row.frames = report.at("input").at("frames");
   row.tracked = report.at("frames_tracked");
   row.key_rigs = report.at("key_rigs");
+  row.segments = report.value("segments", 1);
   row.device = report.at("device").at("name");
   row.latency = to_latency(report.at("latency_ms"));
   if (!report.contains("accuracy")) return;
@@ -34,6 +35,7 @@ void take_report(SummaryRow& row, const Json& report) {
                                  to_pose_errors(accuracy.at("se3_aligned")),
                                  accuracy.value("se3_open_rotation", std::string()),
                                  accuracy.at("matched_poses").get<int>(),
+                                 accuracy.value("rpe_steps", accuracy.at("matched_poses").get<int>() - 1),
                                  to_number(accuracy.at("path_length_m")),
                                  to_number(accuracy.at("end_drift_percent"))};
 }
@@ -44,6 +46,7 @@ Json to_json(const SummaryAccuracy& accuracy) {
   Json json = {{"origin_aligned", to_json(accuracy.origin_aligned)},
                {"se3_aligned", to_json(accuracy.se3_aligned)},
                {"matched_poses", accuracy.matched},
+               {"rpe_steps", accuracy.rpe_steps},
                {"path_length_m", to_json(accuracy.path_length_m)},
                {"end_drift_percent", to_json(accuracy.end_drift_percent)}};
   if (!accuracy.se3_open_rotation.empty()) json["se3_open_rotation"] = accuracy.se3_open_rotation;
@@ -113,6 +116,7 @@ std::string summary_json(const BatchSummary& summary) {
       entry["frames_tracked"] = row.tracked;
       entry["tracked_fraction"] = row.frames > 0 ? Json(static_cast<double>(row.tracked) / row.frames) : Json(nullptr);
       entry["key_rigs"] = row.key_rigs;
+      entry["segments"] = row.segments;
       if (row.accuracy) entry["accuracy"] = to_json(*row.accuracy);
       entry["latency_ms"] = to_json(row.latency);
     }

@@ -78,6 +78,12 @@ std::string summary_markdown(const BatchSummary& summary) {
             latency_cells(row.latency) + "\n";
   }
   text += "| **all** | " + share_text(summary.tracked, summary.frames) + " |" + latency_cells(summary.latency) + "\n";
+  std::string broken;
+  for (const auto& row : summary.rows) {
+    if (row.segments > 1)
+      broken += (broken.empty() ? "" : ", ") + escaped(row.member.name) + " " + std::to_string(row.segments);
+  }
+  if (!broken.empty()) text += "\nSequences of several segments, with unknown motions between them: " + broken + ".\n";
   return text;
 }
 

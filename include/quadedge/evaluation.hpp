@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quadedge/trajectory.hpp"
 
@@ -14,7 +15,7 @@ struct ErrorStatistics {
 };
 
 /// The four errors of the paper's Table 4: rotation in degrees, translation in metres. RPE is computed between
-/// consecutive matched poses.
+/// consecutive matched poses of one segment. Errors without a value are NaN.
 struct PoseErrors {
   ErrorStatistics ape_rotation_deg, ape_translation_m, rpe_rotation_deg, rpe_translation_m;
 };
@@ -27,23 +28,29 @@ struct TrajectoryEvaluation {
   /// is NaN; empty if they do. The positions of a straight or stationary path do not distinguish a rotation from
   /// errors.
   std::string se3_open_rotation;
-  int matched = 0;  ///< number of poses compared
+  int matched = 0;    ///< number of poses compared
+  int rpe_steps = 0;  ///< number of steps that RPE covers
   int estimate_poses = 0, truth_poses = 0;
   double path_length_m = 0;      ///< of the matched ground truth
   double end_drift_percent = 0;  ///< end-point error after origin alignment, relative to the path length
   /// Per matched pose, origin-aligned: timestamp, APE rotation [deg], APE translation [m], RPE (NaN for the first
-  /// pose).
+  /// pose of a segment).
   struct PerPose {
     std::int64_t stamp_ns;
     double ape_rotation_deg, ape_translation_m, rpe_rotation_deg, rpe_translation_m;
   };
   std::vector<PerPose> per_pose;
+  int segment = 0;  ///< number of the first pose's segment
+  /// If poses of several segments match: every segment by itself, with its own alignments. Errors of a single pose are
+  /// NaN.
+  std::vector<TrajectoryEvaluation> segments;
 };
 
 /// Compares an estimated trajectory with ground truth. Poses are matched by nearest timestamp within
 /// `max_stamp_difference_ns`, each at most once. `from_frame`: matched poses before this index of the ESTIMATE are
-/// ignored, and the origin alignment uses the first remaining pose. \throws DataError if fewer than two poses match;
-/// the message states the number of poses and the range of timestamps of both trajectories.
+/// ignored, and the origin alignment uses the first remaining pose. The errors of the whole include the unknown motions
+/// between segments, except for RPE, which is not computed across them. \throws DataError if fewer than two poses
+/// match; the message states the number of poses and the range of timestamps of both trajectories.
 TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth, int from_frame = 0,
                                          std::int64_t max_stamp_difference_ns = 10'000'000);
 

@@ -75,13 +75,19 @@ struct FrameDiagnostics {
 struct FrameResult {
   std::int64_t stamp_ns = 0;
   FrameStatus status = FrameStatus::first;
-  /// Pose of the left camera in the frame of the first left camera; empty for a lost frame.
+  /// Number of the frame's segment, from 0. Measurements connect all tracked frames of a segment with one another. If
+  /// the motion across lost frames could not be measured, tracking resumes in a new segment. A lost frame has the
+  /// number of the segment before it.
+  int segment = 0;
+  /// Pose of the left camera in the frame of the first left camera; empty for a lost frame. The poses of a new segment
+  /// continue from a predicted pose: relative to one another they are measured, relative to other segments they are
+  /// not.
   std::optional<Eigen::Isometry3d> world_from_left;
   /// Pose of a lost frame if the last motion is repeated; empty for any other frame.
   std::optional<Eigen::Isometry3d> predicted_world_from_left;
-  /// Covariance of world_from_left, translation first as in ROS. Composed over the key stereo rigs: edge errors are
-  /// independent between rigs, calibration errors (`pose.rig_sigma_*`) are common to all. Empty for a lost frame, and
-  /// after tracking resumed from a predicted pose.
+  /// Covariance of world_from_left, translation first as in ROS, within the segment: the pose that the segment starts
+  /// from (the first frame; later, a predicted pose) counts as exact. Composed over the key stereo rigs: edge errors
+  /// are independent between rigs, calibration errors (`pose.rig_sigma_*`) are common to all. Empty for a lost frame.
   std::optional<PoseCovariance> covariance;
   /// Gamma_current = current_from_reference * Gamma_reference; the reference is the key stereo rig. Empty for a lost
   /// frame.

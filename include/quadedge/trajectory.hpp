@@ -12,10 +12,13 @@ namespace quadedge {
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+  /// Poses of different segments are not connected by measurements, see FrameResult::segment.
+  int segment = 0;
 };
 using Trajectory = std::vector<StampedPose>;
 
-/// TUM format: `timestamp tx ty tz qx qy qz qw`, seconds with 9 decimals; '#' starts a comment.
+/// TUM format: `timestamp tx ty tz qx qy qz qw`, seconds with 9 decimals; '#' starts a comment. A comment `# segment N`
+/// precedes the poses of each segment after the first; other programs skip it.
 /// \throws DataError that names file and line, what was found and what was expected.
 Trajectory read_tum(const std::string& path);
 /// Written to a temporary name and renamed. \throws DataError if the file cannot be written (including a full disk).

@@ -13,6 +13,7 @@ enum class WarningKind {
   small_disparity_range,    ///< corners have disparities beyond the range searched
   negative_disparities,     ///< corners have negative disparities
   unsynchronised_cameras,   ///< the cameras seem to record at different times
+  unknown_motion,           ///< the motion between two tracked frames is unknown; a new segment starts
 };
 /// The name of the enumerator.
 const char* to_string(WarningKind kind);

@@ -3,6 +3,7 @@
 #include "quadedge/evaluation.hpp"
 
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
 #include "configuration.hpp"
@@ -73,7 +74,8 @@ void bind_evaluation(nb::module_& module) {
                          "Absolute (APE) and relative (RPE) pose errors: rotation [deg], translation [m].")
       .def_ro("ape_rotation_deg", &PoseErrors::ape_rotation_deg)
       .def_ro("ape_translation_m", &PoseErrors::ape_translation_m)
-      .def_ro("rpe_rotation_deg", &PoseErrors::rpe_rotation_deg, "Between consecutive matched poses [deg].")
+      .def_ro("rpe_rotation_deg", &PoseErrors::rpe_rotation_deg,
+              "Between consecutive matched poses of one segment [deg].")
       .def_ro("rpe_translation_m", &PoseErrors::rpe_translation_m);
   using Self = TrajectoryEvaluation;
   nb::class_<Self>(module, "TrajectoryEvaluation", "Errors of a trajectory. Arrays have one row per matched pose.")
@@ -81,20 +83,27 @@ void bind_evaluation(nb::module_& module) {
       .def_ro("se3_aligned", &Self::se3_aligned,
               "Errors after the least-squares rigid alignment (Umeyama without scale).")
       .def_ro("matched", &Self::matched, "Number of matched poses.")
+      .def_ro("segment", &Self::segment, "Number of the first pose's segment.")
+      .def_ro("segments", &Self::segments,
+              "If poses of several segments match: a TrajectoryEvaluation of each by itself, with its own alignments;\n"
+              "otherwise empty. Errors of a segment with a single pose are NaN.")
       .def_ro("path_length_m", &Self::path_length_m, "Length of the matched ground truth [m].")
       .def_ro("end_drift_percent", &Self::end_drift_percent,
               "Error of the last position relative to the path length [%].")
       .def_prop_ro("stamps_ns", column(&PerPose::stamp_ns), kView, "(N,) int64 [ns].")
       .def_prop_ro("ape_rotation_deg", column(&PerPose::ape_rotation_deg), kView, "(N,): origin-aligned.")
       .def_prop_ro("ape_translation_m", column(&PerPose::ape_translation_m), kView, "(N,): origin-aligned.")
-      .def_prop_ro("rpe_rotation_deg", column(&PerPose::rpe_rotation_deg), kView, "(N,): NaN for the first pose.")
-      .def_prop_ro("rpe_translation_m", column(&PerPose::rpe_translation_m), kView, "(N,): NaN for the first pose.");
+      .def_prop_ro("rpe_rotation_deg", column(&PerPose::rpe_rotation_deg), kView,
+                   "(N,): NaN for the first pose of a segment.")
+      .def_prop_ro("rpe_translation_m", column(&PerPose::rpe_translation_m), kView,
+                   "(N,): NaN for the first pose of a segment.");
   module.def(
       "evaluate_trajectory", &evaluate_trajectory, "estimate"_a, "truth"_a, "from_frame"_a = 0,
       "max_stamp_difference_ns"_a = 10'000'000,
       "Compares an estimated Trajectory with the ground truth. Every pose is matched at most once, with the nearest "
       "time\n"
-      "stamp.\n\n"
+      "stamp. The errors of the whole include the unknown motions between segments, except for RPE, which is not\n"
+      "computed across them.\n\n"
       "from_frame: number of leading poses of the estimate to skip.\n"
       "max_stamp_difference_ns: largest difference of matched time stamps [ns]; use 0 where stamps are row numbers\n"
       "(KITTI files).\n\n"

@@ -146,7 +146,7 @@ void bind_warning(nb::module_& module) {
       .def_prop_ro(
           "kind", [](const Self& self) { return to_string(self.kind); },
           "device_memory, implausible_calibration, doubtful_calibration, small_disparity_range,\n"
-          "negative_disparities or unsynchronised_cameras.")
+          "negative_disparities, unsynchronised_cameras or unknown_motion.")
       .def_ro("text", &Self::text, "The warning in one sentence.")
       .def("__str__", [](const Self& self) { return self.text; })
       .def("__repr__", [](const Self& self) {
@@ -201,8 +201,8 @@ void bind_poses(nb::class_<FrameResult>& result) {
   def_optional(
       result, "covariance", &Self::covariance,
       "(6, 6) float64: covariance of ``world_from_left`` in the convention of ROS's PoseWithCovariance: x, y, z\n"
-      "[m], then rotation about x, y, z [rad], along and about the axes of the world frame. None for a lost\n"
-      "frame and for all frames after tracking resumed from a predicted pose.");
+      "[m], then rotation about x, y, z [rad], along and about the axes of the world frame. Relative to the pose that\n"
+      "the segment starts from, which counts as exact. None for a lost frame.");
   def_optional(
       result, "relative_covariance", &Self::relative_covariance,
       "(6, 6) float64: covariance of ``current_from_reference`` due to edge errors alone, ROTATION first:\n"
@@ -222,7 +222,8 @@ void bind_poses(nb::class_<FrameResult>& result) {
   def_pose(
       "world_from_left", [](const Self& self) -> const Pose& { return self.world_from_left; },
       "(4, 4) float64: pose of the left camera in the world frame [m], which is the left camera frame of the first\n"
-      "frame (x right, y down, z forward). None for a lost frame.");
+      "frame (x right, y down, z forward). A segment after the first continues from a predicted pose: its place in\n"
+      "the world is not measured. None for a lost frame.");
   def_pose(
       "predicted_world_from_left", [](const Self& self) -> const Pose& { return self.predicted_world_from_left; },
       "(4, 4) float64: for a lost frame, the pose if the last motion is repeated [m]. None for any other frame.");
@@ -250,6 +251,10 @@ void bind_result(nb::module_& module) {
       .def_prop_ro(
           "is_tracked", [](const Self& self) { return is_tracked(self.status); },
           "True if the pose was measured: status first or tracked.")
+      .def_ro("segment", &Self::segment,
+              "Number of the frame's segment, from 0. Measurements connect all tracked frames of a segment with one\n"
+              "another, but not with those of other segments: where the motion across lost frames could not be\n"
+              "measured, a new segment starts. A lost frame has the number of the segment before it.")
       .def_ro("reference_frame", &Self::reference_frame,
               "Number of the key rig's frame, counted from 0; -1 before the first one.")
       .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the key rig of the following frames.")

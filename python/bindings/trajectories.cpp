@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
 
 #include "arrays.hpp"
 #include "quadedge/error.hpp"
@@ -11,19 +12,27 @@ namespace {
 
 // The arrays of stamps and of poses are views of the same rows.
 static_assert(sizeof(StampedPose) % sizeof(double) == 0);
-constexpr std::int64_t kRow = sizeof(StampedPose) / sizeof(double);
+constexpr std::int64_t kRow = sizeof(StampedPose) / sizeof(double), kRowOfInts = sizeof(StampedPose) / sizeof(int);
+
+using Segments = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::device::cpu>;
 
 Trajectory make_trajectory(const nb::ndarray<const std::int64_t, nb::ndim<1>, nb::device::cpu>& stamps_ns,
-                           const nb::ndarray<const double, nb::ndim<3>, nb::device::cpu>& poses) {
+                           const nb::ndarray<const double, nb::ndim<3>, nb::device::cpu>& poses,
+                           const std::optional<Segments>& segments) {
   if (poses.shape(0) != stamps_ns.shape(0) || poses.shape(1) != 4 || poses.shape(2) != 4) {
     throw DataError("poses: found " + std::to_string(poses.shape(0)) + " x " + std::to_string(poses.shape(1)) + " x " +
                     std::to_string(poses.shape(2)) + " numbers, expected " + std::to_string(stamps_ns.shape(0)) +
                     " x 4 x 4, one pose per stamp");
   }
+  if (segments && segments->shape(0) != stamps_ns.shape(0)) {
+    throw DataError("segments: found " + std::to_string(segments->shape(0)) + " numbers, expected " +
+                    std::to_string(stamps_ns.shape(0)) + ", one per stamp");
+  }
   Trajectory trajectory(poses.shape(0));
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     const auto at = static_cast<std::int64_t>(i);
     trajectory[i].stamp_ns = stamps_ns.data()[at * stamps_ns.stride(0)];
+    if (segments) trajectory[i].segment = segments->data()[at * segments->stride(0)];
     const double* pose = poses.data() + at * poses.stride(0);
     for (int row = 0; row < 4; ++row) {
       for (int column = 0; column < 4; ++column) {
@@ -41,12 +50,13 @@ void bind_trajectories(nb::module_& module) {
       .def(
           "__init__",
           [](Trajectory* self, const nb::ndarray<const std::int64_t, nb::ndim<1>, nb::device::cpu>& stamps_ns,
-             const nb::ndarray<const double, nb::ndim<3>, nb::device::cpu>& poses) {
-            new (self) Trajectory(make_trajectory(stamps_ns, poses));
+             const nb::ndarray<const double, nb::ndim<3>, nb::device::cpu>& poses,
+             const std::optional<Segments>& segments) {
+            new (self) Trajectory(make_trajectory(stamps_ns, poses, segments));
           },
-          "stamps_ns"_a, "poses"_a,
-          "stamps_ns: (N,) int64 [ns]. poses: (N, 4, 4) float64, world_from_left [m]. Raises DataError for other "
-          "shapes.")
+          "stamps_ns"_a, "poses"_a, "segments"_a = nb::none(),
+          "stamps_ns: (N,) int64 [ns]. poses: (N, 4, 4) float64, world_from_left [m]. segments: (N,) int32, as in\n"
+          "FrameResult; 0 unless given. Raises DataError for other shapes.")
       .def_static(
           "from_file", [](const std::filesystem::path& path) { return read_trajectory(path.string()); }, "path"_a,
           "Reads a TUM file (8 columns) or a KITTI file (12 columns, where the row number serves as the stamp).\n\n"
@@ -54,7 +64,9 @@ void bind_trajectories(nb::module_& module) {
       .def(
           "write_tum",
           [](const Trajectory& self, const std::filesystem::path& path) { write_tum(path.string(), self); }, "path"_a,
-          "Writes a TUM file: ``timestamp tx ty tz qx qy qz qw`` per pose [s, m], byte for byte as ``quadedge run``.")
+          "Writes a TUM file: ``timestamp tx ty tz qx qy qz qw`` per pose [s, m], and a comment ``# segment N`` "
+          "before\n"
+          "each segment after the first, byte for byte as ``quadedge run``.")
       .def(
           "write_kitti",
           [](const Trajectory& self, const std::filesystem::path& path) { write_kitti(path.string(), self); }, "path"_a,
@@ -67,6 +79,13 @@ void bind_trajectories(nb::module_& module) {
             return ArrayView<std::int64_t>(first, {self.size()}, {}, {kRow});
           },
           kView, "(N,) int64: time stamps [ns].")
+      .def_prop_ro(
+          "segments",
+          [](const Trajectory& self) {
+            const void* first = self.empty() ? nullptr : &self.front().segment;
+            return ArrayView<std::int32_t>(first, {self.size()}, {}, {kRowOfInts});
+          },
+          kView, "(N,) int32: number of each pose's segment, as in FrameResult.")
       .def_prop_ro(
           "poses",
           [](const Trajectory& self) {

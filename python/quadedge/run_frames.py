@@ -20,10 +20,11 @@ class RunFrame:
 
     stamp_ns: int
     status: str
+    segment: int
     new_key_rig: bool
     world_from_left: numpy.ndarray | None  #: (4, 4) [m]
     predicted_world_from_left: numpy.ndarray | None  #: (4, 4) [m], of a lost frame
-    covariance: numpy.ndarray | None  #: (6, 6) of world_from_left [m, rad]
+    covariance: numpy.ndarray | None  #: (6, 6) of world_from_left [m, rad], within the segment
     counts: dict[str, float]
     times_ms: dict[str, float]
     message: str
@@ -82,7 +83,7 @@ def read_frames(folder: str | PathLike) -> list[RunFrame]:
     for frame, pose in zip(frames, poses):
         try:
             rows.append(RunFrame(
-                _stamp_ns(frame["stamp_s"]), frame["status"], frame["new_key_rig"] == "1",
+                _stamp_ns(frame["stamp_s"]), frame["status"], int(frame.get("segment", 0)), frame["new_key_rig"] == "1",
                 *((None, _pose(pose)) if frame["status"].startswith("lost") else (_pose(pose), None)),
                 _covariance(pose), {name: float(frame[name]) for name in _COUNTS}, _times(frame),
                 frame["warning"] or frame["message"]))

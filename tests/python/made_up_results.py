@@ -33,25 +33,31 @@ def accuracy(translation: float, open_rotation: str = "") -> dict:
 
 
 def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool = False, lost: int = -1,
-              errors: dict | None = None) -> dict:
-    """Writes a run along a bent or nearly straight path whose estimate drifts sideways; returns its report."""
+              breaks: bool = False, errors: dict | None = None) -> dict:
+    """Writes a run along a bent or nearly straight path whose estimate drifts sideways; returns its report.
+
+    breaks: the frames after the lost one are a segment of their own.
+    """
     folder.mkdir(parents=True)
     (folder / "pictures").mkdir()
     bend = 0.01 if straight else 2.0
     rows, poses, truth, per_pose, covariances = [], [], [], [], []
     for i in range(frames):
         status = "first" if i == 0 else "lost_no_consensus" if i == lost else "tracked"
-        rows.append(f"{i},{0.1 * i:.9f},{status},0,{1 if i % 4 == 0 else 0},{1000 + i},{1100 + i},500,400,390,"
-                    f"{300 - i},{200 - i},{20 + i % 3},12,3,2")
+        segment = int(breaks and i > lost)
+        rows.append(f"{i},{0.1 * i:.9f},{status},{segment},0,{1 if i % 4 == 0 else 0},{1000 + i},{1100 + i},500,400,"
+                    f"390,{300 - i},{200 - i},{20 + i % 3},12,3,2")
         x, z = bend * math.sin(0.3 * i), float(i)
         truth.append(f"{0.1 * i:.9f} {x + 3} 1 {z} 0 0 0 1")  # in another world frame
+        if segment and i == lost + 1:
+            poses.append("# segment 1: the motion since the poses above is unknown")
         if i != lost:
             poses.append(f"{0.1 * i:.9f} {x + drift * i} 0 {z} 0 0 0 1")
             per_pose.append(f"{0.1 * i:.9f},0,{drift * i},{'' if i == 0 else 0},{'' if i == 0 else drift}")
         covariances.append(f"{i},{0.1 * i:.9f},{1e-4 * i},{1e-4 * i},{2e-4 * i}")
     (folder / "frames.csv").write_text(
-        "frame,stamp_s,status,key_rig,new_key_rig,edges_left,edges_right,stereo_edges,temporal_left,temporal_right,"
-        "quads,inliers,latency_ms,stereo_ms,temporal_ms,pose_ms\n" + "\n".join(rows) + "\n")
+        "frame,stamp_s,status,segment,key_rig,new_key_rig,edges_left,edges_right,stereo_edges,temporal_left,"
+        "temporal_right,quads,inliers,latency_ms,stereo_ms,temporal_ms,pose_ms\n" + "\n".join(rows) + "\n")
     (folder / "trajectory.txt").write_text("# stamp tx ty tz qx qy qz qw\n" + "\n".join(poses) + "\n")
     (folder / "groundtruth.txt").write_text("\n".join(truth) + "\n")
     (folder / "errors.csv").write_text("stamp_s,ape_rotation_deg,ape_translation_m,rpe_rotation_deg,rpe_translation_m\n"
@@ -65,6 +71,11 @@ def write_run(folder: Path, frames: int, drift: float = 0.01, *, straight: bool 
         "latency_ms": {"median": 21.0, "p90": 22.0, "p99": 22.0, "max": 22.0, "first": 20.0},
         "stages_ms": {"stereo": {"median": 12.0, "p90": 12.5}}, "memory_mb": {"host_peak": 100.0, "device_peak": 50.0},
         "accuracy": errors or accuracy(0.05)} | CONFIGURATION
+    if breaks:
+        report["segments_text"] = f"2 segments: an unknown motion lies between frames {lost - 1} and {lost + 1}"
+        parts = [accuracy(0.02) | {"segment": 0}, accuracy(0.03) | {"segment": 1, "matched_poses": 1}]
+        report["accuracy"] = report["accuracy"] | {"segments": parts}
+    report["segments"] = 1 + breaks
     (folder / "report.json").write_text(json.dumps(report))
     return report
 

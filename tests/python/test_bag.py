@@ -214,10 +214,11 @@ def test_odometry_has_the_axes_of_rep_103(tmp_path):
     pose = numpy.array([[0, 0, -1, -1], [0, 1, 0, -2], [1, 0, 0, 3], [0, 0, 0, 1]], float)  # optical axes
     covariance = numpy.diag([1.0, 2, 3, 4, 5, 6])  # right, down, forward; about them
     covariance[0, 2] = covariance[2, 0] = 0.5  # to the right goes with forward
-    result = SimpleNamespace(stamp_ns=5, is_tracked=True, world_from_left=pose, covariance=covariance)
-    quadedge.bag.write_mcap(tmp_path / "odometry", [result])
+    result = SimpleNamespace(stamp_ns=5, is_tracked=True, segment=0, world_from_left=pose, covariance=covariance)
+    later = SimpleNamespace(**{**vars(result), "stamp_ns": 6, "segment": 1})
+    quadedge.bag.write_mcap(tmp_path / "odometry", [result, later])
     with AnyReader([tmp_path / "odometry"]) as reader:
-        (message_,) = [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
+        message_, of_later = [reader.deserialize(data, connection.msgtype) for connection, _, data in reader.messages()]
     assert message_.header.frame_id == "odom" and message_.child_frame_id == "base_link"
     position, turn = message_.pose.pose.position, message_.pose.pose.orientation
     assert [position.x, position.y, position.z] == [3, 1, 2]
@@ -226,6 +227,7 @@ def test_odometry_has_the_axes_of_rep_103(tmp_path):
     expected = numpy.diag([3.0, 1, 2, 6, 4, 5])
     expected[0, 1] = expected[1, 0] = -0.5
     numpy.testing.assert_allclose(message_.pose.covariance.reshape(6, 6), expected, atol=1e-12)
+    assert of_later.pose.covariance[0] == -1 and of_later.pose.pose.position.x == 3  # unknown in another segment
 
 
 @pytest.fixture

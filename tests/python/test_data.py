@@ -71,6 +71,13 @@ def test_trajectories_are_written_and_read(tmp_path):
     numpy.testing.assert_array_equal(rows.poses, poses)
     with pytest.raises(quadedge.DataError, match="poses: found 5 x 4 x 4 numbers, expected 4 x 4 x 4"):
         quadedge.Trajectory(numpy.arange(4), poses)
+    parts = quadedge.Trajectory(numpy.arange(5) * 50_000_000, poses, numpy.array([0, 0, 1, 1, 2], numpy.int32))
+    parts.write_tum(tmp_path / "parts.txt")
+    assert "\n# segment 1: " in (tmp_path / "parts.txt").read_text()
+    numpy.testing.assert_array_equal(quadedge.Trajectory.from_file(tmp_path / "parts.txt").segments, [0, 0, 1, 1, 2])
+    numpy.testing.assert_array_equal(read.segments, numpy.zeros(5))
+    with pytest.raises(quadedge.DataError, match="segments: found 4 numbers, expected 5"):
+        quadedge.Trajectory(numpy.arange(5), poses, numpy.zeros(4, numpy.int32))
     with pytest.raises(quadedge.DataError, match="absent.txt"):
         quadedge.Trajectory.from_file(tmp_path / "absent.txt")
 
@@ -88,6 +95,12 @@ def test_errors_of_a_trajectory():
     numpy.testing.assert_allclose(evaluation.ape_translation_m, [0, 0, 0, 0, 0.5])
     numpy.testing.assert_array_equal(evaluation.stamps_ns, stamps)
     assert evaluation.end_drift_percent == pytest.approx(12.5)
+    assert evaluation.segments == []
+    parts = quadedge.Trajectory(stamps, off, numpy.array([0, 0, 0, 1, 1], numpy.int32))
+    first, second = quadedge.evaluate_trajectory(parts, quadedge.Trajectory(stamps, poses)).segments
+    assert (first.segment, first.matched, second.segment, second.matched) == (0, 3, 1, 2)
+    assert first.origin_aligned.ape_translation_m.max == pytest.approx(0, abs=1e-12)
+    assert second.origin_aligned.rpe_translation_m.mean == pytest.approx(0.5)
     late = quadedge.Trajectory(stamps + 10**12, poses)
     with pytest.raises(quadedge.DataError):
         quadedge.evaluate_trajectory(late, quadedge.Trajectory(stamps, poses))

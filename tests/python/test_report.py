@@ -170,6 +170,21 @@ def test_an_interrupted_or_killed_run_has_a_page_of_its_finished_frames(tmp_path
         report.make_page(tmp_path / "killed")
 
 
+def test_segments_are_told_apart(tmp_path):
+    write_run(tmp_path / "street", 14, lost=7, breaks=True)
+    page = page_of(tmp_path / "street")
+    assert page.facts["Segments"] == "2 segments: an unknown motion lies between frames 6 and 8"
+    rows = page.tables["Mean errors of every segment by itself, origin-aligned"]
+    assert rows[1][:4] == ["0", "12", "20.00", "1.250"] and rows[1][5] == "20.00"  # [mm]
+    assert rows[2][:4] == ["1", "1", numbers.DASH, numbers.DASH]
+    paths = {series["name"]: len(series["x"]) for series in page.figure("from_above")["data"]}
+    assert paths["QuadEdge"] == 7 and paths["QuadEdge, segment 1"] == 6
+    write_run(tmp_path / "whole", 14, lost=7)
+    page = page_of(tmp_path / "whole")
+    assert "Segments" not in page.facts
+    assert "QuadEdge, segment 1" not in [series["name"] for series in page.figure("from_above")["data"]]
+
+
 def test_a_straight_road_is_drawn_from_the_side_and_a_bent_one_is_not(tmp_path):
     write_run(tmp_path / "straight", 12, 0.002, straight=True)
     write_run(tmp_path / "bent", 12)

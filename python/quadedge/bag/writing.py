@@ -25,7 +25,8 @@ def write_tum(path: str | PathLike, results: Iterable) -> None:
     tracked = _tracked(results)
     stamps = numpy.array([result.stamp_ns for result in tracked], numpy.int64)
     poses = numpy.array([result.world_from_left for result in tracked], float).reshape(-1, 4, 4)
-    Trajectory(stamps, poses).write_tum(path)
+    segments = numpy.array([result.segment for result in tracked], numpy.int32)
+    Trajectory(stamps, poses, segments).write_tum(path)
 
 
 def quaternion(rotation: numpy.ndarray) -> numpy.ndarray:
@@ -60,6 +61,8 @@ def _odometry_message(types, result, frame: str, child_frame: str, optical_axes:
     header = types["std_msgs/msg/Header"](
         types["builtin_interfaces/msg/Time"](*divmod(result.stamp_ns, 1_000_000_000)), frame)
     pose, covariance = result.world_from_left, result.covariance
+    if result.segment > 0:  # no measurement connects the pose with the origin of the frame
+        covariance = None
     if not optical_axes:
         pose, covariance = _in_body_axes(pose, covariance)
     position = types["geometry_msgs/msg/Point"](*map(float, pose[:3, 3]))
@@ -85,7 +88,8 @@ def write_mcap(folder: str | PathLike, results: Iterable, *, topic: str = "/odom
     (REP 105). With ``optical_axes`` both frames have the axes of the camera (x right, y down, z forward), and
     ``child_frame`` is "left_camera" unless given.
 
-    The twist is unknown, and so is a covariance that is None: its first element is -1. Returns the path of the .mcap
+    The twist is unknown, and so are the covariances of all segments after the first, whose place in ``frame`` is not
+    measured: their first element is -1. Returns the path of the .mcap
     file. Raises DataError if the folder exists or cannot be written, ImportError without rosbags.
     """
     try:

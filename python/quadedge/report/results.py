@@ -23,6 +23,10 @@ class Trajectory:
     def __len__(self) -> int:
         return len(self.stamps)
 
+    def part(self, indices: np.ndarray) -> "Trajectory":
+        """The poses with these indices."""
+        return Trajectory(self.stamps[indices], self.positions[indices], self.rotations[indices])
+
 
 def read_tum(file: Path, *, may_be_cut: bool = False) -> Trajectory:
     """A trajectory in TUM format. Raises DamagedResults. `may_be_cut`: as for whole_lines()."""
@@ -109,6 +113,14 @@ class Run:
     def times(self) -> np.ndarray:
         """Of the frames, since the first one [s]."""
         return self.column("stamp_s") - self.start
+
+    def segments(self) -> Iterator[tuple[int, np.ndarray]]:
+        """Number of every segment and the indices of its estimated poses; a run before 0.2 has a single one."""
+        numbers = self.column("segment") if "segment" in self.frames else np.zeros(self.count())
+        tracked = np.array([not is_lost(status) for status in self.frames["status"]], bool)
+        of_poses = numbers[tracked][:len(self.estimate)]
+        for segment in np.unique(of_poses):
+            yield int(segment), np.nonzero(of_poses == segment)[0]
 
     def count(self) -> int:
         return len(self.frames["stamp_s"])

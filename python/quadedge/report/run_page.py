@@ -52,6 +52,8 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
         reasons[reason] = reasons.get(reason, 0) + len(frames)
     if reasons:
         facts.append(("Frames lost", ", ".join(f"{number} {reason}" for reason, number in reasons.items())))
+    if "segments_text" in report:
+        facts.append(("Segments", report["segments_text"]))
     if report["input"].get("dropped"):
         facts.append(("Pairs dropped", f"{report['input']['dropped']} of a pipe that was faster than tracking"))
     accuracy = report.get("accuracy")
@@ -119,8 +121,33 @@ def accuracy_tables(run: Run) -> list[Table]:
     if accuracy.get("se3_open_rotation"):
         table.notes.append(f"SE(3): no APE rotation, {accuracy['se3_open_rotation']}.")
     tables = [table]
+    tables += segment_tables(accuracy)
     tables += consistency_tables(accuracy)
     return tables
+
+
+def segment_tables(accuracy: dict) -> list[Table]:
+    """The errors of every segment by itself; none for a single one."""
+    segments = accuracy.get("segments", [])
+    if not segments:
+        return []
+    rows = [ErrorRow("", "", segment) for segment in segments]
+    units = [unit_of(key, rows, "origin_aligned") for key, _ in ERRORS]
+    path = length_unit([segment["path_length_m"] for segment in segments])
+    table = Table("segments", "Mean errors of every segment by itself, origin-aligned",
+                  ["segment", "poses", f"path [{path.name}]", "drift [%]",
+                   *[f"{name} [{unit.name}]" for (_, name), unit in zip(ERRORS, units)]], text_columns=1)
+    for segment in segments:
+        cells = [Cell(str(segment["matched_poses"]), segment["matched_poses"])]
+        values = [segment["path_length_m"] * path.factor, segment["end_drift_percent"]]
+        values += [segment["origin_aligned"][key]["mean"] for key, _ in ERRORS]
+        factors = [1, 1, *[unit.factor for unit in units]]
+        for value, factor in zip(values, factors):
+            value = value * factor if exists(value) and segment["matched_poses"] > 1 else None
+            cells.append(Cell(significant(value), value))
+        table.add(str(segment["segment"]), *cells)
+    table.notes.append("The motions between segments are unknown; the table above includes them.")
+    return [table]
 
 
 def consistency_tables(accuracy: dict) -> list[Table]:

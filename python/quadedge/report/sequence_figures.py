@@ -30,7 +30,9 @@ def _at(stamps: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 def _paths(run: Run, others: list[Other]) -> list[tuple[str, Trajectory, int, str]]:
     """Name, poses, style and line style of every trajectory, starting with the ground truth."""
     paths = [("ground truth", run.truth, GREY, "dash")] if run.truth else []
-    paths.append(("QuadEdge", run.estimate, 0, "solid"))
+    for segment, indices in run.segments():
+        name = f"QuadEdge, segment {segment}" if segment else "QuadEdge"
+        paths.append((name, run.estimate.part(indices), segment % 5, "solid"))
     return paths + [(other.name, other.poses, 1 + n % 4, "") for n, other in enumerate(others)]
 
 
@@ -108,8 +110,9 @@ def error_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
                                                        points), style=style))
         if key == "ape_translation_m" and run.stated_error_m:
             stamps, stated = run.stated_error_m
-            figure.series.append(Series("stated by the covariance", *thinned(stamps - run.start, stated * unit.factor,
-                                                                             points), style=GREY, dash="dot"))
+            within = " within the segment" if run.report.get("segments", 1) > 1 else ""
+            curve = thinned(stamps - run.start, stated * unit.factor, points)
+            figure.series.append(Series("stated by the covariance" + within, *curve, style=GREY, dash="dot"))
         rigs = _at(run.errors.stamps, _key_rig_stamps(run))
         rigs = rigs[every(len(rigs), points)]
         figure.series.append(Series("new key rig", run.errors.stamps[rigs] - run.start,
