@@ -14,7 +14,7 @@ TEST_CASE("demo: tracks and evaluates the built-in sequence", "[cli][device]") {
   CHECK_THAT(result.out,
              Contains("4 of 4 frames") && Contains("APE translation [m]") && Contains("RPE rotation [deg]"));
   CHECK_THAT(read_text(folder / "demo/config.toml"), Contains("rig_sigma_length = 0 "));  // rendered rigs are exact
-  for (const char* name : {"pictures/trajectory.png", "pictures/edges_000002.png", "pictures/quads_000002.png"}) {
+  for (const char* name : {"pictures/edges_000002.png", "pictures/quads_000002.png"}) {
     CHECK(fs::file_size(folder / ("demo/" + std::string(name))) > 1000);
   }
 }

@@ -30,9 +30,8 @@ TEST_CASE("run: writes every documented file", "[cli][device]") {
   const auto& run = shared_run();
   INFO(run.result.err);
   REQUIRE(run.result.code == 0);
-  for (const char* name :
-       {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "poses.csv", "report.json", "config.toml",
-        "pictures/trajectory.png", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
+  for (const char* name : {"trajectory.txt", "trajectory_kitti.txt", "frames.csv", "poses.csv", "report.json",
+                           "config.toml", "pictures/edges_000000.png", "pictures/quads_000002.png"}) {
     INFO(name);
     CHECK(fs::file_size(run.out(name)) > 0);
   }

@@ -66,8 +66,6 @@ TEST_CASE("command line: every command that renders lists and accepts scenes and
     CHECK_THAT(run_program({command, "--help"}).out, Contains("facade") && Contains("handheld"));
   }
   CHECK_THAT(run_program({"evaluate", "matching", "--help"}).out, Contains("facade") && Contains("handheld"));
-  for (const std::string page : {"man", "bash"})
-    CHECK_THAT(run_program({"generate", page}).out, Contains("facade") && Contains("handheld"));
   const TemporaryFolder folder;
   const auto matching = run_program({"evaluate", "matching", "facade", "--path", "handheld", "--scene-seed", "3",
                                      "--frames", "1", "--size", "200x104", "--quiet", "--json", folder / "m.json"});

@@ -1,9 +1,8 @@
-/// \file test_self_test.cpp  The self-test: its stored results are the reference's, correct devices pass, faulty ones
-/// are reported.
+/// \file test_self_test.cpp  The self-test: correct devices pass, faulty ones are reported.
 #include <filesystem>
 
 #include "devices.hpp"
-#include "frontend/self_test_record.hpp"
+#include "frontend/stage_rows.hpp"
 #include "opencl/variants.hpp"
 #include "program.hpp"
 #include "quadedge/self_test.hpp"
@@ -25,12 +24,9 @@ void copy_kernels(const std::string& folder, const std::string& file, const std:
 
 }  // namespace
 
-TEST_CASE("self-test: the stored results are the reference's for the stored frames", "[selftest]") {
-  INFO("after a change of the method, run: quadedge generate self-test > host/frontend/self_test.rows");
-  CHECK((run_program({"generate", "self-test"}).out == frontend::stored_self_test()));
-  const auto record = frontend::parse_self_test(frontend::stored_self_test());
-  CHECK(frontend::to_text(record) == frontend::stored_self_test());
-  for (const auto& stage : record.stages) {
+TEST_CASE("self-test: every stage of the reference finds something to compare", "[selftest]") {
+  Device reference("reference");
+  for (const auto& stage : frontend::observe_stages(frontend::small_sequence(), reference, {})) {
     INFO(stage.stage);
     CHECK(stage.rows.size() >= (stage.stage == "edge_threshold" ? 1U : 50U));
   }

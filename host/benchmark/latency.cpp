@@ -118,19 +118,14 @@ void measure_edge_detection(const Subject& subject, int repetitions, BenchRecord
 }
 
 void measure_kernels(const Subject& subject, BenchRecord& record) {
-  const std::string prefix = "device ";  // of kernel times in the stages of a frame
   Device device = subject.open_device(true);
   if (device.is_reference()) return;
   StereoOdometry odometry(subject.rig, device, subject.config);
   for (std::size_t i = 0; i < subject.frames.size(); ++i) {
     const auto result = odometry.track(subject.frames[i].view());
-    std::vector<StageTime> kernels;
-    for (const auto& stage : result.timing.stages) {
-      if (stage.stage.rfind(prefix, 0) == 0) kernels.push_back({stage.stage.substr(prefix.size()), stage.ms});
-    }
     if (i > 0 && !is_warm_up(i, record))
       record.profiled.push_back({device.context()->last_profile(), result.timing.latency_ms});
-    if (!is_warm_up(i, record)) record.run.kernel_times.push_back(std::move(kernels));
+    if (!is_warm_up(i, record)) record.run.kernel_times.push_back(result.timing.kernels);
     subject.progress("kernel times", static_cast<int>(i) + 1, static_cast<int>(subject.frames.size()));
   }
 }

@@ -20,6 +20,7 @@ namespace quadedge::cli {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kError = "/error.txt";  // of a member at work
 constexpr std::chrono::milliseconds kPoll{30};
 constexpr std::chrono::seconds kGrace{5};  // for a child to end after it was asked to
 
@@ -38,25 +39,18 @@ void remove_folder(const fs::path& folder) {
   if (error) throw DataError(folder.string() + ": cannot be removed: " + error.message());
 }
 
-/// The last complaint in a log, one line: "quadedge: WHAT". (What follows it names the folder of that time.)
-std::string complaint(const std::string& log) {
-  const std::string mark = "quadedge: ";
-  std::ifstream file(log);
-  std::string found;
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind(mark, 0) == 0) found = line.substr(mark.size());
-  }
-  return found;
-}
-
-std::string failure(const ChildEnd& end, const std::string& log) {
+/// Why a child failed, from its end and the file with its error. (What follows the first line names the folder of that
+/// time.)
+std::string failure(const ChildEnd& end, const std::string& error) {
   if (end.signal != 0) {
     std::string text = "ended by signal " + std::to_string(end.signal) + " (" + strsignal(end.signal) + ")";
     if (end.signal == SIGKILL) text += "; perhaps the memory ran out";
     return text;
   }
-  const std::string text = complaint(log);
-  return text.empty() ? "ended with exit code " + std::to_string(end.exit_code) + " and no message" : text;
+  std::string text;
+  std::ifstream file(error);
+  if (std::getline(file, text) && !text.empty()) return text;
+  return "ended with exit code " + std::to_string(end.exit_code) + " and no message";
 }
 
 class BatchRunner {
@@ -76,7 +70,8 @@ class BatchRunner {
     remove_folder(folder);
     fs::create_directories(folder, error);
     if (error) throw DataError(folder + ": cannot be made: " + error.message());
-    running_.push_back({member, folder, std::move(lock), ChildProcess(arguments(member, folder), folder + "/log.txt"),
+    running_.push_back({member, folder, std::move(lock),
+                        ChildProcess(arguments(member, folder), folder + "/log.txt", folder + kError),
                         FrameCounter(folder)});
   }
 
@@ -154,11 +149,12 @@ class BatchRunner {
     const bool known = end.exit_code <= static_cast<int>(ExitCode::too_few_tracked);
     record.exit_code = known ? end.exit_code : static_cast<int>(ExitCode::internal);
     record.jobs = jobs_;
-    if (record.exit_code != 0) record.message = failure(end, running.folder + "/log.txt");
+    if (record.exit_code != 0) record.message = failure(end, running.folder + kError);
+    std::error_code error;
+    fs::remove(running.folder + kError, error);
     data::write_atomically(running.folder + "/member.json", report::member_json(record));
     const std::string folder = report::member_folder(options_.output, member.sequence.name);
     remove_folder(folder);
-    std::error_code error;
     fs::rename(running.folder, folder, error);
     if (error) throw DataError(folder + ": the finished folder cannot be put here: " + error.message());
     progress_.finished(member.sequence.name, member.frames, member.pixels, outcome(folder, record));

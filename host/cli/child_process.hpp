@@ -17,9 +17,10 @@ struct ChildEnd {
 /// A running child. It does not outlive this process: the kernel kills it when this process dies, however that happens.
 class ChildProcess {
  public:
-  /// Starts this program with `arguments`; its standard output and error go to the new file `log`.
+  /// Starts this program with `arguments`; its standard output and error go to the new file `log`, and the error that
+  /// it ends with, if any, to `error`.
   /// \throws DataError when the log cannot be made, Error when no process can be started.
-  ChildProcess(const std::vector<std::string>& arguments, const std::string& log);
+  ChildProcess(const std::vector<std::string>& arguments, const std::string& log, const std::string& error);
   /// Kills the child if it still runs.
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;

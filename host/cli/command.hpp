@@ -69,6 +69,6 @@ std::unique_ptr<Command> make_synth_command();
 std::unique_ptr<Command> make_evaluate_trajectory_command();
 std::unique_ptr<Command> make_evaluate_matching_command();
 /// `commands`: all of the program; the list may still grow.
-std::unique_ptr<Command> make_generate_command(const std::vector<std::unique_ptr<Command>>& commands);
+std::unique_ptr<Command> make_generate_command();
 
 }  // namespace quadedge::cli

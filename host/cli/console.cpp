@@ -4,6 +4,8 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <unistd.h>
 
 #include "cli/terminal.hpp"
@@ -168,6 +170,11 @@ std::string duration_text(double seconds) {
   else
     std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
   return text;
+}
+
+void print_error(const std::string& message) {
+  std::fprintf(stderr, "quadedge: %s\n", message.c_str());
+  if (const char* file = std::getenv(kErrorFile); file != nullptr) std::ofstream(file) << message << "\n";
 }
 
 void note(const std::string& sentence) {

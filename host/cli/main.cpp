@@ -5,9 +5,19 @@
 #include <iostream>
 #include <new>
 
+#include "cli/console.hpp"
 #include "cli/parser.hpp"
 #include "cli/standard_streams.hpp"
 #include "quadedge/error.hpp"
+
+namespace {
+
+int end(const std::string& message, quadedge::ExitCode code) {
+  quadedge::cli::print_error(message);
+  return static_cast<int>(code);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace quadedge;
@@ -29,7 +39,7 @@ int main(int argc, char** argv) {
     commands.push_back(cli::make_check_command());
     commands.push_back(cli::make_devices_command());
     commands.push_back(cli::make_variants_command());
-    commands.push_back(cli::make_generate_command(commands));
+    commands.push_back(cli::make_generate_command());
     const cli::Parsed parsed = cli::parse_command_line(argc, argv, commands);
     if (parsed.command == nullptr) return parsed.exit_code;
     const int code = parsed.command->run();
@@ -37,17 +47,13 @@ int main(int argc, char** argv) {
     if (!std::cout) throw DataError("standard output cannot be written");
     return code;
   } catch (const Error& error) {
-    std::cerr << "quadedge: " << error.what() << "\n";
-    return static_cast<int>(error.exit_code());
+    return end(error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
-    std::cerr << "quadedge: out of memory\n";
-    return static_cast<int>(ExitCode::internal);
+    return end("out of memory", ExitCode::internal);
   } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << "quadedge: " << error.path1().string() << ": " << error.code().message()
-              << "; expected a place that can be read\n";
-    return static_cast<int>(ExitCode::data);
+    return end(error.path1().string() + ": " + error.code().message() + "; expected a place that can be read",
+               ExitCode::data);
   } catch (const std::exception& error) {
-    std::cerr << "quadedge: internal error: " << error.what() << "\n";
-    return static_cast<int>(ExitCode::internal);
+    return end(std::string("internal error: ") + error.what(), ExitCode::internal);
   }
 }

@@ -11,6 +11,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "cli/console.hpp"
 #include "cli/terminal.hpp"
 #include "common/nearest_word.hpp"
 #include "data/presets.hpp"
@@ -229,7 +230,7 @@ std::string complaint(const CLI::App& app, const CLI::Error& error) {
 /// Prints the error and how to get help.
 int refuse(const CLI::App& program, const CLI::Error& error) {
   const CLI::App& app = named_command(program);
-  std::cerr << "quadedge: " << complaint(app, error) << "\n";
+  print_error(complaint(app, error));
   std::string name;
   for (const CLI::App* part = &app; part != nullptr; part = part->get_parent()) {
     name = part->get_name() + (name.empty() ? "" : " ") + name;

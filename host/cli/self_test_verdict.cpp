@@ -6,10 +6,10 @@
 #include "data/atomic_file.hpp"
 #include "data/content_hash.hpp"
 #include "data/user_folder.hpp"
-#include "frontend/self_test_record.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "quadedge/error.hpp"
 #include "report/json_values.hpp"
+#include "report/source_commit.hpp"
 
 namespace quadedge::cli {
 namespace {
@@ -18,14 +18,14 @@ using report::Json;
 
 constexpr const char* kContent = "quadedge self-test";
 
-/// Stands for device, driver, kernels and stored results.
+/// Stands for device, driver, kernels and program.
 std::string fingerprint(const DeviceInfo& device, const std::map<std::string, std::string>& variants) {
   data::ContentHash hash;
-  for (const auto& text : {device.platform, device.name, device.driver, device.opencl, std::string(QUADEDGE_VERSION)})
+  for (const auto& text : {device.platform, device.name, device.driver, device.opencl, std::string(QUADEDGE_VERSION),
+                           std::string(report::source_commit())})
     hash.add(text);
   for (const auto& [file, text] : opencl::embedded_kernels()) hash.add(file + text);
   for (const auto& [stage, name] : variants) hash.add(stage + "=" + name);
-  hash.add(frontend::stored_self_test());
   return hash.hex();
 }
 

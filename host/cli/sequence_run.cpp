@@ -79,16 +79,6 @@ void draw_frame(const FramePrefetcher::Frame& frame, int frames, const StereoRig
   report::draw_quads(options.output + "/pictures/quads_" + number + ".png", left.view(), details);
 }
 
-/// Kernel times of a profiled frame; the pipeline marks them by this prefix.
-std::vector<StageTime> kernel_stages(const std::vector<StageTime>& stages) {
-  const std::string prefix = "device ";
-  std::vector<StageTime> kernels;
-  for (const auto& stage : stages) {
-    if (stage.stage.rfind(prefix, 0) == 0) kernels.push_back({stage.stage.substr(prefix.size()), stage.ms});
-  }
-  return kernels;
-}
-
 /// Builds the pipeline and reports it: where the driver keeps no kernels from an earlier run this takes a while.
 std::unique_ptr<StereoOdometry> start_odometry(const StereoRig& rig, Device& device, bool quiet,
                                                report::RunRecord& run) {
@@ -181,7 +171,7 @@ void profile_frames(FrameSource& source, const MethodOptions& method, const Sequ
   source.prepare();
   Progress progress(options.quiet, "frames");
   while (const auto frame = source.next()) {
-    run.kernel_times.push_back(kernel_stages(odometry.track(frame->view()).timing.stages));
+    run.kernel_times.push_back(odometry.track(frame->view()).timing.kernels);
     progress.update(run.input.name + " profiling frame", static_cast<int>(run.kernel_times.size()), run.input.frames);
     if (interruption.signal() != 0) return;
   }
@@ -232,11 +222,9 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
   }
 }
 
-/// Writes what depends on all frames: accuracy, the drawing of the trajectory, report.json and the trace.
+/// Writes what depends on all frames: accuracy, report.json and the trace.
 void write_results(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
   evaluate(source, options, run);
-  report::draw_trajectory(options.output + "/pictures/trajectory.png", tracked_poses(run), source.truth(),
-                          run.input.name + ", left camera from above");
   data::write_atomically(options.output + "/report.json", report::report_json(run));
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
 }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "opencl/buffer.hpp"
+#include "quadedge/synthetic.hpp"
 #include "reference/undistortion.hpp"
 #include "stages/undistortion.hpp"
 
@@ -39,13 +40,15 @@ class Collector : public Tap {
     return (found == stages.end() ? stages.emplace_back(StageRows{stage, {}}) : *found).rows;
   }
   void add_edges(const std::string& stage, const EdgeSet& edges) {
-    for (std::size_t i = 0; i < edges.size(); ++i) of(stage).push_back(edge_row(edges, i));
+    auto& rows = of(stage);  // also where there are none
+    for (std::size_t i = 0; i < edges.size(); ++i) rows.push_back(edge_row(edges, i));
   }
   void add_quads(const std::string& stage, const TemporalMatches& quads, const StereoEdges& base) {
+    auto& rows = of(stage);
     for (std::size_t i = 0; i < quads.size(); ++i) {
       const auto before = static_cast<std::size_t>(quads.previous[i]);
-      of(stage).push_back({place(base.left_x[before]), place(base.left_y[before]), place(quads.left_x[i]),
-                           place(quads.left_y[i]), units(static_cast<double>(quads.ncc[i]), kSimilarities)});
+      rows.push_back({place(base.left_x[before]), place(base.left_y[before]), place(quads.left_x[i]),
+                      place(quads.left_y[i]), units(static_cast<double>(quads.ncc[i]), kSimilarities)});
     }
   }
 
@@ -69,9 +72,9 @@ class Collector : public Tap {
     }
   }
   void stereo(const StereoEdges& edges) override {
+    auto& rows = of("stereo_mutual");
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      of("stereo_mutual")
-          .push_back({place(edges.left_x[i]), place(edges.left_y[i]), place(edges.right_x[i]), place(edges.right_y[i]),
+      rows.push_back({place(edges.left_x[i]), place(edges.left_y[i]), place(edges.right_x[i]), place(edges.right_y[i]),
                       units(static_cast<double>(edges.ncc[i]), kSimilarities)});
     }
   }
@@ -81,14 +84,15 @@ class Collector : public Tap {
  private:
   /// `cue_scale`: units per one of the score that the next filter compares; 0: the score is omitted.
   void add_candidates(const std::string& stage, const CandidateLists& lists, double cue_scale) {
+    auto& rows = of(stage);
     for (std::size_t row = 0; row + 1 < lists.first.size(); ++row) {
       for (auto c = static_cast<std::size_t>(lists.first[row]); c < static_cast<std::size_t>(lists.first[row + 1]);
            ++c) {
         const auto target = static_cast<std::size_t>(lists.target[c]);
         const bool refined = !lists.x.empty();
-        of(stage).push_back({place(left_.x[row]), place(left_.y[row]), place(refined ? lists.x[c] : right_.x[target]),
-                             place(refined ? lists.y[c] : right_.y[target]),
-                             cue_scale > 0 ? units(static_cast<double>(lists.cue[c]), cue_scale) : 0});
+        rows.push_back({place(left_.x[row]), place(left_.y[row]), place(refined ? lists.x[c] : right_.x[target]),
+                        place(refined ? lists.y[c] : right_.y[target]),
+                        cue_scale > 0 ? units(static_cast<double>(lists.cue[c]), cue_scale) : 0});
       }
     }
   }
@@ -152,6 +156,24 @@ Config configuration(const SmallSequence& sequence, const std::map<std::string, 
 }
 
 }  // namespace
+
+SmallSequence small_sequence() {
+  SyntheticOptions scene;
+  scene.width = 113;  // no multiple of any work-group
+  scene.height = 71;
+  scene.focal = 0.575 * scene.width;
+  scene.baseline = 0.15;
+  scene.frames = 2;
+  const SyntheticSequence rendered(scene);
+  SmallSequence sequence;
+  sequence.rig = rendered.rig();
+  sequence.max_disparity = rendered.rig().max_disparity;
+  for (int i = 0; i < 2; ++i) {
+    sequence.left[i] = rendered.render(i, Side::left).image;
+    sequence.right[i] = rendered.render(i, Side::right).image;
+  }
+  return sequence;
+}
 
 std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& device,
                                       const std::map<std::string, std::string>& variants) {

@@ -19,6 +19,9 @@ struct SmallSequence {
   Image left[2], right[2];
 };
 
+/// Renders the frames of the self-test, in which every stage finds something.
+SmallSequence small_sequence();
+
 /// Results of one stage, unordered. Numbers are integer multiples of a unit: 1/100 px for positions, 1/200 rad for
 /// directions, 1/500 for similarities, 1/100 grey level per px for gradients, 1 for descriptor distances and grey
 /// levels; unused numbers are 0.

@@ -181,7 +181,7 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   result.timing.latency_ms = latency.lap();
   if (device_.context() != nullptr && device_.context()->profiling()) {
     for (const auto& row : device_.context()->take_profile())
-      result.timing.stages.push_back({"device " + row.stage, row.kernel_ms});
+      result.timing.kernels.push_back({row.stage, row.kernel_ms});
   }
   return result;
 }

@@ -46,12 +46,8 @@ int Canvas::legend_y(int line) const { return image_height_ + (line + 1) * kLege
 
 int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size) {
   cv::putText(picture, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
-  return x + text_width(text, size);
-}
-
-int text_width(const std::string& text, double size) {
   int baseline = 0;
-  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &baseline).width;
+  return x + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &baseline).width;
 }
 
 std::string fixed(double value, int decimals) {

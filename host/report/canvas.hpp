@@ -36,9 +36,6 @@ constexpr int kPositionShift = 4;
 /// Writes text with its baseline at (x, y); returns the x after its end.
 int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size = 0.5);
 
-/// Width of a text as put_text writes it [px].
-int text_width(const std::string& text, double size = 0.5);
-
 /// "%.*f".
 std::string fixed(double value, int decimals);
 

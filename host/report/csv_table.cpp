@@ -6,9 +6,7 @@
 #include "data/text.hpp"
 
 namespace quadedge::report {
-namespace {
-
-std::string field_text(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
@@ -18,11 +16,9 @@ std::string field_text(const std::string& text) {
   return quoted + "\"";
 }
 
-}  // namespace
-
 std::string csv_line(const std::vector<std::string>& fields) {
   std::string line;
-  for (std::size_t i = 0; i < fields.size(); ++i) line += (i == 0 ? "" : ",") + field_text(fields[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i) line += (i == 0 ? "" : ",") + csv_field(fields[i]);
   return line + "\n";
 }
 

@@ -15,7 +15,10 @@ struct CsvColumn {
   std::function<std::string(const Item&)> field;
 };
 
-/// A record, with a line end. Fields with commas or quotes are quoted, and line breaks become blanks.
+/// A field, quoted where it has commas, quotes or line breaks; these become blanks.
+std::string csv_field(const std::string& text);
+
+/// A record, with a line end.
 std::string csv_line(const std::vector<std::string>& fields);
 
 /// The fields of one record.

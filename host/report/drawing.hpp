@@ -7,7 +7,6 @@
 #include "quadedge/edges.hpp"
 #include "quadedge/image.hpp"
 #include "quadedge/odometry.hpp"
-#include "quadedge/trajectory.hpp"
 
 namespace quadedge::report {
 
@@ -26,10 +25,5 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
 
 /// The picture of draw_quads without its legend, reduced to a width of 480 px, as JPEG.
 void draw_quads_thumbnail(const std::string& path, const ImageView& left, const FrameDetails& details);
-
-/// A trajectory from above: x to the right, z forward, metres, one scale for both axes. `truth` may be empty and is
-/// moved so that it agrees with the estimate at the first pose of both (nearest stamp).
-void draw_trajectory(const std::string& path, const Trajectory& estimate, const Trajectory& truth,
-                     const std::string& title);
 
 }  // namespace quadedge::report

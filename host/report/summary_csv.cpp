@@ -3,21 +3,12 @@
 
 #include "data/text.hpp"
 #include "report/batch_summary.hpp"
+#include "report/csv_table.hpp"
 
 namespace quadedge::report {
 namespace {
 
-/// A field as RFC 4180 wants it; line breaks become blanks so that a record stays one line.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return quoted + "\"";
-}
-
+std::string field(const std::string& text) { return csv_field(text); }
 std::string field(double value) { return std::isfinite(value) ? data::format_exact(value) : std::string(); }
 
 std::string names_of_errors() {

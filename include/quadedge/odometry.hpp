@@ -49,8 +49,9 @@ struct StageTime {
 
 /// Computing time of one frame.
 struct FrameTiming {
-  std::vector<StageTime> stages;  ///< host stages always; device stages if the device profiles
-  double latency_ms = 0;          ///< from images in host memory to the pose on the host, steady clock
+  std::vector<StageTime> stages;   ///< on the host
+  std::vector<StageTime> kernels;  ///< kernels of each stage, if the device profiles (DeviceOptions::profiling)
+  double latency_ms = 0;           ///< from images in host memory to the pose on the host, steady clock
 };
 
 /// Internal quantities of one frame, for evaluation.

@@ -15,8 +15,8 @@ struct SelfTestResult {
   bool passed() const { return stage.empty(); }
 };
 
-/// Runs every stage on a small built-in pair of frames, with each kind of search, and compares the results with stored
-/// results of the C++ reference, within a tolerance. A long loop (`long_loop`) is run first, because some drivers
+/// Runs every stage on two small rendered frames, with each kind of search, on the device and in the C++ reference, and
+/// compares the results within a tolerance. A long loop (`long_loop`) is run first, because some drivers
 /// terminate long loops early. Kernel arguments whose types differ from those that the host passes are listed in
 /// `difference` if the results are wrong; if the results are right, the test passes. Takes tens of milliseconds once
 /// the kernels are built. \param variants  stage -> kernel variant, as in Config \throws DeviceError if a kernel does

@@ -60,7 +60,7 @@ auto members(Self& self, const Warning&) {
 }
 template <class Self>
 auto members(Self& self, const FrameTiming&) {
-  return std::tie(self.stages, self.latency_ms);
+  return std::tie(self.stages, self.kernels, self.latency_ms);
 }
 template <class Self>
 auto members(Self& self, const FrameDiagnostics&) {
