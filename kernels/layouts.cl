@@ -182,12 +182,19 @@ typedef struct {
   PackedPositions edges;
 } SiftArguments;
 
+// Left edges that search beyond the range of the others: those whose number is a multiple of `step`.
+typedef struct {
+  int step;             // 0: none
+  float max_disparity;  // of these edges, px
+} DisparityProbe;
+
 // stereo_candidates.cl: candidates per row that the first sweep can note.
 enum { kNotedCandidates = 32 };
 typedef struct {
   PackedPositions left, right;
   int right_height;  // px
   EpipolarGeometry geometry;
+  DisparityProbe probe;
 } StereoCandidateArguments;
 
 // Thresholds of doc/method.md section 3 filters 4 to 7, or section 4 filters 3 to 6. The orders are the filters'

@@ -87,14 +87,16 @@ static inline int visit_row(const Wanted* wanted, global const float* xs, global
   return count;
 }
 
-// Visits every right edge that passes; writes to target[] while fewer than `room` are written.
+// Visits every right edge that passes, at least up to disparity `probed`; writes to target[] while fewer than `room`
+// are written.
 static inline int visit_candidates(const float x, const float y, const float direction, global const float* right_x,
                                    global const float* right_y, global const float* right_direction,
                                    global const int* right_row_first, const int right_height, const EpipolarGeometry* g,
-                                   global int* target, const int room) {
+                                   const float probed, global int* target, const int room) {
   if (left_epipolar_sine(g, x, y, direction) < g->min_epipolar_sine) return 0;
-  const EpipolarLine line = epipolar_line(g, x, y);
+  EpipolarLine line = epipolar_line(g, x, y);
   if (!line.valid) return 0;
+  line.s_max = fmax(line.s_max, probed);
   const Wanted wanted = {line,           direction,     g->epipolar_distance,
                          g->orientation, -g->tolerance, line.s_max + g->tolerance,
                          -line.ey,       line.ex};
@@ -128,9 +130,11 @@ static inline int visit_row_of(const StereoCandidateArguments* args, const int i
                                const int room) {
   global const float* left = left_edges + args->left.first + i;
   global const float* right = right_edges + args->right.first;
+  const int is_probe = args->probe.step > 0 && i % args->probe.step == 0;
   return visit_candidates(left[0], left[args->left.stride], left[2 * args->left.stride], right,
                           right + args->right.stride, right + 2 * args->right.stride, right_row_first,
-                          args->right_height, &args->geometry, target, room);
+                          args->right_height, &args->geometry, is_probe ? args->probe.max_disparity : 0.0f, target,
+                          room);
 }
 
 kernel void stereo_candidates_count(const StereoCandidateArguments args, global const float* left_edges,

@@ -334,18 +334,35 @@ TEST_CASE("odometry: all warnings of one kind come with the first frame that has
 TEST_CASE("odometry: a rig alone is enough, and its disparity range is used", "[odometry][device]") {
   StereoOdometry odometry(room().rig);
   CHECK(odometry.device().name == Device("auto").info().name);
-  CHECK(odometry.config().stereo.max_disparity == room().config.stereo.max_disparity);
-  const auto expected = track(room(), "auto", room().config);
-  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(same_bytes(odometry.track(room().frame(i)), expected[i]));
+  CHECK(odometry.track(room().frame(0)).diagnostics.disparity_range == Approx(room().rig.max_disparity));
 
-  Device reference("reference");
   StereoRig unknown = room().rig;
   unknown.max_disparity = 0;  // then that of a point 0.5 m away
-  CHECK(StereoOdometry(unknown, reference).config().stereo.max_disparity ==
+  CHECK(StereoOdometry(unknown).track(room().frame(0)).diagnostics.disparity_range ==
         Approx(unknown.left.fx * unknown.baseline() / 0.5));
   Config nearest;
   nearest.stereo.min_depth = 2;
-  CHECK(StereoOdometry(room().rig, reference, nearest).config().stereo.max_disparity == 0);
+  CHECK(StereoOdometry(room().rig, nearest).track(room().frame(0)).diagnostics.disparity_range ==
+        Approx(unknown.left.fx * unknown.baseline() / 2));
+}
+
+TEST_CASE("odometry: the disparity range follows the images", "[odometry][device]") {
+  const auto expected = track(room(), "auto", room().config);
+  StereoRig narrow = room().rig;
+  narrow.max_disparity /= 4;
+  StereoOdometry odometry(narrow);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const FrameResult result = odometry.track(room().frame(i));
+    INFO("frame " << i << ", range " << result.diagnostics.disparity_range);
+    CHECK(result.warnings.empty());
+    CHECK(result.counts.stereo_edges > 0.97 * expected[i].counts.stereo_edges);
+  }
+  Config limited;  // a range in the configuration is kept
+  limited.stereo.max_disparity = narrow.max_disparity;
+  StereoOdometry fixed(room().rig, limited);
+  const FrameResult result = fixed.track(room().frame(0));
+  CHECK(result.diagnostics.disparity_range == Approx(limited.stereo.max_disparity));
+  CHECK(result.counts.stereo_edges < 0.8 * expected[0].counts.stereo_edges);
 }
 
 TEST_CASE("odometry: a turn by a third of the view, and one about the optical axis, are found", "[odometry][device]") {

@@ -108,14 +108,14 @@ TEST_CASE("rig monitor: small errors are warnings and stop nothing", "[rig]") {
 }
 
 TEST_CASE("rig monitor: a frozen camera is detected while the other one moves", "[rig]") {
-  RigMonitor monitor(evidence_room().rig, evidence_room().config);
+  RigMonitor monitor(evidence_room().rig);
   const Image &left = evidence_room().left[0], &right = evidence_room().right[0], &next = evidence_room().left[1];
-  CHECK(monitor.judge({0, left.view(), right.view()}, {}, 0).findings.empty());
-  CHECK(monitor.judge({1, left.view(), right.view()}, {}, 0).findings.empty());  // the same pair again
-  const RigReport frozen = monitor.judge({2, next.view(), right.view()}, {}, 0);
+  CHECK(monitor.judge({0, left.view(), right.view()}, {}, 0, 100).findings.empty());
+  CHECK(monitor.judge({1, left.view(), right.view()}, {}, 0, 100).findings.empty());  // the same pair again
+  const RigReport frozen = monitor.judge({2, next.view(), right.view()}, {}, 0, 100);
   REQUIRE(frozen.mismatch() != nullptr);
   CHECK_THAT(rig_check::sentence(*frozen.mismatch()), Contains("has the right camera frozen?"));
-  CHECK(monitor.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0).findings.empty());
+  CHECK(monitor.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0, 100).findings.empty());
 }
 
 TEST_CASE("rig monitor: implausible numbers are reported", "[rig]") {
@@ -144,8 +144,7 @@ TEST_CASE("rig monitor: aligned patches measure a pitch error of 0.3 degrees", "
   const auto frontend = frontend::make_frontend(rig, device, evidence_room().config);
   const auto seen = frontend->process(evidence_room().frame(0));
   std::vector<rig_check::CornerMatch> matches;
-  rig_check::EpipolarProbe(rig, evidence_room().config.stereo.max_disparity)
-      .align(evidence_room().frame(0), seen->edges, matches);
+  rig_check::EpipolarProbe(rig).align(evidence_room().frame(0), seen->edges, matches);
   const rig_check::EpipolarFit fit = rig_check::fit_across(matches, rig.left.width, rig.left.height);
   REQUIRE(fit.samples > 30);
   CHECK(fit.offset == Approx(rig.left.fy * 0.3 * kDegree).epsilon(0.2));

@@ -31,8 +31,8 @@ double epipolar_sine(const StereoRig& rig, const Vector2d& pixel, double directi
 
 /// Filters 1 to 3 of doc/method.md section 3 by definition, in double precision. Positive: distance inside the limits
 /// in units of single-precision error (2e-3 px, 1e-5 rad).
-double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, std::size_t i,
-              const EdgeSet& right, std::size_t j) {
+double margin(const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe, const EdgeSet& left,
+              std::size_t i, const EdgeSet& right, std::size_t j) {
   constexpr double kPixels = 2e-3, kRadians = 1e-5, kTolerance = 1.0;
   const Vector2d p(left.x[i], left.y[i]), q(right.x[j], right.y[j]);
   if ((rig.right_from_left.linear() * rig.left.ray(p)).z() <= 0) return -1e9;
@@ -44,8 +44,9 @@ double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& l
   const double distance = std::abs(line.dot(Vector3d(q.x(), q.y(), 1))) / line.head<2>().norm();
   const Vector2d far = at_infinity(rig, p), growing = (in_right(rig, p, 1e2) - far).normalized();
   const double s = (q - far).dot(growing);
-  const double s_max =
-      config.max_disparity > 0 ? config.max_disparity : (in_right(rig, p, config.min_depth) - far).norm();
+  double s_max = config.max_disparity > 0 ? config.max_disparity : (in_right(rig, p, config.min_depth) - far).norm();
+  if (probe.step > 0 && i % static_cast<std::size_t>(probe.step) == 0)
+    s_max = std::max(s_max, static_cast<double>(probe.max_disparity));
   const double turn = std::abs(
       std::remainder(static_cast<double>(left.direction[i]) - static_cast<double>(right.direction[j]), 2 * kPi));
   return std::min({(config.epipolar_distance - distance) / kPixels, (s + kTolerance) / kPixels,
@@ -55,7 +56,8 @@ double margin(const StereoRig& rig, const StereoConfig& config, const EdgeSet& l
 
 /// Counts the certain members; checks that every list is ascending, holds all certain members and no certain outsider.
 std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& target,
-                        const StereoRig& rig, const StereoConfig& config, const EdgeSet& left, const EdgeSet& right) {
+                        const StereoRig& rig, const StereoConfig& config, const DisparityProbe& probe,
+                        const EdgeSet& left, const EdgeSet& right) {
   REQUIRE(first.size() == left.size() + 1);
   REQUIRE(first.back() == static_cast<int>(target.size()));
   std::size_t certain = 0, missing = 0, extra = 0, disordered = 0;
@@ -64,7 +66,7 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
     disordered += std::adjacent_find(begin, end, [](auto a, auto b) { return a >= b; }) != end ? 1 : 0;
     for (std::size_t j = 0; j < right.size(); ++j) {
       const bool listed = std::binary_search(begin, end, static_cast<std::int32_t>(j));
-      const double inside = margin(rig, config, left, i, right, j);
+      const double inside = margin(rig, config, probe, left, i, right, j);
       certain += inside > 1 ? 1 : 0;
       missing += inside > 1 && !listed ? 1 : 0;
       extra += inside < -1 && listed ? 1 : 0;
@@ -78,19 +80,19 @@ std::size_t check_lists(const std::vector<std::int32_t>& first, const std::vecto
 
 /// Compares the reference and every device and variant with the definition.
 std::size_t check_everywhere(const StereoRig& rig, const StereoConfig& config, const EdgeSet& left,
-                             const EdgeSet& right) {
+                             const EdgeSet& right, const DisparityProbe& probe = {0, 0}) {
   const auto geometry = make_epipolar_geometry(rig, config);
-  const auto lists = reference::stereo_candidates(left, right, geometry);
-  const std::size_t certain = check_lists(lists.first, lists.target, rig, config, left, right);
+  const auto lists = reference::stereo_candidates(left, right, geometry, probe);
+  const std::size_t certain = check_lists(lists.first, lists.target, rig, config, probe, left, right);
   for_each_variant(
       "stereo_candidates", [&](opencl::Context& context, const Variants& variants, const std::string& name) {
         INFO(name);
         stages::StereoCandidates stage(context, variants);
         const auto device_left = upload(context, left), device_right = upload(context, right);
         stages::DeviceCandidates found;
-        stage.run(device_left, device_right, rig.right.height, geometry, found);
+        stage.run(device_left, device_right, rig.right.height, geometry, probe, found);
         check_lists(found.first.read(left.size() + 1), found.target.read(static_cast<std::size_t>(found.host_total)),
-                    rig, config, left, right);
+                    rig, config, probe, left, right);
       });
   return certain;
 }
@@ -171,6 +173,19 @@ TEST_CASE("stereo candidates: the lists match the definition", "[stereo][matchin
   config.orientation = 60;
   const auto [left, right] = random_scene(crooked_rig(), 400, 0.7, 23);
   CHECK(check_everywhere(crooked_rig(), config, left, right) > 200);
+}
+
+TEST_CASE("stereo candidates: probes search farther than the other edges", "[stereo][matching][device]") {
+  StereoConfig config;
+  config.max_disparity = 5;
+  for (const auto& rig : {flat_rig(131, 77, 120, 0.12), crooked_rig()}) {
+    const auto [left, right] = random_scene(rig, 400, 0.7, 31);
+    const std::size_t without = check_everywhere(rig, config, left, right),
+                      with = check_everywhere(rig, config, left, right, {3, 25}),
+                      all = check_everywhere(rig, config, left, right, {1, 25});
+    CHECK(with > without);
+    CHECK(all > with);
+  }
 }
 
 TEST_CASE("stereo candidates: small and empty lists, and lines outside the image",

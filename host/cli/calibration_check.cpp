@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <set>
 
+#include "common/disparity_range.hpp"
 #include "rig_check/rig_monitor.hpp"
 
 namespace quadedge::cli {
@@ -14,7 +15,7 @@ void check_numbers(const StereoRig& rig, DatasetCheck& check) {
 
 void check_rig_evidence(const Dataset& dataset, const StereoPair& pair, DatasetCheck& check) {
   const auto [evidence, findings] = rig_check::RigMonitor::examine(
-      dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, dataset.rig.disparity_range());
+      dataset.rig, {pair.stamp_ns, pair.left.view(), pair.right.view()}, disparity_limit(dataset.rig));
   const std::string frame = "frame " + std::to_string(pair.number) + ": ";
   char text[160];
   if (evidence.is_searched()) {

@@ -1,16 +1,29 @@
 #include "common/disparity_range.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "quadedge/error.hpp"
 
 namespace quadedge {
 
-Config with_disparity_range(Config config, const StereoRig& rig) {
-  if (config.stereo.max_disparity != 0 || config.stereo.min_depth != 0) return config;
+bool has_disparity_range(const StereoConfig& config) { return config.max_disparity != 0 || config.min_depth != 0; }
+
+StereoConfig with_disparity_range(StereoConfig config, const StereoRig& rig) {
+  if (has_disparity_range(config)) return config;
   check_disparity_range(rig, "stereo rig");
-  config.stereo.max_disparity = rig.disparity_range();
+  config.max_disparity = rig.disparity_range();
   return config;
+}
+
+Config with_disparity_range(Config config, const StereoRig& rig) {
+  config.stereo = with_disparity_range(config.stereo, rig);
+  return config;
+}
+
+double disparity_limit(const StereoRig& rig) {
+  constexpr double kLimit = 0.5;  // of the width: what is nearer is hardly in view of both cameras
+  return std::max(kLimit * rig.left.width, rig.max_disparity);
 }
 
 void check_disparity_range(const StereoRig& rig, const std::string& source) {

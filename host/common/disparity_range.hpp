@@ -8,9 +8,18 @@
 
 namespace quadedge {
 
-/// The configuration with a disparity range: if it has neither stereo.max_disparity nor stereo.min_depth,
-/// stereo.max_disparity becomes rig.disparity_range(). \throws DataError as check_disparity_range().
+/// Whether the configuration states a range: stereo.max_disparity or stereo.min_depth. Otherwise the range follows the
+/// images, see host/frontend/range_follower.hpp.
+bool has_disparity_range(const StereoConfig& config);
+
+/// The configuration with a disparity range: without one, stereo.max_disparity becomes rig.disparity_range().
+/// \throws DataError as check_disparity_range().
+StereoConfig with_disparity_range(StereoConfig config, const StereoRig& rig);
 Config with_disparity_range(Config config, const StereoRig& rig);
+
+/// The largest range that the images of a rig are searched for without a range in the configuration [px]: half the
+/// width of the left image, or StereoRig::max_disparity if that is larger.
+double disparity_limit(const StereoRig& rig);
 
 /// \throws DataError that names `source` (the calibration file) if focal length and baseline are so large that
 /// rig.disparity_range() exceeds the largest value of stereo.max_disparity.

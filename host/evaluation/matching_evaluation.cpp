@@ -12,9 +12,9 @@ MatchingResult evaluate_matching(const MatchingSource& source, Device& device, C
                                  const MatchingOptions& options) {
   if (device.is_reference())
     throw UsageError("evaluate matching needs an OpenCL device, because the reference has no taps");
-  config = with_disparity_range(config, source.rig());
   config.odometry.key_rig = false;  // the tables refer to consecutive frames
-  MatchingObserver observer(source.rig(), config, options.tolerance, options.distributions);
+  MatchingObserver observer(source.rig(), with_disparity_range(config, source.rig()), options.tolerance,
+                            options.distributions);
   StereoOdometry odometry(source.rig(), device, config);
   odometry.set_tap(&observer);
   MatchingResult result;

@@ -26,7 +26,7 @@ DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& ca
 DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
     : context_(context),
       config_(config),
-      epipolar_(make_epipolar_geometry(rig, config.stereo)),
+      range_(rig, config.stereo),
       calibration_(rig),
       left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.max_value, config),
       right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.max_value, config),
@@ -98,21 +98,33 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
     left_.sift.describe(left_.edges.positions(), left_sift_);
     right_.sift.describe(right_.edges.positions(), right_sift_);
   }
-  if (tap_ != nullptr) tap_candidates_without_limits();
-  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, epipolar_, candidates_);
-  filters_.run({rig.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
-               stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
-  refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges, rig.left_patches,
-                  epipolar_, candidates_, refined_);
-  clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
-  context_.flush();
-  relaxation_.run(left_.edges, epipolar_, candidates_, clusters_, relaxed_);
-  mutual_.run(left_.edges, right_.edges, right_.patches, epipolar_, clusters_, relaxed_, owners_, rig, current.edges);
+  range_.start_frame();
+  do find_stereo_edges(current);
+  while (!range_.suffices(current.edges, left_.edges.host_count));
+  counts_.disparity_range = range_.disparity();
   rig.has_sift = false;
   indexed_ = false;
   context_.flush();  // the right patches, while the host goes on
-  if (tap_ != nullptr) tap_stereo();
+  if (tap_ != nullptr) {
+    tap_candidates_without_limits();
+    tap_stereo();
+  }
   return rigs_.current_handle();
+}
+
+void DeviceFrontend::find_stereo_edges(DeviceRig& current) {
+  stages::DeviceStereoEdges& rig = current.on_device;
+  const EpipolarGeometry& geometry = range_.geometry();
+  stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
+                         range_.probe(left_.edges.host_count), candidates_);
+  filters_.run({rig.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
+               stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
+  refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges, rig.left_patches,
+                  geometry, candidates_, refined_);
+  clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
+  context_.flush();
+  relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_);
+  mutual_.run(left_.edges, right_.edges, right_.patches, geometry, clusters_, relaxed_, owners_, rig, current.edges);
 }
 
 void DeviceFrontend::index_current() {

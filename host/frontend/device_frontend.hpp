@@ -1,8 +1,8 @@
 #pragma once
 /// \file device_frontend.hpp  The front end on an OpenCL device.
 
-#include "common/epipolar_geometry.hpp"
 #include "frontend/frontend.hpp"
+#include "frontend/range_follower.hpp"
 #include "stages/candidate_filters.hpp"
 #include "stages/edge_detection.hpp"
 #include "stages/edge_mask.hpp"
@@ -58,6 +58,8 @@ class DeviceFrontend : public Frontend {
 
   /// Detects the edges of both images and waits for their number.
   void detect(DeviceRig& current);
+  /// Stages 4 and 5, within the disparity range that the images need.
+  void find_stereo_edges(DeviceRig& current);
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
@@ -78,7 +80,7 @@ class DeviceFrontend : public Frontend {
 
   opencl::Context& context_;
   Config config_;
-  EpipolarGeometry epipolar_;
+  RangeFollower range_;
   StereoRig calibration_;
   Camera left_, right_;
   stages::EdgeThreshold threshold_;

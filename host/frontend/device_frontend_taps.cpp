@@ -34,8 +34,9 @@ void DeviceFrontend::set_tap(Tap* tap) {
 void DeviceFrontend::tap_candidates_without_limits() {
   stages::DeviceCandidates lists;
   for (const auto filter : {StereoFilter::epipolar_distance, StereoFilter::disparity}) {
-    const EpipolarGeometry geometry = without_limits(epipolar_, filter < StereoFilter::disparity, true);
-    stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry, lists);
+    const EpipolarGeometry geometry = without_limits(range_.geometry(), filter < StereoFilter::disparity, true);
+    stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
+                           range_.probe(left_.edges.host_count), lists);
     tap_->stereo_filter(filter, lists.read());
   }
 }
@@ -55,7 +56,7 @@ void DeviceFrontend::tap_stereo() {
     CandidateLists lists;
     lists.first.assign(1, 0);
     for (std::size_t i = 0; i < rows; ++i) {
-      const auto line = epipolar_line(epipolar_, x[i], y[i]);
+      const auto line = epipolar_line(range_.geometry(), x[i], y[i]);
       const auto begin = static_cast<std::size_t>(judged.first[i]);
       for (std::size_t k = begin; k < begin + static_cast<std::size_t>(count[i]); ++k) {
         if (!pass(i, k)) continue;

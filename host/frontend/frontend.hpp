@@ -18,7 +18,8 @@ namespace quadedge::frontend {
 
 /// Counts of the current frame.
 struct FrontendCounts {
-  double edge_threshold = 0;  ///< of both images [grey levels per px]
+  double edge_threshold = 0;   ///< of both images [grey levels per px]
+  double disparity_range = 0;  ///< maximum disparity searched in the middle of the left image [px]
   int edges_left = 0, edges_right = 0;
   int dropped_edges = 0;                      ///< beyond edges.max_edges, in both images
   int temporal_left = 0, temporal_right = 0;  ///< rows of the last match() with a candidate before the agreement

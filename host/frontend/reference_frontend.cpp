@@ -57,10 +57,7 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
-    : calibration_(rig),
-      config_(config),
-      threshold_(config.edges),
-      epipolar_(make_epipolar_geometry(rig, config.stereo)) {}
+    : calibration_(rig), config_(config), threshold_(config.edges), range_(rig, config.stereo) {}
 
 void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
   reference::ReferenceEdges left = reference::outside_mask(
@@ -96,18 +93,13 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   if (tap_ != nullptr) tap_->edges(left_edges_, right_edges_);
   const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);
 
-  const auto candidates = reference::stereo_candidates(left_edges_, right_edges_, epipolar_);
-  auto scores = reference::candidate_filters(candidates, left, right, stereo_limits(config_.stereo));
-  if (tap_ != nullptr) tap_candidates(candidates, scores);
-  const auto refined =
-      reference::stereo_refinement(now.left.view(), now.right.view(), left.patches, left_edges_, right_edges_,
-                                   epipolar_, candidates, config_.stereo, config_.patches.offset, scores);
-  const auto clusters = reference::stereo_clusters(candidates, scores, refined, right_edges_, config_.stereo);
-  const auto relaxation = reference::stereo_relaxation(clusters, left_edges_, epipolar_, calibration_.left.width,
-                                                       calibration_.left.height, config_.stereo);
-  now.edges = reference::stereo_mutual(clusters, relaxation, left_edges_, epipolar_, config_.stereo);
+  range_.start_frame();
+  do search_stereo(now, left, right);
+  while (!range_.suffices(now.edges, counts_.edges_left));
+  counts_.disparity_range = range_.disparity();
   if (tap_ != nullptr) {
-    tap_clusters(clusters, relaxation);
+    tap_candidates();
+    tap_clusters();
     tap_->stereo(now.edges);
   }
 
@@ -118,6 +110,20 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
                             reference::sift_descriptors(now.right.view(), now.edges.right_x, now.edges.right_y,
                                                         now.edges.right_direction, config_.sift)};
   return rigs_.current_handle();
+}
+
+void ReferenceFrontend::search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
+                                      const reference::EdgeDescriptions& right) {
+  const EpipolarGeometry& geometry = range_.geometry();
+  candidates_ = reference::stereo_candidates(left_edges_, right_edges_, geometry, range_.probe(counts_.edges_left));
+  scores_ = reference::candidate_filters(candidates_, left, right, stereo_limits(config_.stereo));
+  const auto refined =
+      reference::stereo_refinement(now.left.view(), now.right.view(), left.patches, left_edges_, right_edges_, geometry,
+                                   candidates_, config_.stereo, config_.patches.offset, scores_);
+  clusters_ = reference::stereo_clusters(candidates_, scores_, refined, right_edges_, config_.stereo);
+  relaxation_ = reference::stereo_relaxation(clusters_, left_edges_, geometry, calibration_.left.width,
+                                             calibration_.left.height, config_.stereo);
+  now.edges = reference::stereo_mutual(clusters_, relaxation_, left_edges_, geometry, config_.stereo);
 }
 
 void ReferenceFrontend::match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) {

@@ -3,6 +3,7 @@
 /// reference`).
 
 #include "frontend/frontend.hpp"
+#include "frontend/range_follower.hpp"
 #include "reference/candidate_filters.hpp"
 #include "reference/edge_threshold.hpp"
 #include "reference/stereo_candidates.hpp"
@@ -31,14 +32,22 @@ class ReferenceFrontend : public Frontend {
  private:
   /// Detects the edges of both images, limited by the budget.
   void detect(ReferenceRig& now, double threshold);
-  void tap_candidates(const reference::Candidates& candidates, const reference::CandidateScores& scores);
-  void tap_clusters(const reference::StereoClusters& clusters, const reference::StereoRelaxation& relaxation);
+  /// The stereo cascade, within the current disparity range.
+  void search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
+                     const reference::EdgeDescriptions& right);
+  void tap_candidates();
+  void tap_clusters();
 
   StereoRig calibration_;
   Config config_;
   reference::EdgeThreshold threshold_;
-  EpipolarGeometry epipolar_;
+  RangeFollower range_;
   EdgeSet left_edges_, right_edges_;
+  // Of the last search_stereo(), for taps:
+  reference::Candidates candidates_;
+  reference::CandidateScores scores_;
+  reference::StereoClusters clusters_;
+  reference::StereoRelaxation relaxation_;
   RigPool<ReferenceRig> rigs_;
 };
 

@@ -27,27 +27,25 @@ CandidateLists alive_after(StereoFilter filter, const reference::Candidates& can
 
 }  // namespace
 
-void ReferenceFrontend::tap_candidates(const reference::Candidates& candidates,
-                                       const reference::CandidateScores& scores) {
+void ReferenceFrontend::tap_candidates() {
   for (auto filter = StereoFilter::orientation; filter < StereoFilter::refinement; filter = next(filter))
-    tap_->stereo_filter(filter, alive_after(filter, candidates, scores));
+    tap_->stereo_filter(filter, alive_after(filter, candidates_, scores_));
 }
 
-void ReferenceFrontend::tap_clusters(const reference::StereoClusters& clusters,
-                                     const reference::StereoRelaxation& relaxation) {
+void ReferenceFrontend::tap_clusters() {
   const auto lists_that = [&](const auto& pass) {
     CandidateLists lists;
     lists.first.assign(1, 0);
-    for (std::size_t i = 0; i + 1 < clusters.first.size(); ++i) {
-      const auto line = epipolar_line(epipolar_, left_edges_.x[i], left_edges_.y[i]);
-      for (auto k = static_cast<std::size_t>(clusters.first[i]); k < static_cast<std::size_t>(clusters.first[i + 1]);
+    for (std::size_t i = 0; i + 1 < clusters_.first.size(); ++i) {
+      const auto line = epipolar_line(range_.geometry(), left_edges_.x[i], left_edges_.y[i]);
+      for (auto k = static_cast<std::size_t>(clusters_.first[i]); k < static_cast<std::size_t>(clusters_.first[i + 1]);
            ++k) {
         if (!pass(i, k)) continue;
-        const auto position = static_cast<float>(clusters.position[k]);
-        lists.target.push_back(clusters.anchor[k]);
+        const auto position = static_cast<float>(clusters_.position[k]);
+        lists.target.push_back(clusters_.anchor[k]);
         lists.x.push_back(line.x + position * line.ex);
         lists.y.push_back(line.y + position * line.ey);
-        lists.cue.push_back(static_cast<float>(clusters.similarity[k]));
+        lists.cue.push_back(static_cast<float>(clusters_.similarity[k]));
       }
       lists.first.push_back(static_cast<std::int32_t>(lists.target.size()));
     }
@@ -55,7 +53,7 @@ void ReferenceFrontend::tap_clusters(const reference::StereoClusters& clusters,
   };
   tap_->stereo_filter(StereoFilter::refinement, lists_that([](std::size_t, std::size_t) { return true; }));
   tap_->stereo_filter(StereoFilter::relaxation, lists_that([&](std::size_t i, std::size_t k) {
-                        return relaxation.chosen[i] == static_cast<std::int32_t>(k);
+                        return relaxation_.chosen[i] == static_cast<std::int32_t>(k);
                       }));
 }
 

@@ -1,6 +1,5 @@
 #include "quadedge/match_stereo.hpp"
 
-#include "common/disparity_range.hpp"
 #include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
 #include "map/measured_points.hpp"
@@ -14,9 +13,8 @@ constexpr double kUsualRange = 0.12;
 
 }  // namespace
 
-StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& asked) {
+StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config) {
   check_rig(rig, "stereo rig");
-  const Config config = with_disparity_range(asked, rig);
   check_config(config);
   RecordedImages(rig).check(frame.left, frame.right);
   StereoMatches matches;

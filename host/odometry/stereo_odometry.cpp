@@ -48,12 +48,12 @@ void add_message(const std::string& message, FrameResult& result) {
   result.message += (result.message.empty() ? "" : "; ") + message;
 }
 
-/// The configuration with the rig's disparity range. \throws DataError, UsageError.
-Config checked(const StereoRig& rig, const Config& config) {
+/// \throws DataError, UsageError.
+const Config& checked(const StereoRig& rig, const Config& config) {
   check_rig(rig, "stereo rig");
-  Config complete = with_disparity_range(config, rig);
-  check_config(complete);
-  return complete;
+  if (!has_disparity_range(config.stereo)) check_disparity_range(rig, "stereo rig");
+  check_config(config);
+  return config;
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ class StereoOdometry::Implementation {
         frontend_(frontend::make_frontend(rig_, device, config, &start_warnings_)),
         offset_(rig_, config.pose),
         motion_search_(config, *frontend_, offset_),
-        rig_monitor_(rig_, config) {}
+        rig_monitor_(rig_) {}
 
   FrameResult track(const StereoFrame& frame);
   FrameDetails details() const;
@@ -151,7 +151,10 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
   // The images are checked on a processor that the search leaves idle. An error in the search waits for the check.
   rig_check::RigReport rig_report;
   tbb::task_group beside;
-  beside.run([&] { rig_report = rig_monitor_.judge(frame, current_->edges, result.counts.edges_left); });
+  beside.run([&] {
+    rig_report =
+        rig_monitor_.judge(frame, current_->edges, result.counts.edges_left, result.diagnostics.disparity_range);
+  });
   double stereo_ms = clock.lap();
   FoundMotion found = has_edges && state_.has_started() ? search() : FoundMotion();
   const double search_ms = clock.lap();
@@ -194,6 +197,7 @@ void StereoOdometry::Implementation::process(const StereoFrame& frame, FrameResu
   const frontend::FrontendCounts& counts = frontend_->counts();
   result.warnings = std::exchange(start_warnings_, {});
   result.diagnostics.edge_threshold = counts.edge_threshold;
+  result.diagnostics.disparity_range = counts.disparity_range;
   result.counts.edges_left = counts.edges_left;
   result.counts.edges_right = counts.edges_right;
   result.counts.stereo_edges = static_cast<int>(current_->edges.size());
@@ -357,10 +361,10 @@ FrameDetails StereoOdometry::Implementation::details() const {
 }
 
 StereoOdometry::StereoOdometry(const StereoRig& rig, const Config& config) {
-  const Config complete = checked(rig, config);
+  checked(rig, config);
   auto device = std::make_unique<Device>();
   Device& opened = *device;
-  implementation_ = std::make_unique<Implementation>(rig, std::move(device), opened, complete);
+  implementation_ = std::make_unique<Implementation>(rig, std::move(device), opened, config);
 }
 
 StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Config& config)

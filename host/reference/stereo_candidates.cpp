@@ -7,7 +7,8 @@
 
 namespace quadedge::reference {
 
-Candidates stereo_candidates(const EdgeSet& left, const EdgeSet& right, const EpipolarGeometry& geometry) {
+Candidates stereo_candidates(const EdgeSet& left, const EdgeSet& right, const EpipolarGeometry& geometry,
+                             const DisparityProbe& probe) {
   Candidates candidates;
   candidates.first.assign(1, 0);
   const int last_row = static_cast<int>(right.row_first.size()) - 2;
@@ -15,7 +16,9 @@ Candidates stereo_candidates(const EdgeSet& left, const EdgeSet& right, const Ep
     const EpipolarLine line = epipolar_line(geometry, left.x[i], left.y[i]);
     if (line.valid &&
         left_epipolar_sine(geometry, left.x[i], left.y[i], left.direction[i]) >= geometry.min_epipolar_sine) {
-      const float s_low = -geometry.tolerance, s_high = line.s_max + geometry.tolerance;
+      const bool is_probe = probe.step > 0 && i % static_cast<std::size_t>(probe.step) == 0;
+      const float s_max = is_probe ? std::max(line.s_max, probe.max_disparity) : line.s_max;
+      const float s_low = -geometry.tolerance, s_high = s_max + geometry.tolerance;
       const float end_a = line.y + s_low * line.ey, end_b = line.y + s_high * line.ey;
       // Rows of the doubled grid that the segment can touch; one row on either side for the sub-pixel shift.
       const float reach = geometry.epipolar_distance + 1.0f;

@@ -16,6 +16,7 @@ struct Candidates {
 };
 
 /// Filters 1 to 3 of doc/method.md section 3 for every left edge. Needs right.row_first only to skip far rows.
-Candidates stereo_candidates(const EdgeSet& left, const EdgeSet& right, const EpipolarGeometry& geometry);
+Candidates stereo_candidates(const EdgeSet& left, const EdgeSet& right, const EpipolarGeometry& geometry,
+                             const DisparityProbe& probe);
 
 }  // namespace quadedge::reference

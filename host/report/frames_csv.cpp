@@ -49,6 +49,7 @@ FrameColumns columns_of_frames() {
   add("key_rig", [](const FrameResult& result) { return std::to_string(result.reference_frame); });
   add("new_key_rig", [](const FrameResult& result) { return std::string(result.new_key_rig ? "1" : "0"); });
   add("edge_threshold", [](const FrameResult& result) { return four_digits(result.diagnostics.edge_threshold); });
+  add("disparity_range", [](const FrameResult& result) { return four_digits(result.diagnostics.disparity_range); });
   const auto counts = named_counts({});
   for (std::size_t i = 0; i < counts.size(); ++i) {
     add(counts[i].first,

@@ -92,9 +92,8 @@ Eigen::Vector2d turned(const Eigen::Vector2d& at, ImageTurn turn, const PinholeC
 
 }  // namespace
 
-EpipolarProbe::EpipolarProbe(const StereoRig& rig, double max_disparity)
+EpipolarProbe::EpipolarProbe(const StereoRig& rig)
     : rig_(rig),
-      max_disparity_(max_disparity),
       h_(rig.right.matrix() * rig.right_from_left.linear() * rig.left.matrix().inverse()),
       t_(rig.right.matrix() * rig.right_from_left.translation()) {}
 
@@ -197,14 +196,14 @@ EpipolarProbe::CoarseViews EpipolarProbe::coarse_views(const PinholeView& left, 
           })};
 }
 
-ProbeSearch EpipolarProbe::search(const StereoFrame& frame, ImageTurn turn) const {
+ProbeSearch EpipolarProbe::search(const StereoFrame& frame, double max_disparity, ImageTurn turn) const {
   const PinholeView left(frame.left, rig_.left_undistortion, rig_.left),
       right(frame.right, rig_.right_undistortion, rig_.right);
   const CoarseViews views = coarse_views(left, right, turn);
   const double scale = views.scale;
   ProbeSearch result;
-  result.max_disparity = max_disparity_;
-  const double along = std::min(0.5 * rig_.left.width, std::max(kAlong * rig_.left.width, 1.25 * max_disparity_)),
+  result.max_disparity = max_disparity;
+  const double along = std::min(0.5 * rig_.left.width, std::max(kAlong * rig_.left.width, 1.25 * max_disparity)),
                across = kAcross * rig_.left.height;
   const auto seek = [&](const Eigen::Vector2i& corner) {
     CornerSearch outcome;

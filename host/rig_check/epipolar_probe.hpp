@@ -39,8 +39,7 @@ struct ProbeSearch {
 /// For any rig and for recorded images with or without distortion. Runs on the host, on a small number of corners.
 class EpipolarProbe {
  public:
-  /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
-  EpipolarProbe(const StereoRig& rig, double max_disparity);
+  explicit EpipolarProbe(const StereoRig& rig);
 
   /// Aligns patches of about 240 stereo edges in both image directions, starting from the cascade's match. Detects
   /// deviations of a few pixels. Allocates nothing in steady state.
@@ -49,7 +48,8 @@ class EpipolarProbe {
   /// Searches for corners of the left image in the right one by normalised correlation, over a quarter of the image
   /// width to both sides along the line and a tenth of the image height across it. Uses images reduced to a width of
   /// about 320 px and takes some ten milliseconds.
-  ProbeSearch search(const StereoFrame& frame, ImageTurn turn = ImageTurn::none) const;
+  /// \param max_disparity maximum disparity of the cascade in the middle of the left image [px]
+  ProbeSearch search(const StereoFrame& frame, double max_disparity, ImageTurn turn = ImageTurn::none) const;
 
  private:
   /// An epipolar line in the right image.
@@ -64,7 +64,6 @@ class EpipolarProbe {
                                     Eigen::Vector2d at) const;
 
   StereoRig rig_;
-  double max_disparity_;
   Eigen::Matrix3d h_;  ///< K_R R0 K_L^-1: maps left pixels to the right pixels of points at infinity
   Eigen::Vector3d t_;  ///< K_R T0
 };

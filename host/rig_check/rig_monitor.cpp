@@ -6,8 +6,6 @@
 #include <iterator>
 #include <limits>
 
-#include "common/epipolar_geometry.hpp"
-
 namespace quadedge::rig_check {
 namespace {
 
@@ -15,12 +13,6 @@ constexpr int kSearchPeriod = 50;               // frames
 constexpr double kMatchedDecrease = 0.7;        // of the ratio of matched edges at the last search
 constexpr double kResidualIncrease = 0.2;       // px above the residual at the last search
 constexpr double kTransformedFoundRatio = 0.4;  // fraction of the corners found in a transformed right image
-
-double largest_disparity(const StereoRig& rig, const Config& config) {
-  const EpipolarLine line = epipolar_line(make_epipolar_geometry(rig, config.stereo), static_cast<float>(rig.left.cx),
-                                          static_cast<float>(rig.left.cy));
-  return static_cast<double>(line.s_max);
-}
 
 /// A hash that practically identifies an image.
 std::uint64_t fingerprint(const ImageView& image) {
@@ -39,17 +31,18 @@ std::uint64_t fingerprint(const ImageView& image) {
 }
 
 /// The transformation of the right image with which a search finds most corners; none if there is no such.
-ImageTurn find_turn(const EpipolarProbe& probe, const StereoFrame& frame) {
+ImageTurn find_turn(const EpipolarProbe& probe, const StereoFrame& frame, double max_disparity) {
   for (const ImageTurn turn : {ImageTurn::mirrored, ImageTurn::half, ImageTurn::quarter, ImageTurn::three_quarters}) {
-    const ProbeSearch search = probe.search(frame, turn);
+    const ProbeSearch search = probe.search(frame, max_disparity, turn);
     if (static_cast<double>(search.found.size()) > kTransformedFoundRatio * search.searched) return turn;
   }
   return ImageTurn::none;
 }
 
 /// Adds a search and its findings to the report.
-void search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const StereoFrame& frame, RigReport& report) {
-  const ProbeSearch search = probe.search(frame);
+void search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const StereoFrame& frame, double max_disparity,
+                      RigReport& report) {
+  const ProbeSearch search = probe.search(frame, max_disparity);
   // On thin curves, coarse positions do not determine the distance from the line.
   std::vector<CornerMatch> aligned;
   std::copy_if(search.found.begin(), search.found.end(), std::back_inserter(aligned),
@@ -60,14 +53,14 @@ void search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const St
     fit.is_coarse = true;
   }
   add_search_results(search, fit, report.evidence);
-  const ImageTurn turn = finds_few_corners(search, report.evidence) ? find_turn(probe, frame) : ImageTurn::none;
+  const ImageTurn turn =
+      finds_few_corners(search, report.evidence) ? find_turn(probe, frame, max_disparity) : ImageTurn::none;
   report.findings = judge_search(search, fit, report.evidence, turn);
 }
 
 }  // namespace
 
-RigMonitor::RigMonitor(const StereoRig& rig, const Config& config)
-    : rig_(rig), probe_(rig, largest_disparity(rig, config)) {}
+RigMonitor::RigMonitor(const StereoRig& rig) : rig_(rig), probe_(rig) {}
 
 std::optional<RigFinding> RigMonitor::find_frozen_camera(const StereoFrame& frame) {
   const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
@@ -86,7 +79,7 @@ bool RigMonitor::needs_search(const RigEvidence& evidence) const {
          evidence.epipolar_residual > searched_->epipolar_residual + kResidualIncrease;
 }
 
-RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges) {
+RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity) {
   RigReport report;
   RigEvidence& evidence = report.evidence;
   if (left_edges > 0) evidence.matched_ratio = static_cast<double>(edges.size()) / left_edges;
@@ -102,7 +95,7 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   if (const auto frozen = find_frozen_camera(frame)) {
     report.findings.push_back(*frozen);
   } else if (left_edges > 0 && needs_search(evidence)) {
-    search_and_judge(probe_, rig_, frame, report);
+    search_and_judge(probe_, rig_, frame, max_disparity, report);
     frames_since_search_ = 0;
     searched_ = evidence;
     fits_ = report.mismatch() == nullptr;
@@ -149,7 +142,7 @@ std::optional<RigFinding> RigMonitor::observe_motion(const StereoEdges& base, in
 
 RigReport RigMonitor::examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity) {
   RigReport report;
-  search_and_judge(EpipolarProbe(rig, max_disparity), rig, frame, report);
+  search_and_judge(EpipolarProbe(rig), rig, frame, max_disparity, report);
   return report;
 }
 

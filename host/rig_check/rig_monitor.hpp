@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 #include "rig_check/epipolar_probe.hpp"
 #include "rig_check/rig_finding.hpp"
@@ -20,11 +19,12 @@ namespace quadedge::rig_check {
 /// match or their distance from the lines has grown, while the images do not match the calibration, and periodically.
 class RigMonitor {
  public:
-  RigMonitor(const StereoRig& rig, const Config& config);
+  explicit RigMonitor(const StereoRig& rig);
 
   /// Checks the next frame. May run beside anything that leaves the frame and its edges as they are.
   /// \param edges its stereo edges \param left_edges number of edges in its left image
-  RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges);
+  /// \param max_disparity up to which they were searched, in the middle of the left image [px]
+  RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity);
 
   /// Adds the image motion of that frame's edges; reports a camera that seems to lag.
   /// \param base_frame number of the frame of `base`, which `matches` refers to \param frame number of the current

@@ -19,14 +19,15 @@ StereoCandidates::StereoCandidates(opencl::Context& context, const std::map<std:
 }
 
 void StereoCandidates::run(const DeviceEdges& left, const DeviceEdges& right, int right_height,
-                           const EpipolarGeometry& geometry, DeviceCandidates& candidates) {
+                           const EpipolarGeometry& geometry, const DisparityProbe& probe,
+                           DeviceCandidates& candidates) {
   context_.begin_stage("stereo_candidates");
   candidates.rows = left.host_count;
   candidates.counts.ensure(context_, static_cast<std::size_t>(left.host_count));
   noted_.ensure(context_, kNotedCandidates * static_cast<std::size_t>(left.host_count));
   candidates.reserve(context_, kFirstCapacityPerEdge * left.host_count);
   const opencl::Range range(static_cast<std::size_t>(left.host_count), local_size_);
-  const StereoCandidateArguments arguments{left.positions().at, right.positions().at, right_height, geometry};
+  const StereoCandidateArguments arguments{left.positions().at, right.positions().at, right_height, geometry, probe};
   count_(range, arguments, left.packed, right.packed, right.row_first, candidates.counts, noted_);
   candidates.build(context_, scan_, [&] {
     fill_(range, arguments, left.packed, right.packed, right.row_first, candidates.first, candidates.capacity, noted_,

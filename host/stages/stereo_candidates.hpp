@@ -18,7 +18,7 @@ class StereoCandidates {
 
   /// One row per left edge. `right_height` [px].
   void run(const DeviceEdges& left, const DeviceEdges& right, int right_height, const EpipolarGeometry& geometry,
-           DeviceCandidates& candidates);
+           const DisparityProbe& probe, DeviceCandidates& candidates);
 
  private:
   template <class T>

@@ -25,9 +25,9 @@ struct StereoMatches {
   std::vector<Warning> warnings;
 };
 
-/// Matches the edges of an image pair on `device`. A configuration without disparity range gets that of the rig,
-/// StereoRig::disparity_range(). \throws DataError for an unusable rig and for images that do not fit
-/// it; UsageError for an invalid configuration; DeviceError.
+/// Matches the edges of an image pair on `device`. Without a disparity range in the configuration, the range is
+/// StereoRig::disparity_range(), or larger if the images need that. \throws DataError for an unusable rig and for
+/// images that do not fit it; UsageError for an invalid configuration; DeviceError.
 StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Device& device, const Config& config = {});
 
 /// A rig for rectified images of unknown cameras: rows correspond, and depths are meaningless. Sizes in pixels. Its

@@ -56,8 +56,9 @@ struct FrameTiming {
 
 /// Internal quantities of one frame, for evaluation.
 struct FrameDiagnostics {
-  double edge_threshold = 0;  ///< gradient threshold of the edges in both images [grey levels per px]
-  bool overflow = false;      ///< whether a capacity was exceeded (edges or candidates); see FrameResult::message
+  double edge_threshold = 0;   ///< gradient threshold of the edges in both images [grey levels per px]
+  double disparity_range = 0;  ///< up to which stereo matches were searched for, in the middle of the left image [px]
+  bool overflow = false;       ///< whether a capacity was exceeded (edges or candidates); see FrameResult::message
   /// Number of the frame that the pose was measured against: the key stereo rig or, if that is out of view, the last
   /// frame with a pose; -1 without a pose.
   int base_frame = -1;
@@ -128,9 +129,9 @@ class Tap;
 /// bytes.
 class StereoOdometry {
  public:
-  /// Tracks on the device "auto": the first GPU, else the first CPU. A configuration without disparity range gets that
-  /// of the rig, StereoRig::disparity_range(). \throws DataError for an unusable rig; UsageError for an invalid
-  /// configuration; DeviceError if there is no device or kernels do not build.
+  /// Tracks on the device "auto": the first GPU, else the first CPU. Without a disparity range in the configuration the
+  /// range follows the images, from StereoRig::disparity_range() on. \throws DataError for an unusable rig; UsageError
+  /// for an invalid configuration; DeviceError if there is no device or kernels do not build.
   explicit StereoOdometry(const StereoRig& rig, const Config& config = {});
   /// The same on `device`, which must outlive the object.
   StereoOdometry(const StereoRig& rig, Device& device, const Config& config = {});

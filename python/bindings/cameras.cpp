@@ -107,8 +107,8 @@ void bind_rig(nb::module_& module) {
       .def_prop_ro("baseline", &StereoRig::baseline, "Distance between the cameras [m].")
       .def_ro("max_value", &StereoRig::max_value, "Value of a saturated pixel.")
       .def_prop_ro("disparity_range", &StereoRig::disparity_range,
-                   "Largest disparity that is searched for if the configuration has neither stereo.max_disparity nor\n"
-                   "stereo.min_depth [px]: from the data set's reader, or that of a point 0.5 m away.")
+                   "Largest disparity expected [px]: from the data set's reader, or that of a point 0.5 m away.\n"
+                   "Without stereo.max_disparity and stereo.min_depth the search starts with it.")
       .def("__repr__", [](const StereoRig& self) {
         return "<Rig " + std::to_string(self.left.width) + "x" + std::to_string(self.left.height) + ", baseline " +
                std::to_string(self.baseline()) + " m>";

@@ -177,6 +177,8 @@ void bind_diagnostics(nb::module_& module) {
   diagnostics
       .def_ro("edge_threshold", &Self::edge_threshold,
               "Gradient threshold of the edges in both images [grey levels per px].")
+      .def_ro("disparity_range", &Self::disparity_range,
+              "Largest disparity that stereo matches were searched for, in the middle of the left image [px].")
       .def_ro("overflow", &Self::overflow, "True if a buffer was full; ``message`` of the FrameResult names it.")
       .def_ro("base_frame", &Self::base_frame,
               "Number of the frame that the pose was measured against: the key rig's, or the last one with a pose; -1\n"
