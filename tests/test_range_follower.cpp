@@ -45,7 +45,7 @@ double follow(RangeFollower& follower, double largest, int& searches) {
 }  // namespace
 
 TEST_CASE("range follower: a range that suffices is kept", "[frontend]") {
-  RangeFollower follower(rig_of_30_px(), StereoConfig{});
+  RangeFollower follower(rig_of_30_px(), Config{});
   CHECK(follower.disparity() == Approx(30));
   int searches = 0;
   for (int frame = 0; frame < 20; ++frame) {
@@ -55,7 +55,7 @@ TEST_CASE("range follower: a range that suffices is kept", "[frontend]") {
 }
 
 TEST_CASE("range follower: near objects widen the range in the frame in which they appear", "[frontend]") {
-  RangeFollower follower(rig_of_30_px(), StereoConfig{});
+  RangeFollower follower(rig_of_30_px(), Config{});
   int searches = 0;
   CHECK(follow(follower, 90, searches) > 90);
   CHECK(searches == 2);
@@ -65,7 +65,7 @@ TEST_CASE("range follower: near objects widen the range in the frame in which th
 }
 
 TEST_CASE("range follower: objects that come nearer slowly never cause a second search", "[frontend]") {
-  RangeFollower follower(rig_of_30_px(), StereoConfig{});
+  RangeFollower follower(rig_of_30_px(), Config{});
   int searches = 0;
   for (double largest = 5; largest < 200; largest *= 1.02) {
     CHECK(follow(follower, largest, searches) >= largest);
@@ -76,7 +76,7 @@ TEST_CASE("range follower: objects that come nearer slowly never cause a second 
 TEST_CASE("range follower: the range shrinks by a tenth per frame where nothing is near", "[frontend]") {
   StereoRig rig = rig_of_30_px();
   rig.max_disparity = 0;  // that of 0.5 m: 120 px
-  RangeFollower follower(rig, StereoConfig{});
+  RangeFollower follower(rig, Config{});
   int searches = 0;
   double last = follow(follower, 20, searches);
   CHECK(last == Approx(120));
@@ -91,8 +91,8 @@ TEST_CASE("range follower: the range shrinks by a tenth per frame where nothing 
 }
 
 TEST_CASE("range follower: a range in the configuration is kept", "[frontend]") {
-  StereoConfig config;
-  config.max_disparity = 20;
+  Config config;
+  config.stereo.max_disparity = 20;
   RangeFollower follower(rig_of_30_px(), config);
   int searches = 0;
   CHECK(follower.probe(kLeftEdges).step == 0);
@@ -100,5 +100,5 @@ TEST_CASE("range follower: a range in the configuration is kept", "[frontend]") 
   CHECK(searches == 1);
   StereoRig absurd = rig_of_30_px();
   absurd.max_disparity = 1e6;
-  CHECK_THROWS_AS(RangeFollower(absurd, StereoConfig{}), DataError);
+  CHECK_THROWS_AS(RangeFollower(absurd, Config{}), DataError);
 }

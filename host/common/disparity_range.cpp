@@ -9,15 +9,10 @@ namespace quadedge {
 
 bool has_disparity_range(const StereoConfig& config) { return config.max_disparity != 0 || config.min_depth != 0; }
 
-StereoConfig with_disparity_range(StereoConfig config, const StereoRig& rig) {
-  if (has_disparity_range(config)) return config;
-  check_disparity_range(rig, "stereo rig");
-  config.max_disparity = rig.disparity_range();
-  return config;
-}
-
 Config with_disparity_range(Config config, const StereoRig& rig) {
-  config.stereo = with_disparity_range(config.stereo, rig);
+  if (has_disparity_range(config.stereo)) return config;
+  check_disparity_range(rig, "stereo rig");
+  config.stereo.max_disparity = rig.disparity_range();
   return config;
 }
 

@@ -14,7 +14,6 @@ bool has_disparity_range(const StereoConfig& config);
 
 /// The configuration with a disparity range: without one, stereo.max_disparity becomes rig.disparity_range().
 /// \throws DataError as check_disparity_range().
-StereoConfig with_disparity_range(StereoConfig config, const StereoRig& rig);
 Config with_disparity_range(Config config, const StereoRig& rig);
 
 /// The largest range that the images of a rig are searched for without a range in the configuration [px]: half the

@@ -26,7 +26,7 @@ DeviceFrontend::Camera::Camera(opencl::Context& context, const PinholeCamera& ca
 DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, const Config& config)
     : context_(context),
       config_(config),
-      range_(rig, config.stereo),
+      range_(rig, config),
       calibration_(rig),
       left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.max_value, config),
       right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.max_value, config),

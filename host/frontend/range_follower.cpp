@@ -12,7 +12,7 @@ constexpr int kLeastStep = 8;          // left edges per probe, at least
 constexpr int kLeastEdges = 50;        // stereo edges (of the probes: a fifth) from which a range is judged
 constexpr float kBeyondRatio = 0.04F;  // of the probes' matches; accidental ones reach 0.02
 /// Quantile of the disparities that the range has to cover; the largest ones are mostly accidental.
-constexpr double kQuantile = 0.98;
+constexpr double kQuantile = 0.97;
 // Range for a quantile q: at least kLeastReach q, when changed kReach q, each plus kMargin; narrowed where kReach q is
 // less than kWorthwhile of it.
 constexpr float kLeastReach = 1.1F, kReach = 1.3F, kMargin = 16, kWorthwhile = 0.7F;
@@ -27,11 +27,11 @@ float quantile(std::vector<float>& values, double ratio) {
 
 }  // namespace
 
-RangeFollower::RangeFollower(const StereoRig& rig, const StereoConfig& config)
-    : geometry_(make_epipolar_geometry(rig, with_disparity_range(config, rig))),
+RangeFollower::RangeFollower(const StereoRig& rig, const Config& config)
+    : geometry_(make_epipolar_geometry(rig, with_disparity_range(config, rig).stereo)),
       middle_x_(static_cast<float>(rig.left.cx)),
       middle_y_(static_cast<float>(rig.left.cy)) {
-  if (has_disparity_range(config)) return;
+  if (has_disparity_range(config.stereo)) return;
   limit_ = static_cast<float>(disparity_limit(rig));
   geometry_.max_disparity = std::min(geometry_.max_disparity, limit_);
   next_ = geometry_.max_disparity;

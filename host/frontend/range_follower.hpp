@@ -16,7 +16,7 @@ namespace quadedge::frontend {
 class RangeFollower {
  public:
   /// \throws DataError if the numbers of the rig give an absurd range
-  RangeFollower(const StereoRig& rig, const StereoConfig& config);
+  RangeFollower(const StereoRig& rig, const Config& config);
 
   /// Begins a frame with the range that the previous frames suggest.
   void start_frame();

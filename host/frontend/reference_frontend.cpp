@@ -57,7 +57,7 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
-    : calibration_(rig), config_(config), threshold_(config.edges), range_(rig, config.stereo) {}
+    : calibration_(rig), config_(config), threshold_(config.edges), range_(rig, config) {}
 
 void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
   reference::ReferenceEdges left = reference::outside_mask(

@@ -18,6 +18,7 @@
   VISIT(SelectionArguments)            \
   VISIT(PatchArguments)                \
   VISIT(SiftArguments)                 \
+  VISIT(DisparityProbe)                \
   VISIT(StereoCandidateArguments)      \
   VISIT(FilterLimits)                  \
   VISIT(FilterArguments)               \

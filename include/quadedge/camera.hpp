@@ -63,8 +63,8 @@ struct StereoRig {
   double max_disparity = 0;
 
   double baseline() const { return right_from_left.translation().norm(); }
-  /// Disparity range if the configuration has neither stereo.max_disparity nor stereo.min_depth [px]: max_disparity, or
-  /// if that is 0, the disparity of a point 0.5 m in front of the left camera.
+  /// Disparity range with which the search starts if the configuration has neither stereo.max_disparity nor
+  /// stereo.min_depth [px]: max_disparity, or if that is 0, the disparity of a point 0.5 m in front of the left camera.
   double disparity_range() const;
 };
 
