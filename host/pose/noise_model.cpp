@@ -20,10 +20,6 @@ double NoiseModel::on_epipolar_line(double epipolar_sine) const {
   return 1.0 / std::sqrt(by_across * by_across + by_along);
 }
 
-double NoiseModel::across_in_time(double inverse_depth, double scale) const {
-  return std::hypot(across, by_calibration * inverse_depth / scale);
-}
-
 double NoiseModel::along_in_time(double half_length, double scale) const {
   return std::hypot(along, kSliding * half_length / scale);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "pose/fit_limits.hpp"
@@ -116,8 +115,6 @@ class Refinement {
 
   void take_selected() {
     std::swap(work_.rows, work_.last_rows);
-    static const double k = getenv("QE_K") ? atof(getenv("QE_K")) : 0;
-    noise_.by_calibration = k * rig_.left.fx * result_.current_from_previous.translation().norm();
     work_.terms.assign(quads_, work_.last_rows, rig_.left, noise_, scale_);
   }
 
@@ -156,7 +153,7 @@ class Refinement {
   const QuadObservations& quads_;
   const StereoRig& rig_;
   const PoseConfig& config_;
-  NoiseModel noise_;
+  const NoiseModel noise_;
   RefinementWorkspace& work_;
   std::vector<std::uint8_t>& inlier_;
   Refined& result_;

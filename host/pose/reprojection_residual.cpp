@@ -18,9 +18,8 @@ ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size
   // Each edge is moved to the scale half-way between the two.
   term.scale_drift_x = 0.5 * (previous.scale_drift.x() + current.scale_drift.x());
   term.scale_drift_y = 0.5 * (previous.scale_drift.y() + current.scale_drift.y());
-  const double across = noise.across_in_time(previous.inverse_depth, scale);
-  term.across_x = -sine / across;
-  term.across_y = cosine / across;
+  term.across_x = -sine / noise.across;
+  term.across_y = cosine / noise.across;
   const double along = noise.along_in_time(static_cast<double>(quads.scoring.half_length), scale);
   term.along_x = cosine / along;
   term.along_y = sine / along;
