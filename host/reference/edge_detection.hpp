@@ -66,7 +66,7 @@ Probe probe_maximum(const GradientField& field, int cell_x, int cell_y);
 Derivatives derivatives_at(ImageView image, double x, double y, double sigma);
 
 /// Third-order edges of an image of any size (too small for the margin: none) whose gradient exceeds `threshold` [grey
-/// levels per px]. Never cut by max_edges.
+/// levels per px]. max_edges is ignored.
 ReferenceEdges detect_edges(ImageView image, const EdgesConfig& config, double threshold);
 
 EdgeSet to_edge_set(const ReferenceEdges& edges);

@@ -9,7 +9,7 @@ namespace {
 // Single precision, so that the device makes the same decisions.
 constexpr float kHalfAnOctave = 0.70710678F;
 
-/// The direction of a gradient is known in steps: direction_code() of kernels/edge_detection.cl.
+/// Directions of gradients are quantised by direction_code() of kernels/edge_detection.cl.
 constexpr float kCodes = 255.5F;
 float code_of(float ratio) { return std::rint((ratio + 1.0F) * kCodes); }
 

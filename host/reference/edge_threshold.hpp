@@ -21,8 +21,8 @@ struct ContrastTally {
   void add(const ImageView& image, double sigma);
   /// The magnitude that this ratio of the gradients exceeds [grey levels per px]; 0 without any.
   double gradient_exceeded_by(double ratio) const;
-  /// Standard deviation of the noise [steps between the values that a pixel can have]: the median response over what
-  /// normal noise makes of it.
+  /// Standard deviation of the noise [steps between the values that a pixel can have]: the median response divided by
+  /// that of unit normal noise.
   double noise() const;
 };
 

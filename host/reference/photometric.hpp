@@ -45,7 +45,7 @@ double patch_norm(const PatchValues& values);
 /// NCC of two mean-free patches; 0 where one of them is flat.
 double patch_ncc(const PatchValues& a, const PatchValues& b);
 
-/// What the alignment of an edge finds.
+/// Result of the alignment of an edge.
 struct Alignment {
   double move;         ///< px
   PatchValues values;  ///< the patch there, or less than the tolerance before it
@@ -53,7 +53,7 @@ struct Alignment {
 
 /// Gauss-Newton on the move along (ex, ey) that makes the patch at `moving`, at equal contrast, look like `fixed`,
 /// whose derivative along the move is `derivative` (doc/method.md section 3, 8b). A prior of `stiffness` [grey levels^2
-/// / px^2] holds it around the start. \returns nothing when it left the clamp.
+/// / px^2] holds it around the start. \returns nothing if the move exceeds the clamp.
 std::optional<Alignment> align_edge(const ImageView& image, const PatchFrame& moving, double ex, double ey,
                                     const PatchValues& fixed, const PatchValues& derivative, double stiffness,
                                     const RefinementSettings& settings);

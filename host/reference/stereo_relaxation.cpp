@@ -40,7 +40,7 @@ class Neighbourhood {
     if (!cell) cell = i;
   }
 
-  /// Mean of what the neighbours of edge i say for its cluster; 0 without neighbours.
+  /// Mean vote of the neighbours of edge i for one of its clusters; 0 without neighbours.
   double support(std::size_t i, std::size_t candidate, const std::vector<double>& belief) const {
     double sum = 0;
     int voters = 0;
@@ -74,7 +74,7 @@ class Neighbourhood {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
 
-  /// The belief in that cluster of edge j that fits best to a cluster of edge i, the less the worse it fits.
+  /// The largest belief in a cluster of edge j, each weighted by its fit to a cluster of edge i.
   double vote(std::size_t i, std::size_t candidate, std::size_t j, const std::vector<double>& belief,
               double reach) const {
     const double dx = static_cast<double>(left_.x[j] - left_.x[i]), dy = static_cast<double>(left_.y[j] - left_.y[i]);
@@ -95,7 +95,7 @@ class Neighbourhood {
   std::vector<std::optional<std::size_t>> cells_;
 };
 
-/// Divides by the sum, where there is one.
+/// Divides by the sum unless it is 0.
 void normalise(std::vector<double>& values, std::size_t begin, std::size_t end) {
   double total = 0;
   for (auto k = begin; k < end; ++k) total += values[k];

@@ -6,7 +6,7 @@
 
 namespace quadedge::reference {
 
-/// What the neighbours decided.
+/// Result of the neighbours' votes.
 struct StereoRelaxation {
   std::vector<double> belief;        ///< per cluster; those of an edge that reach filter 9 sum up to 1, others have 0
   std::vector<std::int32_t> chosen;  ///< cluster per left edge, -1: none

@@ -15,14 +15,14 @@ struct TemporalMatchSide {
   int width, height;  ///< of the image [px]
 };
 
-/// One image's candidates within the radius and the angle of the prediction, and what became of them.
+/// One image's candidates within the radius and the angle of the prediction, with their final states.
 struct TemporalMatchLists {
   Candidates candidates;
   CandidateScores scores;  ///< of the left image: with what the agreement rejected
   int alive_rows = 0;      ///< rows that kept a candidate before the agreement
 };
 
-/// The quads of a search, and how they came about.
+/// The quads of a search, and the intermediate results.
 struct TemporalMatchResult {
   TemporalMatchLists left, right;
   TemporalMatches matches;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file append_file.hpp  A text file that grows row by row; every finished row is on disk.
+/// \file append_file.hpp  A text file that is written row by row; finished rows survive a crash.
 
 #include <cstdio>
 #include <string>

@@ -16,7 +16,7 @@ namespace quadedge::report {
 enum class MemberStatus { done, too_few_tracked, failed, missing };
 const char* to_string(MemberStatus status);
 
-/// The accuracy of a run, or of several together.
+/// Accuracy of one run, or of several runs together.
 struct SummaryAccuracy {
   PoseErrors origin_aligned, se3_aligned;  ///< NaN where an alignment is not defined
   std::string se3_open_rotation;           ///< as in TrajectoryEvaluation; only of single runs
@@ -40,30 +40,29 @@ struct BatchSummary {
   std::vector<SummaryRow> rows;
   int frames = 0, tracked = 0;  ///< of the sequences that did not fail
   LatencySummary latency;  ///< over all frames but the first one of each sequence [ms]; `first` is the median of those
-  /// Over all sequences with ground truth: every pose counts the same (the mean and standard deviation of all poses
+  /// Over all sequences with ground truth, every pose with the same weight (mean and standard deviation of all poses
   /// together).
   std::optional<SummaryAccuracy> pooled;
-  /// The same figures averaged over the sequences: every sequence counts the same.
+  /// The same figures averaged over the sequences, every sequence with the same weight.
   std::optional<SummaryAccuracy> average;
-  /// What the command line adds: which command made the batch, of what, and with which configuration.
+  /// Added by the command line: the command, its input and its configuration.
   std::string command, input;
   std::optional<Config> config;
   int exit_code = 0;       ///< the worst of all sequences
-  double min_tracked = 0;  ///< fewer tracked frames are too few [percent]
+  double min_tracked = 0;  ///< share of the frames below which too few are tracked [percent]
 };
 
 /// Reads the results of one sequence from its folder. A run that tracked fewer frames than `min_tracked` percent counts
 /// as too_few_tracked, one whose results are damaged as failed.
 SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked);
 
-/// The row of a sequence whose results are damaged, for a complaint of who read them.
+/// The row of a sequence whose results are damaged, with the reader's complaint.
 SummaryRow damaged(SummaryRow row, const std::string& complaint);
 
-/// Puts the results of OUT/sequences/NAME together.
+/// Summarises the results in OUT/sequences/NAME.
 BatchSummary summarise(const std::string& output, const std::vector<std::string>& names, double min_tracked);
 
-/// Worst of two exit codes: a program error is worse than a device, that worse than data, usage and too few tracked
-/// frames.
+/// The worse of two exit codes. From bad to worse: too few tracked frames, usage, data, device, internal error.
 int worse_exit_code(int a, int b);
 
 /// summary.csv: one row per sequence, then the two over all; the column `kind` is sequence, pooled or average.
@@ -81,7 +80,7 @@ struct SummarisedBatch {
 /// \throws DataError for a missing or damaged file.
 SummarisedBatch summarised_batch(const std::string& output);
 
-/// Figures over several sequences where every pose counts the same; nothing for none of them.
+/// Figures over several sequences, every pose with the same weight; nothing without sequences.
 std::optional<SummaryAccuracy> pooled_accuracy(const std::vector<const SummaryAccuracy*>& parts);
 
 /// Folder of a sequence's results within a batch.

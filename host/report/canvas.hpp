@@ -18,7 +18,7 @@ class Canvas {
   Canvas(const ImageView& image, double brightness, int legend_lines);
 
   cv::Mat& picture() { return picture_; }
-  /// Position in the picture of image coordinates, in units of 1/16 px as OpenCV's `shift` of 4 wants it.
+  /// Position in the picture of image coordinates, in units of 1/16 px as OpenCV expects with `shift` = 4.
   cv::Point position(double x, double y) const;
   /// Picture pixels per image pixel.
   int scale() const { return scale_; }

@@ -14,7 +14,7 @@ std::string config_toml(const Config& config, const std::string& device);
 /// Sets one constant to an entry's value. \throws UsageError for a wrong type or a value out of the range.
 void set_constant(const data::TomlEntry& entry, const Constant& constant, Config& config);
 
-/// Adds "STAGE=NAME" to the variants. \throws UsageError for a text of another form.
+/// Adds "STAGE=NAME" to the variants. \throws UsageError for any other text.
 void add_variant(const std::string& choice, Config& config);
 
 }  // namespace quadedge::report

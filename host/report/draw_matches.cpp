@@ -88,7 +88,7 @@ cv::Mat compose(const DrawnFrame& frame, Strokes strokes, const std::vector<std:
   cv::Mat picture = layout.blank(!regions.empty());
   for (std::size_t i = 0; i < lines.size(); ++i)
     put_text(picture, lines[i], 8, kLegendLine * static_cast<int>(i + 1) - 8, kWhite);
-  // Few matches must be found by the eye: they get dots.
+  // A few matches would be overlooked as strokes.
   const std::size_t count = strokes.chosen.size();
   strokes.dot = strokes.by_class || count > 20000 ? 0 : count > 2000 ? 1 : count > 300 ? 2 : 3;
   MatchView left = layout.whole(picture, frame.left, Side::left),

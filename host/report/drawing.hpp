@@ -19,8 +19,8 @@ void draw_edges(const std::string& path, const ImageView& image, const EdgeSet& 
 /// The left image with the stereo edges of its pair, coloured by disparity.
 void draw_stereo(const std::string& path, const ImageView& left, const StereoEdges& edges);
 
-/// The left image with its stereo edges coloured by disparity, and for every quad the way of its left edge from the
-/// frame before to this one: inliers white, others red, one per cell of 16 px.
+/// The left image with its stereo edges coloured by disparity, and the motion of the left edges of quads since the
+/// earlier frame: inliers white, others red, one per cell of 16 px.
 void draw_quads(const std::string& path, const ImageView& left, const FrameDetails& details);
 
 /// The picture of draw_quads without its legend, reduced to a width of 480 px, as JPEG.

@@ -10,14 +10,14 @@
 
 namespace quadedge::report {
 
-/// Version of report.json; grows when a key changes its meaning.
+/// Version of report.json; incremented when a key changes its meaning.
 constexpr int kReportSchema = 1;
 
 /// report.json of a run.
 std::string report_json(const RunRecord& run);
 
-/// Result of `evaluate trajectory`: the accuracy of report.json with the errors of every pose, and the steps where they
-/// were judged.
+/// Result of `evaluate trajectory`: the accuracy of report.json with the errors of every pose, and, if they were
+/// judged, the steps.
 std::string evaluation_json(const TrajectoryEvaluation& evaluation, const std::string& estimate,
                             const std::string& truth, const std::string& command,
                             const std::optional<evaluation::StepJudgement>& steps = std::nullopt);

@@ -1,6 +1,6 @@
 #pragma once
-/// \file json_values.hpp  Parts that several JSON results share. Included by the few files that write or read JSON
-/// alone.
+/// \file json_values.hpp  Parts that several JSON results share. Included only by the few files that write
+/// or read JSON.
 
 #include <cmath>
 #include <limits>
@@ -65,7 +65,7 @@ void add_origin(Json& json, const std::string& command);
 /// Adds `config`, every constant in its section, and `config_changed`, those that are not at their defaults.
 void add_configuration(Json& json, const Config& config);
 
-/// The way back: null is NaN. \throws nlohmann::json::exception for a missing key or another type.
+/// Reads values back: null becomes NaN. \throws nlohmann::json::exception for a missing key or another type.
 inline double to_number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }

@@ -10,7 +10,7 @@
 
 namespace quadedge::report {
 
-/// Version of the document; grows when a key changes its meaning.
+/// Version of the document; incremented when a key changes its meaning.
 constexpr int kMatchingSchema = 1;
 
 /// Origin of the results.

@@ -1,19 +1,19 @@
 #pragma once
-/// \file member_record.hpp  member.json: what a batch notes in the folder of each of its sequences when that is done
-/// with.
+/// \file member_record.hpp  member.json: what a batch records in the folder of a sequence once the sequence is
+/// done.
 
 #include <optional>
 #include <string>
 
 namespace quadedge::report {
 
-/// One sequence of a batch that was run, well or not.
+/// One sequence of a batch that was run, successfully or not.
 struct MemberRecord {
   std::string name;    ///< in the batch
   std::string path;    ///< of the recording
   std::string format;  ///< layout; empty if none is recognised
   std::string key;  ///< fingerprint of input, configuration, device and program; empty where the input cannot be opened
-  int exit_code = 0;    ///< of the run, as README lists them; 1 where a signal ended it
+  int exit_code = 0;    ///< of the run, see doc/usage.md; 1 if a signal ended it
   std::string message;  ///< why it failed; empty where it did not
   int jobs = 1;  ///< sequences that ran at the same time: with more than one, latencies are not those of a lone run
 };

@@ -18,7 +18,7 @@ namespace quadedge::report {
 /// Where the frames came from.
 struct InputFacts {
   std::string path, format, name;
-  int frames = 0;                          ///< 0 while unknown: of a pipe, of a video that does not say
+  int frames = 0;                          ///< 0 while unknown: of a pipe, or of a video that does not state it
   int width = 0, height = 0;               ///< of the left pinhole image [px]
   int dropped = 0;                         ///< pairs of a pipe that came faster than they were tracked, with --live
   std::vector<std::string> warnings = {};  ///< options that contradict the data
@@ -57,9 +57,9 @@ struct RunRecord {
   double start_ms = 0;         ///< opening the device and building the pipeline, before the first frame
   double kernel_build_ms = 0;  ///< the part of it that builds kernels
   double host_peak_mb = 0, device_peak_mb = 0;
-  /// Kernel times of a second pass with a profiling queue: one list per frame, empty when not asked for.
+  /// Kernel times of a second pass with a profiling queue: one list per frame, empty unless requested.
   std::vector<std::vector<StageTime>> kernel_times;
-  std::optional<MapFacts> map;                                ///< only where one was asked for
+  std::optional<MapFacts> map;                                ///< only if requested
   std::string truth_file;                                     ///< empty without ground truth
   std::optional<TrajectoryEvaluation> accuracy;               ///< only with ground truth
   evaluation::Consistency consistency;                        ///< no poses without ground truth
@@ -88,7 +88,7 @@ std::vector<StageSummary> stage_summary(const std::vector<std::vector<StageTime>
 /// The host-side stage times of every frame.
 std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& frames);
 
-/// Why frames were lost: "5 no consensus, 2 too few quads"; empty where none was.
+/// Why frames were lost: "5 no consensus, 2 too few quads"; empty if there are none.
 std::string lost_reasons(const std::vector<FrameRecord>& frames);
 
 /// The segments of a run, and the tracked frames with an unknown motion between them: "3 segments: an unknown motion

@@ -5,7 +5,8 @@
 
 namespace quadedge::report {
 
-/// Value below which `fraction` (0 to 1) of the values lie, linear between neighbours; NaN for no values.
+/// Value below which `fraction` (0 to 1) of the values lie, interpolated linearly between neighbours; NaN for no
+/// values.
 double percentile(std::vector<double> values, double fraction);
 
 /// Middle value; NaN for no values.
