@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Compares QuadEdge's trajectory errors with those of evo (https://github.com/MichaelGrupp/evo, `pip install evo`).
 
-    compare_with_evo.py ESTIMATE TRUTH ERRORS.json [--from-frame N] [--sequence NAME] [--tolerance 1e-6]
+    compare_with_evo.py ESTIMATE TRUTH ERRORS.json [--from-frame N] [--segment N] [--sequence NAME] [--tolerance 1e-6]
 
 ESTIMATE and TRUTH are both TUM files, or both KITTI files with one pose per frame. ERRORS.json is the output of
 `quadedge evaluate trajectory ... --json`, a report.json with the same figures under "accuracy", or with --sequence the
-summary.json of a batch.
+summary.json of a batch. --segment compares one segment of a TUM file, which a comment `# segment N` precedes.
 Compares mean, std, rmse and max of all four errors, origin-aligned and SE(3)-aligned.
 Exit code: 0 if they agree, 1 for a difference above the tolerance, 2 if the input cannot be compared.
 """
@@ -38,12 +38,25 @@ def columns(path):
     return 0
 
 
-def read_pair(estimate_path, truth_path, from_frame):
+def poses_of_segment(path, wanted):
+    """Indices of the poses of one segment of a TUM file."""
+    segment, segments = 0, []
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("# segment "):
+                segment = int(line.split()[2].rstrip(":"))
+            elif line.strip() and not line.startswith("#"):
+                segments.append(segment)
+    return [i for i, number in enumerate(segments) if number == wanted]
+
+
+def read_pair(estimate_path, truth_path, from_frame, segment):
     kinds = {columns(estimate_path), columns(truth_path)}
     if kinds == {8}:
         estimate = file_interface.read_tum_trajectory_file(estimate_path)
         truth = file_interface.read_tum_trajectory_file(truth_path)
-        estimate.reduce_to_ids(list(range(from_frame, estimate.num_poses)))
+        kept = range(from_frame, estimate.num_poses) if segment is None else poses_of_segment(estimate_path, segment)
+        estimate.reduce_to_ids(list(kept))
         return sync.associate_trajectories(truth, estimate, max_diff=0.01)
     if kinds == {12}:
         estimate = file_interface.read_kitti_poses_file(estimate_path)
@@ -71,16 +84,19 @@ def main():
     parser.add_argument("truth")
     parser.add_argument("errors")
     parser.add_argument("--from-frame", type=int, default=0)
+    parser.add_argument("--segment", type=int)
     parser.add_argument("--sequence")
     parser.add_argument("--tolerance", type=float, default=1e-6)
     arguments = parser.parse_args()
     try:
-        truth, estimate = read_pair(arguments.estimate, arguments.truth, arguments.from_frame)
+        truth, estimate = read_pair(arguments.estimate, arguments.truth, arguments.from_frame, arguments.segment)
         with open(arguments.errors, encoding="utf-8") as file:
             ours = json.load(file)
         if arguments.sequence is not None:
             ours = next(entry for entry in ours["sequences"] if entry["name"] == arguments.sequence)
         ours = ours.get("accuracy", ours)
+        if arguments.segment is not None:
+            ours = next(entry for entry in ours["segments"] if entry["segment"] == arguments.segment)
         open_rotation = "se3_open_rotation" in ours
         ours = {(a, e): ours[a][e] for a in ALIGNMENTS for e in ERRORS}
     except (OSError, KeyError, ValueError, StopIteration, file_interface.FileInterfaceException,

@@ -20,6 +20,10 @@ for from in 0 3; do
     --json "$folder/from$from.json" >/dev/null
   compare "$folder/run/trajectory.txt" "$truth" "$folder/from$from.json" --from-frame $from
 done
+# The errors of each segment by itself.
+sed '6i # segment 1: an unknown motion' "$folder/run/trajectory.txt" >"$folder/segments.txt"
+"$quadedge" evaluate trajectory "$folder/segments.txt" "$truth" --json "$folder/segments.json" >/dev/null
+for segment in 0 1; do compare "$folder/segments.txt" "$truth" "$folder/segments.json" --segment $segment; done
 # The errors of each sequence in a batch summary; the ground truth is the run's copy.
 "$quadedge" synth "$folder/batch/cables" --scene cables --frames 6 --size 320x200 --quiet
 "$quadedge" synth "$folder/batch/facade" --scene facade --path handheld --frames 6 --size 320x200 --quiet
