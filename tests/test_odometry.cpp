@@ -1,4 +1,5 @@
 #include <Eigen/Eigenvalues>
+#include <set>
 #include <tbb/global_control.h>
 
 #include "frontends.hpp"
@@ -240,6 +241,40 @@ TEST_CASE("odometry: the search beside the rig check leaves no trace of a frame 
     CHECK(frozen[i].status == FrameStatus::tracked);
     CHECK(same_bytes(frozen[i], empty[i]));
   }
+}
+
+TEST_CASE("odometry: a pair of images that repeats is tracked with a message in each frame and one warning",
+          "[odometry][rig][device]") {
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(room().rig, device, room().config);
+  const auto repeats = [](const FrameResult& result) {
+    return result.message.find("identical to those of the previous frame") != std::string::npos;
+  };
+  odometry.track(at(0, room().frame(0)));
+  CHECK_FALSE(repeats(odometry.track(at(1, room().frame(1)))));
+  for (const std::int64_t stamp : {2, 3}) {
+    const FrameResult result = odometry.track(at(stamp, room().frame(1)));
+    CHECK(result.status == FrameStatus::tracked);
+    CHECK(repeats(result));
+    CHECK(result.warnings.size() == (stamp == 2 ? 1 : 0));
+  }
+  CHECK_FALSE(repeats(odometry.track(at(4, room().frame(2)))));
+}
+
+TEST_CASE("odometry: a wrong principal point of the right camera is warned of", "[odometry][rig][device]") {
+  StereoRig rig = room().rig;
+  rig.right.cx -= 4;
+  Device device(all_devices().front(), kept_programs());
+  StereoOdometry odometry(rig, device, room().config);
+  std::set<WarningKind> kinds;
+  double largest = 0;
+  for (std::size_t i = 0; i < room().left.size(); ++i) {
+    const FrameResult result = odometry.track(room().frame(i));
+    largest = std::max(largest, std::abs(result.disparity_offset));
+    for (const Warning& warning : result.warnings) kinds.insert(warning.kind);
+  }
+  INFO("largest offset " << largest << " px");
+  CHECK(kinds.count(WarningKind::large_disparity_offset) == 1);
 }
 
 TEST_CASE("odometry: one processor gives the same bytes as several", "[odometry][device]") {

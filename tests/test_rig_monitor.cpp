@@ -111,11 +111,35 @@ TEST_CASE("rig monitor: a frozen camera is detected while the other one moves", 
   RigMonitor monitor(evidence_room().rig);
   const Image &left = evidence_room().left[0], &right = evidence_room().right[0], &next = evidence_room().left[1];
   CHECK(monitor.judge({0, left.view(), right.view()}, {}, 0, 100).findings.empty());
-  CHECK(monitor.judge({1, left.view(), right.view()}, {}, 0, 100).findings.empty());  // the same pair again
+  const RigReport same = monitor.judge({1, left.view(), right.view()}, {}, 0, 100);
+  CHECK(same.mismatch() == nullptr);
+  REQUIRE(same.findings.size() == 1);
+  CHECK(rig_check::warning(same.findings[0]).kind == WarningKind::repeated_images);
+  CHECK_THAT(rig_check::sentence(same.findings[0]), Contains("both cameras frozen"));
   const RigReport frozen = monitor.judge({2, next.view(), right.view()}, {}, 0, 100);
   REQUIRE(frozen.mismatch() != nullptr);
   CHECK_THAT(rig_check::sentence(*frozen.mismatch()), Contains("has the right camera frozen?"));
   CHECK(monitor.judge({3, left.view(), evidence_room().right[1].view()}, {}, 0, 100).findings.empty());
+}
+
+TEST_CASE("rig monitor: a pair that repeats is not used if it does not match the calibration", "[rig]") {
+  RigMonitor monitor(evidence_room().rig);
+  const StereoFrame exchanged{0, evidence_room().right[0].view(), evidence_room().left[0].view()};
+  for (int times = 0; times < 2; ++times) {
+    const RigReport report = monitor.judge(exchanged, {}, 100, 100);
+    REQUIRE(report.mismatch() != nullptr);
+    CHECK(report.mismatch()->kind == RigFindingKind::negative_disparities);
+  }
+}
+
+TEST_CASE("rig monitor: a disparity offset beyond that of a rectification is reported", "[rig]") {
+  CHECK_FALSE(rig_check::judge_disparity_offset(1.1));
+  for (const double offset : {1.6, -1.6}) {
+    const auto large = rig_check::judge_disparity_offset(offset);
+    REQUIRE(large);
+    CHECK(rig_check::warning(*large).kind == WarningKind::large_disparity_offset);
+    CHECK_THAT(rig_check::sentence(*large), Contains(offset > 0 ? "by 1.6 px" : "by -1.6 px") && Contains("yaw"));
+  }
 }
 
 TEST_CASE("rig monitor: implausible numbers are reported", "[rig]") {

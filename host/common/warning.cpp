@@ -11,6 +11,8 @@ const char* to_string(WarningKind kind) {
     case WarningKind::negative_disparities: return "negative_disparities";
     case WarningKind::unsynchronised_cameras: return "unsynchronised_cameras";
     case WarningKind::unknown_motion: return "unknown_motion";
+    case WarningKind::repeated_images: return "repeated_images";
+    case WarningKind::large_disparity_offset: return "large_disparity_offset";
   }
   return "unknown";
 }

@@ -292,6 +292,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
   result.disparity_offset = offset_.value() + step.motion.offset;
+  if (const auto large = rig_check::judge_disparity_offset(result.disparity_offset))
+    warn(rig_check::warning(*large), result);
   result.ambiguous_motion = step.ambiguous;
   result.diagnostics.moving_ratio = step.moving_ratio;
   if (step.ambiguous) add_message("ambiguous motion: another motion, or none, explains much of the image", result);
@@ -337,7 +339,10 @@ void StereoOdometry::Implementation::lose(FrameStatus status, const std::string&
 void StereoOdometry::Implementation::take(const rig_check::RigReport& report, FrameResult& result) const {
   result.diagnostics.rig_evidence = report.evidence;
   if (report.mismatch() != nullptr) return;
-  for (const auto& finding : report.findings) warn(rig_check::warning(finding), result);
+  for (const auto& finding : report.findings) {
+    warn(rig_check::warning(finding), result);
+    if (finding.kind == rig_check::RigFindingKind::repeated_images) add_message(rig_check::sentence(finding), result);
+  }
 }
 
 /// Reports each kind of warning in one frame only.

@@ -24,6 +24,8 @@ enum class RigFindingKind {
   beyond_range,               ///< disparities exceed the range searched
   some_negative_disparities,  ///< more disparities are negative than in valid recordings
   late_camera,                ///< distances from the epipolar lines are proportional to the image motion
+  repeated_images,            ///< both images are identical to the previous ones
+  large_disparity_offset,     ///< the offset that the odometry learns exceeds what rectification leaves
   // Numbers of the calibration:
   long_baseline,
   short_baseline,
@@ -41,10 +43,11 @@ struct RigFinding {
   RigEvidence evidence = {};         ///< of the frame
   int corners = 0;                   ///< of the left image, searched for in the right one
   double inverted_ratio = 0;         ///< of these, found as their negative
-  ImageTurn turn = ImageTurn::none;  /// of turned_image
+  ImageTurn turn = ImageTurn::none;  ///< of turned_image
   EpipolarFit fit = {};              ///< of the distances from the epipolar lines
   double max_disparity = 0;          ///< largest disparity searched [px]
   double time_offset = 0;            ///< of late_camera [frame intervals]
+  double disparity_offset = 0;       ///< of large_disparity_offset [px]
   Side camera = Side::left;          ///< the camera that is frozen or has an implausible number
   /// The implausible number: baseline [m], focal length [image widths], fx / fy.
   double number = 0;

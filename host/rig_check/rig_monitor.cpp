@@ -62,15 +62,15 @@ void search_and_judge(const EpipolarProbe& probe, const StereoRig& rig, const St
 
 RigMonitor::RigMonitor(const StereoRig& rig) : rig_(rig), probe_(rig) {}
 
-std::optional<RigFinding> RigMonitor::find_frozen_camera(const StereoFrame& frame) {
+std::optional<RigFinding> RigMonitor::find_repeated_images(const StereoFrame& frame) {
   const std::uint64_t left = fingerprint(frame.left), right = fingerprint(frame.right);
   const bool same_left = last_left_ == left, same_right = last_right_ == right;
   last_left_ = left;
   last_right_ = right;
-  if (same_left == same_right) return std::nullopt;
-  RigFinding frozen{RigFindingKind::frozen_camera};
-  frozen.camera = same_left ? Side::left : Side::right;
-  return frozen;
+  if (!same_left && !same_right) return std::nullopt;
+  RigFinding repeated{same_left && same_right ? RigFindingKind::repeated_images : RigFindingKind::frozen_camera};
+  repeated.camera = same_left ? Side::left : Side::right;
+  return repeated;
 }
 
 bool RigMonitor::needs_search(const RigEvidence& evidence) const {
@@ -92,14 +92,15 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
     evidence.epipolar_samples = fit.samples;
   }
   ++frames_since_search_;
-  if (const auto frozen = find_frozen_camera(frame)) {
-    report.findings.push_back(*frozen);
-  } else if (left_edges > 0 && needs_search(evidence)) {
+  const auto repeated = find_repeated_images(frame);
+  const bool is_frozen = repeated && is_mismatch(repeated->kind);
+  if (!is_frozen && left_edges > 0 && needs_search(evidence)) {
     search_and_judge(probe_, rig_, frame, max_disparity, report);
     frames_since_search_ = 0;
     searched_ = evidence;
     fits_ = report.mismatch() == nullptr;
   }
+  if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
   return report;
 }
 

@@ -36,8 +36,8 @@ class RigMonitor {
   static RigReport examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity);
 
  private:
-  /// Reports a camera whose image is identical to the previous one while the other camera's is not.
-  std::optional<RigFinding> find_frozen_camera(const StereoFrame& frame);
+  /// Reports images that are identical to the previous ones: of one camera, or of both.
+  std::optional<RigFinding> find_repeated_images(const StereoFrame& frame);
   bool needs_search(const RigEvidence& evidence) const;
 
   StereoRig rig_;

@@ -102,6 +102,14 @@ std::string sentence(const RigFinding& finding) {
       return "distances from the epipolar lines are proportional to the image motion: are the cameras out of sync, by "
              "about " +
              number(std::abs(finding.time_offset), 1) + " frames?";
+    case RigFindingKind::repeated_images:
+      return "both images are identical to those of the previous frame: have both cameras frozen, or was a frame "
+             "stored "
+             "twice?";
+    case RigFindingKind::large_disparity_offset:
+      return "all disparities seem to be off by " + number(finding.disparity_offset, 1) +
+             " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "
+             "wrong?";
     case RigFindingKind::long_baseline:
       return "the baseline is " + number(finding.number, 3) + " m: is it given in millimetres?";
     case RigFindingKind::short_baseline:
@@ -121,6 +129,8 @@ Warning warning(const RigFinding& finding) {
   switch (finding.kind) {
     case RigFindingKind::beyond_range: return {WarningKind::small_disparity_range, sentence(finding)};
     case RigFindingKind::some_negative_disparities: return {WarningKind::negative_disparities, sentence(finding)};
+    case RigFindingKind::repeated_images: return {WarningKind::repeated_images, sentence(finding)};
+    case RigFindingKind::large_disparity_offset: return {WarningKind::large_disparity_offset, sentence(finding)};
     case RigFindingKind::late_camera: return {WarningKind::unsynchronised_cameras, sentence(finding)};
     case RigFindingKind::long_baseline:
     case RigFindingKind::short_baseline:

@@ -14,6 +14,8 @@ enum class WarningKind {
   negative_disparities,     ///< corners have negative disparities
   unsynchronised_cameras,   ///< the cameras seem to record at different times
   unknown_motion,           ///< the motion between two tracked frames is unknown; a new segment starts
+  repeated_images,          ///< both images are those of the previous frame, byte for byte
+  large_disparity_offset,   ///< the disparities have a larger common offset than rectification leaves
 };
 /// The name of the enumerator.
 const char* to_string(WarningKind kind);
