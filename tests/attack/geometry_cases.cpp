@@ -172,6 +172,12 @@ std::vector<GeometryCase> make_cases() {
       [](Sequence& s) { std::fill(s.left.begin(), s.left.end(), Image(s.left.front())); });
   add("right camera frozen, EuRoC", Demand::reported, flight,
       [](Sequence& s) { std::fill(s.right.begin(), s.right.end(), Image(s.right.front())); });
+  const auto stop_both = [](Sequence& s) {
+    for (auto* views : {&s.left, &s.right})
+      for (std::size_t i = 3; i < 6; ++i) (*views)[i] = Image((*views)[2]);
+  };
+  add("both cameras frozen for three frames", Demand::reported, room, stop_both);
+  add("both cameras frozen for three frames, EuRoC", Demand::reported, flight, stop_both);
   const auto late = [](Sequence& s) {
     s.right.pop_back();
     s.left.erase(s.left.begin());
