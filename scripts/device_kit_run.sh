@@ -35,8 +35,8 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/vendors" "$work/lib"
 own_libraries="${LD_LIBRARY_PATH:-}" own_vendors="${OCL_ICD_VENDORS:-/etc/OpenCL/vendors}"
 export OCL_ICD_VENDORS="$work/vendors" CUDA_VISIBLE_DEVICES="${CUDA_VISIBLE_DEVICES:-0}"
-export DEVICE_KIT_DATA="$kit/data" DEVICE_KIT_PROGRAMS="$work/programs" DEVICE_KIT_TEST_LOG="$work/tests.log"
-export QUADEDGE_TEST_PROGRAMS="$work/programs" DEVICE_KIT_TEST_SECONDS=$((25 * total / 480))
+export DEVICE_KIT_DATA="$kit/data" DEVICE_KIT_PROGRAMS="$work/quadedge/programs" DEVICE_KIT_TEST_LOG="$work/tests.log"
+export QUADEDGE_TEST_CACHE="$work" DEVICE_KIT_TEST_SECONDS=$((25 * total / 480))
 
 # caches NAME: a folder for what drivers keep; nothing of the user's is read or changed.
 caches() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and runs the tests. QUADEDGE_DATA names the folder of recorded data; without it,
 # tests that need recorded data print a message and pass.
-#   scripts/test.sh [--all] [--all-runtimes] [CTEST OPTION...]      example: scripts/test.sh -R edges
+#   scripts/test.sh [--all] [--all-runtimes] [CTEST OPTION...]      example: scripts/test.sh -R edge_detection
 # --all also runs the slow tests: attacks, oclgrind, sanitizers, clang-tidy, packages, the wheel and the device kit.
 # --all-runtimes first installs Intel's OpenCL for CPUs from PyPI into the virtual environment and runs the tests of
 # kernels, pipeline and recorded data on it as well (tests/run_other_runtime.sh).

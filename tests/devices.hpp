@@ -17,11 +17,11 @@ inline std::vector<std::string> all_devices() {
   return names;
 }
 
-/// Caches built programs in the folder QUADEDGE_TEST_PROGRAMS, for runtimes without a cache that build slowly. If
-/// unset, every test builds its programs.
+/// Caches built programs in the folder QUADEDGE_TEST_CACHE, as the program does. If unset, every test builds its
+/// programs.
 inline quadedge::DeviceOptions kept_programs() {
   quadedge::DeviceOptions options;
-  const char* folder = std::getenv("QUADEDGE_TEST_PROGRAMS");
-  if (folder != nullptr) options.program_folder = folder;
+  const char* folder = std::getenv("QUADEDGE_TEST_CACHE");
+  if (folder != nullptr) options.program_folder = std::string(folder) + "/quadedge/programs";
   return options;
 }

@@ -25,14 +25,15 @@ inline std::vector<std::string> read_lines(const std::string& path) {
 }
 
 /// Settings in front of a shell command: the program neither reads nor changes what the user has saved (device, kernel
-/// variants, rendered frames), except for the driver's cache of compiled kernels. Reports need a Python, which tests of
-/// reports name.
+/// variants, rendered frames), except for the driver's cache of compiled kernels. Its own cache is QUADEDGE_TEST_CACHE,
+/// or is empty at first. Reports need a Python, which tests of reports name.
 inline std::string environment_of_tests() {
   static const TemporaryFolder folder;
+  const char* cache = std::getenv("QUADEDGE_TEST_CACHE");
   return "env -u QUADEDGE_DEVICE QUADEDGE_PYTHON=no_python "
          "POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/pocl/kcache}\""
          " XDG_CONFIG_HOME='" +
-         (folder / "configuration") + "' XDG_CACHE_HOME='" + (folder / "cache") + "'";
+         (folder / "configuration") + "' XDG_CACHE_HOME='" + (cache != nullptr ? cache : folder / "cache") + "'";
 }
 
 /// The program under test, or the one in QUADEDGE_TEST_PROGRAM (run_sanitizers.sh).

@@ -28,7 +28,7 @@ for device in 'Intel(R) OpenCL' 'Portable Computing Language'; do
 done
 
 start=$SECONDS
-OCL_ICD_VENDORS="$kept/alone" QUADEDGE_TEST_PROGRAMS="$XDG_CACHE_HOME/quadedge/programs" \
+OCL_ICD_VENDORS="$kept/alone" QUADEDGE_TEST_CACHE="$XDG_CACHE_HOME" \
   "$build/tests/quadedge_tests" "[device]~[cli],[real],[selftest]~[cli],[opencl]"
 echo "Tests on Intel's runtime: $((SECONDS - start)) s"
 

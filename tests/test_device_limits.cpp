@@ -14,7 +14,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 FrontendResult run_limited(const RenderedScene& scene, const DeviceLimits& limits) {
-  DeviceOptions options;
+  DeviceOptions options = kept_programs();
   options.limits = limits;
   Device device("0", options);
   const auto frontend = frontend::make_frontend(scene.rig, device, scene.config);
@@ -60,7 +60,7 @@ TEST_CASE("limits: a device that cannot store bytes is refused by name", "[openc
 
 TEST_CASE("limits: the budget is reduced to fit the memory, and the first frame warns about it", "[opencl][odometry]") {
   RenderedScene scene("room", 320, 200, 2);
-  DeviceOptions options;
+  DeviceOptions options = kept_programs();
   options.limits.memory_bytes = 60'000'000;
   scene.config.edges.budget = 0;
   Device device("0", options);

@@ -63,7 +63,7 @@ TEST_CASE("edge mask: every device and variant keeps the same edges as the refer
     CHECK(clear);
   }
   for (const auto& index : all_devices()) {
-    Device device(index);
+    Device device(index, kept_programs());
     for (const auto& variant : opencl::all_variants()) {
       if (variant.stage != "edge_detection") continue;
       INFO(device.info().name << ", " << variant.name);

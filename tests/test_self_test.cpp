@@ -33,7 +33,7 @@ TEST_CASE("self-test: every stage of the reference finds something to compare", 
 }
 
 TEST_CASE("self-test: every device passes, with the kernels for CPUs and for GPUs", "[selftest]") {
-  DeviceOptions options;
+  DeviceOptions options = kept_programs();
   options.limits.type = GENERATE(as<std::string>(), "cpu", "gpu");
   Device device(GENERATE(from_range(all_devices())), options);
   const auto result = self_test(device);

@@ -56,3 +56,12 @@ def numbers(texts: list[str], file: Path) -> np.ndarray:
         return np.array([float(text) if text else np.nan for text in texts])
     except ValueError as problem:
         raise DamagedResults(f"{file}: {problem}") from None
+
+
+def rotations(quaternions: np.ndarray) -> np.ndarray:
+    """Rotation matrices (n, 3, 3) of quaternions x y z w (n, 4), which are normalised first."""
+    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
+    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    return np.moveaxis(np.array(rows), -1, 0)

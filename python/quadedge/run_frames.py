@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy
 
 from .errors import DataError
-from .result_files import read_columns
+from .result_files import read_columns, rotations
 
 _COUNTS = ("stereo_edges", "quads", "inliers")
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -44,11 +44,8 @@ def _rows(file: Path) -> list[dict[str, str]]:
 
 
 def _pose(row: dict[str, str]) -> numpy.ndarray:
-    x, y, z, w = (float(row[name]) for name in ("qx", "qy", "qz", "qw"))
     pose = numpy.eye(4)
-    pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]  # fmt: skip
+    pose[:3, :3] = rotations(numpy.array([[float(row[name]) for name in ("qx", "qy", "qz", "qw")]]))[0]
     pose[:3, 3] = [float(row[name]) for name in "xyz"]
     return pose
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..result_files import DamagedResults, numbers, read_columns, read_json, whole_lines
+from ..result_files import DamagedResults, numbers, read_columns, read_json, rotations, whole_lines
 
 STAMP_TOLERANCE_S = 0.01  # as the evaluation of trajectories matches poses
 
@@ -39,15 +39,7 @@ def read_tum(file: Path, *, may_be_cut: bool = False) -> Trajectory:
         if len(row) != 8 or abs(np.linalg.norm(row[4:]) - 1) > 1e-3:
             raise DamagedResults(f"{file}: pose {number}: expected a stamp, a position and a quaternion of norm 1")
     values = np.array(rows, float).reshape(-1, 8)
-    return Trajectory(values[:, 0], values[:, 1:4], _rotations(values[:, 4:]))
-
-
-def _rotations(quaternions: np.ndarray) -> np.ndarray:
-    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T if len(quaternions) else [[]] * 4
-    x, y, z, w = (np.asarray(part) for part in (x, y, z, w))
-    return np.stack([np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], -1),
-                     np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], -1),
-                     np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], -1)], -2)
+    return Trajectory(values[:, 0], values[:, 1:4], rotations(values[:, 4:]))
 
 
 def first_match(poses: Trajectory, others: Trajectory) -> tuple[int, int] | None:
