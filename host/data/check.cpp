@@ -65,7 +65,7 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
                         (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, corrected by a table"));
   describe_lenses(dataset, check);
   check.facts.push_back("baseline: " + decimals(dataset.rig.baseline(), 6) + " m");
-  check.facts.push_back("largest disparity: " + decimals(dataset.rig.disparity_range(), 1) + " px");
+  check.facts.push_back("disparity range at the start: " + decimals(dataset.rig.disparity_range(), 1) + " px");
   if (const std::int64_t period = median_period(dataset); period > 0) {
     check.facts.push_back(
         "rate: " + decimals(1e9 / static_cast<double>(period), 2) + " Hz, " +
