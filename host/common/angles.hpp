@@ -14,11 +14,4 @@ inline float angle_between(float a, float b) {
   return d > kHalfTurn ? 2.0f * kHalfTurn - d : d;
 }
 
-/// Smallest difference of two directions modulo a half turn [rad].
-inline float line_angle_between(float a, float b) {
-  constexpr auto kHalfTurn = static_cast<float>(kPi);
-  const float d = angle_between(a, b);
-  return d > 0.5f * kHalfTurn ? kHalfTurn - d : d;
-}
-
 }  // namespace quadedge

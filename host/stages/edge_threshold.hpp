@@ -30,7 +30,6 @@ class EdgeThreshold {
   /// Copies them to the host, where they are valid after the next wait for the queue.
   void request() { values_.read_later(host_values_, 2); }
   double host_threshold() const { return static_cast<double>(host_values_[0]); }
-  double host_noise() const { return static_cast<double>(host_values_[1]); }
 
  private:
   /// Enqueues the tallies of one image, the first of which is number `first`. \returns how many.
