@@ -279,6 +279,23 @@ def test_one_bad_member_does_not_prevent_the_page(tmp_path, damaged):
     assert not [plot for plot in page.plots if "figure-bad" in plot]
 
 
+@pytest.mark.parametrize("key, value", [
+    (["input"], 3), (["input", "frames"], "12"), (["frames_tracked"], None), (["key_rigs"], [1]), (["warnings"], {}),
+    (["warnings"], [{"text": 1, "frame": 0}]), (["latency_ms", "p90"], "x"), (["latency_ms"], 4),
+    (["device"], "abacus"), (["stages_ms"], [1]), (["stages_ms", "stereo"], {}),
+    (["memory_mb", "host_peak"], None), (["config"], 1), (["accuracy"], []),
+    (["accuracy", "se3_aligned", "ape_rotation_deg"], 0.1), (["accuracy", "consistency"], [3])])
+def test_a_report_of_another_shape_is_named(tmp_path, key, value):
+    content = write_run(tmp_path / "street", 12)
+    place = content
+    for name in key[:-1]:
+        place = place[name]
+    place[key[-1]] = value
+    (tmp_path / "street/report.json").write_text(json.dumps(content))
+    with pytest.raises(report.DamagedResults, match=rf"report.json: .*report.{'.'.join(key)}.*; expected the report"):
+        report.make_page(tmp_path / "street")
+
+
 def test_a_failed_member_has_a_reason_and_no_figures(tmp_path):
     summary = write_batch(tmp_path / "batch", ["good"])
     summary["sequences"].append({"name": "broken", "status": "failed", "exit_code": 3, "path": "b", "format": "kitti",
