@@ -4,6 +4,7 @@
 #include "pose/least_squares.hpp"
 #include "pose/reprojection_residual.hpp"
 #include "quadedge/pi.hpp"
+#include "reprojection_jacobian.hpp"
 
 using namespace quadedge::pose;
 

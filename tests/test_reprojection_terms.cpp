@@ -4,6 +4,7 @@
 
 #include "generated_quads.hpp"
 #include "pose/reprojection_terms.hpp"
+#include "reprojection_jacobian.hpp"
 
 using namespace quadedge::pose;
 

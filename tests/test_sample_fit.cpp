@@ -12,7 +12,7 @@ struct Sample {
   explicit Sample(const generated::Problem& problem) : quads(generated::generate(problem, 70).quads) {
     const NoiseModel noise{quadedge::PoseConfig{}};
     for (std::size_t i = 0; i < quads.size(); ++i) {
-      terms.push_back(make_sample_term(quads, i, noise));
+      terms.push_back(make_sample_term(quads, i, noise, problem.rig.left));
       rows.push_back(static_cast<std::int32_t>(i));
     }
   }
@@ -40,7 +40,7 @@ TEST_CASE("A few exact quads give the exact motion, two of them through their di
     Eigen::Isometry3d pose = random.motion(1e-4, 0.002) * problem.motion;
     SampleWorkspace workspace;
     for (int fit = 0; fit < 4; ++fit) {  // exact quads converge slowly: the scale shrinks with each step
-      REQUIRE(fit_sample(sample.terms, sample.rows, problem.rig, config, pose, workspace));
+      REQUIRE(fit_sample(sample.terms, sample.rows, config, pose, workspace));
     }
     CHECK(generated::rotation_error(pose, problem.motion) < 1e-6);
     CHECK(generated::translation_error(pose, problem.motion) < 1e-4);
@@ -52,6 +52,6 @@ TEST_CASE("An empty sample has no fit and leaves the pose unchanged", "[pose][sa
   const Sample sample(problem);
   Eigen::Isometry3d pose = problem.motion;
   SampleWorkspace workspace;
-  CHECK_FALSE(fit_sample(sample.terms, {}, problem.rig, quadedge::PoseConfig{}, pose, workspace));
+  CHECK_FALSE(fit_sample(sample.terms, {}, quadedge::PoseConfig{}, pose, workspace));
   CHECK(pose.matrix() == problem.motion.matrix());
 }

@@ -52,6 +52,8 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   const Eigen::Vector2d left_edge(std::cos(observation.left_direction), std::sin(observation.left_direction));
   const Eigen::Vector2d right_edge(std::cos(observation.right_direction), std::sin(observation.right_direction));
   const Eigen::Vector3d baseline = rotation.transpose() * translation;
+  result.left_edge = left_edge.cast<float>();
+  result.right_edge = right_edge.cast<float>();
   const Eigen::Vector2d left_line = image_motion(rig.left, result.ray, baseline);
   if (std::abs(cross(left_edge, left_line)) < min_sine * left_line.norm()) return std::nullopt;
   result.epipolar_sine = std::abs(cross(right_edge, line));

@@ -37,6 +37,8 @@ struct StereoMeasurement {
   Eigen::Vector2d scale_drift = Eigen::Vector2d::Zero();
   double slope = 0;             ///< depth slope of the tangent
   double slope_per_radian = 0;  ///< standard deviation of the slope if both directions have one of 1 rad
+  /// Unit directions of both edges in their images.
+  Eigen::Vector2f left_edge = Eigen::Vector2f::UnitX(), right_edge = Eigen::Vector2f::UnitX();
   /// Unit normals, in the left camera frame, of the planes through a camera centre and the tangent as seen by that
   /// camera.
   Eigen::Vector3d left_normal = Eigen::Vector3d::UnitY(), right_normal = Eigen::Vector3d::UnitY();

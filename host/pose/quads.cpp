@@ -1,7 +1,5 @@
 #include "pose/quads.hpp"
 
-#include <cmath>
-
 #include "common/row_blocks.hpp"
 
 namespace quadedge::pose {
@@ -69,12 +67,12 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
   scoring.tangent_z[i] = static_cast<float>(tangent.z());
   scoring.left_x[i] = static_cast<float>(current_edge.left.x());
   scoring.left_y[i] = static_cast<float>(current_edge.left.y());
-  scoring.left_cos[i] = static_cast<float>(std::cos(current_edge.left_direction));
-  scoring.left_sin[i] = static_cast<float>(std::sin(current_edge.left_direction));
+  scoring.left_cos[i] = after.left_edge.x();
+  scoring.left_sin[i] = after.left_edge.y();
   scoring.right_x[i] = static_cast<float>(current_edge.right.x());
   scoring.right_y[i] = static_cast<float>(current_edge.right.y());
-  scoring.right_cos[i] = static_cast<float>(std::cos(current_edge.right_direction));
-  scoring.right_sin[i] = static_cast<float>(std::sin(current_edge.right_direction));
+  scoring.right_cos[i] = after.right_edge.x();
+  scoring.right_sin[i] = after.right_edge.y();
   ncc[i] = ncc_value;
   competing_clusters[i] = competing;
   match[i] = match_number;

@@ -46,7 +46,7 @@ class Search {
     }
     work_.preview_terms.clear();
     for (std::int32_t row : preview_rows)
-      work_.preview_terms.push_back(make_sample_term(quads, static_cast<std::size_t>(row), noise_));
+      work_.preview_terms.push_back(make_sample_term(quads, static_cast<std::size_t>(row), noise_, rig.left));
     const double diagonal = std::hypot(rig.left.width, rig.left.height);
     min_distance_squared_ = std::pow(config.min_pair_distance * diagonal, 2);
   }
@@ -89,10 +89,10 @@ class Search {
     }
     auto motion = solve_two_quads(before, after, limits_.max_cosine);
     if (!motion || config_.local_optimisation_rounds == 0) return motion;
-    work_.pair_terms[0] = make_sample_term(quads_, a, noise_);
-    work_.pair_terms[1] = make_sample_term(quads_, b, noise_);
+    work_.pair_terms[0] = make_sample_term(quads_, a, noise_, rig_.left);
+    work_.pair_terms[1] = make_sample_term(quads_, b, noise_, rig_.left);
     Eigen::Isometry3d fitted = *motion;
-    return fit_sample(work_.pair_terms, pair_rows_, rig_, config_, fitted, work_.fit) ? fitted : *motion;
+    return fit_sample(work_.pair_terms, pair_rows_, config_, fitted, work_.fit) ? fitted : *motion;
   }
 
   void consider(const Eigen::Isometry3d& motion) {
@@ -114,7 +114,7 @@ class Search {
       const double distance = config_.inlier_distance * std::pow(config_.local_optimisation_widening, 1.0 - progress);
       select_inliers(work_.preview, LaterCameras(rig_, motion), distance, config_.inlier_orientation_rad(), work_.mask);
       mask_to_rows(work_.mask, work_.inlier_rows);
-      if (!fit_sample(work_.preview_terms, work_.inlier_rows, rig_, config_, motion, work_.fit)) return std::nullopt;
+      if (!fit_sample(work_.preview_terms, work_.inlier_rows, config_, motion, work_.fit)) return std::nullopt;
     }
     return motion;
   }

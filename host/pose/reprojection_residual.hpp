@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <iterator>
 
 #include "pose/noise_model.hpp"
 #include "pose/plain_vector.hpp"
@@ -33,6 +34,33 @@ struct ReprojectionTerm {
   double current_inverse_depth;  ///< as measured [1/m]
   double current_inverse_depth_weight;  ///< 1 / its standard deviation [m]
 };
+
+/// All members of a term, for columns of terms.
+inline constexpr double ReprojectionTerm::*kTermMembers[] = {&ReprojectionTerm::ray_x,
+                                                             &ReprojectionTerm::ray_y,
+                                                             &ReprojectionTerm::inverse_depth,
+                                                             &ReprojectionTerm::inverse_depth_sigma,
+                                                             &ReprojectionTerm::inverse_depth_per_pixel,
+                                                             &ReprojectionTerm::current_inverse_depth_per_pixel,
+                                                             &ReprojectionTerm::current_x,
+                                                             &ReprojectionTerm::current_y,
+                                                             &ReprojectionTerm::scale_drift_x,
+                                                             &ReprojectionTerm::scale_drift_y,
+                                                             &ReprojectionTerm::across_x,
+                                                             &ReprojectionTerm::across_y,
+                                                             &ReprojectionTerm::along_x,
+                                                             &ReprojectionTerm::along_y,
+                                                             &ReprojectionTerm::current_inverse_depth,
+                                                             &ReprojectionTerm::current_inverse_depth_weight};
+static_assert(sizeof(ReprojectionTerm) == std::size(kTermMembers) * sizeof(double));
+
+/// The term whose members are row `row` of `columns`, one column per member.
+template <class Columns>
+[[gnu::always_inline]] inline ReprojectionTerm term_at(const Columns& columns, std::size_t row) {
+  ReprojectionTerm term;
+  for (std::size_t k = 0; k < std::size(kTermMembers); ++k) term.*kTermMembers[k] = columns[k][row];
+  return term;
+}
 
 /// \param quad its row in `quads` \param scale see NoiseModel::along_in_time()
 ReprojectionTerm make_reprojection_term(const QuadObservations& quads, std::size_t quad, const NoiseModel& noise,
@@ -113,18 +141,5 @@ struct ReprojectionResidual {
   result.by_offset.inverse_depth -= weight * term.current_inverse_depth_per_pixel;
   return result;
 }
-
-/// Residuals of a quad at a pose, with the full Jacobian.
-struct ReprojectionJacobian {
-  Eigen::Vector3d value;                ///< across, along, inverse depth; in standard deviations
-  Eigen::Matrix<double, 3, 6> by_pose;  ///< with respect to (rotation [rad], translation [m]) of a left perturbation
-  Eigen::Vector3d by_depth, by_offset;  ///< see ReprojectionResidual
-};
-
-/// \param term per pixel \param current_from_previous left cameras, metres \param depth the depth unknown of the quad,
-/// in standard deviations of the previous inverse depth
-/// \returns false for a point that is not in front of the current left camera
-bool reprojection_jacobian(const ReprojectionTerm& term, const PinholeCamera& left,
-                           const Eigen::Isometry3d& current_from_previous, double depth, ReprojectionJacobian& result);
 
 }  // namespace quadedge::pose

@@ -1,33 +1,11 @@
 #include "pose/reprojection_terms.hpp"
 
-#include <iterator>
-#include <utility>
-
 #include "common/row_blocks.hpp"
 #include "common/vector_clones.hpp"
 
 namespace quadedge::pose {
 
 namespace {
-
-/// The member of a term that each column holds.
-constexpr double ReprojectionTerm::*kMembers[] = {&ReprojectionTerm::ray_x,
-                                                  &ReprojectionTerm::ray_y,
-                                                  &ReprojectionTerm::inverse_depth,
-                                                  &ReprojectionTerm::inverse_depth_sigma,
-                                                  &ReprojectionTerm::inverse_depth_per_pixel,
-                                                  &ReprojectionTerm::current_inverse_depth_per_pixel,
-                                                  &ReprojectionTerm::current_x,
-                                                  &ReprojectionTerm::current_y,
-                                                  &ReprojectionTerm::scale_drift_x,
-                                                  &ReprojectionTerm::scale_drift_y,
-                                                  &ReprojectionTerm::across_x,
-                                                  &ReprojectionTerm::across_y,
-                                                  &ReprojectionTerm::along_x,
-                                                  &ReprojectionTerm::along_y,
-                                                  &ReprojectionTerm::current_inverse_depth,
-                                                  &ReprojectionTerm::current_inverse_depth_weight};
-static_assert(std::size(kMembers) == ReprojectionTerms::kColumns);
 
 struct Columns {
   explicit Columns(const ReprojectionTerms& terms) {
@@ -36,21 +14,12 @@ struct Columns {
   const double* values[ReprojectionTerms::kColumns];
 };
 
-template <std::size_t... Column>
-[[gnu::always_inline]] inline ReprojectionTerm term_at(const Columns& columns, std::size_t row,
-                                                       std::index_sequence<Column...>) {
-  ReprojectionTerm term;
-  ((term.*kMembers[Column] = columns.values[Column][row]), ...);
-  return term;
-}
-
 /// Processes kLanes quads from row `first` on; the compiler vectorises the loop.
 template <std::size_t Values>
 [[gnu::always_inline]] inline void evaluate_lanes(const Columns& columns, const double* depth, std::size_t first,
                                                   const Evaluation& at, Contributions<Values, kLanes>& lanes) {
   for (std::size_t lane = 0; lane < kLanes; ++lane)
-    contribute(term_at(columns, first + lane, std::make_index_sequence<ReprojectionTerms::kColumns>()), depth[lane], at,
-               lane, lanes);
+    contribute(term_at(columns.values, first + lane), depth[lane], at, lane, lanes);
 }
 
 template <std::size_t Values>
@@ -130,7 +99,7 @@ void ReprojectionTerms::assign(const QuadObservations& quads, const std::vector<
       }
       const ReprojectionTerm term =
           per_ray_unit(make_reprojection_term(quads, static_cast<std::size_t>(rows[k]), noise, scale), left);
-      for (std::size_t which = 0; which < kColumns; ++which) columns_[which][k] = term.*kMembers[which];
+      for (std::size_t which = 0; which < kColumns; ++which) columns_[which][k] = term.*kTermMembers[which];
     }
   });
 }

@@ -20,7 +20,7 @@ constexpr std::size_t kLanes = 8;
 /// Many ReprojectionTerms as a structure of arrays, one row per quad, with the depth unknown of each quad.
 class ReprojectionTerms {
  public:
-  static constexpr std::size_t kColumns = 16;  ///< one per member of ReprojectionTerm
+  static constexpr std::size_t kColumns = std::size(kTermMembers);
 
   /// Sets the terms of the quads `rows`, per_ray_unit(), and resets their depth unknowns to zero.
   /// \param scale see NoiseModel::along_in_time()
