@@ -29,7 +29,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void candidate_filters
   const int begin = first[row], end = min(first[row + 1], args.capacity);
   global const char* patch = patches_a + kEdgePatchBytes * (size_t)patch_of_a[edge];
   global const uchar* descriptor = sift_a + kEdgeSiftBytes * (size_t)edge;
-  const char16 mine = block < kPatchSide ? patch_row(patch, block) : (char16)0;
+  const char16 mine = block < kPatchRows ? patch_row(patch, block) : (char16)0;
   const float2 inverse_a = patch_norms(patch);
   const int with_sift = args.all_scores || limits.sift_max > 0.0f;
   float best_ncc = 0.0f;
@@ -41,7 +41,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void candidate_filters
     barrier(CLK_LOCAL_MEM_FENCE);
     if (block == 0 && c < end) {
       const float2 inverse_b = patch_norms(other);
-      const float4 scores = convert_float4(sum_of_items(products + item, kPatchSide)) * inverse_a.xyxy * inverse_b.xyyx;
+      const float4 scores = convert_float4(sum_of_items(products + item, kPatchRows)) * inverse_a.xyxy * inverse_b.xyyx;
       const float similarity = max(max(scores.x, scores.y), max(scores.z, scores.w));
       float distance = 0.0f;
       if (args.all_scores || (!(similarity < limits.ncc_min) && with_sift)) {

@@ -1,6 +1,6 @@
 // described_edges.cl: parts of the side patches (patches.cl) and SIFT descriptors (sift.cl) of an edge. Functions only.
 //
-// An edge's patches begin at a multiple of 128 bytes and its descriptors at one of 256. The vector types say so, and
+// An edge's patches begin at a multiple of 16 bytes and its descriptors at one of 256. The vector types say so, and
 // compilers read each part in one load; vload16 promises the alignment of a single byte only.
 
 static inline char16 patch_row(global const char* patch, const int row) { return ((global const char16*)patch)[row]; }

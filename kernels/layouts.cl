@@ -12,17 +12,20 @@
 #define FLOAT_CONSTANT constant float
 #endif
 
-// Side patches of an edge (patches.cl): seven rows of 16 bytes, 8 of the dark and 8 of the bright patch, the last of
-// each zero; then 1 / norm of both patches as floats.
+// Side patches of an edge (patches.cl): rows of 16 bytes, 8 of the dark and 8 of the bright patch, the last of each
+// zero; then 1 / norm of both patches as floats, and zeros up to 16 bytes. Rows lie along the edge, where the image
+// changes less than across it: five of them, kPatchRowStep apart, show as much of a curve as seven would 1 px apart.
 enum {
-  kPatchSide = 7,                                // samples along each axis
-  kPatchSamples = kPatchSide * kPatchSide,       // of one patch
+  kPatchSide = 7,                                // samples across the edge, 1 px apart
+  kPatchRows = 5,                                // rows along it
+  kPatchSamples = kPatchSide * kPatchRows,       // of one patch
   kPatchLanes = kPatchSide + 1,                  // bytes of one row of a patch; work-items that share a patch
-  kEdgePatchBytes = 128,                         // both patches of an edge
-  kInverseNorms = 2 * kPatchLanes * kPatchSide,  // where they begin
+  kInverseNorms = 2 * kPatchLanes * kPatchRows,  // where they begin
+  kEdgePatchBytes = kInverseNorms + 16,          // both patches of an edge
   kPatchItems = 2 * kPatchLanes,                 // work-items that share an edge
   kPatchLargest = 127                            // magnitude of the largest sample
 };
+FLOAT_CONSTANT kPatchRowStep = 1.5f;        // px
 FLOAT_CONSTANT kFlatPatchContrast = 1e-5f;  // grey levels: a patch that stays as close to its mean is flat
 
 // SIFT descriptors of an edge (sift.cl): dark side, then bright side; bytes [cell across][cell along][angle].

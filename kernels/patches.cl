@@ -1,8 +1,8 @@
-// patches.cl: two side patches of 7 x 7 samples per edge, mean-free, in 8 bits with their norms (doc/method.md section
+// patches.cl: two side patches of 7 x 5 samples per edge, mean-free, in 8 bits with their norms (doc/method.md section
 // 2).
 //
-// In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]). Out: 128 bytes per edge, laid out as
-// in host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
+// In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]). Out: kEdgePatchBytes per edge, laid
+// out as in host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
 //   without GROUP: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   with GROUP: kPatchItems work-items per edge, eight per side, one per lane; groups of GROUP work-items, local memory
 //   EXCHANGE_FLOATS floats.
@@ -56,14 +56,14 @@ kernel void side_patches(const PatchArguments args, global const uint* corners, 
   const float sine = sine_cosine(directions[edge], &cosine);
   global char* patch = patches + (size_t)edge * kEdgePatchBytes;
   const float x = xs[edge], y = ys[edge];
-  float16 rows[kPatchSide];
+  float16 rows[kPatchRows];
   cut_two_patches(corners, width, height, patch_frame(x, y, cosine, sine, 1.0f, offset),
                   patch_frame(x, y, cosine, sine, -1.0f, offset), rows);
   float16 largest = 0.0f, squares = 0.0f;
-  for (int i = 0; i < kPatchSide; ++i) largest = max(largest, fabs(rows[i]));
+  for (int i = 0; i < kPatchRows; ++i) largest = max(largest, fabs(rows[i]));
   const float2 scales = scale_of(largest_lanes(both_used(largest)));
   const float16 scale = (float16)((float8)(scales.x), (float8)(scales.y));
-  for (int i = 0; i < kPatchSide; ++i) {
+  for (int i = 0; i < kPatchRows; ++i) {
     const float16 row = both_used((rows[i] * scale + NO_FRACTION) - NO_FRACTION);
     squares += row * row;
     ((global char16*)patch)[i] = convert_char16(row);
@@ -98,20 +98,20 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(cons
       min(wanted, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
-  float rows[kPatchSide];
+  float rows[kPatchRows];
   cut_column(corners, width, height, patch_frame(xs[edge], ys[edge], cosine, sine, side == 0 ? 1.0f : -1.0f, offset), 1,
              &exchange, rows);
   float largest = 0.0f, squares = 0.0f;
-  for (int i = 0; i < kPatchSide; ++i) largest = max(largest, fabs(rows[i]));
+  for (int i = 0; i < kPatchRows; ++i) largest = max(largest, fabs(rows[i]));
   const float scale = scale_of(largest_used(patch_lanes(&exchange, largest)));
-  for (int i = 0; i < kPatchSide; ++i) {
+  for (int i = 0; i < kPatchRows; ++i) {
     rows[i] = (rows[i] * scale + NO_FRACTION) - NO_FRACTION;
     squares += rows[i] * rows[i];
   }
   const float inverse = inverse_norm(sum_lanes(&exchange, squares));
   if (wanted >= count) return;
   global char* patch = patches + (size_t)edge * kEdgePatchBytes;
-  for (int i = 0; i < kPatchSide; ++i) patch[16 * i + 8 * side + lane] = lane < kPatchSide ? (char)rows[i] : (char)0;
+  for (int i = 0; i < kPatchRows; ++i) patch[16 * i + 8 * side + lane] = lane < kPatchSide ? (char)rows[i] : (char)0;
   if (lane < 2) ((global float*)(patch + kInverseNorms))[2 * lane + side] = lane == 0 ? inverse : 0.0f;
 }
 

@@ -1,7 +1,8 @@
 // photometric.cl: patches on and beside an edge, and their photometric alignment. Functions only.
 // Needs direction.cl. Images come as the corners of pixel_corners.cl.
 //
-// A patch is seven float8 rows: row i lies i - 3 px along the tangent, lane j is j - 3 px across it to the bright side.
+// A patch is kPatchRows float8 rows: row i lies i - 2 steps along the tangent, lane j is j - 3 px across it to the
+// bright side.
 // The eighth lane repeats a sample; it is finite but unused, and sums exclude it.
 // Reference: host/reference/photometric.cpp.
 
@@ -76,8 +77,8 @@ static inline void cut_patch(global const uint* corners, const int width, const 
   const int inside = lies_inside(base_x, base_y, width, height);
   float8 sum = 0.0f;
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) {
-    const float along = (float)(i - kPatchSide / 2);
+  for (int i = 0; i < kPatchRows; ++i) {
+    const float along = kPatchRowStep * (float)(i - kPatchRows / 2);
     float8 u = middle_x + along * frame.cosine, v = middle_y + along * frame.sine;
     if (!inside) {
       u = clamp(u, low_x, high_x);
@@ -91,15 +92,15 @@ static inline void cut_patch(global const uint* corners, const int width, const 
     rows[i] = top + fy * (bottom - top);
   }
   // Subtracting the middle sample first makes a constant patch exactly zero.
-  const float middle = rows[kPatchSide / 2].s3;
+  const float middle = rows[kPatchRows / 2].s3;
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) {
+  for (int i = 0; i < kPatchRows; ++i) {
     rows[i] -= middle;
     sum += rows[i];
   }
   const float mean = sum_used(sum) * (1.0f / kPatchSamples);
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) rows[i] -= mean;
+  for (int i = 0; i < kPatchRows; ++i) rows[i] -= mean;
 }
 
 // Two patches of one direction at once, as the halves of float16 rows; each the same bits as from cut_patch().
@@ -118,8 +119,8 @@ static inline void cut_two_patches(global const uint* corners, const int width, 
   const int inside = lies_inside(low_x, low_y, width, height) && lies_inside(high_x, high_y, width, height);
   const int16 stride = width, origin = (int16)((int8)(low_y * width + low_x), (int8)(high_y * width + high_x));
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) {
-    const float along = (float)(i - kPatchSide / 2);
+  for (int i = 0; i < kPatchRows; ++i) {
+    const float along = kPatchRowStep * (float)(i - kPatchRows / 2);
     float16 u = middle_x + along * low.cosine, v = middle_y + along * low.sine;
     if (!inside) {
       u = clamp(u, first_x, last_x);
@@ -132,17 +133,17 @@ static inline void cut_two_patches(global const uint* corners, const int width, 
     const float16 top = a + fx * (b - a), bottom = c + fx * (d - c);
     rows[i] = top + fy * (bottom - top);
   }
-  const float16 middle = (float16)((float8)(rows[kPatchSide / 2].s3), (float8)(rows[kPatchSide / 2].sb));
+  const float16 middle = (float16)((float8)(rows[kPatchRows / 2].s3), (float8)(rows[kPatchRows / 2].sb));
   float16 sum = 0.0f;
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) {
+  for (int i = 0; i < kPatchRows; ++i) {
     rows[i] -= middle;
     sum += rows[i];
   }
   const float16 mean = (float16)((float8)(sum_used(sum.lo) * (1.0f / kPatchSamples)),
                                  (float8)(sum_used(sum.hi) * (1.0f / kPatchSamples)));
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) rows[i] -= mean;
+  for (int i = 0; i < kPatchRows; ++i) rows[i] -= mean;
 }
 
 // Mean-free derivative of a patch along the unit vector (ex, ey), grey levels per px: central difference over 1 px.
@@ -153,10 +154,10 @@ static inline void patch_derivative(global const uint* corners, const int width,
   ahead.y += 0.5f * ey;
   behind.x -= 0.5f * ex;
   behind.y -= 0.5f * ey;
-  float16 both[kPatchSide];
+  float16 both[kPatchRows];
   cut_two_patches(corners, width, height, ahead, behind, both);
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) rows[i] = both[i].lo - both[i].hi;
+  for (int i = 0; i < kPatchRows; ++i) rows[i] = both[i].lo - both[i].hi;
 }
 
 static inline float8 huber_weight(const float8 residual, const float limit) {
@@ -167,7 +168,7 @@ static inline float8 huber_weight(const float8 residual, const float limit) {
 static inline float patch_norm(const float8* rows) {
   float8 squares = 0.0f;
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) squares += rows[i] * rows[i];
+  for (int i = 0; i < kPatchRows; ++i) squares += rows[i] * rows[i];
   return sqrt(sum_used(squares));
 }
 
@@ -175,7 +176,7 @@ static inline float patch_norm(const float8* rows) {
 static inline float rows_ncc(const float8* a, const float norm_a, const float8* b) {
   float8 product = 0.0f;
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) product += a[i] * b[i];
+  for (int i = 0; i < kPatchRows; ++i) product += a[i] * b[i];
   const float norms = norm_a * patch_norm(b);
   return norms < 1e-10f ? 0.0f : sum_used(product) / norms;
 }
@@ -199,7 +200,7 @@ static inline int align_edge(global const uint* corners, const int width, const 
     const float gain = clamp(fixed_norm / fmax(patch_norm(values), 1e-3f), 1.0f / kGainMax, kGainMax);
     float8 curvatures = 0.0f, slopes = 0.0f;
 #pragma unroll
-    for (int i = 0; i < kPatchSide; ++i) {
+    for (int i = 0; i < kPatchRows; ++i) {
       const float8 residual = fixed[i] - gain * values[i];
       const float8 weighted = huber_weight(residual, settings.huber) * derivative[i];
       curvatures += weighted * derivative[i];

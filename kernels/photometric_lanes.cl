@@ -1,4 +1,4 @@
-// photometric_lanes.cl: photometric.cl with one work-item per lane of a patch, which holds the seven samples of its
+// photometric_lanes.cl: photometric.cl with one work-item per lane of a patch, which holds the samples of its
 // column.
 // Functions only. Needs photometric.cl; all results have the same bits as there.
 //
@@ -74,8 +74,8 @@ static inline void cut_column(global const uint* corners, const int width, const
     const float low_y = (float)-base_y, high_y = (float)(height - 1 - base_y);
     const int origin = base_y * width + base_x;
 #pragma unroll
-    for (int i = 0; i < kPatchSide; ++i) {
-      const float along = (float)(i - kPatchSide / 2);
+    for (int i = 0; i < kPatchRows; ++i) {
+      const float along = kPatchRowStep * (float)(i - kPatchRows / 2);
       const float u = clamp(middle_x + along * frame.cosine, low_x, high_x);
       const float v = clamp(middle_y + along * frame.sine, low_y, high_y);
       const int u0 = (int)u, v0 = (int)v;
@@ -88,11 +88,11 @@ static inline void cut_column(global const uint* corners, const int width, const
     }
   }
   const float middle =
-      tell(exchange, wanted ? column[kPatchSide / 2] : 0.0f, 0.0f)[kPatchLanes * patch_in_group() + kPatchSide / 2];
+      tell(exchange, wanted ? column[kPatchRows / 2] : 0.0f, 0.0f)[kPatchLanes * patch_in_group() + kPatchSide / 2];
   float sum = 0.0f;
   if (wanted) {
 #pragma unroll
-    for (int i = 0; i < kPatchSide; ++i) {
+    for (int i = 0; i < kPatchRows; ++i) {
       column[i] -= middle;
       sum += column[i];
     }
@@ -100,7 +100,7 @@ static inline void cut_column(global const uint* corners, const int width, const
   const float mean = sum_lanes(exchange, sum) * (1.0f / kPatchSamples);
   if (wanted) {
 #pragma unroll
-    for (int i = 0; i < kPatchSide; ++i) column[i] -= mean;
+    for (int i = 0; i < kPatchRows; ++i) column[i] -= mean;
   }
 }
 
@@ -108,7 +108,7 @@ static inline void cut_column(global const uint* corners, const int width, const
 static inline float column_product(const float* a, const float* b) {
   float sum = 0.0f;
 #pragma unroll
-  for (int i = 0; i < kPatchSide; ++i) sum += a[i] * b[i];
+  for (int i = 0; i < kPatchRows; ++i) sum += a[i] * b[i];
   return sum;
 }
 
@@ -130,7 +130,7 @@ static inline int align_columns(global const uint* corners, const int width, con
     const float gain = clamp(fixed_norm / fmax(norm, 1e-3f), 1.0f / kGainMax, kGainMax);
     float curvatures = 0.0f, slopes = 0.0f;
 #pragma unroll
-    for (int i = 0; i < kPatchSide; ++i) {
+    for (int i = 0; i < kPatchRows; ++i) {
       const float residual = fixed[GROUP * i] - gain * values[i];
       const float slope = derivative[GROUP * i];
       const float weighted = settings.huber / max(fabs(residual), settings.huber) * slope;

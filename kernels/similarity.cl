@@ -1,21 +1,23 @@
 // similarity.cl: similarity of two edges (doc/method.md section 2). Functions only; needs described_edges.cl. List this
 // file before the filters that use it.
 //
-// The layouts are those of patches.cl (128 bytes per edge) and sift.cl (256 bytes per edge).
+// The layouts are those of patches.cl and sift.cl.
 // Reference: patch_ncc() in host/reference/patches.cpp and sift_distance2() in host/reference/sift.cpp, bit by bit.
 
 // The four products of side patches: dark-dark, bright-bright, dark-bright, bright-dark.
 static inline float4 patch_scores(global const char* a, global const char* b) {
   // A product of two samples fits 16 bits, and so does the sum of two, at most 2 * 127^2.
-  short16 of_a[7], of_b[7];
+  short16 of_a[kPatchRows], of_b[kPatchRows];
 #pragma unroll
-  for (int row = 0; row < 7; ++row) {
+  for (int row = 0; row < kPatchRows; ++row) {
     of_a[row] = convert_short16(patch_row(a, row));
     of_b[row] = convert_short16(patch_row(b, row));
   }
-  int16 alike = convert_int16(of_a[6] * of_b[6]), crossed = convert_int16(of_a[6] * of_b[6].s89abcdef01234567);
+  const int last = kPatchRows - 1;  // an even number of rows before it
+  int16 alike = convert_int16(of_a[last] * of_b[last]),
+        crossed = convert_int16(of_a[last] * of_b[last].s89abcdef01234567);
 #pragma unroll
-  for (int row = 0; row < 6; row += 2) {
+  for (int row = 0; row < last; row += 2) {
     alike += convert_int16(of_a[row] * of_b[row] + of_a[row + 1] * of_b[row + 1]);
     crossed += convert_int16(of_a[row] * of_b[row].s89abcdef01234567 + of_a[row + 1] * of_b[row + 1].s89abcdef01234567);
   }

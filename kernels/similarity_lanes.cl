@@ -1,7 +1,7 @@
 // similarity_lanes.cl: similarity.cl with eight work-items per pair of edges, each with a part of their bytes.
 // Functions only; needs described_edges.cl. All sums are integers, so their order does not matter.
 
-#define PAIR_ITEMS 8  // one per row of 16 bytes of the patches, and an idle one
+#define PAIR_ITEMS 8  // one per row of 16 bytes of the patches and per block of the descriptors; some idle
 
 // The products of a row of side patches, 16 bytes each: dark-dark, bright-bright, dark-bright, bright-dark.
 static inline int4 row_products(const char16 of_a, const char16 of_b) {

@@ -12,14 +12,21 @@
 // include/quadedge/edges.hpp).
 #define CELL_SLACK 0.5f
 
-// First index in [begin, end) whose x may reach `x`: positions within a row are ordered up to twice the slack.
+// Candidates tested together, of which some may be too far to the left.
+#ifdef LANES
+#define AT_ONCE LANES
+#else
+#define AT_ONCE 1
+#endif
+
+// An index in [begin, end) before which no x reaches `x`: positions within a row are ordered up to twice the slack;
+// fewer than AT_ONCE edges follow it that do not reach `x` either; they are tested with the others.
 static inline int lower_bound_x(global const float* xs, int begin, int end, const float x) {
-  while (begin < end) {
+  while (end - begin >= AT_ONCE) {
     const int middle = (begin + end) / 2;
-    if (xs[middle] < x)
-      begin = middle + 1;
-    else
-      end = middle;
+    const int below = xs[middle] < x;
+    begin = below ? middle + 1 : begin;
+    end = below ? end : middle;
   }
   return begin;
 }

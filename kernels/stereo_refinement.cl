@@ -11,9 +11,9 @@
 // The higher NCC of the two side patches of a left edge and those cut at two positions of the right image.
 static inline float better_side(global const uint* corners, const int width, const int height, const PatchFrame dark,
                                 const PatchFrame bright, global const char* side_patches) {
-  float16 rows[kPatchSide], squares = 0.0f, products = 0.0f;
+  float16 rows[kPatchRows], squares = 0.0f, products = 0.0f;
   cut_two_patches(corners, width, height, dark, bright, rows);
-  for (int k = 0; k < kPatchSide; ++k) {
+  for (int k = 0; k < kPatchRows; ++k) {
     squares += rows[k] * rows[k];
     products += rows[k] * convert_float16(((global const char16*)side_patches)[k]);
   }
@@ -38,7 +38,7 @@ kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, g
   const EpipolarLine line = edge.line;
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
   const PatchFrame frame = patch_frame(edge.x, edge.y, edge.cosine, edge.sine, 0.0f, 0.0f);
-  float8 fixed[kPatchSide], derivative[kPatchSide], values[kPatchSide];
+  float8 fixed[kPatchRows], derivative[kPatchRows], values[kPatchRows];
   float fixed_norm = 0.0f;
   int ready = 0;
   for (int c = begin; c < end; ++c) {

@@ -4,7 +4,7 @@
 // there, and the same bits: a work-item is one lane across the edge and holds its column of every patch, sums over
 // lanes go through local memory.
 // Groups of GROUP work-items refine one candidate of each of their edges at a time; the first lane of an edge keeps its
-// row of candidates. Local memory: EXCHANGE_FLOATS + 2 kPatchSide GROUP floats.
+// row of candidates. Local memory: EXCHANGE_FLOATS + 2 kPatchRows GROUP floats.
 // Reference: host/reference/stereo_refinement.cpp.
 
 // LONG: a row from shift to similarity; the left edge's patches stay in local memory.
@@ -16,7 +16,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   local float memory[EXCHANGE_FLOATS];
   Exchange exchange = {memory, 0};
   // Values that all candidates of an edge use, one column per work-item; in local memory, to save registers.
-  local float fixed_columns[kPatchSide * GROUP], derivative_columns[kPatchSide * GROUP];
+  local float fixed_columns[kPatchRows * GROUP], derivative_columns[kPatchRows * GROUP];
   local float* fixed = fixed_columns + get_local_id(0);
   local float* derivative = derivative_columns + get_local_id(0);
   const int lane = lane_of_item(), first_item = kPatchLanes * patch_in_group();
@@ -47,7 +47,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   const int has_candidates = tell(&exchange, alive ? 1.0f : 0.0f, 0.0f)[first_item] != 0.0f;
 
   // The left edge's patch and its derivative, the difference of two patches.
-  float values[kPatchSide] = {0.0f}, fixed_norm = 0.0f;
+  float values[kPatchRows] = {0.0f}, fixed_norm = 0.0f;
 #pragma unroll 1  // one copy of cut_column(): registers
   for (int part = 0; part < 3; ++part) {
     const float ahead = part == 0 ? 0.0f : part == 1 ? 0.5f : -0.5f;
@@ -58,7 +58,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
     fixed_norm = part == 0 ? norm : fixed_norm;
     local float* column = part == 0 ? fixed : derivative;
 #pragma unroll
-    for (int k = 0; k < kPatchSide; ++k) column[GROUP * k] = part < 2 ? values[k] : column[GROUP * k] - values[k];
+    for (int k = 0; k < kPatchRows; ++k) column[GROUP * k] = part < 2 ? values[k] : column[GROUP * k] - values[k];
   }
   for (int c = begin;; ++c) {
     if (keeper) {
@@ -87,9 +87,9 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
       cut_column(right_corners, args.right_width, args.right_height,
                  patch_frame(right_x_now, right_y_now, edge.cosine, edge.sine, side, args.patch_offset), alike,
                  &exchange, values);
-      float own[kPatchSide];
+      float own[kPatchRows];
 #pragma unroll
-      for (int k = 0; k < kPatchSide; ++k)
+      for (int k = 0; k < kPatchRows; ++k)
         own[k] = place == 0 ? fixed[GROUP * k] : (float)side_patches[16 * k + (place == 1 ? 0 : kPatchLanes) + lane];
       const float2 sums = sum_two_lanes(&exchange, column_product(values, values), column_product(own, values));
       const float norm = sqrt(sums.x);

@@ -124,7 +124,7 @@ static inline int find_near(const float radius, const float orientation, RowSide
 static inline void compare_patches(const RowSide* side, const int count, local Candidates* found,
                                    local int4* products) {
   const int item = (int)get_local_id(0), row = item % PAIR_ITEMS;
-  const char16 mine = row < kPatchSide ? patch_row(side->patch, row) : (char16)0;
+  const char16 mine = row < kPatchRows ? patch_row(side->patch, row) : (char16)0;
   const float2 inverse_a = patch_norms(side->patch);
   for (int first = 0; first < count; first += PAIRS) {
     const int c = first + item / PAIR_ITEMS;
@@ -133,7 +133,7 @@ static inline void compare_patches(const RowSide* side, const int count, local C
     barrier(CLK_LOCAL_MEM_FENCE);
     if (row == 0 && c < count) {
       const float2 inverse_b = patch_norms(other);
-      const float4 scores = convert_float4(sum_of_items(products + item, kPatchSide)) * inverse_a.xyxy * inverse_b.xyyx;
+      const float4 scores = convert_float4(sum_of_items(products + item, kPatchRows)) * inverse_a.xyxy * inverse_b.xyyx;
       found->ncc[c] = max(max(scores.x, scores.y), max(scores.z, scores.w));
     }
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -166,8 +166,8 @@ inline Image image_of(int width, int height, const std::function<double(double, 
   return image;
 }
 
-/// Errors of photometric alignments on smooth_grey [px]. Rounding to 8 bits (0.29 grey levels in either image, 49
-/// samples, slopes of about 8 grey levels per px, less in flat spots) alone causes 0.41 / (7 x 8) = 0.007 px.
+/// Errors of photometric alignments on smooth_grey [px]. Rounding to 8 bits (0.29 grey levels in either image, 35
+/// samples, slopes of about 8 grey levels per px, less in flat spots) alone causes 0.41 / (5.9 x 8) = 0.009 px.
 inline void check_subpixel(const std::vector<double>& errors) {
   double sum = 0, squares = 0, largest = 0;
   std::size_t within = 0;

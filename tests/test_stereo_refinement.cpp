@@ -130,7 +130,7 @@ void check_disparity(const RefinementScene& scene) {
     const auto frame =
         reference::patch_frame(scene.left.x[c], scene.left.y[c], std::cos(direction), std::sin(direction), 0, 0);
     const auto slopes = reference::patch_derivative(scene.left_image.view(), frame, 1, 0);
-    if (std::sqrt(std::inner_product(slopes.begin(), slopes.end(), slopes.begin(), 0.0) / 49) < 4) continue;
+    if (std::sqrt(std::inner_product(slopes.begin(), slopes.end(), slopes.begin(), 0.0) / kPatchSamples) < 4) continue;
     CHECK(result.state[c] == kCandidateAlive);
     CHECK(similarity[c] > 0.99);
     errors.push_back(positions[c] - RefinementScene::kDisparity);

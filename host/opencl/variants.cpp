@@ -62,7 +62,7 @@ const std::vector<Variant>& all_variants() {
       {"stereo_refinement", "lanes64", {"direction.cl", "epipolar.cl", "photometric.cl", "photometric_lanes.cl",
         "candidate_positions.cl", "stereo_refinement_lanes.cl"},
        Form::groups, {{"GROUP", "64"}}, 64, false, true,
-       "eight work-items per left edge, its patches in local memory, groups of 64", 4608},
+       "eight work-items per left edge, its patches in local memory, groups of 64", 3584},
       {"stereo_clusters", "group64", {"direction.cl", "stereo_clusters.cl"}, Form::items, {}, 64, true, true,
        "one work-item per left edge, groups of 64"},
       {"stereo_clusters", "group16", {"direction.cl", "stereo_clusters.cl"}, Form::items, {}, 16, false, false,

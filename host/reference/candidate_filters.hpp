@@ -10,7 +10,8 @@
 
 namespace quadedge::reference {
 
-/// Patches (128 bytes per edge, reference/patches.hpp) and SIFT descriptors (256 bytes per edge, reference/sift.hpp).
+/// Patches (kEdgePatchBytes per edge, reference/patches.hpp) and SIFT descriptors (256 bytes per edge,
+/// reference/sift.hpp).
 struct EdgeDescriptions {
   std::vector<std::int8_t> patches;
   std::vector<std::uint8_t> sift;

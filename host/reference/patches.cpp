@@ -19,16 +19,15 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (bottom - top);
 }
 
-/// Position of sample k = 7 i + j.
+/// Position of sample k = kPatchSide i + j.
 int position(int side, int k) { return kPatchLanes * (2 * (k / kPatchSide) + side) + k % kPatchSide; }
 
 /// One mean-free patch around (x, y) with its unit tangent (c, s).
 PatchValues sample_patch(const ImageView& image, double x, double y, double c, double s) {
-  constexpr int kHalf = kPatchSide / 2;
   PatchValues values;
-  for (int i = 0; i < kPatchSide; ++i) {
+  for (int i = 0; i < kPatchRows; ++i) {
     for (int j = 0; j < kPatchSide; ++j) {
-      const double along = i - kHalf, across = j - kHalf;
+      const double along = kPatchRowStep * static_cast<float>(i - kPatchRows / 2), across = j - kPatchSide / 2;
       values[i * kPatchSide + j] = bilinear(image, x + along * c - across * s, y + along * s + across * c);
     }
   }

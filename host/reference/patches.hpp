@@ -16,11 +16,11 @@ namespace quadedge::reference {
 /// 1 / norm of either patch, and eight zeros.
 ///
 /// Sample (i, j) of the dark patch is byte 16 i + j, of the bright one 16 i + 8 + j; j = 7 is zero. i steps along the
-/// tangent (cos t, sin t), j along the normal that points to the bright side (-sin t, cos t), both 1 px per step; the
-/// middle sample (3, 3) lies `config.offset` px from the edge, on the dark side at (x + offset sin t, y - offset cos t)
-/// and on the bright side opposite to it. Bilinear; coordinates outside the image are clamped to its border. Each patch
-/// is made mean-free and stored by store_side(). `xs`, `ys` in pixels and `directions` in radians have one entry per
-/// edge and must be finite.
+/// tangent (cos t, sin t), j along the normal that points to the bright side (-sin t, cos t), kPatchRowStep
+/// and 1 px per step; the middle sample (2, 3) lies `config.offset` px from the edge, on the dark side at (x + offset
+/// sin t, y - offset cos t) and on the bright side opposite to it. Bilinear; coordinates outside the image are clamped
+/// to its border. Each patch is made mean-free and stored by store_side(). `xs`, `ys` in pixels and `directions` in
+/// radians have one entry per edge and must be finite.
 std::vector<std::int8_t> side_patches(const ImageView& image, const std::vector<float>& xs,
                                       const std::vector<float>& ys, const std::vector<float>& directions,
                                       const PatchesConfig& config);

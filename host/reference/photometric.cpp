@@ -7,9 +7,16 @@
 #include "common/layouts.hpp"
 
 namespace quadedge::reference {
+namespace {
+
+constexpr double kRowStep = static_cast<double>(kPatchRowStep);
+
+}  // namespace
+
 PatchFrame patch_frame(double x, double y, double cosine, double sine, double side, double offset) {
-  return {x + side * offset * sine - 3 * cosine + 3 * sine, y - side * offset * cosine - 3 * sine - 3 * cosine, cosine,
-          sine};
+  constexpr double kAlong = kRowStep * (kPatchRows / 2), kAcross = kPatchSide / 2;  // from the centre to the sample
+  return {x + side * offset * sine - kAlong * cosine + kAcross * sine,
+          y - side * offset * cosine - kAlong * sine - kAcross * cosine, cosine, sine};
 }
 
 double grey_at(const ImageView& image, double x, double y) {
@@ -25,15 +32,16 @@ double grey_at(const ImageView& image, double x, double y) {
 PatchValues cut_patch(const ImageView& image, const PatchFrame& frame, double dx, double dy) {
   PatchValues values{};
   double sum = 0;
-  for (int i = 0; i < 7; ++i) {
-    for (int j = 0; j < 7; ++j) {
-      const double value = grey_at(image, frame.x + dx + i * frame.cosine - j * frame.sine,
-                                   frame.y + dy + i * frame.sine + j * frame.cosine);
-      values[static_cast<std::size_t>(7 * i + j)] = value;
+  for (int i = 0; i < kPatchRows; ++i) {
+    for (int j = 0; j < kPatchSide; ++j) {
+      const double along = kRowStep * i;
+      const double value = grey_at(image, frame.x + dx + along * frame.cosine - j * frame.sine,
+                                   frame.y + dy + along * frame.sine + j * frame.cosine);
+      values[static_cast<std::size_t>(kPatchSide * i + j)] = value;
       sum += value;
     }
   }
-  for (auto& value : values) value -= sum / 49;
+  for (auto& value : values) value -= sum / kPatchSamples;
   return values;
 }
 

@@ -4,14 +4,15 @@
 #include <array>
 #include <optional>
 
+#include "common/layouts.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::reference {
 
-using PatchValues = std::array<double, 49>;
+using PatchValues = std::array<double, kPatchSamples>;
 
-/// Where a 7 x 7 patch lies: its first sample, steps (cosine, sine) along the tangent and (-sine, cosine) to the bright
-/// side.
+/// Where a patch lies: its first sample, rows of 7 samples along (-sine, cosine) to the bright side, 1 px apart, and
+/// kPatchRowStep px along the tangent (cosine, sine) from row to row.
 struct PatchFrame {
   double x, y, cosine, sine;
 };
@@ -22,7 +23,7 @@ PatchFrame patch_frame(double x, double y, double cosine, double sine, double si
 /// Bilinear grey level, coordinates clamped to the border.
 double grey_at(const ImageView& image, double x, double y);
 
-/// Mean-free grey levels of a patch moved by (dx, dy); element 7 i + j.
+/// Mean-free grey levels of a patch moved by (dx, dy); element kPatchSide i + j.
 PatchValues cut_patch(const ImageView& image, const PatchFrame& frame, double dx, double dy);
 
 /// Mean-free derivative along the unit vector (ex, ey): central difference over 1 px [grey levels per px].
