@@ -6,7 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <sys/stat.h>
 
+#include "benchmark/variants_file.hpp"
+#include "calibration_files.hpp"
+#include "data/float_map.hpp"
 #include "devices.hpp"
 #include "frontends.hpp"
 #include "quadedge/calibration.hpp"
@@ -17,8 +21,10 @@
 #include "quadedge/match_stereo.hpp"
 #include "quadedge/odometry.hpp"
 #include "quadedge/trajectory.hpp"
+#include "temporary_folder.hpp"
 
 using namespace quadedge;
+using calibration_files::Rig;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -31,8 +37,16 @@ struct Caller {
   Config config = scene.config;
   StereoFrame frame = scene.frame(0);
   const Image small = Image(80, 60), deep = Image(160, 100, 65535);
+  TemporaryFolder folder;
 
   void track() { StereoOdometry(rig, device, config).track(frame); }
+  /// Reads a calibration of Kalibr's with a change.
+  void read_kalibr(const std::function<void(Rig&)>& change) const {
+    Rig changed;
+    change(changed);
+    dataset_files::write_text(folder / "camchain.yaml", calibration_files::kalibr_chain(changed, "T_cn_cnm1"));
+    read_calibration(folder / "camchain.yaml");
+  }
   void distort() {
     StereoCalibration calibration = pinhole_calibration(rig);
     calibration.left.model = calibration.right.model = LensModel::radial_tangential;
@@ -107,6 +121,41 @@ const std::vector<LibraryAttack>& library_attacks() {
        LibraryAttack::data, "80"},
       {"a missing recording", [](C) { open_dataset("/no/such/recording"); }, LibraryAttack::data, "no/such"},
       {"a missing calibration", [](C) { read_calibration("/no/such.yaml"); }, LibraryAttack::data, "no/such"},
+      {"a calibration whose focal length is absurd",
+       [](C c) { c.read_kalibr([](Rig& rig) { rig.left_intrinsics = "458.654, 1e308, 367.215, 248.375"; }); },
+       LibraryAttack::data, "camchain.yaml (cam0.intrinsics): found a focal length fy of 1e+308"},
+      {"a calibration whose focal length is nearly zero",
+       [](C c) { c.read_kalibr([](Rig& rig) { rig.right_intrinsics = "457.587, 1e-300, 379.999, 255.238"; }); },
+       LibraryAttack::data, "camchain.yaml (cam1.intrinsics): found a focal length fy of 1e-300"},
+      {"a calibration whose principal point is absurd",
+       [](C c) { c.read_kalibr([](Rig& rig) { rig.left_intrinsics = "458.654, 457.296, 1e308, 248.375"; }); },
+       LibraryAttack::data, "camchain.yaml (cam0.intrinsics): found a principal point cx of 1e+308"},
+      {"a calibration whose coefficient is absurd",
+       [](C c) { c.read_kalibr([](Rig& rig) { rig.right_distortion = "-0.28, 1e308, 0, 0"; }); }, LibraryAttack::data,
+       "camchain.yaml (cam1.distortion_coeffs): found a coefficient 1"},
+      {"cameras of very different resolutions", [](C c) { c.rig.right.fx *= 20, c.rig.right.fy *= 20, c.track(); },
+       LibraryAttack::data, "a ratio of at most 16"},
+      {"a ROS calibration without the image's height",
+       [](C c) {
+         auto [left, right] = calibration_files::ros_camera_infos({});
+         left.erase(left.find("image_height"), std::string("image_height: 480\n").size());
+         dataset_files::write_text(c.folder / "left.yaml", left);
+         dataset_files::write_text(c.folder / "right.yaml", right);
+         read_calibration(c.folder / "left.yaml," + c.folder / "right.yaml");
+       },
+       LibraryAttack::data, "left.yaml: found no entry image_height"},
+      {"a float map with bytes too many",
+       [](C c) {
+         dataset_files::write_text(c.folder / "map.pfm", "Pf\n2 1\n-1\n" + std::string(9, 'x'));
+         data::read_float_map(c.folder / "map.pfm");
+       },
+       LibraryAttack::data, "map.pfm: found 19 bytes"},
+      {"saved kernel variants that are a pipe",
+       [](C c) {
+         REQUIRE(mkfifo((c.folder / "variants.json").c_str(), 0600) == 0);
+         bench::read_variants_file(c.folder / "variants.json", c.device.info());
+       },
+       LibraryAttack::data, "variants.json: found a pipe"},
       {"a missing trajectory", [](C) { read_trajectory("/no/such.txt"); }, LibraryAttack::data, "no/such"},
       {"trajectories at different times",
        [](C) {

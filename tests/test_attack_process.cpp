@@ -39,6 +39,45 @@ const std::vector<ProcessAttack> kProcessAttacks = {
     {"the language is unknown", "LC_ALL=tlh_KX.UTF-8 $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
     {"commas separate decimals", "LC_ALL=de_DE.UTF-8 $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
     {"the device is unknown", "QUADEDGE_DEVICE=abacus $QUADEDGE run $DATA -o $OUT --frames 0:2", 4, "abacus", false},
+    {"the cache folder of the driver is not writable",
+     "POCL_CACHE_DIR=/dev/null/cache $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 4, "POCL_CACHE_DIR", false},
+    {"a mask is an empty word", "$QUADEDGE run $DATA -o $OUT --mask \"\"", 2, "--mask: expected a value", false},
+    {"a configuration is an empty word", "$QUADEDGE run $DATA -o $OUT --config \"\"", 2, "--config: expected a value",
+     false},
+    {"an output is an empty word", "$QUADEDGE synth \"\" --frames 2", 2, "OUT: expected a value", false},
+    {"a comparison is with an empty word", "$QUADEDGE bench --compare \"\" \"\"", 2, "expected a value", false},
+    {"results go to a symbolic link, which stays",
+     "touch $OUT.csv; ln -s $OUT.csv $OUT.link; $QUADEDGE edges $DATA/rgb/0.000000000.png --csv $OUT.link --force "
+     "--quiet && test -L $OUT.link && test -s $OUT.csv",
+     0, "", false},
+    {"an image is sparse and larger than the memory",
+     "truncate -s 40G $OUT.png; $QUADEDGE edges $OUT.png --csv $OUT.csv", 3, "out.png: found 42949672960 bytes", false},
+    {"a pipe announces more than the memory holds",
+     "$QUADEDGE check $DATA --write-calibration $OUT.yaml >$OUT.log; ulimit -v 6000000; printf \"P5 65535 65535 65535 "
+     "\" | "
+     "$QUADEDGE run - --fps 20 --calibration $OUT.yaml -o $OUT",
+     3, "image 0 that ends after 0 of 8589672450 bytes", false},
+    {"an image is damaged and the map goes to a full disk",
+     "cp -r $DATA $OUT.data; echo > $OUT.data/rgb2/0.100000000.png; $QUADEDGE run $OUT.data -o $OUT --map /dev/full "
+     "--force",
+     3, "2 finished frames in", true},
+    {"times go back",
+     "$QUADEDGE check $DATA --write-calibration $OUT.yaml >$OUT.log; printf \"0\\n2\\n1\\n3\\n\" >$OUT.txt; $QUADEDGE "
+     "run "
+     "--left $DATA/rgb --right $DATA/rgb2 --times $OUT.txt --calibration $OUT.yaml -o $OUT",
+     3, "out.txt:3: found timestamp 1.000000000 after 2.000000000", false},
+    {"folders are nested 1500 deep",
+     "d=$OUT; for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do for j in 0 1 2 3 4 5 6 7 8 9; do "
+     "d=$d/a/a/a/a/a/a/a/a/a/a; done; done; mkdir -p $d; ulimit -t 20; $QUADEDGE check $OUT",
+     3, "", false},
+    {"the program is told to end while a page is made",
+     "$QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet; printf \"#!/bin/sh\\n[ \\$1 = -c ] || { echo \\$\\$ >$OUT.pid; "
+     "exec sleep "
+     "60; }\\n\" >$OUT.py; chmod +x $OUT.py; QUADEDGE_PYTHON=$OUT.py $QUADEDGE report $OUT & pid=$!; "
+     "while [ ! -s $OUT.pid ]; do sleep 0.1; done; kill -TERM $pid; wait $pid; code=$?; kill -0 $(cat $OUT.pid) "
+     "2>$OUT.log "
+     "&& exit 99; exit $code",
+     143, "interrupted; no page was made"},
     {"the search path is empty", "PATH= ; $QUADEDGE run $DATA -o $OUT --frames 0:2 --quiet", 0, ""},
 };
 

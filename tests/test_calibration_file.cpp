@@ -151,7 +151,7 @@ TEST_CASE("calibration: errors in a Kalibr chain name the file and the entry", "
   damage("  camera_model: pinhole", "  camera_model: eucm", "\"eucm\" for cam0.camera_model");
   damage("1.76187114e-05]", "1.76187114e-05, 0, 0]", "6 numbers for the lens model radtan");
   damage("367.215, 248.375", "367.215", "3 numbers for cam0.intrinsics");
-  damage("458.654", "-458.654", "a focal length of -458.654");
+  damage("458.654", "-458.654", "a focal length fx of -458.654");
   damage("[752, 480]", "[752.5, 480]", "cam0.resolution of 752.5 x 480");
   damage("0, 0, 0, 1]", "0, 0, 0, 2]", "a last row other than 0 0 0 1 for cam0.T_cam_imu");
   damage("T_cn_cnm1:\n  - [", "T_cn_cnm1:\n  - [57.", "cam1.T_cn_cnm1");  // degrees instead of a rotation
@@ -186,7 +186,7 @@ TEST_CASE("calibration: errors in OpenCV's stereo files name the file and the ma
   intrinsics("D2:", "M1:", "a second entry M1");
   intrinsics("   rows: 3\n   cols: 3", "   rows: 9\n   cols: 1", "a matrix of 9 x 1 for M1");
   intrinsics("   cols: 4", "   cols: 3", "D1");
-  intrinsics("4.5865", "-4.5865", "a focal length of -458.65");
+  intrinsics("4.5865", "-4.5865", "a focal length fx of -458.65");
   intrinsics("---", "distortion_model: fov\n---", "cv::FileStorage");
   extrinsics("R:", "Q:", "no entry R");
   extrinsics("T:", "S:", "no entry T");

@@ -121,7 +121,13 @@ TEST_CASE("run, evaluate: an unknown motion divides the trajectory into segments
     INFO(evaluated.err);
     REQUIRE(evaluated.code == 0);
     const auto json = nlohmann::json::parse(read_text(folder / (estimate + ".json")));
-    CHECK(json["accuracy"]["segments"] == report["accuracy"]["segments"]);
+    REQUIRE(json["accuracy"]["segments"].size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto drift = [&](const nlohmann::json& from) {
+        return from["accuracy"]["segments"][i]["end_drift_percent"].get<double>();
+      };
+      CHECK(drift(json) == Approx(drift(report)).epsilon(1e-6));
+    }
   }
 }
 

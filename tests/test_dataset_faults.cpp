@@ -85,7 +85,7 @@ TEST_CASE("dataset: errors about unreadable calibrations name the file and the v
   write_text(eth3d + "/calibration2.txt", "40 40 15\n");
   check_fault(eth3d, "calibration2.txt:1", "3 columns");
   write_text(eth3d + "/calibration2.txt", "-40 40 15 11\n");
-  check_fault(eth3d, "left camera", "focal length fx -40");
+  check_fault(eth3d, "left camera", "focal length fx of -40");
   for (const char* name : {"m/im0.png", "m/im1.png"}) write_image(folder / name);
   write_text(folder / "m/calib.txt", "cam0=[50 0 20; 0 51]\n");
   check_fault(folder / "m", "calib.txt:1", "[50 0 20; 0 51]");

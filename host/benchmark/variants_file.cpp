@@ -2,9 +2,9 @@
 
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 
 #include "data/atomic_file.hpp"
+#include "data/text.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "report/json_values.hpp"
@@ -51,11 +51,10 @@ void write_variants_file(const std::string& path, const DeviceInfo& device,
 
 std::map<std::string, std::string> read_variants_file(const std::string& path, const DeviceInfo& device) {
   if (!std::filesystem::exists(path)) return {};
-  std::ifstream stream(path);
-  if (!stream) refuse(path, "cannot be read");
+  const std::string text = data::read_bytes(path);
   std::map<std::string, std::string> variants;
   try {
-    const Json json = Json::parse(stream);
+    const Json json = Json::parse(text);
     if (json.at("content") != kContent) refuse(path, "does not contain kernel variants");
     if (json.at("schema") != kSchema) {
       refuse(path, "has schema " + json.at("schema").dump() + ", this program reads " + std::to_string(kSchema));

@@ -66,7 +66,7 @@ class BatchCommand : public Command {
     const auto sequences = data::find_sequences(input_);
     if (list_) return print_list(sequences);
     if (!only_.empty()) return run_one(sequences);
-    return gather_ ? summarise(sequences) : run_all(sequences);
+    return gather_ ? summarise(sequences, Interruption()) : run_all(sequences);
   }
 
  private:
@@ -115,7 +115,7 @@ class BatchCommand : public Command {
            " finished, results in " + (output() / "sequences").string() + "; repeat the command to go on");
       interruption.end_process();
     }
-    return summarise(sequences);
+    return summarise(sequences, interruption);
   }
 
   int run_one(const std::vector<data::FoundSequence>& sequences) {
@@ -161,7 +161,7 @@ class BatchCommand : public Command {
   }
 
   /// Writes the summary of all results, and its page if Python can make it. Returns the worst exit code.
-  int summarise(const std::vector<data::FoundSequence>& sequences) const {
+  int summarise(const std::vector<data::FoundSequence>& sequences, const Interruption& interruption) const {
     std::vector<std::string> names;
     for (const auto& sequence : sequences) names.push_back(sequence.name);
     auto summary = report::summarise(batch_.output, names, batch_.min_tracked);
@@ -173,7 +173,8 @@ class BatchCommand : public Command {
     data::write_atomically((output() / "summary.md").string(), report::summary_markdown(summary));
     print_summary(summary);
     // The page is an extra: without Python, the message of make_page() is enough.
-    const int page = make_page({batch_.output, "--output", (output() / "report.html").string(), "--quiet"});
+    const int page =
+        make_page({batch_.output, "--output", (output() / "report.html").string(), "--quiet"}, interruption);
     const bool made = page == 0 || page == static_cast<int>(ExitCode::usage);
     return made ? summary.exit_code : report::worse_exit_code(summary.exit_code, page);
   }

@@ -46,7 +46,7 @@ class EdgesCommand : public Command {
     if (!source_.is_own_camera()) source_.refuse_all();
     const Image image = source_.is_own_camera() ? left_image() : read_grey_image(source_.path());
     Device device = method_.open_device();
-    const EdgeSet edges = detect_edges(image.view(), device, config);
+    const EdgeSet edges = detect(image, device, config);
     if (!csv_.empty()) data::write_atomically(csv_, report::edges_csv(edges));
     if (!draw_.empty()) report::draw_edges(draw_, image.view(), edges);
     if (!quiet_) {
@@ -61,6 +61,16 @@ class EdgesCommand : public Command {
   }
 
  private:
+  /// \throws an error that names the image.
+  EdgeSet detect(const Image& image, Device& device, const Config& config) const {
+    try {
+      return detect_edges(image.view(), device, config);
+    } catch (const Error& error) {
+      throw Error(error.exit_code(),
+                  (source_.is_own_camera() ? "the left image" : source_.path()) + ": " + error.what());
+    }
+  }
+
   /// The left image of a pair as the pinhole camera would have seen it.
   Image left_image() const {
     PairOfSource pair = source_.pair(frame_);

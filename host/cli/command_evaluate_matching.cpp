@@ -80,7 +80,7 @@ class EvaluateMatchingCommand : public Command {
     report::MatchingFacts facts{command_line(), paths_, device.info(), config, tolerance_, {}};
     if (!draw_.empty()) facts.drawings = report::write_match_drawings(draw_, results, tolerance_);
     if (!json_.empty()) data::write_atomically(json_, report::matching_json(results, facts));
-    return html_.empty() ? 0 : make_page({json_, "--output", html_, "--quiet"});
+    return html_.empty() ? 0 : make_page({json_, "--output", html_, "--quiet"}, Interruption());
   }
 
  private:

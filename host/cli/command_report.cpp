@@ -62,7 +62,7 @@ class ReportCommand : public Command {
     for (const auto& [option, folder] : {std::pair("--csv", &csv_), {"--latex", &latex_}, {"--figures", &figures_}}) {
       if (!folder->empty()) arguments.insert(arguments.end(), {option, *folder});
     }
-    return make_page(arguments);
+    return make_page(arguments, Interruption());
   }
 
  private:

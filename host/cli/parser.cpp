@@ -25,6 +25,11 @@ namespace {
 const CLI::Validator kNumber(
     [](const std::string& text) -> std::string { return text.empty() ? "'' is not a number" : ""; }, "");
 
+/// Refuses an empty text, which would count as no option at all.
+const CLI::Validator kText([](const std::string& text)
+                               -> std::string { return text.empty() ? "expected a value, found an empty one" : ""; },
+                           "");
+
 /// Refuses "010" and "0x10" as well, which CLI11 reads as octal and hexadecimal.
 const CLI::Validator kDecimal(
     [](const std::string& text) -> std::string {
@@ -41,14 +46,14 @@ class ParserOptions : public Options {
   ParserOptions(CLI::App& app, bool short_help) : app_(app), short_help_(short_help) {}
 
   void positional(const std::string& name, std::string& value, const std::string& help, bool required) override {
-    app_.add_option(name, value, help)->required(required)->type_name("");
+    app_.add_option(name, value, help)->required(required)->check(kText)->type_name("");
   }
   void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
-    app_.add_option(name, values, help)->required()->type_name("");
+    app_.add_option(name, values, help)->required()->check(kText)->type_name("");
   }
   void text(const std::string& names, std::string& value, const std::string& help,
             const std::string& placeholder) override {
-    add(names, value, help)->type_name(placeholder);
+    add(names, value, help)->check(kText)->type_name(placeholder);
   }
   void number(const std::string& names, double& value, const std::string& help) override {
     add(names, value, help)->check(kNumber);
@@ -75,7 +80,8 @@ class ParserOptions : public Options {
   }
   void repeated(const std::string& names, std::vector<std::string>& values, const std::string& help,
                 const std::string& placeholder) override {
-    last_ = app_.add_option(names, values, help)->allow_extra_args(false)->group(group_)->type_name(placeholder);
+    last_ = app_.add_option(names, values, help)->allow_extra_args(false)->check(kText)->group(group_);
+    last_->type_name(placeholder);
     read_from_file(values);
   }
   void constant(const std::string& names, const Constant& constant, Config& config) override {
@@ -109,6 +115,7 @@ class ParserOptions : public Options {
         ->group(group_);
     last_ = app_.add_option("--config", config_file_,
                             "TOML file with options, named as here; the command line overrides it")
+                ->check(kText)
                 ->group(group_)
                 ->type_name("FILE");
   }

@@ -232,14 +232,19 @@ void write_results(const FrameSource& source, const SequenceRunOptions& options,
 /// The recording ended with an error: keeps what is finished. \throws DataError with what happened.
 [[noreturn]] void end_with_error(const DataError& error, const FrameSource& source, const SequenceRunOptions& options,
                                  MapOutput& map, report::RunRecord& run) {
-  map.write();
   if (run.frames.empty()) throw error;
   run.ended_early = error.what();
-  run.map = map.facts();
-  try {
-    write_results(source, options, run);
-  } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, which `error` reports already
-  }
+  const auto attempt = [](const auto& part) {
+    try {
+      part();
+    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside what `error` reports
+    }
+  };
+  attempt([&] {
+    map.write();
+    run.map = map.facts();
+  });
+  attempt([&] { write_results(source, options, run); });
   throw DataError(run.ended_early + "\n" + data::counted(run.frames.size(), "finished frame") + " in " +
                   options.output);
 }

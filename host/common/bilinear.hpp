@@ -18,11 +18,11 @@ float bilinear_inside(double x, double y, const Value& value) {
   return (1 - fy) * above + fy * below;
 }
 
-/// The same over a grid of width x height, whose border is replicated.
+/// The same over a grid of width x height, whose border is replicated; NaN counts as 0.
 template <class Value>
 float bilinear(int width, int height, double x, double y, const Value& value) {
-  x = std::clamp(x, 0.0, width - 1.0);
-  y = std::clamp(y, 0.0, height - 1.0);
+  x = std::max(0.0, std::min(x, width - 1.0));  // in this order, NaN becomes 0
+  y = std::max(0.0, std::min(y, height - 1.0));
   const int x0 = std::min(static_cast<int>(x), std::max(width - 2, 0)),
             y0 = std::min(static_cast<int>(y), std::max(height - 2, 0));
   const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);

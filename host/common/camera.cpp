@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "common/camera_bounds.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
@@ -12,15 +14,13 @@ namespace {
 constexpr double kNearestDepth = 0.5;  // m
 
 void check_camera(const PinholeCamera& camera, const std::string& where) {
-  const auto require = [&](bool good, const char* what, double value, const char* expected) {
-    if (!good) throw DataError(where + ": found " + what + " " + std::to_string(value) + ", expected " + expected);
-  };
-  require(std::isfinite(camera.fx) && camera.fx > 0, "focal length fx", camera.fx, "a positive number of pixels");
-  require(std::isfinite(camera.fy) && camera.fy > 0, "focal length fy", camera.fy, "a positive number of pixels");
-  require(std::isfinite(camera.cx), "principal point cx", camera.cx, "a finite number of pixels");
-  require(std::isfinite(camera.cy), "principal point cy", camera.cy, "a finite number of pixels");
-  require(camera.width > 0, "image width", camera.width, "a positive number of pixels");
-  require(camera.height > 0, "image height", camera.height, "a positive number of pixels");
+  for (const auto& [name, side] : {std::pair("width", camera.width), {"height", camera.height}}) {
+    if (side <= 0)
+      throw DataError(where + ": found image " + name + " " + std::to_string(side) +
+                      ", expected a positive number of pixels");
+  }
+  if (const auto complaint = complaint_about(camera))
+    throw DataError(where + ": found " + complaint->found + ", expected " + complaint->expected);
 }
 
 void check_table(const UndistortionTable& table, const PinholeCamera& camera, const std::string& where) {
@@ -55,6 +55,13 @@ void check_rig(const StereoRig& rig, const char* source) {
   const std::string where(source);
   check_camera(rig.left, where + " (left camera)");
   check_camera(rig.right, where + " (right camera)");
+  /// A camera of the higher resolution is reduced by this factor.
+  constexpr double kLargestScaleRatio = 16;
+  const double ratio = rig.left.fx / rig.right.fx;
+  if (ratio > kLargestScaleRatio || ratio < 1 / kLargestScaleRatio) {
+    throw DataError(where + ": found focal lengths fx of " + std::to_string(rig.left.fx) + " (left) and " +
+                    std::to_string(rig.right.fx) + " px (right), expected a ratio of at most 16");
+  }
   const Eigen::Matrix3d rotation = rig.right_from_left.linear();
   const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(deviation <= kRotationTolerance) || rotation.determinant() < 0) {

@@ -18,6 +18,14 @@ bool is_replaced(const std::string& path) {
   return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
+/// Where a path leads that may be a symbolic link: links stay, and what they point to is replaced.
+std::string target_of(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
+  return error || std::filesystem::is_symlink(target, error) ? path : target.string();
+}
+
 std::string unfinished_name(const std::string& path) { return path + ".part" + std::to_string(getpid()); }
 
 [[noreturn]] void refuse(const std::string& path, const char* step, int reason) {
@@ -32,7 +40,7 @@ void check_writable(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) refuse(path, kOpen, EISDIR);
   if (!is_replaced(path)) return;  // opening a pipe may block, opening a device may have side effects
-  const std::string name = unfinished_name(path);
+  const std::string name = unfinished_name(target_of(path));
   std::FILE* stream = std::fopen(name.c_str(), "wb");
   if (stream == nullptr) refuse(path, kOpen, errno);
   std::fclose(stream);
@@ -41,7 +49,7 @@ void check_writable(const std::string& path) {
 
 void write_atomically(const std::string& path, std::string_view bytes) {
   const bool replace = is_replaced(path);
-  const std::string name = replace ? unfinished_name(path) : path;
+  const std::string target = target_of(path), name = replace ? unfinished_name(target) : target;
   const auto give_up = [&](const char* step, int reason) {
     std::error_code ignored;
     if (replace) std::filesystem::remove(name, ignored);
@@ -54,7 +62,7 @@ void write_atomically(const std::string& path, std::string_view bytes) {
   const bool closed = std::fclose(stream) == 0;
   if (!written) give_up("write the file", write_reason);
   if (!closed) give_up("close the file", errno);
-  if (replace && std::rename(name.c_str(), path.c_str()) != 0) give_up("rename the finished file", errno);
+  if (replace && std::rename(name.c_str(), target.c_str()) != 0) give_up("rename the finished file", errno);
 }
 
 }  // namespace quadedge::data

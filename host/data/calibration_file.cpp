@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/camera_bounds.hpp"
 #include "common/rounded_transform.hpp"
 #include "data/calibration_formats.hpp"
 #include "data/file_list.hpp"
@@ -80,8 +81,12 @@ StereoCalibration finished(StereoCalibration calibration, const std::string& for
   return calibration;
 }
 
-void check_lens(const Lens& lens, const std::string& where) {
+void check_lens(const Lens& lens, const std::string& file, const std::string& camera_key,
+                const std::string& coefficients_key) {
+  if (const auto complaint = complaint_about(lens.camera))
+    fail(file + " (" + camera_key + ")", complaint->found, complaint->expected);
   const auto& k = lens.parameters;
+  const std::string where = file + " (" + coefficients_key + ")";
   const auto require = [&](bool good, const std::string& found, const std::string& expected) {
     if (!good) fail(where, found, expected);
   };
@@ -89,9 +94,8 @@ void check_lens(const Lens& lens, const std::string& where) {
     require(std::find(allowed.begin(), allowed.end(), k.size()) != allowed.end(),
             std::to_string(k.size()) + " numbers for the lens model " + to_string(lens.model), expected);
   };
-  for (const double value : {lens.camera.fx, lens.camera.fy})
-    require(value > 0, "a focal length of " + format_exact(value), "a positive number of pixels");
-  for (const double value : k) require(std::isfinite(value), "a coefficient " + format_exact(value), "finite numbers");
+  for (const double value : k)
+    require(std::abs(value) <= kLargestCoefficient, "a coefficient " + format_exact(value), "numbers up to 1e5");
   switch (lens.model) {
     case LensModel::radial_tangential:
       count_is({0, 4, 5, 8, 12, 14}, "0, 4, 5, 8, 12 or 14 coefficients");

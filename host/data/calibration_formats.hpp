@@ -41,8 +41,10 @@ Lens read_named_lens(const YamlMap& camera, const std::string& coefficients);
 /// which suggests degrees
 Eigen::Matrix3d rotation_of_vector(const Eigen::Vector3d& vector, const std::string& where);
 
-/// \throws DataError that names the lens by `where` ("FILE (cam0)"), for values that are invalid for its model.
-void check_lens(const Lens& lens, const std::string& where);
+/// \throws DataError that names the file and one of the keys, for values that no camera has or that are invalid for the
+/// lens model.
+void check_lens(const Lens& lens, const std::string& file, const std::string& camera_key,
+                const std::string& coefficients_key);
 
 /// Sets the sizes of the recorded images if the calibration does not contain them. \throws DataError that names
 /// `images`, if the calibration contains other sizes

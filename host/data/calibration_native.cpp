@@ -26,7 +26,7 @@ Lens read_lens(const YamlMap& file, const std::string& side) {
   const auto k = file.numbers(side + "intrinsics", 4);
   lens.camera = {k[0], k[1], k[2], k[3], size.width, size.height};
   lens.parameters = file.numbers(side + "coefficients");
-  check_lens(lens, file.file() + " (" + side + "coefficients)");
+  check_lens(lens, file.file(), side + "intrinsics", side + "coefficients");
   return lens;
 }
 

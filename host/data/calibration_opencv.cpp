@@ -112,7 +112,7 @@ Lens read_lens(const Storage& storage, const std::string& number) {
     lens.camera.width = storage.side("image_width");
     lens.camera.height = storage.side("image_height");
   }
-  check_lens(lens, storage.file_of("D" + number) + " (M" + number + ", D" + number + ")");
+  check_lens(lens, storage.file_of("M" + number), "M" + number, "D" + number);
   return lens;
 }
 

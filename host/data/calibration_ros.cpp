@@ -43,7 +43,7 @@ CameraInfo read_camera_info(const YamlMap& camera) {
   info.lens.model = model_of(camera);
   info.lens.camera = {k[0], k[4], k[2], k[5], size.width, size.height};
   info.lens.parameters = camera.map("distortion_coefficients").numbers("data");
-  check_lens(info.lens, camera.file() + " (distortion_coefficients)");
+  check_lens(info.lens, camera.file(), "camera_matrix", "distortion_coefficients");
   const auto r = matrix_of(camera, "rectification_matrix", 9);
   const Eigen::Matrix3d rotation = Eigen::Map<const Eigen::Matrix3d>(r.data()).transpose();
   info.rectified_from_camera = nearest_rotation(rotation, camera.file() + " (rectification_matrix)");

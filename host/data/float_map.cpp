@@ -38,7 +38,7 @@ Header read_header(const std::string& bytes, const std::string& file) {
   std::size_t pixels = 0;
   for (int word = 0; word < 4; ++word) pixels = bytes.find_first_of(kSpace, bytes.find_first_not_of(kSpace, pixels));
   ++pixels;  // one byte of space ends the header
-  if (static_cast<double>(bytes.size()) < width * height * sizeof(float) + static_cast<double>(pixels)) {
+  if (static_cast<double>(bytes.size()) != width * height * sizeof(float) + static_cast<double>(pixels)) {
     fail(file, std::to_string(bytes.size()) + " bytes", "a header and " + words[1] + " x " + words[2] + " floats");
   }
   return {static_cast<int>(width), static_cast<int>(height), scale > 0, pixels};

@@ -90,6 +90,10 @@ PnmHeader read_pnm_header(std::string_view bytes, const std::string& file) {
   const std::size_t per_pixel = static_cast<std::size_t>(header.channels) * bytes_per_pixel(largest);
   const std::size_t needed = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * per_pixel;
   if (bytes.size() < header.pixels + needed) truncated(file, bytes, "PNM", "all pixels announced by its header");
+  if (bytes.size() > header.pixels + needed) {  // a header of another form, whose end is not where it seems to be
+    fail(file, "a PNM of " + std::to_string(bytes.size()) + " bytes",
+         std::to_string(header.pixels + needed) + ", the header and " + to_string(header.size) + " pixels");
+  }
   return header;
 }
 

@@ -89,7 +89,11 @@ std::vector<std::int64_t> read_times(const std::string& file) {
   for (const auto& line : data_lines(file)) {
     const auto cells = split(line.text);
     if (cells.size() != 1) fail(file, line.number, in_quotes(line.text), "one time in seconds");
-    stamps.push_back(parse_seconds(cells[0], file, line.number));
+    const std::int64_t stamp = parse_seconds(cells[0], file, line.number);
+    if (!stamps.empty() && stamp <= stamps.back())
+      fail(file, line.number, "timestamp " + format_seconds(stamp) + " after " + format_seconds(stamps.back()),
+           "increasing timestamps");
+    stamps.push_back(stamp);
   }
   if (stamps.empty()) fail(file, "no timestamps", "one in seconds on every line");
   return stamps;

@@ -48,7 +48,7 @@ Lens read_named_lens(const YamlMap& camera, const std::string& coefficients) {
     lens.model = LensModel::double_sphere;
     lens.parameters = {intrinsics[0], intrinsics[1]};
   }
-  check_lens(lens, camera.file() + " (" + camera.name(coefficients) + ")");
+  check_lens(lens, camera.file(), camera.name("intrinsics"), camera.name(coefficients));
   return lens;
 }
 

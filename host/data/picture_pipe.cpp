@@ -128,24 +128,27 @@ class PipeReader : public PairReader {
 
   Image read_pixels(ImageSize size, int channels) {
     const bool deep = size.max_value > kMaxValue8;
-    cv::Mat samples(size.height, size.width, CV_MAKETYPE(deep ? CV_16U : CV_8U, channels));
-    const std::size_t needed = samples.total() * samples.elemSize();
-    for (std::size_t have = 0; have < needed;) {
+    const std::size_t needed = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) *
+                               static_cast<std::size_t>(channels) * (deep ? 2 : 1);
+    pixels_.clear();  // grows with what arrives, not with what a header claims
+    while (pixels_.size() < needed) {
       if (at_ == filled_ && !fill())
-        fail(kName, picture() + " that ends after " + std::to_string(have) + " of " + std::to_string(needed) + " bytes",
+        fail(kName,
+             picture() + " that ends after " + std::to_string(pixels_.size()) + " of " + std::to_string(needed) +
+                 " bytes",
              "a complete one");
-      const std::size_t part = std::min(needed - have, filled_ - at_);
-      std::memcpy(samples.data + have, buffer_.data() + at_, part);
-      have += part;
+      const std::size_t part = std::min(needed - pixels_.size(), filled_ - at_);
+      pixels_.insert(pixels_.end(), buffer_.data() + at_, buffer_.data() + at_ + part);
       at_ += part;
     }
+    cv::Mat samples(size.height, size.width, CV_MAKETYPE(deep ? CV_16U : CV_8U, channels), pixels_.data());
     from_big_endian(samples);
     return grey_image(samples, size.max_value);
   }
 
   int descriptor_;
   PipeOptions options_;
-  std::vector<char> buffer_;
+  std::vector<char> buffer_, pixels_;
   std::size_t at_ = 0, filled_ = 0;
   std::atomic<bool> stop_{false};
   std::vector<ImageSize> first_;  ///< of the first image of each camera, or of both views in one

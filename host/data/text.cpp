@@ -36,6 +36,10 @@ std::string irregular_kind(const std::string& file) {
 
 std::string read_bytes(const std::string& file) {
   if (const std::string kind = irregular_kind(file); !kind.empty()) fail(file, kind, "a regular file");
+  constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 31;  // bytes
+  std::error_code ignored;
+  if (const auto size = std::filesystem::file_size(file, ignored); !ignored && size > kLargestFile)
+    fail(file, std::to_string(size) + " bytes", "at most " + std::to_string(kLargestFile));
   std::FILE* stream = std::fopen(file.c_str(), "rb");
   if (stream == nullptr)
     fail(file, std::string("a file that cannot be opened (") + std::strerror(errno) + ")", "a readable file");

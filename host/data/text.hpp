@@ -17,7 +17,7 @@ namespace quadedge::data {
 /// block, and a device may never end.
 std::string irregular_kind(const std::string& file);
 
-/// Reads a regular file. \throws DataError if it is missing, of another kind, or unreadable
+/// Reads a regular file of at most 2 GiB. \throws DataError if it is missing, larger, of another kind, or unreadable
 std::string read_bytes(const std::string& file);
 
 /// Reads a text file, without the UTF-8 byte order mark that some editors add. \throws DataError as read_bytes()

@@ -104,7 +104,10 @@ ImageSize YamlMap::size(const std::string& key) const {
 }
 
 ImageSize YamlMap::size(const std::string& columns, const std::string& rows) const {
-  const auto side = [&](const std::string& key) { return parse_number(word(key), file_, line(key), name(key)); };
+  const auto side = [&](const std::string& key) {
+    const std::string text = word(key);  // complains about a missing entry, which has no line
+    return parse_number(text, file_, line(key), name(key));
+  };
   const double width = side(columns), height = side(rows);
   return checked_size(width, height, columns);
 }

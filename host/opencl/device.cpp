@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <filesystem>
 #include <mutex>
 #include <optional>
+#include <unistd.h>
 
 #include "opencl/context.hpp"
 #include "opencl/error.hpp"
@@ -110,11 +113,38 @@ std::optional<std::size_t> choose(const std::vector<FoundDevice>& devices, const
   return std::nullopt;
 }
 
+/// The folder in which PoCL keeps kernels; empty if it is unknown.
+std::string pocl_cache_folder() {
+  const auto variable = [](const char* name) -> std::string {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  };
+  if (const std::string chosen = variable("POCL_CACHE_DIR"); !chosen.empty()) return chosen;
+  if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache + "/pocl/kcache";
+  const std::string home = variable("HOME");
+  return home.empty() ? home : home + "/.cache/pocl/kcache";
+}
+
+/// PoCL has no devices without a writable cache; empty if the folder, or the one to create it in, is writable.
+std::string hint_at_cache() {
+  const std::string folder = pocl_cache_folder();
+  std::filesystem::path place = folder;
+  std::error_code ignored;
+  while (place.has_parent_path() && place != place.parent_path() && !std::filesystem::exists(place, ignored))
+    place = place.parent_path();
+  if (folder.empty() || (std::filesystem::is_directory(place, ignored) && access(place.c_str(), W_OK | X_OK) == 0))
+    return {};
+  return "; PoCL, if it is installed, cannot write to its cache " + folder +
+         ": set POCL_CACHE_DIR to a folder that is writable";
+}
+
 std::string no_match_message(const std::vector<FoundDevice>& devices, const std::string& choice) {
   if (devices.empty()) {
-    return "no OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
-           "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
-           "(device=\"reference\" in Python) runs without OpenCL, slowly";
+    return std::string(
+               "no OpenCL device was found: `pip install \"quadedge[cpu]\"` or, on Debian, `apt-get install "
+               "pocl-opencl-icd` installs one for CPUs, a GPU needs its vendor's driver, and `--device reference` "
+               "(device=\"reference\" in Python) runs without OpenCL, slowly") +
+           hint_at_cache();
   }
   std::string message = "no OpenCL device matches '" + choice + "'; there are:";
   for (const auto& device : devices) {

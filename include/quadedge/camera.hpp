@@ -68,9 +68,9 @@ struct StereoRig {
   double disparity_range() const;
 };
 
-/// Checks that focal lengths, image sizes and the baseline are finite and positive, that the rotation is orthonormal
-/// and that max_disparity is finite and not negative. \throws DataError that names `source` (the calibration file) and
-/// the offending value.
+/// Checks that focal lengths, principal points and image sizes are those of a camera, that the baseline is finite and
+/// positive, the rotation orthonormal, and max_disparity finite and not negative. \throws DataError that names `source`
+/// (the calibration file) and the offending value.
 void check_rig(const StereoRig& rig, const char* source);
 
 }  // namespace quadedge

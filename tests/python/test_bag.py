@@ -127,6 +127,14 @@ def message(pixels, encoding, big=0, step=None):
                            data=data.view(numpy.uint8).reshape(-1))
 
 
+def test_a_cut_recording_has_a_reason(room_bag, tmp_path):
+    file = next(room_bag.glob("*.mcap")) if room_bag.is_dir() else room_bag
+    for size in (20, 1000, file.stat().st_size // 2):
+        (tmp_path / "cut.mcap").write_bytes(file.read_bytes()[:size])
+        with pytest.raises(quadedge.DataError, match=r"cut.mcap: found no readable recording \(.+\), expected"):
+            quadedge.bag.open_bag(tmp_path / "cut.mcap")
+
+
 def test_encodings():
     grey = quadedge.bag.grey_image
     deep = (numpy.arange(12).reshape(3, 4) * 300).astype(">u2")

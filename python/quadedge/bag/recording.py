@@ -68,8 +68,9 @@ class Recording:
         except Error:
             raise
         except Exception as error:  # damaged recordings raise many kinds of exceptions
-            raise DataError(f"{self.name}: found no readable recording ({error}), expected a .bag file, a ROS 2 folder "
-                            "or an .mcap file") from error
+            reason = str(error) or type(error).__name__
+            raise DataError(f"{self.name}: found no readable recording ({reason}), expected a .bag file, a ROS 2 "
+                            "folder or an .mcap file") from error
 
     def _messages(self, reader, topics: tuple[str, ...]) -> Iterator[tuple[str, int, object]]:
         """Topic, time of recording [ns] and message, in the order of recording."""
