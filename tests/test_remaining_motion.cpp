@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
+#include "odometry/acceptance.hpp"
 #include "odometry/remaining_motion.hpp"
 
 using namespace quadedge;
@@ -37,6 +38,7 @@ struct TwoMotions {
     for (int i = 0; i < first + others; ++i) confirmed->matches.append(i, i, now->edges, 0.9F, 0);
     steps.estimate(query, config.pose, motion, *confirmed);
     confirmed->motion.current_from_previous = motion;
+    odometry::Acceptance(config, offset).judge({before->edges.left_x, before->edges.left_y, {}}, *confirmed);
   }
 
   odometry::StepHandle propose() {

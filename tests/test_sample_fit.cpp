@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "pose/fit_limits.hpp"
+#include "pose/pose_constants.hpp"
 #include "pose/sample_fit.hpp"
 
 using namespace quadedge::pose;

@@ -1,7 +1,6 @@
 #pragma once
-/// \file acceptance.hpp  Acceptance tests that every motion hypothesis has to pass.
+/// \file acceptance.hpp  Measures what a confirmed motion explains, and compares motions.
 
-#include <cstdint>
 #include <vector>
 
 #include "common/temporal_search.hpp"
@@ -11,8 +10,7 @@
 
 namespace quadedge::odometry {
 
-/// A motion has to be supported by the edges that it brings into view. If its support is low, it also has to agree with
-/// global matches. Of several motions, the one that explains the largest image area is chosen.
+/// The measurements on which the choice between motions rests (motion_selection.hpp).
 class Acceptance {
  public:
   /// Refers to `offset`, which must outlive the object.
@@ -23,53 +21,33 @@ class Acceptance {
   /// \param predicted positions at which the base's edges were searched for in the left image
   void test_support(const EdgePositions& predicted, MotionStep& step) const;
 
-  /// Sets the explained area, which is the mean over the image cells of the fraction of predicted edges whose quads
-  /// closely agree with the motion, and the moving ratio. Objects are weighted by the area that they cover, not by
-  /// their number of edges.
-  void measure_area(const EdgePositions& predicted, MotionStep& step);
+  /// Sets the rest of the verdict, except for the agreement with global matches, and which quads agree closely or are
+  /// still.
+  void judge(const EdgePositions& predicted, MotionStep& step) const;
 
-  /// Whether a part of the image is static that the motion would have moved. Edges are not static by chance, and
-  /// distant edges agree with the motion as well. Hence, either the camera did not move, or something moves along with
-  /// it.
-  bool contradicts_static_scene(const MotionStep& step);
-
-  /// Whether a motion near the prediction is accepted without further tests.
-  bool is_confident(const MotionStep& step) const;
-
-  /// Records the support of the motion that was chosen; resets the record after a failure.
-  void remember(const MotionStep& found);
-
-  /// Whether so much of the image moves differently that it may show the camera's motion, so that another motion has to
-  /// be searched for.
-  static bool has_secondary_motion(const MotionStep& step);
-  /// Whether most of the image moves differently.
-  static bool is_minority_motion(const MotionStep& step);
-
-  /// Whether another motion explains nearly as large an area as `found` and is not the same motion.
-  /// \param base_from_other between the rigs that the two motions are measured against
-  bool are_competing(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
   /// Whether most inliers of `found` also agree with `other`.
-  bool are_same_motion(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& base_from_other);
+  /// \param base_from_other between the rigs that the two motions are measured against
+  bool are_same_motion(const MotionStep& found, const MotionStep& other,
+                       const Eigen::Isometry3d& base_from_other) const;
 
   /// Whether global matches agree with a motion in at least as many image cells as an estimate needs inliers. A global
   /// match can lie anywhere in the image, so that a wrong motion agrees with hardly any of them. Matches in the same
   /// cell count once, because the errors of neighbours are correlated.
-  bool agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query, const MotionStep& step);
+  bool agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query,
+                                  const MotionStep& step) const;
 
  private:
-  /// temporal.confident_support, or less if recent motions had low support.
-  double confident_support() const;
+  /// Fraction of the quads that are static although the motion would have moved them. Edges are not static by chance,
+  /// and distant edges agree with the motion as well. Hence, either the camera did not move, or something moves along
+  /// with it.
+  double static_ratio(MotionStep& step) const;
 
-  struct Cell {
-    double edges = 0, found = 0, explained = 0;
-  };
+  /// Sets the explained area, which weights objects by the area that they cover, not by their number of edges, and the
+  /// moving ratio.
+  void measure_area(const EdgePositions& predicted, MotionStep& step) const;
 
   Config config_;
   const DisparityOffset& offset_;
-  static constexpr double kUnknownSupport = 1;
-  double recent_support_ = kUnknownSupport;      ///< of recent motions
-  std::vector<Cell> cells_;                      ///< kept between calls, as are the following buffers
-  std::vector<std::uint8_t> agrees_, is_still_;  ///< one per quad
 };
 
 }  // namespace quadedge::odometry

@@ -24,7 +24,7 @@ CoarseSearch::CoarseSearch(frontend::Frontend& frontend, StepBuilder& steps, con
       radius_(radius),
       trusts_prediction_(trusts_prediction) {}
 
-StepHandle CoarseSearch::propose(const MotionQuery& query, Evidence&) {
+StepHandle CoarseSearch::propose(const MotionQuery& query, const Evidence&) {
   if (trusts_prediction_ && !query.prediction) return nullptr;
   const StereoEdges& edges = query.base->edges;
   const int every = std::max(1, (static_cast<int>(edges.size()) + edges_ - 1) / edges_);

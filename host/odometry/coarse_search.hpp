@@ -14,8 +14,8 @@ class CoarseSearch : public MotionHypothesis {
   /// With a large radius, around the previous positions if there is no prediction.
   static CoarseSearch wide(frontend::Frontend& frontend, StepBuilder& steps, const Config& config, int image_width);
 
-  StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
-  bool trusts_prediction() const override { return trusts_prediction_; }
+  StepHandle propose(const MotionQuery& query, const Evidence& evidence) override;
+  Effort effort() const override { return trusts_prediction_ ? Effort::prediction : Effort::inexpensive; }
 
  private:
   CoarseSearch(frontend::Frontend& frontend, StepBuilder& steps, const Config& config, double radius,

@@ -2,23 +2,19 @@
 
 #include <algorithm>
 
+#include "odometry/odometry_constants.hpp"
 #include "odometry/prediction.hpp"
 
 namespace quadedge::odometry {
-namespace {
 
-constexpr double kSettled = 0.3;  ///< mean change of the predicted positions below which the search ends [px]
-constexpr int kSettledStep = 16;  ///< the mean is computed over every 16th edge
-
-}  // namespace
-
-StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely) {
+StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
+                                 double confident_support) {
   PoseConfig limits = config_.pose;
   limits.min_hypotheses = 0;  // the proposal has drawn them; more are drawn only as its inlier ratio requires
   if (closely) limits.inlier_distance *= kCloseAgreement;
   if (query.key) {
     StepHandle step = match(query, query.key, limits, current_from_base * query.base_from_key);
-    if (step->ok() && !closely && !acceptance_.is_confident(*step)) take_support_of_base(query, limits, *step);
+    if (step->ok() && !closely && step->verdict.support < confident_support) take_support_of_base(query, limits, *step);
     if (step->ok()) return step;
   }
   return match(query, query.base, limits, current_from_base);
@@ -30,7 +26,7 @@ void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConf
   const Eigen::Isometry3d key_from_base = query.base_from_key.inverse();
   const StepHandle by_base = match(query, query.base, limits, by_key.motion.current_from_previous * key_from_base);
   if (by_base->ok() && acceptance_.are_same_motion(*by_base, by_key, query.base_from_key))
-    by_key.support = std::max(by_key.support, by_base->support);
+    by_key.verdict.support = std::max(by_key.verdict.support, by_base->verdict.support);
 }
 
 StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
@@ -51,7 +47,7 @@ StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHand
     if (mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled) break;
     predict(1, search_);
   }
-  if (step->ok()) acceptance_.measure_area(search_.left, *step);
+  if (step->ok()) acceptance_.judge(search_.left, *step);
   return step;
 }
 

@@ -15,13 +15,14 @@ namespace quadedge::odometry {
 class Confirmation {
  public:
   /// Refers to all arguments except the configuration; they must outlive the object.
-  Confirmation(const Config& config, frontend::Frontend& frontend, StepBuilder& steps, Acceptance& acceptance)
+  Confirmation(const Config& config, frontend::Frontend& frontend, StepBuilder& steps, const Acceptance& acceptance)
       : config_(config), frontend_(frontend), steps_(steps), acceptance_(acceptance) {}
 
-  /// Returns the motion since the key rig or, if that is out of view, since the base. If the support by the key rig is
-  /// low, the support by the base may replace it. \param current_from_base the proposed motion
-  /// \param closely whether inliers have to lie within a third of the usual distance
-  StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely = false);
+  /// Returns the motion since the key rig or, if that is out of view, since the base. \param current_from_base the
+  /// proposed motion \param closely whether inliers have to lie within a third of the usual distance
+  /// \param confident_support below it, the support by the base may replace that by the key rig
+  StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
+                     double confident_support);
 
  private:
   StepHandle match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
@@ -32,7 +33,7 @@ class Confirmation {
   Config config_;
   frontend::Frontend& frontend_;
   StepBuilder& steps_;
-  Acceptance& acceptance_;
+  const Acceptance& acceptance_;
   TemporalSearch search_, next_search_;  ///< kept between calls
 };
 

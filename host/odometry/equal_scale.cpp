@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "common/bilinear.hpp"
+#include "odometry/odometry_constants.hpp"
 
 namespace quadedge::odometry {
 namespace {
-
-constexpr double kMinScaleRatio = 1.5;
 
 /// Reduces a mask by `factor`; a pixel is hidden if any of its source pixels is.
 void shrink(int factor, const PinholeCamera& camera, PixelMask& mask) {

@@ -11,12 +11,13 @@
 #include "odometry/motion_hypothesis.hpp"
 #include "odometry/motion_step.hpp"
 #include "odometry/step_builder.hpp"
+#include "odometry/track_record.hpp"
 #include "quadedge/config.hpp"
 
 namespace quadedge::odometry {
 
-/// Tries motion hypotheses in turn. Each proposal, made from a subset of the edges, is confirmed with all edges; common
-/// acceptance tests choose the result.
+/// Tries motion hypotheses with growing effort. Each proposal, made from a subset of the edges, is confirmed with all
+/// edges; select() chooses among the verdicts and says whether more has to be tried.
 class MotionSearch {
  public:
   /// Refers to the front end and the offset, which must outlive the object.
@@ -27,7 +28,7 @@ class MotionSearch {
   StepHandle find(const MotionQuery& query);
 
   /// Takes note of the motion that was chosen for a frame: what is expected of the next frame depends on it.
-  void remember(const MotionStep& found);
+  void remember(const MotionStep& found) { record_.remember(found); }
 
   /// See StepBuilder::take_pose_ms().
   double take_pose_ms() { return steps_.take_pose_ms(); }
@@ -35,23 +36,24 @@ class MotionSearch {
  private:
   /// A hypothesis, its proposal and the result of the confirmation.
   struct Trial {
-    const MotionHypothesis* hypothesis = nullptr;
+    MotionHypothesis* hypothesis = nullptr;
     StepHandle proposed, confirmed;  ///< `confirmed` is null if the status of the proposal is not ok
 
     StepHandle& outcome() { return confirmed ? confirmed : proposed; }
+    const MotionStep& outcome() const { return confirmed ? *confirmed : *proposed; }
   };
-  Trial try_out(MotionHypothesis& hypothesis, const MotionQuery& query, Evidence& evidence);
-  static Trial& best(std::vector<Trial>& trials);
-  Trial& with_all_inliers(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query);
-  /// Transform from the base of `other` to the base of `found`; one of them may be the key rig.
-  static Eigen::Isometry3d base_from_base(const MotionStep& found, const MotionStep& other, const MotionQuery& query);
-  /// Whether another confirmed motion could also be the camera's.
-  bool has_competing_motion(Trial& chosen, std::vector<Trial>& trials, const MotionQuery& query);
+  using Trials = std::vector<Trial>;
+
+  /// Appends the hypotheses up to a level of effort that are not among the trials yet and have a proposal.
+  void try_out(Effort effort, const MotionQuery& query, Trials& trials);
+  static Evidence evidence_of(const Trials& trials);
+  Selection choose(const MotionQuery& query, const Trials& trials) const;
+  Verdict verdict_of(const Trial& trial, const Evidence& evidence, const MotionQuery& query) const;
 
   StepBuilder steps_;
   Acceptance acceptance_;
-  bool in_doubt_ = false;  ///< whether the last motion, and hence the prediction from it, is ambiguous
   Confirmation confirmation_;
+  TrackRecord record_;
   std::vector<std::unique_ptr<MotionHypothesis>> hypotheses_;  ///< in the order in which they are tried
 };
 

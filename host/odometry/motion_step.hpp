@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/pool.hpp"
 #include "frontend/rig.hpp"
+#include "odometry/motion_selection.hpp"
 #include "pose/motion.hpp"
 #include "quadedge/edges.hpp"
 
@@ -22,20 +24,16 @@ struct MotionQuery {
   std::uint64_t seed = 0;
 };
 
-/// Fraction of the inlier distance that counts as close agreement. In fine texture, edges agree with a wrong position
-/// by chance, less often at a smaller distance. Of two motions that differ by a pixel or two, only one agrees closely.
-constexpr double kCloseAgreement = 1.0 / 3.0;
-
 /// Quads between an earlier rig and the current one, and the motion that they support.
 struct MotionStep {
   frontend::RigHandle base;  ///< the earlier rig
   TemporalMatches matches;
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
-  double support = 0;         ///< inliers divided by the base's edges that the motion brings into view
-  double explained_area = 0;  ///< the same ratio as a mean over image cells
-  double moving_ratio = 0;    ///< fraction of the edges in view in cells that hardly follow the motion
-  bool ambiguous = false;     ///< whether another motion explains nearly as much of the image
+  std::vector<std::uint8_t> agrees;    ///< one per quad: whether it agrees closely with the confirmed motion
+  std::vector<std::uint8_t> is_still;  ///< one per quad: whether it is where it was
+  Verdict verdict;
+  Doubt doubt;
 
   bool ok() const { return motion.status == pose::MotionStatus::ok; }
   /// Mean inverse depth of the inliers in the earlier left camera [1/m]; 0 without inliers.
@@ -50,8 +48,10 @@ struct MotionStep {
     base = nullptr;
     matches.clear();
     motion.status = pose::MotionStatus::too_few_quads;
-    support = explained_area = moving_ratio = 0;
-    ambiguous = false;
+    agrees.clear();
+    is_still.clear();
+    verdict = {};
+    doubt = {};
   }
 };
 

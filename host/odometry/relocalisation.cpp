@@ -5,11 +5,10 @@ namespace quadedge::odometry {
 Relocalisation::Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config)
     : frontend_(frontend), steps_(steps), limits_(limits_of_global_matches(config)) {}
 
-StepHandle Relocalisation::propose(const MotionQuery& query, Evidence& evidence) {
+StepHandle Relocalisation::propose(const MotionQuery& query, const Evidence&) {
   StepHandle step = steps_.take(query.base);
   frontend_.match_globally(*query.base, step->matches);
   steps_.propose(query, limits_, std::nullopt, *step);
-  evidence.global_matches = step.get();
   return step;
 }
 

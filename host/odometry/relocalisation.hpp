@@ -10,8 +10,9 @@ namespace quadedge::odometry {
 class Relocalisation : public MotionHypothesis {
  public:
   Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config);
-  StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
-  bool is_costly() const override { return true; }
+  StepHandle propose(const MotionQuery& query, const Evidence& evidence) override;
+  bool matches_globally() const override { return true; }
+  Effort effort() const override { return Effort::everything; }
 
  private:
   frontend::Frontend& frontend_;

@@ -1,22 +1,20 @@
 #include "odometry/remaining_motion.hpp"
 
-#include "pose/scoring.hpp"
+#include "odometry/odometry_constants.hpp"
 
 namespace quadedge::odometry {
+
 RemainingMotion::RemainingMotion(StepBuilder& steps, const Config& config)
-    : steps_(steps), limits_(limits_of_proposals(config)), orientation_(config.pose.inlier_orientation_rad()) {
+    : steps_(steps), limits_(limits_of_proposals(config)) {
   limits_.inlier_distance *= kCloseAgreement;
 }
 
-StepHandle RemainingMotion::propose(const MotionQuery& query, Evidence& evidence) {
+StepHandle RemainingMotion::propose(const MotionQuery& query, const Evidence& evidence) {
   if (evidence.confirmed == nullptr) return nullptr;
   const MotionStep& first = *evidence.confirmed;
-  pose::select_inliers(first.quads.scoring,
-                       pose::LaterCameras(steps_.calibration(), first.motion.current_from_previous),
-                       limits_.inlier_distance, orientation_, agrees_);
   StepHandle step = steps_.take(first.base);
   for (std::size_t q = 0; q < first.quads.size(); ++q) {
-    if (agrees_[q] != 0) continue;
+    if (first.agrees[q] != 0) continue;
     const auto m = static_cast<std::size_t>(first.quads.match[q]);
     step->matches.append(first.matches.previous[m], first.matches.current[m], query.current->edges,
                          first.matches.ncc[m], first.matches.competing_clusters[m]);

@@ -13,14 +13,13 @@ namespace quadedge::odometry {
 class RemainingMotion : public MotionHypothesis {
  public:
   RemainingMotion(StepBuilder& steps, const Config& config);
-  StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
+  StepHandle propose(const MotionQuery& query, const Evidence& evidence) override;
+  Effort effort() const override { return Effort::inexpensive; }
   bool requires_close_agreement() const override { return true; }
 
  private:
   StepBuilder& steps_;
   PoseConfig limits_;
-  double orientation_;                ///< [rad]
-  std::vector<std::uint8_t> agrees_;  ///< kept between calls
 };
 
 }  // namespace quadedge::odometry

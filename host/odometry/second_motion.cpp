@@ -7,7 +7,7 @@ namespace quadedge::odometry {
 SecondMotion::SecondMotion(StepBuilder& steps, const Config& config)
     : steps_(steps), limits_(limits_of_global_matches(config)) {}
 
-StepHandle SecondMotion::propose(const MotionQuery& query, Evidence& evidence) {
+StepHandle SecondMotion::propose(const MotionQuery& query, const Evidence& evidence) {
   if (evidence.global_matches == nullptr || !evidence.global_matches->ok()) return nullptr;
   const MotionStep& first = *evidence.global_matches;
   explained_.assign(first.matches.size(), 0);

@@ -14,8 +14,8 @@ namespace quadedge::odometry {
 class SecondMotion : public MotionHypothesis {
  public:
   SecondMotion(StepBuilder& steps, const Config& config);
-  StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
-  bool is_costly() const override { return true; }
+  StepHandle propose(const MotionQuery& query, const Evidence& evidence) override;
+  Effort effort() const override { return Effort::everything; }
 
  private:
   StepBuilder& steps_;

@@ -3,14 +3,9 @@
 #include <algorithm>
 
 #include "common/run_cost.hpp"
+#include "odometry/odometry_constants.hpp"
 
 namespace quadedge::odometry {
-namespace {
-
-/// Minimum inlier ratio of a proposed motion; low, because the confirmation follows.
-constexpr double kCoarseMinInlierRatio = 0.03;
-
-}  // namespace
 
 StepHandle StepBuilder::take(const frontend::RigHandle& base) {
   StepHandle step = steps_.take();
@@ -36,7 +31,7 @@ const pose::MeasuredEdges& StepBuilder::measured(const frontend::Rig& rig) const
 
 PoseConfig limits_of_proposals(const Config& config) {
   PoseConfig limits = config.pose;
-  limits.min_inlier_ratio = kCoarseMinInlierRatio;
+  limits.min_inlier_ratio = kProposalMinInlierRatio;
   limits.min_spread = 0;
   return limits;
 }

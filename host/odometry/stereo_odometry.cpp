@@ -294,9 +294,9 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.disparity_offset = offset_.value() + step.motion.offset;
   if (const auto large = rig_check::judge_disparity_offset(result.disparity_offset))
     warn(rig_check::warning(*large), result);
-  result.ambiguous_motion = step.ambiguous;
-  result.diagnostics.moving_ratio = step.moving_ratio;
-  if (step.ambiguous) add_message("ambiguous motion: another motion, or none, explains much of the image", result);
+  result.ambiguous_motion = step.doubt.exists();
+  result.diagnostics.moving_ratio = step.verdict.moving_ratio;
+  if (step.doubt.exists()) add_message("ambiguous motion: " + odometry::to_string(step.doubt), result);
   result.diagnostics.base_frame = step.base->frame;
   result.diagnostics.search = step.matches.search;
   result.reference_frame = state_.key.frame();

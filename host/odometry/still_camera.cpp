@@ -2,7 +2,7 @@
 
 namespace quadedge::odometry {
 
-StepHandle StillCamera::propose(const MotionQuery& query, Evidence&) {
+StepHandle StillCamera::propose(const MotionQuery& query, const Evidence&) {
   StepHandle step = steps_.take(query.base);
   step->motion = {};
   step->motion.status = pose::MotionStatus::ok;

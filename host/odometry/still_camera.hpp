@@ -10,7 +10,8 @@ namespace quadedge::odometry {
 class StillCamera : public MotionHypothesis {
  public:
   explicit StillCamera(StepBuilder& steps) : steps_(steps) {}
-  StepHandle propose(const MotionQuery& query, Evidence& evidence) override;
+  StepHandle propose(const MotionQuery& query, const Evidence& evidence) override;
+  Effort effort() const override { return Effort::inexpensive; }
   bool requires_close_agreement() const override { return true; }
 
  private:

@@ -5,16 +5,11 @@
 #include <cmath>
 
 #include "common/row_blocks.hpp"
+#include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {
 
 namespace {
-
-/// Cell sizes within which errors may be correlated: config.inflation_cell and its doublings. From index kLeftOut on,
-/// the cells are used for the jackknife.
-constexpr int kCellSizes = 5, kLeftOut = 2;
-/// A cell with more than this fraction of the information cannot be left out.
-constexpr double kLargestRatio = 0.5;
 
 /// Square cells of an image.
 struct CellGrid {

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "pose/pose_constants.hpp"
+
 namespace quadedge::pose {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -16,12 +18,6 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 constexpr double kReprojectionSize = 3, kDirectionSize = 2;  ///< residuals per block
 /// Medians of the chi-squared distribution with 3 and 2 degrees of freedom.
 constexpr double kReprojectionMedian = 2.3659738843753377, kDirectionMedian = 1.3862943611198906;
-/// Lower limit of the ratio of measured to assumed variances, for noise-free data.
-constexpr double kSmallestScale = 1e-6;
-/// Approximate number of errors over which a scale is computed as the median.
-constexpr std::size_t kScaleErrors = 4000;
-/// Minimum ratio of the pivots of the normal equations, after scaling the diagonal to one.
-constexpr double kSmallestPivot = 1e-12;
 
 /// Applies exp(rotation) and the translation from the left.
 Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current_from_previous);

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "pose/fit_limits.hpp"
+#include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {
 

@@ -1,6 +1,7 @@
 #include "pose/quads.hpp"
 
 #include "common/row_blocks.hpp"
+#include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {
 
@@ -57,7 +58,7 @@ void QuadObservations::set(std::size_t i, const StereoMeasurement& before, const
                            std::int32_t match_number, const QuadLimits& limits) {
   previous[i] = before;
   current[i] = after;
-  const double doubt = before.slope_per_radian * limits.direction_sigma / QuadLimits::kSlopePrior;
+  const double doubt = before.slope_per_radian * limits.direction_sigma / kSlopePrior;
   const Eigen::Vector3d tangent = (before.direction + before.slope / (1.0 + doubt * doubt) * before.ray).normalized();
   scoring.ray_x[i] = static_cast<float>(before.ray.x());
   scoring.ray_y[i] = static_cast<float>(before.ray.y());

@@ -16,8 +16,6 @@ struct QuadLimits {
   explicit QuadLimits(const Config& config);
   double min_epipolar_angle;  ///< see measure() [rad]
   double direction_sigma;     ///< noise of an edge's direction [rad]
-  /// Standard deviation of depth slopes in typical scenes: surfaces slanted by 45 degrees, for any camera.
-  static constexpr double kSlopePrior = 1.0;
 };
 
 /// Data used for scoring a hypothesis, one row per quad, single precision (1e-4 px).
@@ -27,7 +25,7 @@ struct ScoringArrays {
   /// Previous tangent with its most plausible depth slope, in the previous left camera frame, of unit length. The
   /// measured slope of a distant edge is noise divided by a small parallax; used directly, it would rotate the
   /// projected tangent at the next parallax and make correct quads fail the orientation test. The measured slope is
-  /// therefore combined with QuadLimits::kSlopePrior according to its uncertainty.
+  /// therefore combined with kSlopePrior according to its uncertainty.
   std::vector<float> tangent_x, tangent_y, tangent_z;
   std::vector<float> left_x, left_y, left_cos, left_sin;      ///< current left pixel and unit direction in the image
   std::vector<float> right_x, right_y, right_cos, right_sin;  ///< current right pixel and unit direction in the image

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pose/constraints.hpp"
+#include "pose/pose_constants.hpp"
 #include "pose/random_index.hpp"
 #include "pose/scoring.hpp"
 #include "pose/two_quads.hpp"

@@ -14,9 +14,6 @@
 
 namespace quadedge::pose {
 
-/// Number of quads on which all hypotheses are compared. The promising ones are then compared on pose.scoring_quads.
-constexpr std::size_t kPreviewQuads = 512;
-
 /// The best motion found by sampling.
 struct Consensus {
   bool found = false;  ///< false: no sample passed the constraints, and no initial hypothesis was given

@@ -4,21 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "pose/fit_limits.hpp"
 #include "pose/offset_fit.hpp"
+#include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {
 
 namespace {
-
-/// Approximate number of quads that determine the inlier selection.
-constexpr std::size_t kSelectionQuads = 4000;
-/// If the selection changes in fewer than one row out of this many, no further fit is made.
-constexpr std::size_t kSameSelection = 500;
-/// Below this separability (OffsetFit) the offset is not estimated: small systematic errors of the disparities look
-/// like an offset fifty times as large. Rendered drives straight towards thin, distant cables have 0.002 to 0.013,
-/// EuRoC's flight 0.004 to 0.007, rendered rooms and facades 0.02 to 0.18, KITTI 0.08 to 0.5.
-constexpr double kMinSeparability = 0.02;
 
 /// Number of rows that are in only one of two ascending lists.
 std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {

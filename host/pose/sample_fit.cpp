@@ -1,7 +1,7 @@
 #include "pose/sample_fit.hpp"
 
 #include "common/vector_clones.hpp"
-#include "pose/fit_limits.hpp"
+#include "pose/pose_constants.hpp"
 
 namespace quadedge::pose {
 

@@ -1,0 +1,56 @@
+#pragma once
+/// \file odometry_constants.hpp  Constants that decide about motions (doc/method.md section 7) and that no recording
+/// has needed to adjust. The others are in quadedge/constants.inc.
+
+namespace quadedge::odometry {
+
+/// Fraction of the inlier distance that counts as close agreement. In fine texture, edges agree with a wrong position
+/// by chance, less often at a smaller distance. Of two motions that differ by a pixel or two, only one agrees closely.
+constexpr double kCloseAgreement = 1.0 / 3.0;
+
+/// In an image cell that shows another motion, less than this fraction of the edges found again is explained by the
+/// motion. A cell counts as having found at least kMinFoundRatio of its edges in view.
+constexpr double kMinExplainedRatio = 0.25, kMinFoundRatio = 0.1;
+
+/// Fraction of the edges in view that lie in such cells, above which another motion is searched for. Rendered scenes
+/// reach 0.02, EuRoC 0.07, KITTI mostly 0.15 to 0.21; a motion that is not the camera's fails to explain more of the
+/// image than it explains.
+constexpr double kSecondaryMotionRatio = 0.25;
+
+/// A motion with more than this fraction of the edges in view in such cells is a compromise between motions or
+/// accidental.
+constexpr double kMinorityMotionRatio = 0.5;
+
+/// Two motions whose explained areas have a ratio above this are ambiguous.
+constexpr double kCompetingAreaRatio = 0.4;
+
+/// Fraction of the quads that are static although the motion would have moved them. Valid motions reach 0.036 in single
+/// frames and are mostly below 0.001; a stationary camera whose motion was estimated from objects moving in front of it
+/// has 0.07 to 0.36.
+constexpr double kStaticQuadRatio = 0.05;
+
+/// Two motions that share more than this fraction of the inliers are the same motion.
+constexpr double kSharedInlierRatio = 0.7;
+
+/// Support that a wrong motion may reach by chance in fine texture.
+constexpr double kChanceSupport = 0.2;
+
+/// A motion is confident if it reaches this fraction of the support that recent motions had.
+constexpr double kRecentSupportRatio = 0.5;
+
+/// Decay of the recent support per frame.
+constexpr double kSupportDecay = 0.95;
+
+/// Minimum inlier ratio of a proposed motion; low, because the confirmation follows.
+constexpr double kProposalMinInlierRatio = 0.03;
+
+/// The confirmation ends when the predicted positions change by less than this on average [px], far below
+/// temporal.radius. The mean is computed over every 16th edge, which suffices for an average.
+constexpr double kSettled = 0.3;
+constexpr int kSettledStep = 16;
+
+/// Ratio of the two focal lengths in pixels from which a camera is reduced to a fraction of its resolution: half-way to
+/// twice the resolution.
+constexpr double kMinScaleRatio = 1.5;
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,46 @@
+#pragma once
+/// \file pose_constants.hpp  Constants of the pose estimate (doc/method.md section 6) that need no adjustment to data.
+/// The others are in quadedge/constants.inc.
+
+#include <cstddef>
+
+namespace quadedge::pose {
+
+/// Maximum number of Gauss-Newton steps of a fit: one that needs more started from a wrong motion.
+constexpr int kFitSteps = 5;
+
+/// Step length below which a fit ends [standard deviations of the pose], far below the effect of noise.
+constexpr double kFitTolerance = 0.01;
+
+/// Number of quads on which all hypotheses are compared. The promising ones are then compared on pose.scoring_quads.
+constexpr std::size_t kPreviewQuads = 512;
+
+/// Approximate number of quads that determine the inlier selection, and of errors over which a scale is computed as the
+/// median: the median of 4000 is known to 2 %.
+constexpr std::size_t kSelectionQuads = 4000, kScaleErrors = 4000;
+
+/// If the selection changes in fewer than one row out of this many, no further fit is made.
+constexpr std::size_t kSameSelection = 500;
+
+/// Below this separability (OffsetFit) the offset is not estimated: small systematic errors of the disparities look
+/// like an offset fifty times as large. Rendered drives straight towards thin, distant cables have 0.002 to 0.013,
+/// EuRoC's flight 0.004 to 0.007, rendered rooms and facades 0.02 to 0.18, KITTI 0.08 to 0.5.
+constexpr double kMinSeparability = 0.02;
+
+/// Lower limit of the ratio of measured to assumed variances, for noise-free data.
+constexpr double kSmallestScale = 1e-6;
+
+/// Minimum ratio of the pivots of the normal equations, after scaling the diagonal to one.
+constexpr double kSmallestPivot = 1e-12;
+
+/// Standard deviation of depth slopes in typical scenes: surfaces slanted by 45 degrees, for any camera.
+constexpr double kSlopePrior = 1.0;
+
+/// Cell sizes within which errors may be correlated: config.inflation_cell and its doublings. From index kLeftOut on,
+/// the cells are used for the jackknife.
+constexpr int kCellSizes = 5, kLeftOut = 2;
+
+/// A cell with more than this fraction of the information cannot be left out.
+constexpr double kLargestRatio = 0.5;
+
+}  // namespace quadedge::pose

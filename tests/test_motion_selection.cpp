@@ -1,0 +1,125 @@
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <set>
+
+#include "odometry/motion_selection.hpp"
+
+using namespace quadedge::odometry;
+
+namespace {
+
+/// A motion that explains an area of the image and leaves the rest in no doubt.
+Verdict found(double area, double support = 0.5) {
+  Verdict verdict;
+  verdict.found = true;
+  verdict.support = support;
+  verdict.explained_area = area;
+  return verdict;
+}
+
+Verdict closely(double area) {
+  Verdict verdict = found(area);
+  verdict.has_all_inliers = false;
+  return verdict;
+}
+
+Verdict moving(Verdict verdict, double ratio) {
+  verdict.moving_ratio = ratio;
+  return verdict;
+}
+
+Verdict at_rest(Verdict verdict, double ratio) {
+  verdict.static_ratio = ratio;
+  return verdict;
+}
+
+const Verdict kFailure;
+const Expectation kPredicted{0, false, 0.35}, kDoubtful{0, true, 0.35}, kUnpredicted{std::nullopt, false, 0.35};
+
+/// Motions with the same number are the same; by default, all differ.
+Selection choose(const std::vector<Verdict>& verdicts, const Expectation& expectation, std::vector<int> motion = {}) {
+  if (motion.empty()) {
+    motion.resize(verdicts.size());
+    std::iota(motion.begin(), motion.end(), 0);
+  }
+  return select(verdicts, expectation, [&](std::size_t a, std::size_t b) { return motion[a] == motion[b]; });
+}
+
+Effort needed(const Verdict& prediction, const Expectation& expectation = kPredicted) {
+  return choose({prediction}, expectation).needed;
+}
+
+}  // namespace
+
+TEST_CASE("motion selection: how much is tried depends on what the prediction leaves open", "[odometry]") {
+  CHECK(needed(found(0.8)) == Effort::prediction);
+  CHECK(needed(moving(found(0.8), 0.3)) == Effort::inexpensive);
+  CHECK(needed(at_rest(found(0.8), 0.06)) == Effort::inexpensive);
+  CHECK(needed(moving(found(0.8), 0.6)) == Effort::everything);
+  CHECK(needed(found(0.8, 0.34)) == Effort::everything);
+  CHECK(needed(kFailure) == Effort::everything);
+  CHECK(needed(found(0.8), kDoubtful) == Effort::everything);
+  CHECK(needed(found(0.8), kUnpredicted) == Effort::everything);
+  CHECK(choose({}, kUnpredicted).needed == Effort::everything);
+  // An inexpensive hypothesis that explains more than the prediction, and one that does not.
+  const Verdict prediction = moving(found(0.5), 0.3);
+  CHECK(choose({prediction, closely(0.6)}, kPredicted).needed == Effort::everything);
+  CHECK(choose({prediction, closely(0.4)}, kPredicted).needed == Effort::inexpensive);
+}
+
+TEST_CASE("motion selection: the motion that explains the largest area is chosen", "[odometry]") {
+  CHECK(choose({found(0.3), found(0.5), found(0.4)}, kPredicted).trial == 1);
+  CHECK(choose({kFailure, found(0.01)}, kPredicted).trial == 1);
+  CHECK_FALSE(choose({kFailure, kFailure}, kPredicted).accepted);
+  CHECK(choose({found(0.4), found(0.4)}, kPredicted).trial == 1);  // not the prediction
+  CHECK(choose({found(0.4), found(0.4)}, kUnpredicted).trial == 0);
+  CHECK(choose({kFailure, kFailure, kFailure}, kPredicted).trial == 1);
+  Verdict failure;
+  failure.explained_area = 0.9;  // has no meaning
+  CHECK(choose({found(0.2), failure}, kPredicted).trial == 0);
+}
+
+TEST_CASE("motion selection: a close agreement gives way to the same motion with all of its inliers", "[odometry]") {
+  const std::vector<Verdict> verdicts{found(0.3), closely(0.6), found(0.5)};
+  CHECK(choose(verdicts, kPredicted).trial == 1);
+  CHECK(choose(verdicts, kPredicted, {0, 1, 1}).trial == 2);
+  CHECK(choose({closely(0.3), closely(0.6)}, kUnpredicted, {0, 0}).trial == 1);
+  CHECK(choose({kFailure, closely(0.6)}, kPredicted, {0, 0}).trial == 1);
+}
+
+TEST_CASE("motion selection: what was not expected has to agree with the global matches", "[odometry]") {
+  Verdict contradicted = found(0.8);
+  contradicted.agrees_globally = false;
+  CHECK(choose({contradicted}, kPredicted).accepted);  // confident
+  contradicted.support = 0.34;
+  CHECK_FALSE(choose({contradicted}, kPredicted).accepted);
+  contradicted.support = 0.5;
+  CHECK_FALSE(choose({kFailure, contradicted}, kPredicted).accepted);
+  CHECK_FALSE(choose({contradicted}, kUnpredicted).accepted);
+  CHECK(choose({found(0.8, 0.1)}, kUnpredicted).accepted);
+}
+
+TEST_CASE("motion selection: every doubt is told with its ratio", "[odometry]") {
+  const auto doubt = [](const std::vector<Verdict>& verdicts, std::vector<int> motion = {}) {
+    return choose(verdicts, kPredicted, std::move(motion)).doubt;
+  };
+  CHECK_FALSE(doubt({found(0.5)}).exists());
+  CHECK_FALSE(doubt({kFailure}).exists());
+  CHECK_FALSE(doubt({moving(found(0.5), 0.49)}).exists());
+  const Doubt moving_image = doubt({moving(found(0.5), 0.6)});
+  CHECK(moving_image.kind == Ambiguity::moving_image);
+  CHECK(moving_image.ratio == 0.6);
+  const Doubt static_scene = doubt({at_rest(found(0.5), 0.07)});
+  CHECK(static_scene.kind == Ambiguity::static_scene);
+  CHECK(static_scene.ratio == 0.07);
+  const Doubt competing = doubt({found(0.5), found(0.1), found(0.3), found(0.25), kFailure});
+  CHECK(competing.kind == Ambiguity::competing_motion);
+  CHECK(competing.ratio == Approx(0.6));
+  CHECK_FALSE(doubt({found(0.5), found(0.19)}).exists());
+  CHECK_FALSE(doubt({found(0.5), found(0.3)}, {0, 0}).exists());
+  CHECK(doubt({found(0), found(0)}).kind == Ambiguity::competing_motion);
+  std::set<std::string> texts;
+  for (const Doubt& each : {moving_image, static_scene, competing}) texts.insert(to_string(each));
+  CHECK(texts.size() == 3);
+  for (const auto& text : texts) CHECK(text.find(" %") != std::string::npos);
+}
