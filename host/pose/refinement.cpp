@@ -134,7 +134,6 @@ class Refinement {
     if (!fit_both(MeasuredCovariance())) return false;
     if (!(both.separability >= kMinSeparability)) {
       covariance_by_offset_ = variance * both.pose_per_offset * both.pose_per_offset.transpose();
-      result_.offset_variance = variance;  // nothing was learned
       return false;
     }
     result_.current_from_previous = both.current_from_previous;

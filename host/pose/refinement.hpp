@@ -30,7 +30,7 @@ struct Refined {
   int inliers = 0;
   Matrix6d covariance = Matrix6d::Zero();  ///< see MeasuredCovariance::inflated()
   bool solved = false;  ///< false: no fit was possible; the pose is the initial one and the covariance zero
-  /// Disparity offset, see fit_offset() [px, px^2]; 0 and the variance before if a motion can imitate it.
+  /// Disparity offset, see fit_offset() [px, px^2]; 0, 0 if a motion can imitate it.
   double offset = 0, offset_variance = 0;
 };
 
