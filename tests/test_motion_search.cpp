@@ -22,6 +22,8 @@ class CountingFrontend : public frontend::Frontend {
     ++global;
     reference_->match_globally(base, matches);
   }
+  frontend::KeptRig keep() override { return reference_->keep(); }
+  frontend::RigHandle restore(const frontend::KeptRig& kept) override { return reference_->restore(kept); }
   EdgeSet edges(Side side) override { return reference_->edges(side); }
   std::size_t device_bytes() const override { return 0; }
 

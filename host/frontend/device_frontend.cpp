@@ -1,6 +1,7 @@
 #include "frontend/device_frontend.hpp"
 
 #include <numeric>
+#include <stdexcept>
 
 #include "common/epipolar_rows.hpp"
 #include "common/layouts.hpp"
@@ -103,7 +104,9 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   while (!range_.suffices(current.edges, left_.edges.host_count));
   counts_.disparity_range = range_.disparity();
   rig.has_sift = false;
+  current.is_restored = false;
   indexed_ = false;
+  wide_rows_ = -1;
   context_.flush();  // the right patches, while the host goes on
   if (tap_ != nullptr) {
     tap_candidates_without_limits();
@@ -204,17 +207,63 @@ void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, Te
   if (tap_ != nullptr) tap_->quads(matches);
 }
 
-void DeviceFrontend::match_globally(const Rig& base, TemporalMatches& matches) {
-  const stages::DeviceStereoEdges& before = rigs_.own(base).on_device;
+stages::DeviceWideEdges DeviceFrontend::describe_current() {
   const stages::DeviceStereoEdges& current = rigs_.current().on_device;
-  const int before_step = wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);
   const int step = wide_step(static_cast<std::size_t>(current.count), 2 * config_.temporal.wide_edges);
+  if (wide_rows_ < 0) {
+    wide_description_.prepare(current.left_image.pixels, small_);
+    wide_rows_ = wide_description_.describe(small_, current, step, wide_now_);
+  }
+  return {current, step, wide_rows_, wide_now_};
+}
+
+void DeviceFrontend::match_globally(const Rig& base, TemporalMatches& matches) {
+  const DeviceRig& own = rigs_.own(base);
+  const stages::DeviceStereoEdges& before = own.on_device;
+  const StereoEdges& current = rigs_.current().edges;
+  if (own.is_restored) {
+    matches = wide_matching_.run({before, 1, before.count, own.wide}, describe_current(), current);
+    return;
+  }
+  const int step = wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);
   wide_description_.prepare(before.left_image.pixels, small_);
-  const int before_rows = wide_description_.describe(small_, before, before_step, wide_before_);
-  wide_description_.prepare(current.left_image.pixels, small_);
-  const int rows = wide_description_.describe(small_, current, step, wide_now_);
-  matches = wide_matching_.run({before, before_step, before_rows, wide_before_}, {current, step, rows, wide_now_},
-                               rigs_.current().edges);
+  const int rows = wide_description_.describe(small_, before, step, wide_before_);
+  matches = wide_matching_.run({before, step, rows, wide_before_}, describe_current(), current);
+}
+
+KeptRig DeviceFrontend::keep() {
+  const DeviceRig& current = rigs_.current();
+  const stages::DeviceStereoEdges& rig = current.on_device;
+  const stages::DeviceWideEdges described = describe_current();
+  const auto wide = described.descriptors.read(static_cast<std::size_t>(described.rows) * kWideBytes);
+  const auto left = rig.left_patches.read(static_cast<std::size_t>(left_.edges.host_count) * kEdgePatchBytes);
+  const auto right = rig.right_patches.read(current.edges.size() * kEdgePatchBytes);
+  return keep_edges(current, {described.step, wide}, left, current.edges.left_index, right);
+}
+
+RigHandle DeviceFrontend::restore(const KeptRig& kept) {
+  if (tap_ != nullptr) throw std::logic_error("a restored rig has no images, which a tap needs");
+  const std::shared_ptr<DeviceRig>& restored = rigs_.restored(calibration_);
+  restored->start(kept.frame);
+  restored->edges = kept.edges;
+  restored->edges_spacing = kept.edges_spacing;
+  restored->is_restored = true;
+  const std::size_t count = kept.edges.size();
+  stages::DeviceStereoEdges& rig = restored->on_device;
+  rig.reserve(context_, count);
+  rig.count = rig.stride = static_cast<cl_int>(count);
+  rig.has_sift = false;
+  rig.left_index.write(kept.edges.left_index.data(), count);
+  std::vector<cl_float> packed;
+  for (const auto* column : {&kept.edges.left_x, &kept.edges.left_y, &kept.edges.left_direction, &kept.edges.right_x,
+                             &kept.edges.right_y, &kept.edges.right_direction, &kept.edges.left_scale_drift})
+    packed.insert(packed.end(), column->begin(), column->end());
+  rig.packed.write(packed.data(), packed.size());
+  const KeptPatches patches = unpack_patches(kept);
+  rig.left_patches.write(context_, patches.left);
+  rig.right_patches.write(context_, patches.right);
+  restored->wide.write(context_, unpack_wide(kept));
+  return restored;
 }
 
 EdgeSet DeviceFrontend::edges(Side side) {

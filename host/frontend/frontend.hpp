@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/temporal_search.hpp"
+#include "frontend/kept_rig.hpp"
 #include "frontend/rig.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
@@ -51,6 +52,11 @@ class Frontend {
     match_globally(base, matches);
     return matches;
   }
+
+  /// Keeps the current rig in a compact form.
+  virtual KeptRig keep() = 0;
+  /// Restores a kept rig as a base of match() and match_globally().
+  virtual RigHandle restore(const KeptRig& kept) = 0;
 
   const FrontendCounts& counts() const { return counts_; }
 

@@ -1,5 +1,8 @@
 #include "frontend/reference_frontend.hpp"
 
+#include <numeric>
+#include <stdexcept>
+
 #include "common/epipolar_rows.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/edge_mask.hpp"
@@ -83,6 +86,7 @@ void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
 RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   ReferenceRig& now = rigs_.next();
   counts_ = {};
+  now.wide.clear();
   now.left = pinhole_image(frame.left, calibration_.left_undistortion);
   now.right = pinhole_image(frame.right, calibration_.right_undistortion);
   const double threshold = threshold_.next({now.left.view(), now.right.view()});
@@ -140,14 +144,42 @@ void ReferenceFrontend::match(const Rig& base, const TemporalSearch& search, Tem
   matches.search = counts_.searches++;
 }
 
+namespace {
+
+reference::WideEdges describe_some(const ReferenceRig& rig, int wanted) {
+  if (!rig.wide.empty()) return {rig.edges, 1, rig.wide};
+  const int step = wide_step(rig.edges.size(), wanted);
+  return {rig.edges, step, reference::wide_descriptions(reference::shrink(rig.left.view()), rig.edges, step)};
+}
+
+}  // namespace
+
 void ReferenceFrontend::match_globally(const Rig& base, TemporalMatches& matches) {
-  const auto describe_some = [](const ReferenceRig& rig, int wanted) {
-    const int step = wide_step(rig.edges.size(), wanted);
-    return reference::WideEdges{rig.edges, step,
-                                reference::wide_descriptions(reference::shrink(rig.left.view()), rig.edges, step)};
-  };
   matches = reference::wide_matches(describe_some(rigs_.own(base), config_.temporal.wide_edges),
                                     describe_some(rigs_.current(), 2 * config_.temporal.wide_edges), config_.temporal);
+}
+
+KeptRig ReferenceFrontend::keep() {
+  const ReferenceRig& now = rigs_.current();
+  const reference::WideEdges described = describe_some(now, 2 * config_.temporal.wide_edges);
+  std::vector<std::int32_t> itself(now.edges.size());
+  std::iota(itself.begin(), itself.end(), 0);
+  return keep_edges(now, {described.step, described.descriptors}, now.left_descriptions.patches, itself,
+                    now.right_descriptions.patches);
+}
+
+RigHandle ReferenceFrontend::restore(const KeptRig& kept) {
+  if (tap_ != nullptr) throw std::logic_error("a restored rig has no images, which a tap needs");
+  const std::shared_ptr<ReferenceRig>& restored = rigs_.restored();
+  restored->start(kept.frame);
+  restored->edges = kept.edges;
+  restored->edges_spacing = kept.edges_spacing;
+  KeptPatches patches = unpack_patches(kept);
+  const std::vector<std::uint8_t> no_sift(kept.edges.size() * kEdgeSiftBytes);
+  restored->left_descriptions = {std::move(patches.left), no_sift};
+  restored->right_descriptions = {std::move(patches.right), no_sift};
+  restored->wide = unpack_wide(kept);
+  return restored;
 }
 
 }  // namespace quadedge::frontend

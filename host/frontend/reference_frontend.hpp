@@ -16,6 +16,7 @@ namespace quadedge::frontend {
 struct ReferenceRig : Rig {
   Image left, right;
   reference::EdgeDescriptions left_descriptions, right_descriptions;
+  std::vector<std::uint8_t> wide;  ///< wide descriptors of all edges, only of a restored rig
 };
 
 /// Optimised for clarity, not speed; single-threaded.
@@ -26,6 +27,8 @@ class ReferenceFrontend : public Frontend {
   RigHandle process(const StereoFrame& frame) override;
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
   void match_globally(const Rig& base, TemporalMatches& matches) override;
+  KeptRig keep() override;
+  RigHandle restore(const KeptRig& kept) override;
   EdgeSet edges(Side side) override { return side == Side::right ? right_edges_ : left_edges_; }
   std::size_t device_bytes() const override { return 0; }
 

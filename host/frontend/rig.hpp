@@ -59,11 +59,14 @@ class RigPool {
   /// constructed from `arguments`.
   template <class... Arguments>
   T& next(const Arguments&... arguments) {
-    auto spare = std::find_if(rigs_.begin(), rigs_.end(), [](const auto& rig) { return rig.use_count() == 1; });
-    if (spare == rigs_.end()) spare = rigs_.insert(rigs_.end(), std::make_shared<T>(arguments...));
-    current_ = static_cast<std::size_t>(spare - rigs_.begin());
+    current_ = spare(rigs_.size(), arguments...);
     current().start(++frame_);
     return current();
+  }
+  /// The same for a rig that is restored and does not become the current one.
+  template <class... Arguments>
+  const std::shared_ptr<T>& restored(const Arguments&... arguments) {
+    return rigs_[spare(current_, arguments...)];
   }
   T& current() { return *rigs_.at(current_); }
   RigHandle current_handle() const { return rigs_.at(current_); }
@@ -76,6 +79,15 @@ class RigPool {
   }
 
  private:
+  /// Number of a rig that is not held and is not number `except`.
+  template <class... Arguments>
+  std::size_t spare(std::size_t except, const Arguments&... arguments) {
+    for (std::size_t i = 0; i < rigs_.size(); ++i)
+      if (i != except && rigs_[i].use_count() == 1) return i;
+    rigs_.push_back(std::make_shared<T>(arguments...));
+    return rigs_.size() - 1;
+  }
+
   std::vector<std::shared_ptr<T>> rigs_;
   std::size_t current_ = 0;
   int frame_ = -1;

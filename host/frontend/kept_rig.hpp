@@ -1,0 +1,49 @@
+#pragma once
+/// \file kept_rig.hpp  A stereo rig in a compact form on the host, from which a front end can restore it.
+
+#include <cstdint>
+#include <vector>
+
+#include "frontend/rig.hpp"
+#include "quadedge/edges.hpp"
+
+namespace quadedge::frontend {
+
+/// Maximum number of stereo edges of a kept rig: 0.48 MB.
+constexpr std::size_t kKeptEdges = 2400;
+
+/// A subset of a rig's stereo edges, evenly from the list, with what matching needs of them. Samples of patches and
+/// values of descriptors have four bits.
+struct KeptRig {
+  int frame = -1;
+  double edges_spacing = 0;           ///< see Rig
+  StereoEdges edges;                  ///< left_index and right_index count from 0
+  std::vector<std::uint8_t> patches;  ///< kKeptPatchBytes per edge: left, then right
+  std::vector<std::uint8_t> wide;     ///< kKeptWideBytes per edge
+
+  std::size_t bytes() const;
+};
+
+constexpr std::size_t kKeptPatchBytes = 98, kKeptWideBytes = 64;
+
+/// Every `step`-th stereo edge of a rig with its wide descriptor, kWideBytes each.
+struct DescribedRows {
+  int step;
+  std::vector<std::uint8_t> wide;
+};
+
+/// Keeps at most kKeptEdges of the described edges, evenly. \param left_patches kEdgePatchBytes per entry \param
+/// left_entry the entry of every stereo edge in it \param right_patches kEdgePatchBytes per stereo edge
+KeptRig keep_edges(const Rig& rig, const DescribedRows& described, const std::vector<std::int8_t>& left_patches,
+                   const std::vector<std::int32_t>& left_entry, const std::vector<std::int8_t>& right_patches);
+
+/// Patches as the stages lay them out, kEdgePatchBytes per edge.
+struct KeptPatches {
+  std::vector<std::int8_t> left, right;
+};
+KeptPatches unpack_patches(const KeptRig& kept);
+
+/// Wide descriptors, kWideBytes per edge.
+std::vector<std::uint8_t> unpack_wide(const KeptRig& kept);
+
+}  // namespace quadedge::frontend

@@ -1,0 +1,94 @@
+#include <cmath>
+
+#include "common/layouts.hpp"
+#include "devices.hpp"
+#include "frontends.hpp"
+#include "odometry/motion_search.hpp"
+#include "reference/patches.hpp"
+
+using namespace quadedge;
+using namespace matching;
+
+namespace {
+
+const RenderedScene& room() {
+  static const RenderedScene scene("room", 320, 200, 2, 6);
+  return scene;
+}
+
+std::vector<std::string> devices_and_reference() {
+  std::vector<std::string> names = all_devices();
+  names.emplace_back("reference");
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("kept rig: at most half a megabyte, and patches and descriptors close to the original ones", "[device]") {
+  Device device("reference");
+  const auto frontend = frontend::make_frontend(room().rig, device, room().config);
+  const auto rig = frontend->process(room().frame(0));
+  const frontend::KeptRig kept = frontend->keep();
+  REQUIRE(kept.edges.size() > 500);
+  CHECK(kept.edges.size() <= frontend::kKeptEdges);
+  CHECK(static_cast<double>(kept.bytes()) / static_cast<double>(kept.edges.size()) * frontend::kKeptEdges < 500'000);
+  const auto patches = reference::side_patches(room().left[0].view(), kept.edges.left_x, kept.edges.left_y,
+                                               kept.edges.left_direction, room().config.patches);
+  const frontend::KeptPatches unpacked = frontend::unpack_patches(kept);
+  for (std::size_t k = 0; k < kept.edges.size(); ++k) {
+    const auto* const before = patches.data() + k * kEdgePatchBytes;
+    if (reference::inverse_norm(before, 0) <= 0) continue;
+    INFO(k);
+    CHECK(reference::patch_ncc(before, unpacked.left.data() + k * kEdgePatchBytes) > 0.97F);
+  }
+  const auto wide = frontend::unpack_wide(kept);
+  for (std::size_t k = 0; k < kept.edges.size(); ++k) {
+    double squares = 0;
+    for (std::size_t i = 0; i < kWideBytes; ++i) squares += std::pow(wide[k * kWideBytes + i], 2);
+    CHECK(std::sqrt(squares) == Approx(512).epsilon(0.05));
+  }
+}
+
+TEST_CASE("kept rig: once restored it gives the motion that the rig itself gives", "[device]") {
+  for (const std::string& name : devices_and_reference()) {
+    INFO(name);
+    Device device(name, kept_programs());
+    const auto frontend = frontend::make_frontend(room().rig, device, room().config);
+    const odometry::DisparityOffset offset(room().rig, room().config.pose);
+    odometry::MotionSearch search(room().config, *frontend, offset);
+    const auto base = frontend->process(room().frame(0));
+    const frontend::KeptRig kept = frontend->keep();
+    odometry::MotionQuery query;
+    query.current = frontend->process(room().frame(1));
+    query.base = base;
+    const auto whole = search.find(query);
+    query.base = frontend->restore(kept);
+    CHECK(query.base->frame == 0);
+    const auto restored = search.find(query);
+    REQUIRE(whole->ok());
+    REQUIRE(restored->ok());
+    const Eigen::Isometry3d truth = room().world_from_left[1].inverse() * room().world_from_left[0];
+    const Eigen::Isometry3d error = restored->motion.current_from_previous * truth.inverse();
+    CHECK(error.translation().norm() < 0.01);
+    CHECK(Eigen::AngleAxisd(error.linear()).angle() < 0.003);
+    CHECK(restored->motion.inliers > whole->motion.inliers / 4);
+  }
+}
+
+TEST_CASE("kept rig: restoring one leaves the current rig and the frame numbers alone", "[device]") {
+  for (const std::string& name : devices_and_reference()) {
+    INFO(name);
+    Device device(name, kept_programs());
+    const auto frontend = frontend::make_frontend(room().rig, device, room().config);
+    frontend->process(room().frame(0));
+    const frontend::KeptRig kept = frontend->keep();
+    const auto current = frontend->process(room().frame(1));
+    const StereoEdges before = current->edges;
+    const auto first = frontend->restore(kept), second = frontend->restore(kept);
+    CHECK(first != second);
+    CHECK(same_bytes(current->edges, before));
+    CHECK(same_bytes(first->edges, kept.edges));
+    CHECK(frontend->keep().frame == 1);
+    CHECK(frontend->process(room().frame(0))->frame == 2);
+  }
+}
