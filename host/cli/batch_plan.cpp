@@ -50,8 +50,8 @@ std::string common_key(const MethodOptions& method, const DeviceInfo& device, co
       hash.add(data::file_hash(file.string()));
     }
   }
-  hash.add(
-      {static_cast<double>(options.draw_every), static_cast<double>(options.thumbnails), options.profile ? 1.0 : 0.0});
+  hash.add({static_cast<double>(options.draw_every), static_cast<double>(options.thumbnails),
+            options.profile ? 1.0 : 0.0, options.loops ? 1.0 : 0.0});
   return hash.hex();
 }
 

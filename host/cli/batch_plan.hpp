@@ -15,7 +15,7 @@ struct BatchOptions {
   std::string output;   ///< folder
   int jobs = 0;         ///< sequences at the same time; 0: what suits the device
   bool timing = false;  ///< latencies count: one sequence at a time, and no result that ran beside others
-  bool force = false, quiet = false, profile = false;
+  bool force = false, quiet = false, profile = false, loops = false;
   int draw_every = 0;       ///< as SequenceRunOptions
   int thumbnails = 4;       ///< as SequenceRunOptions; the report shows them
   double min_tracked = 50;  ///< fewer tracked frames count as too few [percent]

@@ -136,6 +136,7 @@ class BatchRunner {
     if (!method_.kernel_folder().empty()) arguments.insert(arguments.end(), {"--kernels", method_.kernel_folder()});
     if (method_.trusts()) arguments.push_back("--trust");
     if (options_.profile) arguments.push_back("--profile");
+    if (options_.loops) arguments.push_back("--loops");
     return arguments;
   }
 

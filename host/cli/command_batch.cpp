@@ -39,6 +39,7 @@ class BatchCommand : public Command {
     options.flag("--timing", batch_.timing,
                  "measure latencies: track one sequence at a time, and repeat those that ran in parallel");
     options.flag("--profile", batch_.profile, "measure kernel times of every sequence in a second pass");
+    options.flag("--loops", batch_.loops, "recognise places and close loops in every sequence");
     options.number("--draw", batch_.draw_every, "draw the edges and quads of every N-th frame");
     options.number("--min-tracked", batch_.min_tracked,
                    "exit with code 5 if fewer frames of a sequence are tracked [percent]");

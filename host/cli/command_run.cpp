@@ -47,6 +47,8 @@ class RunCommand : public Command {
     options.number("--draw", run_.draw_every, "draw the edges and quads of every N-th frame");
     options.number("--thumbnails", run_.thumbnails, "number of quad thumbnails, spread evenly over the sequence");
     options.number("--min-tracked", min_tracked_, "exit with code 5 if fewer frames are tracked [percent]");
+    options.flag("--loops", run_.loops,
+                 "recognise places and close loops: trajectory_map.txt and loops.csv beside the odometry's files");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.map.declare(options);

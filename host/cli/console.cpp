@@ -202,6 +202,11 @@ void print_run(const report::RunRecord& run, const std::string& output) {
   }
   std::printf("path       %.3f m (estimated)\n", report::path_length_m(run.frames));
   const auto latency = report::latency_summary(run.frames);
+  if (run.loops) {
+    std::printf("loops      %s kept of %zu compared; %zu frames in the largest of %s\n",
+                data::counted(run.loops->kept, "closure").c_str(), run.loops->compared, run.loops->frames,
+                data::counted(run.loops->segments, "segment").c_str());
+  }
   std::printf("latency    median %s, p90 %s, p99 %s, max %s; first frame %s\n", milliseconds(latency.median).c_str(),
               milliseconds(latency.p90).c_str(), milliseconds(latency.p99).c_str(), milliseconds(latency.max).c_str(),
               milliseconds(latency.first).c_str());

@@ -5,6 +5,7 @@
 
 #include "cli/command_line.hpp"
 #include "cli/console.hpp"
+#include "cli/loop_output.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/saved_variants.hpp"
 #include "common/run_cost.hpp"
@@ -128,6 +129,8 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   add_saved_variants(device, run.config);
   const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
   StereoOdometry& odometry = *pipeline;
+  std::optional<LoopOutput> loops;
+  if (options.loops) loops.emplace(odometry);
   run.start_ms = milliseconds_since(opening);
   run.device = device.info();
   run.variants = odometry.variants();
@@ -139,21 +142,31 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   const auto start = Clock::now();
   Progress progress(options.quiet, "frames");
   int lost = 0;
-  while (const auto frame = source.next()) {
-    report::FrameRecord record;
-    record.start_ms = milliseconds_since(start);
-    record.result = odometry.track(frame->view());
-    files.add(record.result);
-    report_doubts(record.result, run);
-    draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
-    map.add(*frame, record.result, odometry);
-    lost += is_tracked(record.result.status) ? 0 : 1;
-    run.frames.push_back(std::move(record));
-    char text[64];
-    std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
-    progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
-    if (interruption.signal() != 0) break;
+  const auto write_loops = [&] {
+    if (loops) run.loops = loops->write(options.output);
+  };
+  try {
+    while (const auto frame = source.next()) {
+      report::FrameRecord record;
+      record.start_ms = milliseconds_since(start);
+      record.result = odometry.track(frame->view());
+      files.add(record.result);
+      report_doubts(record.result, run);
+      draw_frame(*frame, run.input.frames, odometry.rig(), odometry, options);
+      map.add(*frame, record.result, odometry);
+      if (loops) loops->add(record.result);
+      lost += is_tracked(record.result.status) ? 0 : 1;
+      run.frames.push_back(std::move(record));
+      char text[64];
+      std::snprintf(text, sizeof text, "%d lost, %.0f ms", lost, run.frames.back().result.timing.latency_ms);
+      progress.update(run.input.name + " frame", static_cast<int>(run.frames.size()), run.input.frames, text);
+      if (interruption.signal() != 0) break;
+    }
+  } catch (const DataError&) {
+    write_loops();
+    throw;
   }
+  write_loops();
   if (run.input.frames == 0) run.input.frames = static_cast<int>(run.frames.size());
   run.input.dropped = source.dropped();
   const std::size_t device_peak = device.is_reference() ? 0 : device.context()->peak_bytes();

@@ -21,6 +21,7 @@ struct SequenceRunOptions {
   int draw_every = 0;
   int draw_frame = -1;
   MapFiles map;
+  bool loops = false;  ///< recognise places, and write the corrected trajectory and the closures
   int thumbnails = 0;  ///< number of quad thumbnails, spread evenly over the frames after the first
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/layouts.hpp"
 #include "reference/patches.hpp"
 
 namespace quadedge::frontend {
@@ -13,8 +12,6 @@ namespace {
 constexpr int kLargestNibble = 7;  ///< of a sample; samples are stored as 1 to 15
 constexpr int kZeroNibble = 8;
 constexpr int kWideUnit = 8, kLargestWide = 15;  ///< of a descriptor's values, which clipping keeps below 128
-
-static_assert(2 * kKeptPatchBytes == 4 * kPatchSamples && 2 * kKeptWideBytes == kWideBytes);
 
 /// Appends values of four bits, two per byte.
 void append_nibbles(const std::vector<int>& values, std::vector<std::uint8_t>& bytes) {
@@ -93,7 +90,7 @@ KeptPatches unpack_patches(const KeptRig& kept) {
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint8_t* const bytes = kept.patches.data() + k * kKeptPatchBytes;
     restore_patches(bytes, 0, patches.left.data() + k * kEdgePatchBytes);
-    restore_patches(bytes, kKeptPatchBytes, patches.right.data() + k * kEdgePatchBytes);
+    restore_patches(bytes, 2 * kPatchSamples, patches.right.data() + k * kEdgePatchBytes);
   }
   return patches;
 }

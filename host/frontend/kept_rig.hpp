@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/layouts.hpp"
 #include "frontend/rig.hpp"
 #include "quadedge/edges.hpp"
 
 namespace quadedge::frontend {
 
-/// Maximum number of stereo edges of a kept rig: 0.48 MB.
+/// Maximum number of stereo edges of a kept rig: 0.42 MB.
 constexpr std::size_t kKeptEdges = 2400;
 
 /// A subset of a rig's stereo edges, evenly from the list, with what matching needs of them. Samples of patches and
@@ -24,7 +25,8 @@ struct KeptRig {
   std::size_t bytes() const;
 };
 
-constexpr std::size_t kKeptPatchBytes = 98, kKeptWideBytes = 64;
+/// Two values per byte: both patches of both images, and the descriptor.
+constexpr std::size_t kKeptPatchBytes = 2 * kPatchSamples, kKeptWideBytes = kWideBytes / 2;
 
 /// Every `step`-th stereo edge of a rig with its wide descriptor, kWideBytes each.
 struct DescribedRows {

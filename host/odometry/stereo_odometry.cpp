@@ -9,6 +9,7 @@
 #include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
 #include "odometry/constant_velocity.hpp"
+#include "odometry/current_rig.hpp"
 #include "odometry/disparity_offset.hpp"
 #include "odometry/equal_scale.hpp"
 #include "odometry/key_rig.hpp"
@@ -91,6 +92,7 @@ class StereoOdometry::Implementation {
     static const StereoEdges none;
     return current_ ? current_->edges : none;
   }
+  odometry::CurrentRig current_rig() const { return {*frontend_, current_, offset_}; }
   const StereoRig& rig() const { return rig_; }
   frontend::Frontend& frontend() const { return *frontend_; }
   Device& device() const { return device_; }
@@ -379,6 +381,7 @@ StereoOdometry::~StereoOdometry() = default;
 FrameResult StereoOdometry::track(const StereoFrame& frame) { return implementation_->track(frame); }
 FrameDetails StereoOdometry::details() const { return implementation_->details(); }
 const StereoEdges& StereoOdometry::stereo_edges() const { return implementation_->stereo_edges(); }
+odometry::CurrentRig StereoOdometry::current_rig() const { return implementation_->current_rig(); }
 const StereoRig& StereoOdometry::rig() const { return implementation_->rig(); }
 const Config& StereoOdometry::config() const { return implementation_->config(); }
 const DeviceInfo& StereoOdometry::device() const { return implementation_->device().info(); }

@@ -1,7 +1,5 @@
 #include "report/poses_csv.hpp"
 
-#include <array>
-
 #include "data/text.hpp"
 
 namespace quadedge::report {
@@ -10,17 +8,7 @@ namespace {
 using Value = std::optional<double>;
 using Covariance = const std::optional<PoseCovariance>& (*)(const FrameResult&);
 
-constexpr std::array<const char*, 7> kPose = {"x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr std::array<const char*, 6> kErrorNames = {"x", "y", "z", "rx", "ry", "rz"};
-
-/// Element `i` of kPose.
-double pose_value(const Eigen::Isometry3d& pose, std::size_t i) {
-  if (i < 3) return pose.translation()[static_cast<Eigen::Index>(i)] + 0.0;  // no negative zero
-  Eigen::Quaterniond rotation(pose.linear());
-  rotation.normalize();
-  if (rotation.w() < 0) rotation.coeffs() *= -1;
-  return rotation.coeffs()[static_cast<Eigen::Index>(i - 3)];
-}
 
 FrameColumns columns_of_poses() {
   FrameColumns columns;
@@ -48,10 +36,10 @@ FrameColumns columns_of_poses() {
   columns.push_back({"segment", [](const NumberedFrame& frame) { return std::to_string(frame.result.segment); }});
   columns.push_back(
       {"reference_frame", [](const NumberedFrame& frame) { return std::to_string(frame.result.reference_frame); }});
-  for (std::size_t i = 0; i < kPose.size(); ++i)
-    add(kPose[i], [i](const FrameResult& result) { return Value(pose_value(result.pose_or_prediction(), i)); });
-  for (std::size_t i = 0; i < kPose.size(); ++i) {
-    add(std::string("reference_") + kPose[i], [i](const FrameResult& result) {
+  for (std::size_t i = 0; i < kPoseColumns.size(); ++i)
+    add(kPoseColumns[i], [i](const FrameResult& result) { return Value(pose_value(result.pose_or_prediction(), i)); });
+  for (std::size_t i = 0; i < kPoseColumns.size(); ++i) {
+    add(std::string("reference_") + kPoseColumns[i], [i](const FrameResult& result) {
       return result.current_from_reference ? Value(pose_value(result.current_from_reference->inverse(), i)) : Value();
     });
   }
@@ -64,6 +52,14 @@ FrameColumns columns_of_poses() {
 }
 
 }  // namespace
+
+double pose_value(const Eigen::Isometry3d& pose, std::size_t i) {
+  if (i < 3) return pose.translation()[static_cast<Eigen::Index>(i)] + 0.0;  // no negative zero
+  Eigen::Quaterniond rotation(pose.linear());
+  rotation.normalize();
+  if (rotation.w() < 0) rotation.coeffs() *= -1;
+  return rotation.coeffs()[static_cast<Eigen::Index>(i - 3)];
+}
 
 const FrameColumns& poses_csv_columns() {
   static const FrameColumns all = columns_of_poses();

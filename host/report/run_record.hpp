@@ -44,6 +44,16 @@ struct MapFacts {
   std::size_t dropped = 0;  ///< points dropped because memory was full
 };
 
+/// The closures of a run with --loops.
+struct LoopFacts {
+  std::size_t compared = 0, kept = 0;  ///< pairs of a frame and an earlier key stereo rig
+  int segments = 0;                    ///< that remain
+  std::size_t frames = 0;              ///< in the corrected trajectory
+  std::size_t key_rigs = 0;            ///< kept
+  double megabytes = 0;                ///< of the kept key rigs, on the host
+  double total_ms = 0;                 ///< time of all comparisons, which is not part of the frames' latency
+};
+
 /// One run.
 struct RunRecord {
   std::string command;      ///< its command line
@@ -60,6 +70,7 @@ struct RunRecord {
   /// Kernel times of a second pass with a profiling queue: one list per frame, empty unless requested.
   std::vector<std::vector<StageTime>> kernel_times;
   std::optional<MapFacts> map;                                ///< only if requested
+  std::optional<LoopFacts> loops;                             ///< only with --loops
   std::string truth_file;                                     ///< empty without ground truth
   std::optional<TrajectoryEvaluation> accuracy;               ///< only with ground truth
   evaluation::Consistency consistency;                        ///< no poses without ground truth

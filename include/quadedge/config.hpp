@@ -16,7 +16,8 @@
 
 namespace quadedge {
 
-// Defines EdgesConfig, PatchesConfig, SiftConfig, StereoConfig, TemporalConfig, PoseConfig and OdometryConfig.
+// Defines EdgesConfig, PatchesConfig, SiftConfig, StereoConfig, TemporalConfig, PoseConfig,
+// OdometryConfig and MapConfig.
 #define QUADEDGE_SECTION(Type, section, title, page) struct Type {
 #define QUADEDGE_CONSTANT(type, name, value, low, high, unit, level, help, paper) type name = value;
 #define QUADEDGE_ANGLE(name, value, low, high, level, help, paper) \

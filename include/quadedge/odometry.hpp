@@ -125,6 +125,10 @@ struct FrameDetails {
 
 class Tap;
 
+namespace odometry {
+struct CurrentRig;
+}
+
 /// Tracks the camera through one sequence. Deterministic: identical frames, device and configuration give identical
 /// bytes.
 class StereoOdometry {
@@ -155,6 +159,9 @@ class StereoOdometry {
   const Config& config() const;
   /// The device that it runs on.
   const DeviceInfo& device() const;
+
+  /// The frame tracked last, as the map sees it (host/odometry/current_rig.hpp).
+  odometry::CurrentRig current_rig() const;
 
   /// Observes all filters in the following frames; null stops. A tap cannot change results.
   void set_tap(Tap* tap);

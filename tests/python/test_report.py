@@ -16,7 +16,7 @@ pytest.importorskip("jinja2")
 PIL = pytest.importorskip("PIL.Image")
 
 from quadedge import report  # noqa: E402
-from quadedge.report import numbers, results  # noqa: E402
+from quadedge.report import numbers, results, sequence_figures  # noqa: E402
 from quadedge.report.figure import Figure, Series, thinned  # noqa: E402
 from quadedge.report.page import LARGEST_PAGE  # noqa: E402
 from quadedge.report.plotly_figures import to_plotly  # noqa: E402
@@ -194,6 +194,24 @@ def test_a_straight_road_is_drawn_from_the_side_and_a_bent_one_is_not(tmp_path):
     truth = next(trace for trace in deviation["data"] if trace["name"] == "ground truth")
     assert estimate["y"][-1] - truth["y"][-1] == pytest.approx(22, rel=0.01)  # to the right
     assert not any("deviation" in plot for plot in page_of(tmp_path / "bent").plots)
+
+
+def test_a_run_with_loops_shows_the_corrected_path_and_its_closures(tmp_path):
+    content = write_run(tmp_path / "street", 24, drift=0.1)
+    truth = (tmp_path / "street" / "groundtruth.txt").read_text()
+    (tmp_path / "street" / "trajectory_map.txt").write_text(truth)
+    (tmp_path / "street" / "loops.csv").write_text("frame,other,verdict\n20,2,kept\n21,3,not_found\n23,0,kept\n")
+    loops = {"compared": 3, "kept": 2, "segments": 1, "frames": 24, "key_rigs": 6, "megabytes": 3, "total_ms": 100}
+    (tmp_path / "street" / "report.json").write_text(json.dumps(content | {"loops": loops}))
+    run = results.read_run(tmp_path / "street")
+    assert np.allclose(run.corrected.positions, run.truth.positions)
+    _, above, *_ = sequence_figures.trajectory_figures(run, [], 100)
+    series = {series.name: series for series in above.series}
+    assert np.allclose(series["QuadEdge, loops closed"].y, series["ground truth"].y)
+    ends = np.array(series["closures"].y).reshape(2, 3)
+    assert np.isnan(ends[:, 2]).all()
+    assert np.allclose(sorted(ends[0, :2]), run.truth.positions[[2, 20], 2])
+    assert "2 closures kept of 3 compared" in page_of(tmp_path / "street").text
 
 
 def test_fewer_than_ten_frames_have_tables_and_no_plots(tmp_path):

@@ -91,6 +91,10 @@ class Run:
     stated_error_m: tuple[np.ndarray, np.ndarray] | None
     """Stamps [s] and the root of the trace of the covariance of the position in the world [m]."""
     pictures: list[Path] = field(default_factory=list)
+    corrected: Trajectory | None = None
+    """The trajectory of the map, of a run with --loops."""
+    loops: dict[str, list[str]] = field(default_factory=dict)
+    """loops.csv."""
 
     @property
     def start(self) -> float:
@@ -186,6 +190,10 @@ def read_run(folder: Path, name: str = "") -> Run:
         if "covariance_x_x" in columns:
             parts = [numbers(columns[f"covariance_{axis}_{axis}"], folder / "poses.csv") for axis in "xyz"]
             run.stated_error_m = numbers(columns["stamp_s"], folder / "poses.csv"), np.sqrt(sum(parts))
+    if (folder / "trajectory_map.txt").is_file() and (folder / "loops.csv").is_file():
+        corrected = read_tum(folder / "trajectory_map.txt")
+        run.corrected = aligned(corrected, run.truth) if run.truth else corrected
+        run.loops = read_columns(folder / "loops.csv")
     if (folder / "pictures").is_dir():
         run.pictures = sorted((folder / "pictures").iterdir())
     return run

@@ -64,6 +64,10 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
         facts.append(("Ground truth", f"{truth}, {accuracy['matched_poses']} poses compared"))
     elif "path_length_m" in report:
         facts.append(("Path", f"{length_text(report['path_length_m'])} (estimated)"))
+    loops = report.get("loops")
+    if loops:
+        facts.append(("Loops", f"{loops['kept']} closures kept of {loops['compared']} compared, {loops['frames']} "
+                      f"frames in the largest of {loops['segments']} segments"))
     memory = report.get("memory_mb")
     if memory:
         facts.append(("Memory",

@@ -7,6 +7,7 @@ from .numbers import DEGREE, length_unit
 from .results import Errors, Run, Trajectory, is_lost
 
 TIME = "time since the first frame [s]"
+MAP_STYLE = 4
 STRAIGHT = 0.05  # a path is straight if its width is below this share of its length
 
 
@@ -33,7 +34,22 @@ def _paths(run: Run, others: list[Other]) -> list[tuple[str, Trajectory, int, st
     for segment, indices in run.segments():
         name = f"QuadEdge, segment {segment}" if segment else "QuadEdge"
         paths.append((name, run.estimate.part(indices), segment % 5, "solid"))
+    if run.corrected:
+        paths.append(("QuadEdge, loops closed", run.corrected, MAP_STYLE, "solid"))
     return paths + [(other.name, other.poses, 1 + n % 4, "") for n, other in enumerate(others)]
+
+
+def _closures(run: Run) -> np.ndarray:
+    """Positions of the two frames of every kept closure and a row of NaN, one after another, in the map [m]."""
+    if not run.corrected:
+        return np.empty((0, 3))
+    stamps = run.column("stamp_s")
+    ends = []
+    for frame, other, verdict in zip(run.loops["frame"], run.loops["other"], run.loops["verdict"]):
+        both = _at(run.corrected.stamps, stamps[[int(other), int(frame)]])
+        if verdict == "kept" and len(both) == 2:
+            ends += [*run.corrected.positions[both], np.full(3, np.nan)]
+    return np.array(ends).reshape(-1, 3)
 
 
 def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figure]:
@@ -60,6 +76,10 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
         space.series.append(Series(text, x, z, -y, **common))
         above.series.append(Series(text, x, z, **common))
         side.series.append(Series(text, z, -y, **common))
+    lines = _closures(run)
+    if len(lines):
+        x, y, z = (lines * unit.factor).T
+        above.series.append(Series("closures", x, z, style=2, dash="dot"))
     return [space, above, side, *_deviation(run, others, points)]
 
 

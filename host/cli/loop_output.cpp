@@ -1,0 +1,35 @@
+#include "cli/loop_output.hpp"
+
+#include <algorithm>
+
+#include "common/run_cost.hpp"
+#include "data/atomic_file.hpp"
+#include "report/loops_csv.hpp"
+
+namespace quadedge::cli {
+
+void LoopOutput::add(const FrameResult& result) {
+  const auto start = Clock::now();
+  const std::size_t before = map_.closures().size();
+  map_.add(result);
+  if (map_.closures().size() > before) times_ms_.push_back(milliseconds_since(start));
+}
+
+report::LoopFacts LoopOutput::write(const std::string& folder) const {
+  const Trajectory trajectory = map_.trajectory();
+  write_tum(folder + "/trajectory_map.txt", trajectory);
+  data::write_atomically(folder + "/loops.csv", report::loops_csv(map_.closures()));
+  report::LoopFacts facts;
+  facts.compared = map_.closures().size();
+  facts.kept = static_cast<std::size_t>(
+      std::count_if(map_.closures().begin(), map_.closures().end(),
+                    [](const Closure& closure) { return closure.verdict == ClosureVerdict::kept; }));
+  facts.segments = map_.segments();
+  facts.frames = trajectory.size();
+  facts.key_rigs = map_.key_rigs();
+  facts.megabytes = static_cast<double>(map_.bytes()) / 1e6;
+  for (const double ms : times_ms_) facts.total_ms += ms;
+  return facts;
+}
+
+}  // namespace quadedge::cli

@@ -1,0 +1,29 @@
+#pragma once
+/// \file loop_output.hpp  The corrected trajectory and the closures that a run writes.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadedge/map.hpp"
+#include "report/run_record.hpp"
+
+namespace quadedge::cli {
+
+/// The map of places beside the odometry of a run, with --loops.
+class LoopOutput {
+ public:
+  explicit LoopOutput(StereoOdometry& odometry) : map_(odometry) {}
+
+  /// Takes in the frame that was tracked last.
+  void add(const FrameResult& result);
+  /// Writes trajectory_map.txt and loops.csv. \throws DataError. \returns what they hold
+  report::LoopFacts write(const std::string& folder) const;
+
+ private:
+  Map map_;
+  std::vector<double> times_ms_;  ///< of the frames that were compared with others
+};
+
+}  // namespace quadedge::cli

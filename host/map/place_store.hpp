@@ -1,0 +1,46 @@
+#pragma once
+/// \file place_store.hpp  Kept key rigs, and those most similar to a given one (doc/method.md section 10).
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "frontend/kept_rig.hpp"
+#include "map/place_signature.hpp"
+
+namespace quadedge::map {
+
+/// A kept rig.
+struct Place {
+  frontend::KeptRig rig;
+  PlaceSignature signature;
+  int node = 0;  ///< of the pose graph
+};
+
+/// Keeps places within a bound of memory: beyond it, the place that is most similar to the one after it leaves.
+class PlaceStore {
+ public:
+  /// \param max_bytes at least room for one place remains
+  explicit PlaceStore(std::size_t max_bytes) : max_bytes_(max_bytes) {}
+
+  void add(Place place);
+  /// A place and the scalar product of its signature with the given one.
+  struct Similar {
+    const Place* place;
+    float similarity;
+  };
+  /// The `count` most similar places that `may_be` accepts, best first; valid until the next add().
+  std::vector<Similar> most_similar(const PlaceSignature& signature, int count,
+                                    const std::function<bool(const Place&)>& may_be) const;
+
+  std::size_t size() const { return places_.size(); }
+  std::size_t bytes() const { return bytes_; }
+  const std::vector<Place>& places() const { return places_; }
+
+ private:
+  std::size_t max_bytes_;
+  std::size_t bytes_ = 0;
+  std::vector<Place> places_;  ///< oldest first
+};
+
+}  // namespace quadedge::map

@@ -1,0 +1,16 @@
+#pragma once
+/// \file current_rig.hpp  What a map needs of the frame tracked last.
+
+#include "frontend/frontend.hpp"
+#include "odometry/disparity_offset.hpp"
+
+namespace quadedge::odometry {
+
+/// Refers to parts of a StereoOdometry, which must outlive it.
+struct CurrentRig {
+  frontend::Frontend& frontend;
+  frontend::RigHandle rig;  ///< null before the first frame
+  const DisparityOffset& offset;
+};
+
+}  // namespace quadedge::odometry

@@ -1,0 +1,70 @@
+#pragma once
+/// \file map.hpp  Places that are recognised: loops of a trajectory closed, its segments joined.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "quadedge/odometry.hpp"
+#include "quadedge/trajectory.hpp"
+
+namespace quadedge {
+
+/// Outcome of the comparison of a frame with a kept key stereo rig.
+enum class ClosureVerdict {
+  kept,         ///< the motion is part of the map
+  not_found,    ///< no motion between the two was found
+  ambiguous,    ///< another motion explains nearly as much of the image
+  unconfirmed,  ///< it contradicts the map, or is all that would join two segments, and no second closure agrees with
+                ///< it
+};
+const char* to_string(ClosureVerdict verdict);
+
+/// A frame compared with an earlier key stereo rig that looks similar.
+struct Closure {
+  int frame = 0;          ///< number of the frame
+  int other = 0;          ///< number of the earlier frame
+  double similarity = 0;  ///< of their signatures, at most 1
+  ClosureVerdict verdict = ClosureVerdict::not_found;
+  /// Gamma_frame = frame_from_other * Gamma_other, left cameras [m]; empty if no motion was found.
+  std::optional<Eigen::Isometry3d> frame_from_other;
+  int inliers = 0;     ///< quads that agree with the motion
+  double support = 0;  ///< inliers divided by the kept edges that the motion brings into view
+  /// Disagreement with the map before, in standard deviations; empty if the two frames belonged to different segments.
+  std::optional<double> deviation;
+  std::optional<double> distance_m;  ///< the same as a distance [m]
+  std::optional<double> angle_deg;   ///< and as an angle
+};
+
+/// A map of places beside an odometry, which it never changes: compares key stereo rigs and lost frames with similar
+/// earlier ones (doc/method.md section 10), joins segments of the trajectory, and corrects it. Deterministic.
+class Map {
+ public:
+  /// Refers to the odometry, which must outlive the map. \throws UsageError if `temporal.wide_edges` is 0 or a filter
+  /// in time uses SIFT, because kept rigs have no images.
+  explicit Map(StereoOdometry& odometry);
+  ~Map();
+
+  /// To be called after every frame with its result. \returns whether the map's poses have changed
+  bool add(const FrameResult& result);
+
+  /// Pose of the odometry's world in the map. Identity until a closure is kept.
+  const Eigen::Isometry3d& map_from_odometry() const;
+  /// Corrected poses in the map of all frames that are connected with the largest number of others. A frame that the
+  /// odometry has lost is among them if its place was recognised.
+  Trajectory trajectory() const;
+  /// Number of segments: groups of at least two frames that measured motions connect.
+  int segments() const;
+
+  const std::vector<Closure>& closures() const;
+  std::size_t key_rigs() const;  ///< kept
+  std::size_t bytes() const;     ///< of the kept key rigs on the host
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace quadedge

@@ -1,0 +1,179 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "devices.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/map.hpp"
+#include "quadedge/pi.hpp"
+#include "quadedge/synthetic.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+/// One stereo frame of a visit, and where it was taken; each scene has a world of its own.
+struct Shot {
+  std::string scene;  ///< empty: black images
+  Image left, right;
+  Eigen::Isometry3d world_from_left;
+};
+
+SyntheticOptions small(const std::string& scene, const std::string& path, int frames) {
+  SyntheticOptions options;
+  options.scene = scene;
+  options.path = path;
+  options.frames = frames;
+  options.width = 320;
+  options.height = 200;
+  options.focal = 184;
+  options.baseline = 0.15;
+  options.supersampling = 2;
+  return options;
+}
+
+/// Appends frames first, first + step ... up to last.
+void visit(const SyntheticOptions& options, int first, int last, int step, std::vector<Shot>& shots) {
+  const SyntheticSequence sequence(options);
+  for (int i = first; step > 0 ? i <= last : i >= last; i += step)
+    shots.push_back({options.scene, sequence.render(i, Side::left).image, sequence.render(i, Side::right).image,
+                     sequence.world_from_left(i)});
+}
+
+void black(int count, std::vector<Shot>& shots) {
+  for (int i = 0; i < count; ++i) shots.push_back({"", Image(320, 200), Image(320, 200), {}});
+}
+
+struct Outcome {
+  std::vector<FrameResult> results;
+  std::vector<Closure> closures;
+  Trajectory trajectory;
+  Eigen::Isometry3d map_from_odometry;
+  int segments = 0;
+
+  int kept() const {
+    int count = 0;
+    for (const Closure& closure : closures) count += closure.verdict == ClosureVerdict::kept ? 1 : 0;
+    return count;
+  }
+};
+
+Config with_gap(int gap) {
+  Config config;
+  config.map.min_gap = gap;
+  return config;
+}
+
+/// Tracks all shots, on the first device. \param with_map otherwise the odometry alone
+Outcome track(const std::vector<Shot>& shots, const Config& config, bool with_map = true) {
+  const SyntheticSequence any(small("room", "loop", 10));
+  StereoOdometry odometry(any.rig(), config);
+  std::unique_ptr<Map> map;
+  if (with_map) map = std::make_unique<Map>(odometry);
+  Outcome outcome;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const auto stamp = static_cast<std::int64_t>(i) * 50'000'000;
+    outcome.results.push_back(odometry.track({stamp, shots[i].left.view(), shots[i].right.view()}));
+    if (map) map->add(outcome.results.back());
+  }
+  if (!map) return outcome;
+  outcome.closures = map->closures();
+  outcome.trajectory = map->trajectory();
+  outcome.map_from_odometry = map->map_from_odometry();
+  outcome.segments = map->segments();
+  return outcome;
+}
+
+/// Every closure that was kept is right: within 5 cm + 10 % of the motion and 2 degrees.
+void check_kept(const Outcome& outcome, const std::vector<Shot>& shots) {
+  for (const Closure& closure : outcome.closures) {
+    if (closure.verdict != ClosureVerdict::kept) continue;
+    const Shot &now = shots[static_cast<std::size_t>(closure.frame)],
+               &before = shots[static_cast<std::size_t>(closure.other)];
+    INFO(closure.frame << " with " << closure.other);
+    REQUIRE(now.scene == before.scene);
+    const Eigen::Isometry3d truth = now.world_from_left.inverse() * before.world_from_left;
+    const Eigen::Isometry3d error = *closure.frame_from_other * truth.inverse();
+    CHECK(error.translation().norm() < 0.05 + 0.1 * truth.translation().norm());
+    CHECK(Eigen::AngleAxisd(error.linear()).angle() < 2 * kDegree);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("map: a loop is closed, and the odometry has the same poses without the map", "[device]") {
+  std::vector<Shot> shots;
+  visit(small("room", "loop", 49), 0, 48, 1, shots);
+  const Outcome with = track(shots, with_gap(3)), without = track(shots, with_gap(3), false);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    CHECK(with.results[i].pose_or_prediction().matrix() == without.results[i].pose_or_prediction().matrix());
+    CHECK(with.results[i].counts.inliers == without.results[i].counts.inliers);
+  }
+  check_kept(with, shots);
+  REQUIRE(with.kept() > 0);
+  REQUIRE(with.trajectory.size() == shots.size());
+  // map_from_odometry leads from the odometry's pose to the map's.
+  const Eigen::Isometry3d last = with.map_from_odometry * *with.results.back().world_from_left;
+  CHECK((last.translation() - with.trajectory.back().world_from_left.translation()).norm() < 1e-9);
+  const auto error = [&](const Eigen::Isometry3d& pose) { return pose.translation().norm(); };  // back at the start
+  CHECK(error(last) <= error(*with.results.back().world_from_left));
+}
+
+TEST_CASE("map: the same frames give the same closures and poses", "[device]") {
+  std::vector<Shot> shots;
+  visit(small("room", "loop", 25), 0, 24, 1, shots);
+  const Outcome one = track(shots, with_gap(2)), other = track(shots, with_gap(2));
+  REQUIRE(one.closures.size() == other.closures.size());
+  REQUIRE(one.closures.size() > 0);
+  for (std::size_t i = 0; i < one.closures.size(); ++i) {
+    CHECK(one.closures[i].other == other.closures[i].other);
+    CHECK(one.closures[i].inliers == other.closures[i].inliers);
+  }
+  for (std::size_t i = 0; i < one.trajectory.size(); ++i)
+    CHECK(one.trajectory[i].world_from_left.matrix() == other.trajectory[i].world_from_left.matrix());
+}
+
+TEST_CASE("map: black frames, another place in other light, and back: the segments of one place are joined",
+          "[device]") {
+  std::vector<Shot> shots;
+  visit(small("room", "ellipse", 60), 0, 24, 4, shots);
+  black(5, shots);
+  visit(small("cables", "ellipse", 60), 0, 24, 4, shots);
+  const std::size_t away = shots.size();
+  SyntheticOptions darker = small("room", "ellipse", 60);
+  darker.light = 0.5;
+  visit(darker, 20, 0, -4, shots);
+  const Outcome outcome = track(shots, with_gap(10));
+  check_kept(outcome, shots);
+  CHECK(outcome.segments == 2);
+  // The room's frames before and after lie in one frame, the first camera's.
+  int after = 0;
+  for (const StampedPose& pose : outcome.trajectory) {
+    const auto number = static_cast<std::size_t>(pose.stamp_ns / 50'000'000);
+    INFO(number);
+    REQUIRE(shots[number].scene == "room");
+    const Eigen::Isometry3d truth = shots[0].world_from_left.inverse() * shots[number].world_from_left;
+    CHECK((pose.world_from_left.translation() - truth.translation()).norm() < 0.03);
+    after += number >= away ? 1 : 0;
+  }
+  CHECK(after >= 5);
+}
+
+TEST_CASE("map: a street that is driven once has no closure", "[device]") {
+  std::vector<Shot> shots;
+  visit(small("facade", "drive", 100), 0, 99, 3, shots);
+  const Outcome outcome = track(shots, with_gap(10));
+  check_kept(outcome, shots);
+}
+
+TEST_CASE("map: what it cannot work with is a usage error") {
+  const SyntheticSequence any(small("room", "loop", 10));
+  Device reference("reference");
+  Config config;
+  config.temporal.wide_edges = 0;
+  StereoOdometry without_search(any.rig(), reference, config);
+  CHECK_THROWS_AS(Map(without_search), UsageError);
+  config = {};
+  config.temporal.sift_max = 200;
+  StereoOdometry with_sift(any.rig(), reference, config);
+  CHECK_THROWS_AS(Map(with_sift), UsageError);
+}

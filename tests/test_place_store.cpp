@@ -1,0 +1,51 @@
+#include <catch2/catch.hpp>
+
+#include "map/place_store.hpp"
+
+using namespace quadedge;
+using map::Place;
+using map::PlaceSignature;
+using map::PlaceStore;
+
+namespace {
+
+/// A place whose signature points along the sum of two axes.
+Place place(int node, int axis, float other = 0) {
+  Place made;
+  made.node = node;
+  made.rig.frame = node;
+  made.signature = PlaceSignature::Unit(axis) + other * PlaceSignature::Unit(axis + 1);
+  made.signature.normalize();
+  return made;
+}
+
+const auto any = [](const Place&) { return true; };
+
+}  // namespace
+
+TEST_CASE("place store: the most similar places come first, without those that are excluded") {
+  PlaceStore store(1'000'000);
+  for (int i = 0; i < 6; ++i) store.add(place(i, 2 * i, 0.1F * static_cast<float>(i)));
+  const auto found = store.most_similar(PlaceSignature::Unit(4) * 0.8F + PlaceSignature::Unit(6) * 0.6F, 3, any);
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].place->node == 2);
+  CHECK(found[1].place->node == 3);
+  CHECK(found[0].similarity > found[1].similarity);
+  const auto others =
+      store.most_similar(PlaceSignature::Unit(4), 10, [](const Place& other) { return other.node != 2; });
+  CHECK(others.size() == 5);
+  for (const auto& other : others) CHECK(other.place->node != 2);
+}
+
+TEST_CASE("place store: beyond its bound the place most similar to the next one leaves") {
+  const std::size_t one = sizeof(Place) + place(0, 0).rig.bytes();
+  PlaceStore store(3 * one);
+  store.add(place(0, 0));
+  store.add(place(1, 20));
+  store.add(place(2, 20, 0.1F));
+  store.add(place(3, 40));
+  CHECK(store.bytes() <= 3 * one);
+  std::vector<int> nodes;
+  for (const Place& kept : store.places()) nodes.push_back(kept.node);
+  CHECK(nodes == std::vector<int>{0, 2, 3});
+}
