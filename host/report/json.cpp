@@ -52,7 +52,7 @@ Json stages(const std::vector<std::vector<StageTime>>& frames) {
   return object;
 }
 
-Json to_json(const LoopFacts& loops) {
+Json loops_json(const LoopFacts& loops) {
   return {{"compared", loops.compared}, {"kept", loops.kept},         {"segments", loops.segments},
           {"frames", loops.frames},     {"key_rigs", loops.key_rigs}, {"megabytes", loops.megabytes},
           {"total_ms", loops.total_ms}};
@@ -105,7 +105,7 @@ std::string report_json(const RunRecord& run) {
   if (run.map) {
     report["map"] = {{"points", run.map->points}, {"key_rigs", run.map->views}, {"dropped", run.map->dropped}};
   }
-  if (run.loops) report["loops"] = to_json(*run.loops);
+  if (run.loops) report["loops"] = loops_json(*run.loops);
   if (run.accuracy) {
     report["accuracy"] = accuracy(*run.accuracy);
     report["accuracy"]["truth_file"] = run.truth_file;
