@@ -11,34 +11,32 @@ typedef struct {
   float stiffness;  // of the refinement's prior, see align_edge()
 } RefinedEdge;
 
-static inline RefinedEdge open_edge(const StereoRefinementArguments* args, global const float* left_edges,
-                                    const int i) {
+static inline void open_edge(const StereoRefinementArguments* args, global const float* left_edges, const int i,
+                             RefinedEdge* edge) {
   global const float* x = left_edges + args->left.first + i;
   const float direction = x[2 * args->left.stride];
-  RefinedEdge edge;
-  edge.x = x[0];
-  edge.y = x[args->left.stride];
-  edge.line = epipolar_line(&args->geometry, edge.x, edge.y);
+  edge->x = x[0];
+  edge->y = x[args->left.stride];
+  edge->line = epipolar_line(&args->geometry, edge->x, edge->y);
   // The smaller the angle between edge and line, the less a position across the edge says about that along the line.
-  const float line_sine = left_epipolar_sine(&args->geometry, edge.x, edge.y, direction);
-  edge.stiffness = args->stiffness * line_sine * line_sine;
-  edge.sine = sine_cosine(direction, &edge.cosine);
-  return edge;
+  const float line_sine = left_epipolar_sine(&args->geometry, edge->x, edge->y, direction);
+  edge->stiffness = args->stiffness * line_sine * line_sine;
+  edge->sine = sine_cosine(direction, &edge->cosine);
 }
 
 // Moves the candidate onto the line: along its tangent where that is well defined, else orthogonally. Returns its
 // position s.
-static inline float epipolar_shift(const StereoRefinementArguments* args, const EpipolarLine line,
+static inline float epipolar_shift(const StereoRefinementArguments* args, const EpipolarLine* line,
                                    global const float* right_edges, const int candidate) {
   global const float* x = right_edges + args->right.first + candidate;
   const float direction = x[2 * args->right.stride];
-  const float dx = x[0] - line.x, dy = x[args->right.stride] - line.y;
-  const float s = dx * line.ex + dy * line.ey;
-  const float distance = -dx * line.ey + dy * line.ex;
+  const float dx = x[0] - line->x, dy = x[args->right.stride] - line->y;
+  const float s = dx * line->ex + dy * line->ey;
+  const float distance = -dx * line->ey + dy * line->ex;
   float cosine;
   const float sine = sine_cosine(direction, &cosine);
-  const float across = -cosine * line.ey + sine * line.ex;  // sine of the angle between line and tangent
-  const float along = cosine * line.ex + sine * line.ey;
+  const float across = -cosine * line->ey + sine * line->ex;  // sine of the angle between line and tangent
+  const float along = cosine * line->ex + sine * line->ey;
   if (fabs(across) <= args->shift_min_sine) return s;
   const float shift = -distance / across;
   return fabs(shift) < args->shift_max ? s + shift * along : s;

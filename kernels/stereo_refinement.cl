@@ -34,7 +34,8 @@ kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, g
   if (i >= args.left.count) return;
   const int begin = first[i], end = min(first[i + 1], args.capacity);
   if (begin >= end) return;
-  const RefinedEdge edge = open_edge(&args, left_edges, i);
+  RefinedEdge edge;
+  open_edge(&args, left_edges, i, &edge);
   const EpipolarLine line = edge.line;
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
   const PatchFrame frame = patch_frame(edge.x, edge.y, edge.cosine, edge.sine, 0.0f, 0.0f);
@@ -43,7 +44,7 @@ kernel IN_VECTORS void stereo_refinement(const StereoRefinementArguments args, g
   int ready = 0;
   for (int c = begin; c < end; ++c) {
     if (state[c] != kCandidateAlive) continue;
-    position[c] = epipolar_shift(&args, line, right_edges, target[c]);
+    position[c] = epipolar_shift(&args, &line, right_edges, target[c]);
     choose_representative(begin, c, ncc, position, state);
   }
   for (int c = begin; c < end; ++c) {

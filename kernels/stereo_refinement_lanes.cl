@@ -25,13 +25,14 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void stereo_refinement
   const int i = min(wanted, left_count - 1);
   const int begin = wanted < left_count ? first[i] : 0,
             end = wanted < left_count ? min(first[i + 1], args.capacity) : 0;
-  const RefinedEdge edge = open_edge(&args, left_edges, i);
+  RefinedEdge edge;
+  open_edge(&args, left_edges, i, &edge);
   const EpipolarLine line = edge.line;
   global const char* side_patches = left_patches + (size_t)i * kEdgePatchBytes;
   const float2 inverse_norms = *(global const float2*)(side_patches + kInverseNorms);
 
   for (int c = begin + lane; c < end; c += kPatchLanes) {
-    if (state[c] == kCandidateAlive) position[c] = epipolar_shift(&args, line, right_edges, target[c]);
+    if (state[c] == kCandidateAlive) position[c] = epipolar_shift(&args, &line, right_edges, target[c]);
   }
   barrier(CLK_GLOBAL_MEM_FENCE);
   // From here on only the first lane reads and writes the row.
