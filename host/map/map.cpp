@@ -180,7 +180,7 @@ std::optional<GraphEdge> Map::Implementation::compare(const map::Place& place, i
   closure.inliers = motion.inliers;
   closure.support = step->verdict.support;
   closure.verdict = step->doubt.exists() ? ClosureVerdict::ambiguous : ClosureVerdict::unconfirmed;
-  const GraphEdge edge =
+  GraphEdge edge =
       GraphEdge::of(place.node, node, {motion.current_from_previous, motion.covariance},
                     pose::rig_sensitivity(motion.current_from_previous.inverse(), step->mean_inverse_depth()), true);
   if (graph_.component(place.node) == graph_.component(node)) {

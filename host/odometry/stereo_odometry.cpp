@@ -50,7 +50,7 @@ void add_message(const std::string& message, FrameResult& result) {
 }
 
 /// \throws DataError, UsageError.
-const Config& checked(const StereoRig& rig, const Config& config) {
+Config checked(const StereoRig& rig, Config config) {
   check_rig(rig, "stereo rig");
   if (!has_disparity_range(config.stereo)) check_disparity_range(rig, "stereo rig");
   check_config(config);
