@@ -27,17 +27,6 @@ TEST_CASE("disparity offset: the corrected rig reconstructs points nearer by the
   }
 }
 
-TEST_CASE("disparity offset: a motion that cannot show it lets it be forgotten", "[odometry]") {
-  PoseConfig config;
-  config.disparity_offset_sigma = 0.3;
-  DisparityOffset offset(generated::car_rig(), config);
-  offset.update(0.25, 0.0004, 1);
-  offset.update(0, 0, 1);
-  CHECK(offset.value() == 0);
-  CHECK(offset.variance() == Approx(0.09));
-  CHECK(offset.rig().right.cx == generated::car_rig().right.cx);
-}
-
 TEST_CASE("disparity offset: switched off, it changes nothing", "[odometry]") {
   PoseConfig config;
   config.disparity_offset_sigma = 0;

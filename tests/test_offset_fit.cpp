@@ -62,27 +62,3 @@ TEST_CASE("A camera at rest leaves the disparity offset undetermined", "[pose][o
   CHECK(std::abs(fitted.offset) < 0.1);
   CHECK(fitted.current_from_previous.translation().norm() < 0.01);
 }
-
-TEST_CASE("An offset that a motion can imitate is not learned, and makes the length of the motion uncertain",
-          "[pose][offset_fit]") {
-  generated::Problem problem = generated::drive();  // straight ahead, towards things at one distance
-  problem.motion.linear().setIdentity();
-  problem.motion.translation() << 0, 0, -1.2;
-  problem.near = 40;
-  problem.far = 45;
-  problem.quads = 3000;
-  quadedge::PoseConfig config;
-  for (const double offset : {0.0, 0.3}) {
-    const auto quads = quads_with_offset(problem, offset, 47);
-    const Refined plain = generated::refined_by(quads, problem.rig, config, problem.motion);
-    const Refined held = generated::refined_by(quads, problem.rig, config, problem.motion, 0.3 * 0.3);
-    REQUIRE((plain.solved && held.solved));
-    CHECK(held.offset == 0);
-    CHECK(held.offset_variance == 0);
-    CHECK(held.current_from_previous.translation().norm() ==
-          Approx(plain.current_from_previous.translation().norm()).epsilon(1e-3));
-    const Vector6d error = generated::error_of(held.current_from_previous, problem.motion);
-    CHECK(error.dot(held.covariance.ldlt().solve(error)) < 22.5);  // 99.9 %, as above
-    CHECK(held.covariance(5, 5) > 2 * plain.covariance(5, 5));
-  }
-}

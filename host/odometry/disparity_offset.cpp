@@ -30,14 +30,12 @@ DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
     : calibration_(with_disparity_offset(rig, 0)),
       rig_(calibration_),
       drift_(config.disparity_offset_drift),
-      prior_variance_(config.disparity_offset_sigma * config.disparity_offset_sigma),
-      variance_(prior_variance_) {}
+      variance_(config.disparity_offset_sigma * config.disparity_offset_sigma) {}
 
 void DisparityOffset::update(double correction, double variance, int frames) {
-  if (!(variance_ > 0)) return;
-  const bool is_measured = variance > 0;
-  value_ = is_measured ? value_ + correction : 0;
-  variance_ = is_measured ? variance + frames * drift_ * drift_ : prior_variance_;
+  if (!(variance_ > 0) || !(variance > 0)) return;
+  value_ += correction;
+  variance_ = variance + frames * drift_ * drift_;
   rig_ = with_disparity_offset(calibration_, value_);
 }
 

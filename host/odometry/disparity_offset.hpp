@@ -18,8 +18,7 @@ class DisparityOffset {
   DisparityOffset(const StereoRig& rig, const PoseConfig& config);
 
   /// Adds a measurement: the correction to the current offset and its variance, which includes the prior [px, px^2];
-  /// `frames` have passed since the last measurement. A variance of 0 stands for a motion that cannot show the offset:
-  /// it is forgotten, because what was learned held for the depths seen then.
+  /// `frames` have passed since the last measurement.
   void update(double correction, double variance, int frames);
 
   /// The rig with its right principal point corrected by the offset, without undistortion tables.
@@ -32,7 +31,7 @@ class DisparityOffset {
  private:
   StereoRig calibration_;  ///< without undistortion tables
   StereoRig rig_;
-  double drift_, prior_variance_;
+  double drift_;
   double value_ = 0, variance_;
 };
 

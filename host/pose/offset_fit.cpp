@@ -29,8 +29,6 @@ bool fit_offset(const PoseConfig& config, const MeasuredCovariance& covariance, 
     const Matrix7d inverse = normal.matrix.ldlt().solve(Matrix7d::Identity());
     result.covariance = inverse * spread * inverse;
     result.offset_variance = inverse(6, 6);
-    result.separability = (1 / inverse(6, 6) - 1 / variance) / (normal.matrix(6, 6) - 1 / variance);
-    result.pose_per_offset = -normal.matrix.topLeftCorner<6, 6>().ldlt().solve(normal.matrix.topRightCorner<6, 1>());
     if (-normal.gradient.dot(step) < kFitTolerance * kFitTolerance) break;
   }
   result.covariance = (0.5 * (result.covariance + result.covariance.transpose())).eval();

@@ -19,10 +19,6 @@ struct OffsetFit {
   /// Covariance of (pose, offset) [rad, m, px], including the prior on the offset.
   Eigen::Matrix<double, 7, 7> covariance = Eigen::Matrix<double, 7, 7>::Zero();
   double offset_variance = 0;  ///< [px^2], from the weights alone
-  /// Part of the quads' information about the offset that is left when the pose is unknown, 0 to 1: what no motion can
-  /// imitate.
-  double separability = 0;
-  Vector6d pose_per_offset = Vector6d::Zero();  ///< change of the fitted pose for another offset [rad/px, m/px]
 };
 
 /// Continues a fit of `terms` with one more unknown: the common offset of all disparities left by rectification, with a

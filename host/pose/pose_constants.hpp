@@ -22,11 +22,6 @@ constexpr std::size_t kSelectionQuads = 4000, kScaleErrors = 4000;
 /// If the selection changes in fewer than one row out of this many, no further fit is made.
 constexpr std::size_t kSameSelection = 500;
 
-/// Below this separability (OffsetFit) the offset is not estimated: small systematic errors of the disparities look
-/// like an offset fifty times as large. Rendered drives straight towards thin, distant cables have 0.002 to 0.013,
-/// EuRoC's flight 0.004 to 0.007, rendered rooms and facades 0.02 to 0.18, KITTI 0.08 to 0.5.
-constexpr double kMinSeparability = 0.02;
-
 /// Lower limit of the ratio of measured to assumed variances, for noise-free data.
 constexpr double kSmallestScale = 1e-6;
 

@@ -79,8 +79,8 @@ class Refinement {
       if (!(offset_variance > 0)) fit(true);  // with the offset, the final fit follows
     }
     if (result_.solved && !(offset_variance > 0 && find_offset(offset_variance))) {
-      if (offset_variance > 0) fit(true);
-      if (result_.solved) result_.covariance = covariance_at(0).inflated() + covariance_by_offset_;
+      if (offset_variance > 0 && every > 1) fit(true);
+      if (result_.solved) result_.covariance = covariance_at(0).inflated();
     }
     result_.inliers = find_inliers();
   }
@@ -121,8 +121,7 @@ class Refinement {
     return result_.solved;
   }
 
-  /// Returns false, with the pose unchanged, if the fit with the offset has no solution or a motion looks like an
-  /// offset.
+  /// Returns false, with the pose unchanged, if the fit with the offset has no solution.
   bool find_offset(double variance) {
     OffsetFit both;
     both.current_from_previous = result_.current_from_previous;
@@ -132,10 +131,6 @@ class Refinement {
     // An offset that is not yet included in the disparities would look like correlated errors. It is therefore
     // estimated first and weighted afterwards.
     if (!fit_both(MeasuredCovariance())) return false;
-    if (!(both.separability >= kMinSeparability)) {
-      covariance_by_offset_ = variance * both.pose_per_offset * both.pose_per_offset.transpose();
-      return false;
-    }
     result_.current_from_previous = both.current_from_previous;
     fit_both(covariance_at(both.offset));
     result_.current_from_previous = both.current_from_previous;
@@ -157,8 +152,7 @@ class Refinement {
   RefinementWorkspace& work_;
   std::vector<std::uint8_t>& inlier_;
   Refined& result_;
-  double scale_ = 1;                                  ///< of the last fit
-  Matrix6d covariance_by_offset_ = Matrix6d::Zero();  ///< of the pose, by an offset that is not estimated
+  double scale_ = 1;  ///< of the last fit
 };
 
 }  // namespace

@@ -30,16 +30,14 @@ struct Refined {
   int inliers = 0;
   Matrix6d covariance = Matrix6d::Zero();  ///< see MeasuredCovariance::inflated()
   bool solved = false;  ///< false: no fit was possible; the pose is the initial one and the covariance zero
-  /// Disparity offset, see fit_offset() [px, px^2]; 0, 0 if a motion can imitate it.
-  double offset = 0, offset_variance = 0;
+  double offset = 0, offset_variance = 0;  ///< disparity offset, see fit_offset() [px, px^2]
 };
 
 /// Alternates between selecting inliers (1.5 px, 10 degrees; both images) and Gauss-Newton with Student-t weights over
 /// them, config.refine_rounds times or until the selection hardly changes; if there are many quads, a subset determines
 /// the selection. A fit ends after kFitSteps steps or with a step below kFitTolerance standard deviations of the pose.
 /// The variance of the errors is measured in each step, by the median. All inliers are then used in fit_offset() with a
-/// prior of `offset_variance` [px^2], or in one more fit if that is 0 or if the quads cannot tell an offset from a
-/// motion; the covariance then includes the unknown offset. With RefinementGoal::pose, neither offset nor
+/// prior of `offset_variance` [px^2], or in one more fit if that is 0. With RefinementGoal::pose, neither offset nor
 /// covariance is computed.
 ///
 /// The true depth of each quad is eliminated in closed form, which is the Schur complement of a bundle adjustment of
