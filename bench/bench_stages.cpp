@@ -1,6 +1,5 @@
 /// \file bench_stages.cpp  Kernel times of every variant of every stage, by OpenCL events, on the device
-/// QUADEDGE_DEVICE
-/// ("auto" if unset): bench_stages --benchmark_filter=patches
+/// QUADEDGE_DEVICE ("auto" if unset): bench_stages --benchmark_filter=patches
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <iostream>

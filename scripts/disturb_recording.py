@@ -11,7 +11,7 @@ to the left, 0 fixes it to the camera. With --bonnet the lower half of both imag
 `judge` compares the steps of RUN/trajectory.txt with those of TRUTH, a trajectory in TUM's format, such as that of the
 undisturbed recording, and prints the numbers of steps that are right, lost, wrong and told (a frame of the step is
 marked ambiguous), and wrong in silence. A step is wrong beyond a length plus a ratio of its length, or an angle.
-Needs NumPy and Pillow. Exit code: 0 done, 2 wrong usage.
+Needs NumPy, Pillow and the package quadedge. Exit code: 0 done, 2 wrong usage.
 """
 
 import argparse
@@ -21,6 +21,7 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+import quadedge
 from PIL import Image
 
 NOISE = 2.0  # grey levels
@@ -152,20 +153,9 @@ def alter(args):
 
 
 def poses(path):
-    """Time [ns] -> world_from_left of a trajectory in TUM's format."""
-    found = {}
-    for line in path.read_text().splitlines():
-        if not line.strip() or line.startswith("#"):
-            continue
-        stamp, *numbers = line.split()
-        x, y, z, w = (float(n) for n in numbers[3:])
-        matrix = np.eye(4)
-        matrix[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                          [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                          [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
-        matrix[:3, 3] = [float(n) for n in numbers[:3]]
-        found[round(float(stamp), 3)] = matrix
-    return found
+    """Time [ms] -> world_from_left of a trajectory in TUM's format."""
+    trajectory = quadedge.Trajectory.from_file(path)
+    return dict(zip(np.rint(trajectory.stamps_ns / 1e6), trajectory.poses))
 
 
 def judge(args):
@@ -174,7 +164,7 @@ def judge(args):
         rows = list(csv.DictReader(file))
     count = dict.fromkeys(("right", "lost", "told", "silent"), 0)
     for before, row in zip(rows, rows[1:]):
-        times = [round(float(each["stamp_s"]), 3) for each in (before, row)]
+        times = [round(1e3 * float(each["stamp_s"])) for each in (before, row)]
         if any(time not in truth for time in times):
             continue
         if any(each["status"] not in ("first", "tracked") for each in (before, row)):

@@ -163,7 +163,10 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
       if (interruption.signal() != 0) break;
     }
   } catch (const DataError&) {
-    write_loops();
+    try {
+      write_loops();
+    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside the error that ends the run
+    }
     throw;
   }
   write_loops();

@@ -55,12 +55,12 @@ void check_rig(const StereoRig& rig, const char* source) {
   const std::string where(source);
   check_camera(rig.left, where + " (left camera)");
   check_camera(rig.right, where + " (right camera)");
-  /// A camera of the higher resolution is reduced by this factor.
-  constexpr double kLargestScaleRatio = 16;
+  constexpr int kLargestScaleRatio = 16;  // a camera of a higher resolution is reduced by this factor
   const double ratio = rig.left.fx / rig.right.fx;
-  if (ratio > kLargestScaleRatio || ratio < 1 / kLargestScaleRatio) {
+  if (ratio > kLargestScaleRatio || ratio < 1.0 / kLargestScaleRatio) {
     throw DataError(where + ": found focal lengths fx of " + std::to_string(rig.left.fx) + " (left) and " +
-                    std::to_string(rig.right.fx) + " px (right), expected a ratio of at most 16");
+                    std::to_string(rig.right.fx) + " px (right), expected a ratio of at most " +
+                    std::to_string(kLargestScaleRatio));
   }
   const Eigen::Matrix3d rotation = rig.right_from_left.linear();
   const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();

@@ -9,6 +9,7 @@
 #include "map/pose_graph.hpp"
 #include "odometry/current_rig.hpp"
 #include "odometry/motion_search.hpp"
+#include "odometry/odometry_constants.hpp"
 #include "pose/rig_uncertainty.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/pi.hpp"
@@ -23,9 +24,6 @@ constexpr double kBytesPerMegabyte = 1e6;
 /// Largest squared deviation of a closure that the map expects: 99.9 % of chi^2 with six degrees of freedom. With a
 /// second closure that agrees, ten times the deviation in standard deviations is possible.
 constexpr double kExpected = 22.5, kPossible = 100 * kExpected;
-
-/// Support that a wrong motion may reach by chance in fine texture. Above it one closure suffices to join two segments.
-constexpr double kChanceSupport = 0.2;
 
 /// Where a frame lies.
 struct LocatedFrame {
@@ -215,7 +213,8 @@ bool Map::Implementation::decide(const GraphEdge& edge) {
   const bool has_prior = graph_.component(edge.from) == graph_.component(edge.to);
   const double deviation = has_prior ? graph_.deviation(edge) : 0;
   if (deviation > kPossible) return false;
-  if (has_prior ? deviation < kExpected : closures_.back().support > kChanceSupport) {
+  // To join two segments, support that a wrong motion does not reach by chance suffices.
+  if (has_prior ? deviation < kExpected : closures_.back().support > odometry::kChanceSupport) {
     keep(edge, closures_.back());
     return true;
   }

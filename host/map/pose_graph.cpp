@@ -7,8 +7,8 @@
 namespace quadedge::map {
 namespace {
 
-constexpr double kCauchy =
-    12.6;  ///< squared error at which the kernel halves the weight: 95 % of chi^2 with six degrees
+/// Squared error at which the kernel halves the weight: 95 % of chi^2 with six degrees of freedom.
+constexpr double kCauchy = 12.6;
 constexpr int kMaxSteps = 20;
 constexpr double kSettled = 1e-6;   ///< relative decrease of the cost at which the minimum is reached
 constexpr int kMostHalvings = 8;    ///< of a step that increases the cost

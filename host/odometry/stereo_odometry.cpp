@@ -49,7 +49,7 @@ void add_message(const std::string& message, FrameResult& result) {
   result.message += (result.message.empty() ? "" : "; ") + message;
 }
 
-/// \throws DataError, UsageError.
+/// The configuration, if it and the rig are valid. \throws DataError, UsageError.
 Config checked(const StereoRig& rig, Config config) {
   check_rig(rig, "stereo rig");
   if (!has_disparity_range(config.stereo)) check_disparity_range(rig, "stereo rig");
@@ -368,10 +368,10 @@ FrameDetails StereoOdometry::Implementation::details() const {
 }
 
 StereoOdometry::StereoOdometry(const StereoRig& rig, const Config& config) {
-  checked(rig, config);
+  const Config sound = checked(rig, config);  // before a device is opened
   auto device = std::make_unique<Device>();
   Device& opened = *device;
-  implementation_ = std::make_unique<Implementation>(rig, std::move(device), opened, config);
+  implementation_ = std::make_unique<Implementation>(rig, std::move(device), opened, sound);
 }
 
 StereoOdometry::StereoOdometry(const StereoRig& rig, Device& device, const Config& config)

@@ -55,9 +55,8 @@ std::string tracked(int tracked, int frames) {
 
 std::string summary_csv(const BatchSummary& summary) {
   std::string text =
-      "kind,sequence,status,exit_code,path,format,frames,tracked,tracked_fraction,key_rigs,segments,matched_poses,path_"
-      "length_m,"
-      "end_drift_percent" +
+      "kind,sequence,status,exit_code,path,format,frames,tracked,tracked_fraction,key_rigs,segments,matched_poses,"
+      "path_length_m,end_drift_percent" +
       names_of_errors() +
       ",latency_ms_median,latency_ms_p90,latency_ms_p99,latency_ms_max,latency_ms_first,jobs,device,message\n";
   for (const auto& row : summary.rows) {

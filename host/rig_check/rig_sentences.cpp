@@ -103,9 +103,8 @@ std::string sentence(const RigFinding& finding) {
              "about " +
              number(std::abs(finding.time_offset), 1) + " frames?";
     case RigFindingKind::repeated_images:
-      return "both images are identical to those of the previous frame: have both cameras frozen, or was a frame "
-             "stored "
-             "twice?";
+      return "both images are identical to those of the previous frame: "
+             "have both cameras frozen, or was a frame stored twice?";
     case RigFindingKind::large_disparity_offset:
       return "all disparities seem to be off by " + number(finding.disparity_offset, 1) +
              " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "

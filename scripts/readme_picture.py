@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Draws the picture of the README: stereo edges of one frame beside the map of edges and the estimated path.
+
+    quadedge synth street --scene facade --path drive
+    quadedge run street --map street/edges.ply -o street/results
+    quadedge match street/rgb/0.550000000.png street/rgb2/0.550000000.png --max-disparity 120 --csv street/edges.csv
+    scripts/readme_picture.py street 0.550000000 doc/street.webp
+
+Needs matplotlib, Pillow and plyfile (tests/requirements.txt).
+Exit code: 0 done, 1 a file is missing or empty, 2 wrong usage.
+"""
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from PIL import Image
+from plyfile import PlyData
+
+BACKGROUND, PATH = "#0d1117", "#ffffff"
+WIDTH, HEIGHT = 16.0, 4.6  # of the picture [inch], 100 px each
+EYE, TARGET = np.array([13.0, -11.0, -3.0]), np.array([-1.6, -1.0, 16.0])  # of the view on the map [m]
+
+
+def read_stereo_edges(file):
+    """(n, 3): x and y in the left image, disparity [px]."""
+    with open(file, encoding="utf-8", newline="") as rows:
+        edges = [[float(row[name]) for name in ("left_x", "left_y", "right_x")] for row in csv.DictReader(rows)]
+    if not edges:
+        raise ValueError(f"{file}: expected at least one stereo edge")
+    return np.array(edges) @ np.array([[1, 0, 1], [0, 1, 0], [0, 0, -1]])
+
+
+def project(points):
+    """Perspective view from EYE towards TARGET: (n, 2) in units of the focal length, y down; y of `points` is down."""
+    forward = (TARGET - EYE) / np.linalg.norm(TARGET - EYE)
+    right = np.cross(forward, [0, -1, 0])
+    right /= np.linalg.norm(right)
+    seen = (points - EYE) @ np.stack([right, np.cross(forward, right), forward]).T
+    return seen[:, :2] / seen[:, 2:], seen[:, 2]
+
+
+def draw_view(figure, image, edges):
+    """The left image with its stereo edges coloured by disparity. Returns the part of the width that it takes."""
+    height, width = image.shape
+    share = width / height * HEIGHT / WIDTH
+    axes = figure.add_axes((0, 0, share, 1))
+    axes.axis("off")
+    axes.imshow(image, cmap="gray", vmin=-60, vmax=255)
+    low, high = np.percentile(edges[:, 2], (2, 98))
+    axes.scatter(edges[:, 0], edges[:, 1], s=1.6, c=edges[:, 2], cmap="turbo", linewidths=0, vmin=low, vmax=high)
+    axes.set(xlim=(0, width - 1), ylim=(height - 1, 0))
+    return share
+
+
+def draw_map(figure, share, points, path):
+    """The map coloured by the distance from the start, and the path."""
+    axes = figure.add_axes((share, 0, 1 - share, 1))
+    axes.axis("off")
+    places, depth = project(points)
+    order = np.argsort(-depth)[: np.count_nonzero(depth > 1)]
+    axes.scatter(*places[order].T, s=1, c=points[order, 2], cmap="turbo_r", linewidths=0, alpha=0.9)
+    track, _ = project(path)
+    axes.plot(*track.T, color=PATH, lw=3)
+    axes.plot(*track[-1], "o", color=PATH, ms=7)
+    shown = np.concatenate([np.percentile(places[order], (1, 99), axis=0), track])
+    (left, top), (right, bottom) = shown.min(axis=0), shown.max(axis=0)
+    half_width = max((right - left) / 2, (bottom - top) / 2 * (1 - share) * WIDTH / HEIGHT)  # with one scale for both
+    half_height = half_width * HEIGHT / WIDTH / (1 - share)
+    x, y = (left + right) / 2, (top + bottom) / 2
+    axes.set(xlim=(x - half_width, x + half_width), ylim=(y + half_height, y - half_height))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("sequence", type=Path, help="rendered sequence, with results/, edges.ply and edges.csv")
+    parser.add_argument("frame", help="stamp of the frame shown, as in its file name")
+    parser.add_argument("output", type=Path, help="picture to write; its suffix is the format")
+    options = parser.parse_args()
+    try:
+        image = np.asarray(Image.open(options.sequence / "rgb" / f"{options.frame}.png").convert("L"))
+        edges = read_stereo_edges(options.sequence / "edges.csv")
+        vertices = PlyData.read(options.sequence / "edges.ply")["vertex"]
+        path = np.loadtxt(options.sequence / "results" / "trajectory.txt", ndmin=2)[:, 1:4]
+    except (OSError, ValueError, KeyError) as problem:
+        print(f"readme_picture: {problem}", file=sys.stderr)
+        return 1
+    figure = plt.figure(figsize=(WIDTH, HEIGHT), dpi=100, facecolor=BACKGROUND)
+    share = draw_view(figure, image, edges)
+    draw_map(figure, share, np.stack([vertices[axis] for axis in "xyz"], 1), path)
+    figure.canvas.draw()
+    Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB").save(options.output, quality=80)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
