@@ -67,7 +67,7 @@ def facts_of(run: Run) -> list[tuple[str, str]]:
     loops = report.get("loops")
     if loops:
         facts.append(("Loops", f"{loops['kept']} closures kept of {loops['compared']} compared, {loops['frames']} "
-                      f"frames in the largest of {loops['segments']} segments"))
+                      f"frames in the largest of {loops['segments']} segment{'s' * (loops['segments'] != 1)}"))
     memory = report.get("memory_mb")
     if memory:
         facts.append(("Memory",
