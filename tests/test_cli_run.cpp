@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "dataset_files.hpp"
 #include "program.hpp"
 
 using Catch::Matchers::Contains;
@@ -293,4 +294,29 @@ TEST_CASE("run: frames finished before a broken image stay on disk", "[cli][devi
   CHECK(read_lines(folder / "out/trajectory_kitti.txt").size() == 2);
   CHECK(read_lines(folder / "out/frames.csv").size() == 3);
   CHECK(run_program({"check", folder / "room"}).code == 3);
+}
+
+TEST_CASE("run: --offset-file carries the disparity offset from one run to the next", "[cli][device]") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "offset.toml";
+  const auto run = [&] {
+    return run_program({"run", small_sequence(), "-o", folder / "out", "--force", "--quiet", "--offset-file", file});
+  };
+  const auto value = [&](const std::string& name, const std::string& key) {
+    double number = std::nan("");
+    for (const auto& line : read_lines(folder / name)) std::sscanf(line.c_str(), (key + " = %lf").c_str(), &number);
+    return number;
+  };
+  REQUIRE(run().code == 0);
+  const double learned = value("offset.toml", "pose.disparity_offset");
+  const double sigma = value("offset.toml", "pose.disparity_offset_sigma");
+  CHECK(std::abs(learned) < 0.3);
+  CHECK((sigma > 0 && sigma < 0.3));  // less than is assumed at the start
+  REQUIRE(run().code == 0);
+  CHECK(value("out/config.toml", "disparity_offset") == learned);
+  CHECK(value("offset.toml", "pose.disparity_offset_sigma") < sigma);
+  dataset_files::write_text(file, "pose.disparity_ofset = 1\n");
+  const auto refused = run();
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains(file + ":1: unknown key \"pose.disparity_ofset\""));
 }

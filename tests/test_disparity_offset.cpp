@@ -36,3 +36,14 @@ TEST_CASE("disparity offset: switched off, it changes nothing", "[odometry]") {
   CHECK(offset.value() == 0);
   CHECK(offset.rig().right.cx == generated::car_rig().right.cx);
 }
+
+TEST_CASE("disparity offset: it starts from the configured value", "[odometry]") {
+  PoseConfig config;
+  config.disparity_offset = -0.4;
+  const StereoRig rig = generated::car_rig();
+  DisparityOffset offset(rig, config);
+  CHECK(offset.value() == -0.4);
+  CHECK(offset.rig().right.cx == odometry::with_disparity_offset(rig, -0.4).right.cx);
+  offset.update(0.1, 0.0004, 1);
+  CHECK(offset.value() == Approx(-0.3));
+}

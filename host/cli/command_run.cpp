@@ -49,6 +49,8 @@ class RunCommand : public Command {
     options.number("--min-tracked", min_tracked_, "exit with code 5 if fewer frames are tracked [percent]");
     options.flag("--loops", run_.loops,
                  "recognise places and close loops: trajectory_map.txt and loops.csv beside the odometry's files");
+    options.text("--offset-file", run_.offset_file,
+                 "disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the end", "FILE");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.map.declare(options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "cli/command_line.hpp"
 #include "cli/console.hpp"
@@ -11,8 +12,10 @@
 #include "common/run_cost.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
+#include "data/toml_file.hpp"
 #include "data/trajectory_rows.hpp"
 #include "opencl/context.hpp"
+#include "quadedge/config_file.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 #include "reference/undistortion.hpp"
@@ -238,10 +241,23 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
   }
 }
 
+/// The disparity offset as the last frame that was located left it, as a configuration file.
+void write_offset(const std::string& file, const report::RunRecord& run) {
+  const auto last = std::find_if(run.frames.rbegin(), run.frames.rend(), [](const auto& frame) {
+    return frame.result.disparity_offset_sigma > 0;
+  });
+  if (last == run.frames.rend()) return;
+  data::write_atomically(
+      file, "# Disparity offset of a stereo rig, learned by `quadedge run --offset-file`\npose.disparity_offset = " +
+                data::toml_text(last->result.disparity_offset) +
+                "\npose.disparity_offset_sigma = " + data::toml_text(last->result.disparity_offset_sigma) + "\n");
+}
+
 /// Writes what depends on all frames: accuracy, report.json and the trace.
 void write_results(const FrameSource& source, const SequenceRunOptions& options, report::RunRecord& run) {
   evaluate(source, options, run);
   data::write_atomically(options.output + "/report.json", report::report_json(run));
+  if (!options.offset_file.empty()) write_offset(options.offset_file, run);
   if (!options.trace.empty()) data::write_atomically(options.trace, report::trace_json(run));
 }
 
@@ -284,8 +300,10 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.command = command_line();
   run.input = source.facts();
   run.config = method.config();
+  if (std::filesystem::exists(options.offset_file)) run.config = read_config(options.offset_file, run.config);
   const FolderLock lock = prepare_output_folder(options.output, options.force);
   check_output_file(options.trace, options.force);
+  check_output_file(options.offset_file, true);
   options.map.check(options.force);
   MapOutput map(options.map, run.config);
   try {

@@ -22,6 +22,7 @@ struct SequenceRunOptions {
   int draw_frame = -1;
   MapFiles map;
   bool loops = false;  ///< recognise places, and write the corrected trajectory and the closures
+  std::string offset_file;  ///< the rig's disparity offset: read if it exists, written at the end; empty: none
   int thumbnails = 0;  ///< number of quad thumbnails, spread evenly over the frames after the first
 };
 

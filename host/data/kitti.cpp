@@ -34,7 +34,8 @@ fs::path sequence_folder(const fs::path& folder, const std::string& wanted) {
   if (names.empty())
     fail(parent.string(), "no sequence", "folders that hold image_0 and image_1 (or image_2 and image_3)");
   if (wanted.empty() && names.size() > 1) {
-    throw UsageError(folder.string() + " holds the sequences " + list + ": choose one with --sequence");
+    throw UsageError(folder.string() + " holds the sequences " + list + ": give the folder of one, such as " +
+                     (parent / names[0]).string());
   }
   if (!wanted.empty() && std::find(names.begin(), names.end(), wanted) == names.end()) {
     throw UsageError(folder.string() + " has no sequence " + in_quotes(wanted) + "; there are " + list);

@@ -28,8 +28,9 @@ StereoRig with_disparity_offset(const StereoRig& rig, double offset) {
 
 DisparityOffset::DisparityOffset(const StereoRig& rig, const PoseConfig& config)
     : calibration_(with_disparity_offset(rig, 0)),
-      rig_(calibration_),
+      rig_(with_disparity_offset(rig, config.disparity_offset)),
       drift_(config.disparity_offset_drift),
+      value_(config.disparity_offset),
       variance_(config.disparity_offset_sigma * config.disparity_offset_sigma) {}
 
 void DisparityOffset::update(double correction, double variance, int frames) {

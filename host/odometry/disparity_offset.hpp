@@ -32,7 +32,7 @@ class DisparityOffset {
   StereoRig calibration_;  ///< without undistortion tables
   StereoRig rig_;
   double drift_;
-  double value_ = 0, variance_;
+  double value_, variance_;
 };
 
 }  // namespace quadedge::odometry

@@ -1,5 +1,6 @@
 /// \file stereo_odometry.cpp  The processing of a frame (doc/design.md section 1), from two images to a pose.
 #include <chrono>
+#include <cmath>
 #include <set>
 #include <tbb/task_group.h>
 #include <utility>
@@ -294,6 +295,8 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   result.status = FrameStatus::tracked;
   result.counts.inliers = step.motion.inliers;
   result.disparity_offset = offset_.value() + step.motion.offset;
+  result.disparity_offset_sigma =
+      std::sqrt(step.motion.offset_variance > 0 ? step.motion.offset_variance : offset_.variance());
   if (const auto large = rig_check::judge_disparity_offset(result.disparity_offset))
     warn(rig_check::warning(*large), result);
   result.ambiguous_motion = step.doubt.exists();

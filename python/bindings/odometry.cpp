@@ -262,6 +262,7 @@ void bind_result(nb::module_& module) {
               "Number of the key rig's frame, counted from 0; -1 before the first one.")
       .def_ro("new_key_rig", &Self::new_key_rig, "True if this frame becomes the key rig of the following frames.")
       .def_ro("disparity_offset", &Self::disparity_offset, "Offset estimated so far and added to every disparity [px].")
+      .def_ro("disparity_offset_sigma", &Self::disparity_offset_sigma, "Its standard deviation [px].")
       .def_ro("ambiguous_motion", &Self::ambiguous_motion,
               "True if a second motion explains nearly as much of the image as the estimated one.")
       .def_ro("counts", &Self::counts, "Numbers of edges and quads, a FrameCounts.")

@@ -71,8 +71,8 @@ template <class Self>
 auto members(Self& self, const FrameResult&) {
   return std::tie(self.stamp_ns, self.status, self.segment, self.world_from_left, self.predicted_world_from_left,
                   self.covariance, self.current_from_reference, self.relative_covariance, self.reference_frame,
-                  self.new_key_rig, self.disparity_offset, self.ambiguous_motion, self.counts, self.message,
-                  self.warnings, self.timing, self.diagnostics);
+                  self.new_key_rig, self.disparity_offset, self.disparity_offset_sigma, self.ambiguous_motion,
+                  self.counts, self.message, self.warnings, self.timing, self.diagnostics);
 }
 
 template <class T>
