@@ -17,7 +17,7 @@ PIL = pytest.importorskip("PIL.Image")
 
 from quadedge import report  # noqa: E402
 from quadedge.report import numbers, results, sequence_figures  # noqa: E402
-from quadedge.report.figure import Figure, Series, thinned  # noqa: E402
+from quadedge.report.figure import COLOURS, Figure, Series, thinned  # noqa: E402
 from quadedge.report.page import LARGEST_PAGE  # noqa: E402
 from quadedge.report.plotly_figures import to_plotly  # noqa: E402
 from quadedge.report.table import Cell, Table, to_csv, to_latex  # noqa: E402
@@ -212,6 +212,21 @@ def test_a_run_with_loops_shows_the_corrected_path_and_its_closures(tmp_path):
     assert np.isnan(ends[:, 2]).all()
     assert np.allclose(sorted(ends[0, :2]), run.truth.positions[[2, 20], 2])
     assert "2 closures kept of 3 compared" in page_of(tmp_path / "street").text
+
+
+def test_closures_and_the_corrected_path_have_a_colour_that_no_segment_has(tmp_path):
+    assert max(sequence_figures.MAP_STYLE, sequence_figures.CLOSURE_STYLE) < len(COLOURS)
+    write_run(tmp_path / "street", 24, lost=7, breaks=True)
+    for path in ("trajectory_map.txt", "groundtruth.txt"):
+        (tmp_path / "street" / path).write_text((tmp_path / "street" / "trajectory.txt").read_text())
+    (tmp_path / "street" / "loops.csv").write_text("frame,other,verdict\n20,2,kept\n")
+    run = results.read_run(tmp_path / "street")
+    *_, last = run.segments()
+    run.segments = lambda: [(k, last[1]) for k in range(7)]
+    _, above, *_ = sequence_figures.trajectory_figures(run, [], 100)
+    segments = {series.style for series in above.series if series.name.startswith("QuadEdge, segment")}
+    others = [series.style for series in above.series if series.name in ("QuadEdge, loops closed", "closures")]
+    assert len(others) == 2 and len(set(others) | segments) == 2 + len(segments)
 
 
 def test_fewer_than_ten_frames_have_tables_and_no_plots(tmp_path):

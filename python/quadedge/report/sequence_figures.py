@@ -7,7 +7,7 @@ from .numbers import DEGREE, length_unit
 from .results import Errors, Run, Trajectory, is_lost
 
 TIME = "time since the first frame [s]"
-MAP_STYLE = 4
+MAP_STYLE, CLOSURE_STYLE = 4, 6  # segments have the styles below
 STRAIGHT = 0.05  # a path is straight if its width is below this share of its length
 
 
@@ -33,7 +33,7 @@ def _paths(run: Run, others: list[Other]) -> list[tuple[str, Trajectory, int, st
     paths = [("ground truth", run.truth, GREY, "dash")] if run.truth else []
     for segment, indices in run.segments():
         name = f"QuadEdge, segment {segment}" if segment else "QuadEdge"
-        paths.append((name, run.estimate.part(indices), segment % 5, "solid"))
+        paths.append((name, run.estimate.part(indices), segment % MAP_STYLE, "solid"))
     if run.corrected:
         paths.append(("QuadEdge, loops closed", run.corrected, MAP_STYLE, "solid"))
     return paths + [(other.name, other.poses, 1 + n % 4, "") for n, other in enumerate(others)]
@@ -79,7 +79,7 @@ def trajectory_figures(run: Run, others: list[Other], points: int) -> list[Figur
     lines = _closures(run)
     if len(lines):
         x, y, z = (lines * unit.factor).T
-        above.series.append(Series("closures", x, z, style=2, dash="dot"))
+        above.series.append(Series("closures", x, z, style=CLOSURE_STYLE, dash="dot"))
     return [space, above, side, *_deviation(run, others, points)]
 
 
