@@ -2,9 +2,9 @@
 #include <random>
 
 #include "evaluation/consistency.hpp"
-#include "pose/pose_covariance.hpp"
 #include "pose/refinement.hpp"
 #include "pose/rig_uncertainty.hpp"
+#include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "odometry/equal_scale.hpp"
+#include "common/equal_scale.hpp"
 
 using namespace quadedge;
 
@@ -17,7 +17,7 @@ StereoRig rig_of(double left_focal, int left_width, double right_focal, int righ
 }  // namespace
 
 TEST_CASE("equal scale: a camera with twice the resolution is halved and keeps its rays", "[odometry][rig]") {
-  const StereoRig rig = rig_of(300, 400, 150, 200), equal = odometry::with_equal_scales(rig);
+  const StereoRig rig = rig_of(300, 400, 150, 200), equal = with_equal_scales(rig);
   CHECK(equal.right.fx == 150);
   CHECK(equal.right_undistortion.empty());
   CHECK(equal.left.width == 200);
@@ -47,12 +47,12 @@ TEST_CASE("equal scale: an undistortion table is rescaled, and other rigs stay u
       table.source_y.push_back(static_cast<float>(2 * y));
     }
   }
-  const StereoRig equal = odometry::with_equal_scales(rig);
+  const StereoRig equal = with_equal_scales(rig);
   CHECK(equal.left_undistortion.empty());
   const std::size_t i = 200 * 7 + 11;  // between (22, 14) and (23, 15)
   CHECK(equal.right_undistortion.source_x[i] == Approx(3 * 22.5 + 14.5));
   CHECK(equal.right_undistortion.source_y[i] == Approx(2 * 14.5));
-  const StereoRig alike = odometry::with_equal_scales(rig_of(300, 400, 240, 400));
+  const StereoRig alike = with_equal_scales(rig_of(300, 400, 240, 400));
   CHECK(alike.left.width == 400);
   CHECK(alike.left_undistortion.empty());
   CHECK(alike.right_undistortion.empty());

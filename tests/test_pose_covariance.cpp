@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "pose/pose_covariance.hpp"
+#include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;
 using pose::RelativePose;

@@ -3,8 +3,8 @@
 #include <random>
 
 #include "map/pose_graph.hpp"
-#include "pose/pose_covariance.hpp"
 #include "pose/rig_uncertainty.hpp"
+#include "pose/uncertain_pose.hpp"
 
 using namespace quadedge;
 using map::GraphEdge;

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "frontend/prediction.hpp"
 #include "generated_quads.hpp"
-#include "odometry/prediction.hpp"
 #include "quadedge/pi.hpp"
 
 using namespace quadedge;
@@ -21,7 +21,7 @@ TemporalSearch predict(const StereoRig& rig, const StereoEdges& edges, const std
   pose::MeasuredEdges measured;
   pose::measure_edges(rig, edges, 0.07, measured);
   TemporalSearch search;
-  odometry::predict_positions(rig, edges, measured, motion, radius, step, search);
+  frontend::predict_positions(rig, edges, measured, motion, radius, step, search);
   return search;
 }
 
@@ -94,8 +94,8 @@ TEST_CASE("prediction: edges in view are counted, and shifts are averaged where 
   const float nowhere = std::numeric_limits<float>::quiet_NaN();
   const EdgePositions a{{0, 10, nowhere, 99, 50}, {0, 10, 5, 49, 20}, {}},
       b{{3, 10, 4, nowhere, 50}, {4, 11, 5, 49, 20}, {}};
-  CHECK(odometry::count_in_view({80, 80, 50, 25, 100, 50}, a) == 4);
-  CHECK(odometry::count_in_view({80, 80, 50, 25, 60, 50}, a) == 3);
-  CHECK(odometry::mean_distance(a, b, 1) == Approx((5 + 1 + 0) / 3.0));
-  CHECK(odometry::mean_distance({}, {}, 1) == 0);
+  CHECK(frontend::count_in_view({80, 80, 50, 25, 100, 50}, a) == 4);
+  CHECK(frontend::count_in_view({80, 80, 50, 25, 60, 50}, a) == 3);
+  CHECK(frontend::mean_distance(a, b, 1) == Approx((5 + 1 + 0) / 3.0));
+  CHECK(frontend::mean_distance({}, {}, 1) == 0);
 }

@@ -1,9 +1,9 @@
 #include "quadedge/match_stereo.hpp"
 
+#include "common/equal_scale.hpp"
 #include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
 #include "map/measured_points.hpp"
-#include "odometry/equal_scale.hpp"
 
 namespace quadedge {
 namespace {
@@ -18,7 +18,7 @@ StereoMatches match_stereo(const StereoFrame& frame, const StereoRig& rig, Devic
   check_config(config);
   RecordedImages(rig).check(frame.left, frame.right);
   StereoMatches matches;
-  matches.rig = odometry::with_equal_scales(rig);
+  matches.rig = with_equal_scales(rig);
   const auto frontend = frontend::make_frontend(matches.rig, device, config, &matches.warnings);
   matches.edges = frontend->process(frame)->edges;
   matches.left_edges = frontend->edges(Side::left);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "frontend/prediction.hpp"
 #include "odometry/odometry_constants.hpp"
-#include "odometry/prediction.hpp"
 #include "pose/scoring.hpp"
 
 namespace quadedge::odometry {
@@ -17,7 +17,7 @@ struct Cell {
 }  // namespace
 
 void Acceptance::test_support(const EdgePositions& predicted, MotionStep& step) const {
-  const int in_view = count_in_view(offset_.rig().left, predicted);
+  const int in_view = frontend::count_in_view(offset_.rig().left, predicted);
   step.verdict.support = step.motion.inliers / std::max(1.0, static_cast<double>(in_view));
   if (step.ok() && step.verdict.support < config_.temporal.min_support)
     step.motion.status = pose::MotionStatus::no_consensus;

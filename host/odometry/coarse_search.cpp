@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "odometry/prediction.hpp"
+#include "frontend/prediction.hpp"
 
 namespace quadedge::odometry {
 
@@ -28,8 +28,8 @@ StepHandle CoarseSearch::propose(const MotionQuery& query, const Evidence&) {
   if (trusts_prediction_ && !query.prediction) return nullptr;
   const StereoEdges& edges = query.base->edges;
   const int every = std::max(1, (static_cast<int>(edges.size()) + edges_ - 1) / edges_);
-  predict_positions(steps_.calibration(), edges, steps_.measured(*query.base), query.prediction, radius_, every,
-                    search_);
+  frontend::predict_positions(steps_.calibration(), edges, steps_.measured(*query.base), query.prediction, radius_,
+                              every, search_);
   search_.coarse = true;
   StepHandle step = steps_.take(query.base);
   frontend_.match(*query.base, search_, step->matches);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "frontend/prediction.hpp"
 #include "odometry/odometry_constants.hpp"
-#include "odometry/prediction.hpp"
 
 namespace quadedge::odometry {
 
@@ -32,8 +32,8 @@ void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConf
 StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
                                Eigen::Isometry3d current_from_base) {
   const auto predict = [&](int every, TemporalSearch& search) {
-    predict_positions(steps_.calibration(), base->edges, steps_.measured(*base), current_from_base,
-                      config_.temporal.radius, every, search);
+    frontend::predict_positions(steps_.calibration(), base->edges, steps_.measured(*base), current_from_base,
+                                config_.temporal.radius, every, search);
   };
   predict(1, search_);
   StepHandle step = steps_.take(base);
@@ -44,7 +44,7 @@ StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHand
     if (!step->ok() || round == config_.temporal.rounds) break;
     current_from_base = step->motion.current_from_previous;
     predict(kSettledStep, next_search_);
-    if (mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled) break;
+    if (frontend::mean_distance(search_.left, next_search_.left, kSettledStep) < kSettled) break;
     predict(1, search_);
   }
   if (step->ok()) acceptance_.judge(search_.left, *step);

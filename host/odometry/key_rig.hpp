@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frontend/rig.hpp"
-#include "pose/pose_covariance.hpp"
+#include "pose/uncertain_pose.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 

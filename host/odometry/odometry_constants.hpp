@@ -49,8 +49,4 @@ constexpr double kProposalMinInlierRatio = 0.03;
 constexpr double kSettled = 0.3;
 constexpr int kSettledStep = 16;
 
-/// Ratio of the two focal lengths in pixels from which a camera is reduced to a fraction of its resolution: half-way to
-/// twice the resolution.
-constexpr double kMinScaleRatio = 1.5;
-
 }  // namespace quadedge::odometry

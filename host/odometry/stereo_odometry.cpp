@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "common/disparity_range.hpp"
+#include "common/equal_scale.hpp"
 #include "common/host_stages.hpp"
 #include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
 #include "odometry/constant_velocity.hpp"
 #include "odometry/current_rig.hpp"
 #include "odometry/disparity_offset.hpp"
-#include "odometry/equal_scale.hpp"
 #include "odometry/key_rig.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/tracking_state.hpp"
@@ -77,7 +77,7 @@ class StereoOdometry::Implementation {
   /// \param own the device if this object owns it, else null
   Implementation(const StereoRig& rig, std::unique_ptr<Device> own, Device& device, const Config& config)
       : recorded_(rig),
-        rig_(odometry::with_equal_scales(rig)),
+        rig_(with_equal_scales(rig)),
         own_device_(std::move(own)),
         device_(device),
         config_(config),

@@ -7,8 +7,8 @@
 
 #include "frontend/rig.hpp"
 #include "odometry/key_rig.hpp"
-#include "pose/pose_covariance.hpp"
 #include "pose/relative_pose.hpp"
+#include "pose/uncertain_pose.hpp"
 
 namespace quadedge::odometry {
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "opencl/error.hpp"
 #include "opencl/kernel_sources.hpp"
+#include "opencl/status.hpp"
 
 namespace quadedge::opencl {
 

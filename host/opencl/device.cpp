@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "opencl/context.hpp"
-#include "opencl/error.hpp"
 #include "opencl/fork_guard.hpp"
+#include "opencl/status.hpp"
 
 namespace quadedge {
 namespace {

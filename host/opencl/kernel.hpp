@@ -6,7 +6,7 @@
 
 #include "opencl/buffer.hpp"
 #include "opencl/context.hpp"
-#include "opencl/error.hpp"
+#include "opencl/status.hpp"
 
 namespace quadedge::opencl {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "pose/pose_covariance.hpp"
+#include "pose/uncertain_pose.hpp"
 #include "quadedge/config.hpp"
 #include "quadedge/pose_covariance.hpp"
 

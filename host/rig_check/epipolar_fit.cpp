@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rig_check/rig_check_constants.hpp"
+
 namespace quadedge::rig_check {
 namespace {
-
-constexpr std::size_t kMinFitCorners = 12;
-constexpr int kRounds = 8;
-constexpr double kMinScale = 0.02;  // px
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -32,11 +30,11 @@ EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int h
   const auto row = [&](const CornerMatch& match) {
     return Eigen::Vector3d(1, match.left.x() / width - 0.5, match.left.y() / height - 0.5);
   };
-  for (int round = 0; round <= kRounds; ++round) {
+  for (int round = 0; round <= kFitRounds; ++round) {
     distances.clear();
     for (const auto& match : matches) distances.push_back(std::abs(match.across - row(match).dot(terms)));
     fit.scatter = median(distances);
-    if (round == kRounds) break;
+    if (round == kFitRounds) break;
     const double scale = std::max(2 * fit.scatter, kMinScale);
     Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();

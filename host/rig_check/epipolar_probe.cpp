@@ -6,23 +6,13 @@
 #include <tbb/parallel_for.h>
 
 #include "rig_check/patch_search.hpp"
+#include "rig_check/rig_check_constants.hpp"
 
 namespace quadedge::rig_check {
 namespace {
 
-constexpr int kAlignedSpots = 240;
 constexpr int kProbeHalf = 5, kProbeSide = 2 * kProbeHalf + 1,
               kWithBorder = kProbeSide + 2;  // patches of 11 x 11 samples
-constexpr int kSteps = 10;
-constexpr double kSettledShift = 0.01;  // px
-constexpr double kMaxShift = 4;         // from the start of a refinement [px]
-constexpr double kMinProbeCorrelation = 0.8;
-constexpr double kMinRoundness =
-    0.03;  // determinant over squared trace of the structure tensor; 0.25 for an isotropic corner
-constexpr double kMaxSigma = 0.1;  // px; matches that do not constrain the distance from the line are dropped
-constexpr double kAlong = 0.25,
-                 kAcross = 0.1;       // extent of the search, as fractions of the left image's width and height
-constexpr double kCoarseWidth = 320;  // px
 
 /// Samples of a patch, from -kProbeHalf - 1 to kProbeHalf + 1 in both directions; array columns are image columns.
 using Samples = Eigen::Array<float, kWithBorder, kWithBorder, Eigen::RowMajor>;
@@ -125,7 +115,7 @@ std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const 
   const double reach = (kProbeHalf + 1) * steps.cwiseAbs().rowwise().sum().maxCoeff();
   const Eigen::Vector2d start = position;
   Alignment sums;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kAlignmentSteps; ++step) {
     if (!right.holds(position, reach) || (position - start).norm() > kMaxShift) return std::nullopt;
     const Samples found = cut(right, position, steps);
     const Level found_level = level_of(found);
@@ -203,8 +193,8 @@ ProbeSearch EpipolarProbe::search(const StereoFrame& frame, double max_disparity
   const double scale = views.scale;
   ProbeSearch result;
   result.max_disparity = max_disparity;
-  const double along = std::min(0.5 * rig_.left.width, std::max(kAlong * rig_.left.width, 1.25 * max_disparity)),
-               across = kAcross * rig_.left.height;
+  const double along = std::min(0.5 * rig_.left.width, std::max(kSearchAlong * rig_.left.width, 1.25 * max_disparity)),
+               across = kSearchAcross * rig_.left.height;
   const auto seek = [&](const Eigen::Vector2i& corner) {
     CornerSearch outcome;
     const Eigen::Vector2d corner_at = views.in_left(corner.cast<double>());

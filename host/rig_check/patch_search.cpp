@@ -4,17 +4,13 @@
 #include <cmath>
 
 #include "common/vector_clones.hpp"
+#include "rig_check/rig_check_constants.hpp"
 
 namespace quadedge::rig_check {
 namespace {
 
 constexpr int kPatchHalf = 4, kPatchSide = 2 * kPatchHalf + 1;  // patches of 9 x 9 px
-constexpr double kMinCorrelation = 0.8;
-constexpr double kFlat = 1.5;  // patches with a lower standard deviation count as flat [grey levels]
-constexpr int kCell = 20;      // size of the cells that yield one corner each [px]
-constexpr double kMinCorner =
-    4;  // minimum of the smaller eigenvalue of the structure tensor, per pixel [(grey levels per px)^2]
-constexpr int kCornerHalf = 3;  // half the window size of the structure tensor [px]
+constexpr int kCornerHalf = 3;                                  // half the window size of the structure tensor [px]
 
 /// Sums over squares of half side `half` around every pixel; 0 if the square leaves the image.
 std::vector<double> box_sums(const std::vector<double>& values, int width, int height, int half) {

@@ -2,34 +2,9 @@
 
 #include <cmath>
 
+#include "rig_check/rig_check_constants.hpp"
+
 namespace quadedge::rig_check {
-namespace {
-
-// doc/method.md section 7 lists what valid recordings have.
-constexpr int kMinCorners = 20, kMinMatches = 12;
-/// Fraction of the corners; valid recordings have 0.47 and more, with 5 % of salt-and-pepper noise 0.25.
-constexpr double kLostFoundRatio = 0.2;
-/// Fraction of the left edges; valid recordings have 0.36 and more, with strong noise 0.13.
-constexpr double kLostMatchedRatio = 0.1;
-constexpr double kMajority = 0.5;
-/// Fraction of the corners found. In valid recordings up to 0.08 have a negative disparity and up to 0.02 exceed the
-/// range, except in EuRoC MH_01, where the range is in fact too small.
-constexpr double kWarningRatio = 0.1;
-/// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
-/// [px]
-constexpr double kLostResidual = 3;
-/// Distance from the line that the cascade searches; valid recordings have up to 0.4, in single frames 0.6. [px]
-constexpr double kDoubtfulResidual = 0.5;
-/// If more of the edges than this have a match on their epipolar lines, the corners off their lines are mostly on thin
-/// structures. Doubtful rigs reach 0.51; the frames of valid recordings that exceed kDoubtfulResidual have 0.72 and
-/// more.
-constexpr double kReliableMatchedRatio = 0.65;
-
-/// Learned disparity offset; undisturbed recordings reach 1.04, with the right camera turned by one degree or its
-/// principal point off by 20 px 2.4 to 9.9. [px]
-constexpr double kMaxOffset = 1.5;
-
-}  // namespace
 
 std::vector<RigFinding> implausible_numbers(const StereoRig& rig) {
   std::vector<RigFinding> found;

@@ -6,13 +6,10 @@
 #include <iterator>
 #include <limits>
 
+#include "rig_check/rig_check_constants.hpp"
+
 namespace quadedge::rig_check {
 namespace {
-
-constexpr int kSearchPeriod = 50;               // frames
-constexpr double kMatchedDecrease = 0.7;        // of the ratio of matched edges at the last search
-constexpr double kResidualIncrease = 0.2;       // px above the residual at the last search
-constexpr double kTransformedFoundRatio = 0.4;  // fraction of the corners found in a transformed right image
 
 /// A hash that practically identifies an image.
 std::uint64_t fingerprint(const ImageView& image) {

@@ -3,14 +3,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "rig_check/rig_check_constants.hpp"
+
 namespace quadedge::rig_check {
-namespace {
-
-constexpr int kMinSamples = 200;
-constexpr double kSigmas = 10;          // the errors of neighbours are correlated
-constexpr double kMinTimeOffset = 0.3;  // frame intervals; hardware triggers stay below 0.01
-
-}  // namespace
 
 void Synchronisation::add(double u, double v, double across, double motion) {
   Terms row;
@@ -28,7 +23,7 @@ double Synchronisation::time_offset_frames() const {
   const Terms terms = solver.solve(right_side_);
   const double variance = (squares_ - terms.dot(right_side_)) / (count_ - 7);
   const double sigma = std::sqrt(std::fmax(variance, 0) * solver.inverse()(6, 6));
-  return std::abs(terms[6]) > kMinTimeOffset && std::abs(terms[6]) > kSigmas * sigma ? terms[6] : 0;
+  return std::abs(terms[6]) > kMinTimeOffset && std::abs(terms[6]) > kMinTimeSigmas * sigma ? terms[6] : 0;
 }
 
 }  // namespace quadedge::rig_check

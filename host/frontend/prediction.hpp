@@ -9,7 +9,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/edges.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::frontend {
 
 /// Transforms every stereo edge's oriented point by the predicted motion and projects it into both images; without a
 /// prediction, positions and directions are unchanged. With a prediction, edges without depth and edges outside the
@@ -25,4 +25,4 @@ int count_in_view(const PinholeCamera& camera, const EdgePositions& edges);
 /// Mean distance between corresponding finite positions, over every step-th edge [px]; 0 if there are none.
 double mean_distance(const EdgePositions& a, const EdgePositions& b, int step);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::frontend

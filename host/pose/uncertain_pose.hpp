@@ -1,5 +1,5 @@
 #pragma once
-/// \file pose_covariance.hpp  Covariances of poses from covariances of motions (doc/method.md section 7).
+/// \file uncertain_pose.hpp  Covariances of poses from covariances of motions (doc/method.md section 7).
 
 #include <Eigen/Geometry>
 

@@ -3,7 +3,7 @@
 
 #include "quadedge/camera.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge {
 
 /// Edges and patches have a fixed scale in pixels. If the focal length in pixels of one camera is at least one and a
 /// half times that of the other, their patches cover different parts of the scene. Such a camera is reduced to a half,
@@ -11,4 +11,4 @@ namespace quadedge::odometry {
 /// half is the mean of four pixels. Other rigs are returned unchanged.
 StereoRig with_equal_scales(StereoRig rig);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge

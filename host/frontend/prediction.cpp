@@ -1,4 +1,4 @@
-#include "odometry/prediction.hpp"
+#include "frontend/prediction.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 #include "common/row_blocks.hpp"
 #include "pose/oriented_point.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::frontend {
 namespace {
 
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
@@ -68,4 +68,4 @@ double mean_distance(const EdgePositions& a, const EdgePositions& b, int step) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::frontend

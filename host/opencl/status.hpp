@@ -1,5 +1,5 @@
 #pragma once
-/// \file error.hpp  OpenCL status codes as readable messages.
+/// \file status.hpp  OpenCL status codes as readable messages.
 
 #include <string>
 

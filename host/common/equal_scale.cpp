@@ -1,12 +1,15 @@
-#include "odometry/equal_scale.hpp"
+#include "common/equal_scale.hpp"
 
 #include <cmath>
 
 #include "common/bilinear.hpp"
-#include "odometry/odometry_constants.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge {
 namespace {
+
+/// Ratio of the two focal lengths in pixels from which a camera is reduced to a fraction of its resolution: half-way to
+/// twice the resolution.
+constexpr double kMinScaleRatio = 1.5;
 
 /// Reduces a mask by `factor`; a pixel is hidden if any of its source pixels is.
 void shrink(int factor, const PinholeCamera& camera, PixelMask& mask) {
@@ -64,4 +67,4 @@ StereoRig with_equal_scales(StereoRig rig) {
   return rig;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge

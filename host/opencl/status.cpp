@@ -1,4 +1,4 @@
-#include "opencl/error.hpp"
+#include "opencl/status.hpp"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "pose/pose_covariance.hpp"
+#include "pose/uncertain_pose.hpp"
 
 namespace quadedge::pose {
 

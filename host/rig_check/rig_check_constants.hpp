@@ -1,0 +1,82 @@
+#pragma once
+/// \file rig_check_constants.hpp  Constants that decide whether images fit the calibration (doc/method.md section 7,
+/// which lists what valid recordings have). No recording has needed to adjust them.
+
+#include <cstddef>
+
+namespace quadedge::rig_check {
+
+// Corners (patch_search.cpp).
+
+/// Correlation of two patches from which they count as a match.
+constexpr double kMinCorrelation = 0.8;
+/// Patches with a lower standard deviation count as flat [grey levels].
+constexpr double kFlat = 1.5;
+/// Size of the cells that yield one corner each [px].
+constexpr int kCell = 20;
+/// Minimum of the smaller eigenvalue of the structure tensor, per pixel [(grey levels per px)^2].
+constexpr double kMinCorner = 4;
+
+// Their refined matches (epipolar_probe.cpp).
+
+constexpr int kAlignedSpots = 240;
+constexpr double kMinProbeCorrelation = 0.8;
+/// A refinement takes at most this many steps, ends when a step is shorter than kSettledShift, and is dropped when it
+/// leaves kMaxShift around its start [px].
+constexpr int kAlignmentSteps = 10;
+constexpr double kSettledShift = 0.01, kMaxShift = 4;
+/// Determinant over squared trace of the structure tensor; 0.25 for an isotropic corner.
+constexpr double kMinRoundness = 0.03;
+/// Matches with a larger error across the line do not constrain the distance from it [px].
+constexpr double kMaxSigma = 0.1;
+/// Extent of the search, as fractions of the left image's width and height.
+constexpr double kSearchAlong = 0.25, kSearchAcross = 0.1;
+/// Width of the image that the search reads [px].
+constexpr double kCoarseWidth = 320;
+
+// The fit of their distances from the lines (epipolar_fit.cpp).
+
+constexpr std::size_t kMinFitCorners = 12;
+constexpr int kFitRounds = 8;
+constexpr double kMinScale = 0.02;  ///< px
+
+// When the corners are searched for again (rig_monitor.cpp).
+
+constexpr int kSearchPeriod = 50;  ///< frames
+/// Decrease of the ratio of matched edges, and increase of the residual [px], since the last search.
+constexpr double kMatchedDecrease = 0.7, kResidualIncrease = 0.2;
+/// Fraction of the corners found in a transformed right image, from which that transformation is reported.
+constexpr double kTransformedFoundRatio = 0.4;
+
+// Findings (rig_judgement.cpp).
+
+constexpr int kMinCorners = 20, kMinMatches = 12;
+/// Fraction of the corners; valid recordings have 0.47 and more, with 5 % of salt-and-pepper noise 0.25.
+constexpr double kLostFoundRatio = 0.2;
+/// Fraction of the left edges; valid recordings have 0.36 and more, with strong noise 0.13.
+constexpr double kLostMatchedRatio = 0.1;
+constexpr double kMajority = 0.5;
+/// Fraction of the corners found. In valid recordings up to 0.08 have a negative disparity and up to 0.02 exceed the
+/// range, except in EuRoC MH_01, where the range is in fact too small.
+constexpr double kWarningRatio = 0.1;
+/// Distance from the line beyond which an edge lies outside the patches that the cascade compares (half side 3.5 px).
+/// [px]
+constexpr double kLostResidual = 3;
+/// Distance from the line that the cascade searches; valid recordings have up to 0.4, in single frames 0.6. [px]
+constexpr double kDoubtfulResidual = 0.5;
+/// If more of the edges than this have a match on their epipolar lines, the corners off their lines are mostly on thin
+/// structures. Doubtful rigs reach 0.51; the frames of valid recordings that exceed kDoubtfulResidual have 0.72 and
+/// more.
+constexpr double kReliableMatchedRatio = 0.65;
+/// Learned disparity offset; undisturbed recordings reach 1.04, with the right camera turned by one degree or its
+/// principal point off by 20 px 2.4 to 9.9. [px]
+constexpr double kMaxOffset = 1.5;
+
+// The time between the two images (synchronisation.cpp).
+
+constexpr int kMinSamples = 200;
+/// Standard deviations of the time; many, because the errors of neighbours are correlated.
+constexpr double kMinTimeSigmas = 10;
+constexpr double kMinTimeOffset = 0.3;  ///< frame intervals; hardware triggers stay below 0.01
+
+}  // namespace quadedge::rig_check
