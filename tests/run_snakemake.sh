@@ -36,7 +36,7 @@ snakemake() {  # OUT OPTION...: checks that the workflow ends with an error that
   fi
   grep -q "broken (failed): .*calibration2.txt" "$folder/$out.log" ||
     { cat "$folder/$out.log"; fail "the error does not name the broken sequence"; }
-  for file in summary.csv summary.json summary.md report.html \
+  for file in summary.json summary.md report.html \
     sequences/good/trajectory.txt sequences/broken/member.json; do
     [ -s "$folder/$out/$file" ] || { cat "$folder/$out.log"; fail "$out/$file is missing"; }
   done

@@ -144,7 +144,7 @@ class BatchCommand : public Command {
   }
 
   void remove_summary() const {
-    for (const char* name : {"summary.csv", "summary.json", "summary.md", "report.html"}) {
+    for (const char* name : {"summary.json", "summary.md", "report.html"}) {
       std::error_code error;
       fs::remove(output() / name, error);
       if (error) throw DataError((output() / name).string() + ": cannot remove the old summary: " + error.message());
@@ -169,7 +169,6 @@ class BatchCommand : public Command {
     summary.command = command_line();
     summary.input = input_;
     summary.config = method_.config();
-    data::write_atomically((output() / "summary.csv").string(), report::summary_csv(summary));
     data::write_atomically((output() / "summary.json").string(), report::summary_json(summary));
     data::write_atomically((output() / "summary.md").string(), report::summary_markdown(summary));
     print_summary(summary);

@@ -16,7 +16,7 @@
 #include "data/atomic_file.hpp"
 #include "evaluation/matching_evaluation.hpp"
 #include "quadedge/error.hpp"
-#include "report/match_drawings.hpp"
+#include "report/draw_matches.hpp"
 #include "report/matching_json.hpp"
 
 namespace quadedge::cli {
@@ -50,7 +50,7 @@ class EvaluateMatchingCommand : public Command {
         "also make an HTML page with tables, plots and drawings; its data is written beside it, as by --json and "
         "--draw",
         "FILE");
-    options.text("--draw", draw_, "also write PNG drawings of the last frame of each pair or sequence to a folder",
+    options.text("--draw", draw_, "also draw the last frame of each pair or sequence as PNG, in a folder",
                  "DIR");
     options.flag("--force", force_, "overwrite existing files");
     options.flag("--quiet", quiet_, "hide progress");

@@ -65,9 +65,7 @@ BatchSummary summarise(const std::string& output, const std::vector<std::string>
 /// The worse of two exit codes. From bad to worse: too few tracked frames, usage, data, device, internal error.
 int worse_exit_code(int a, int b);
 
-/// summary.csv: one row per sequence, then the two over all; the column `kind` is sequence, pooled or average.
-std::string summary_csv(const BatchSummary& summary);
-/// summary.json.
+/// summary.json: all figures, unrounded.
 std::string summary_json(const BatchSummary& summary);
 /// summary.md: the paper's Table 4 (origin-aligned), the SE(3)-aligned errors, tracked frames and latencies, failures.
 std::string summary_markdown(const BatchSummary& summary);

@@ -5,27 +5,26 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/final_match.hpp"
+#include "evaluation/matching_result.hpp"
 
 namespace quadedge::report {
 
-/// The correspondences of one class over both images side by side, with up to three zoomed details below, whose
-/// positions the images show as numbered frames. Correct ones are coloured by their disparity; of the others every one
-/// has its own colour, the same in both views, and is linked, in the right view, with a ring at their true
-/// position. `tolerance` and `wrong`: limits of the classes [px].
-cv::Mat draw_match_class(const evaluation::DrawnFrame& frame, evaluation::MatchClass kind, const std::string& name,
-                         double tolerance, double wrong);
+/// The stereo edges of known truth over both images side by side, each class with a colour and a shape. In the right
+/// image a line leads from each match that is not correct to a ring at its true position.
+cv::Mat draw_matches(const evaluation::DrawnFrame& frame, const std::string& name,
+                     const evaluation::MatchingTolerance& tolerance);
 
-/// All correspondences of known truth the same way, each class with a colour and a shape.
-cv::Mat draw_all_matches(const evaluation::DrawnFrame& frame, const std::string& name, double tolerance, double wrong);
-
-/// Files and their pictures of one frame: all classes in one, and each class that occurs.
-struct MatchDrawing {
-  std::string file;  ///< ends in ".png"
-  std::string caption;
-  cv::Mat picture;
+/// A drawing that was written.
+struct WrittenDrawing {
+  std::string name;     ///< of the result that it shows
+  std::string file;     ///< with the folder, absolute
+  std::string caption;  ///< what it shows
 };
-std::vector<MatchDrawing> draw_matches(const evaluation::DrawnFrame& frame, const std::string& name, double tolerance,
-                                       double wrong);
+
+/// Writes FOLDER/NAME.png of every result with a frame to draw; the second result of one name gets a "_2". Makes the
+/// folder. \throws DataError.
+std::vector<WrittenDrawing> write_match_drawings(const std::string& folder,
+                                                 const std::vector<evaluation::MatchingResult>& results,
+                                                 const evaluation::MatchingTolerance& tolerance);
 
 }  // namespace quadedge::report

@@ -6,7 +6,7 @@
 
 #include "evaluation/matching_result.hpp"
 #include "quadedge/device.hpp"
-#include "report/match_drawings.hpp"
+#include "report/draw_matches.hpp"
 
 namespace quadedge::report {
 

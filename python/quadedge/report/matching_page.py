@@ -147,8 +147,7 @@ def _drawings(content: dict, detail: Detail) -> list[Section]:
         by_name.setdefault(drawing["name"], []).append(drawing)
     if not by_name:
         return []
-    text = ("The left and right image with the final stereo edges that have ground truth (Figures 8 and 9). Numbered "
-            "frames mark the parts enlarged below.")
+    text = "The left and right image with the final stereo edges that have ground truth (Figures 8 and 9)."
     if len(by_name) > MOST_DRAWN:
         text += f" The first {MOST_DRAWN} of {len(by_name)} are shown."
     sections = [Section("Drawings", [Text(text)])]
