@@ -17,8 +17,8 @@ namespace {
 constexpr std::array<ErrorStatistics PoseErrors::*, 4> kErrors = {
     &PoseErrors::ape_rotation_deg, &PoseErrors::ape_translation_m, &PoseErrors::rpe_rotation_deg,
     &PoseErrors::rpe_translation_m};
-constexpr std::array<PoseErrors SummaryAccuracy::*, 2> kAlignments = {&SummaryAccuracy::origin_aligned,
-                                                                      &SummaryAccuracy::se3_aligned};
+constexpr std::array<PoseErrors TrajectoryEvaluation::*, 2> kAlignments = {&TrajectoryEvaluation::origin_aligned,
+                                                                           &TrajectoryEvaluation::se3_aligned};
 
 /// Statistics of the values behind several statistics, from their means and mean squares.
 struct Pool {
@@ -36,8 +36,8 @@ struct Pool {
   }
 };
 
-std::vector<const SummaryAccuracy*> accuracies(const std::vector<SummaryRow>& rows) {
-  std::vector<const SummaryAccuracy*> found;
+std::vector<const TrajectoryEvaluation*> accuracies(const std::vector<SummaryRow>& rows) {
+  std::vector<const TrajectoryEvaluation*> found;
   for (const auto& row : rows) {
     if (row.accuracy) found.push_back(&*row.accuracy);
   }
@@ -45,7 +45,7 @@ std::vector<const SummaryAccuracy*> accuracies(const std::vector<SummaryRow>& ro
 }
 
 /// Path and drift over all: the summed path, the drifts weighted with it.
-void add_paths(SummaryAccuracy& total, const std::vector<const SummaryAccuracy*>& parts) {
+void add_paths(TrajectoryEvaluation& total, const std::vector<const TrajectoryEvaluation*>& parts) {
   double drift = 0;
   for (const auto* part : parts) {
     total.matched += part->matched;
@@ -56,8 +56,8 @@ void add_paths(SummaryAccuracy& total, const std::vector<const SummaryAccuracy*>
   total.end_drift_percent = total.path_length_m > 0 ? drift / total.path_length_m : 0;
 }
 
-SummaryAccuracy average(const std::vector<const SummaryAccuracy*>& parts) {
-  SummaryAccuracy total;
+TrajectoryEvaluation average(const std::vector<const TrajectoryEvaluation*>& parts) {
+  TrajectoryEvaluation total;
   for (const auto alignment : kAlignments) {
     for (const auto error : kErrors) {
       ErrorStatistics mean;
@@ -107,9 +107,9 @@ std::string member_folder(const std::string& output, const std::string& name) {
   return (std::filesystem::path(output) / "sequences" / name).string();
 }
 
-std::optional<SummaryAccuracy> pooled_accuracy(const std::vector<const SummaryAccuracy*>& parts) {
+std::optional<TrajectoryEvaluation> pooled_accuracy(const std::vector<const TrajectoryEvaluation*>& parts) {
   if (parts.empty()) return std::nullopt;
-  SummaryAccuracy total;
+  TrajectoryEvaluation total;
   for (const auto alignment : kAlignments) {
     for (std::size_t error = 0; error < kErrors.size(); ++error) {
       Pool pool;

@@ -16,23 +16,14 @@ namespace quadedge::report {
 enum class MemberStatus { done, too_few_tracked, failed, missing };
 const char* to_string(MemberStatus status);
 
-/// Accuracy of one run, or of several runs together.
-struct SummaryAccuracy {
-  PoseErrors origin_aligned, se3_aligned;  ///< NaN where an alignment is not defined
-  std::string se3_open_rotation;           ///< as in TrajectoryEvaluation; only of single runs
-  int matched = 0;                         ///< poses compared
-  int rpe_steps = 0;                       ///< steps compared
-  double path_length_m = 0, end_drift_percent = 0;
-};
-
 /// One sequence.
 struct SummaryRow {
   MemberRecord member;
   MemberStatus status = MemberStatus::missing;
   int frames = 0, tracked = 0, key_rigs = 0, segments = 0;
   std::string device;
-  LatencySummary latency;                   ///< [ms]; NaN where the run failed
-  std::optional<SummaryAccuracy> accuracy;  ///< only with ground truth
+  LatencySummary latency;                        ///< [ms]; NaN where the run failed
+  std::optional<TrajectoryEvaluation> accuracy;  ///< only with ground truth
 };
 
 /// A batch.
@@ -42,9 +33,9 @@ struct BatchSummary {
   LatencySummary latency;  ///< over all frames but the first one of each sequence [ms]; `first` is the median of those
   /// Over all sequences with ground truth, every pose with the same weight (mean and standard deviation of all poses
   /// together).
-  std::optional<SummaryAccuracy> pooled;
+  std::optional<TrajectoryEvaluation> pooled;
   /// The same figures averaged over the sequences, every sequence with the same weight.
-  std::optional<SummaryAccuracy> average;
+  std::optional<TrajectoryEvaluation> average;
   /// Added by the command line: the command, its input and its configuration.
   std::string command, input;
   std::optional<Config> config;
@@ -79,7 +70,7 @@ struct SummarisedBatch {
 SummarisedBatch summarised_batch(const std::string& output);
 
 /// Figures over several sequences, every pose with the same weight; nothing without sequences.
-std::optional<SummaryAccuracy> pooled_accuracy(const std::vector<const SummaryAccuracy*>& parts);
+std::optional<TrajectoryEvaluation> pooled_accuracy(const std::vector<const TrajectoryEvaluation*>& parts);
 
 /// Folder of a sequence's results within a batch.
 std::string member_folder(const std::string& output, const std::string& name);

@@ -6,7 +6,8 @@
 #include "quadedge/error.hpp"
 #include "quadedge/evaluation.hpp"
 #include "quadedge/trajectory.hpp"
-#include "report/summary_values.hpp"
+#include "report/batch_summary.hpp"
+#include "report/json_values.hpp"
 
 namespace quadedge::report {
 namespace fs = std::filesystem;
@@ -62,7 +63,7 @@ class Comparison {
 
   /// Of a system over its sequences; nothing for a baseline that lacks some.
   Json over_all(const std::string& system) const {
-    std::vector<const SummaryAccuracy*> parts;
+    std::vector<const TrajectoryEvaluation*> parts;
     for (const auto& [name, accuracy] : accuracies_) {
       if (name == system) parts.push_back(&accuracy);
     }
@@ -114,13 +115,10 @@ class Comparison {
     Json json = {{"name", system}, {"file", fs::absolute(file).string()}};
     try {
       if (!truth.empty()) {
-        const auto evaluation = evaluate_trajectory(poses, truth);
-        const SummaryAccuracy accuracy{
-            evaluation.origin_aligned, evaluation.se3_aligned,   evaluation.se3_open_rotation, evaluation.matched,
-            evaluation.rpe_steps,      evaluation.path_length_m, evaluation.end_drift_percent};
-        json["accuracy"] = to_json(accuracy);
+        TrajectoryEvaluation evaluation = evaluate_trajectory(poses, truth);
+        json["accuracy"] = to_json(evaluation);
         json["per_pose"] = per_pose(evaluation);
-        if (system != kBaseline) accuracies_.emplace_back(system, accuracy);
+        if (system != kBaseline) accuracies_.emplace_back(system, std::move(evaluation));
       }
     } catch (const DataError& problem) {
       note(system + ": " + problem.what());
@@ -133,7 +131,7 @@ class Comparison {
 
   Json& sequences_;
   Json entry_;
-  std::vector<std::pair<std::string, SummaryAccuracy>> accuracies_;  ///< with the system's name
+  std::vector<std::pair<std::string, TrajectoryEvaluation>> accuracies_;  ///< with the system's name
   std::size_t own_with_truth_ = 0;
 };
 

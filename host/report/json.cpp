@@ -6,23 +6,12 @@
 namespace quadedge::report {
 namespace {
 
-Json errors(const TrajectoryEvaluation& evaluation) {
-  Json json = {{"origin_aligned", to_json(evaluation.origin_aligned)},
-               {"se3_aligned", to_json(evaluation.se3_aligned)},
-               {"matched_poses", evaluation.matched},
-               {"rpe_steps", evaluation.rpe_steps},
-               {"path_length_m", to_json(evaluation.path_length_m)},
-               {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
-  if (!evaluation.se3_open_rotation.empty()) json["se3_open_rotation"] = evaluation.se3_open_rotation;
-  return json;
-}
-
 Json accuracy(const TrajectoryEvaluation& evaluation) {
-  Json json = errors(evaluation);
+  Json json = to_json(evaluation);
   json["estimate_poses"] = evaluation.estimate_poses;
   json["truth_poses"] = evaluation.truth_poses;
   for (const auto& segment : evaluation.segments) {
-    json["segments"].push_back(errors(segment));
+    json["segments"].push_back(to_json(segment));
     json["segments"].back()["segment"] = segment.segment;
   }
   return json;

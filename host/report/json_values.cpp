@@ -31,4 +31,15 @@ void add_configuration(Json& json, const Config& config) {
   }
 }
 
+Json to_json(const TrajectoryEvaluation& evaluation) {
+  Json json = {{"origin_aligned", to_json(evaluation.origin_aligned)},
+               {"se3_aligned", to_json(evaluation.se3_aligned)},
+               {"matched_poses", evaluation.matched},
+               {"rpe_steps", evaluation.rpe_steps},
+               {"path_length_m", to_json(evaluation.path_length_m)},
+               {"end_drift_percent", to_json(evaluation.end_drift_percent)}};
+  if (!evaluation.se3_open_rotation.empty()) json["se3_open_rotation"] = evaluation.se3_open_rotation;
+  return json;
+}
+
 }  // namespace quadedge::report

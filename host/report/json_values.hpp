@@ -58,6 +58,9 @@ inline Json to_json(const DeviceInfo& device) {
           {"type", device.type},     {"single_precision", to_json(device.single_precision)}};
 }
 
+/// The figures of an evaluation; without the numbers of poses, the errors of each pose, and the segments.
+Json to_json(const TrajectoryEvaluation& evaluation);
+
 /// Adds the origin of a result: `version`, `commit` (null outside a checkout), `date` (UTC) and
 /// `command`.
 void add_origin(Json& json, const std::string& command);

@@ -6,7 +6,6 @@
 #include "quadedge/error.hpp"
 #include "report/batch_summary.hpp"
 #include "report/json_values.hpp"
-#include "report/summary_values.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -31,27 +30,17 @@ void take_report(SummaryRow& row, const Json& report) {
   row.latency = to_latency(report.at("latency_ms"));
   if (!report.contains("accuracy")) return;
   const Json& accuracy = report.at("accuracy");
-  row.accuracy = SummaryAccuracy{to_pose_errors(accuracy.at("origin_aligned")),
-                                 to_pose_errors(accuracy.at("se3_aligned")),
-                                 accuracy.value("se3_open_rotation", std::string()),
-                                 accuracy.at("matched_poses").get<int>(),
-                                 accuracy.value("rpe_steps", accuracy.at("matched_poses").get<int>() - 1),
-                                 to_number(accuracy.at("path_length_m")),
-                                 to_number(accuracy.at("end_drift_percent"))};
+  TrajectoryEvaluation& found = row.accuracy.emplace();
+  found.origin_aligned = to_pose_errors(accuracy.at("origin_aligned"));
+  found.se3_aligned = to_pose_errors(accuracy.at("se3_aligned"));
+  found.se3_open_rotation = accuracy.value("se3_open_rotation", std::string());
+  found.matched = accuracy.at("matched_poses");
+  found.rpe_steps = accuracy.value("rpe_steps", found.matched - 1);
+  found.path_length_m = to_number(accuracy.at("path_length_m"));
+  found.end_drift_percent = to_number(accuracy.at("end_drift_percent"));
 }
 
 }  // namespace
-
-Json to_json(const SummaryAccuracy& accuracy) {
-  Json json = {{"origin_aligned", to_json(accuracy.origin_aligned)},
-               {"se3_aligned", to_json(accuracy.se3_aligned)},
-               {"matched_poses", accuracy.matched},
-               {"rpe_steps", accuracy.rpe_steps},
-               {"path_length_m", to_json(accuracy.path_length_m)},
-               {"end_drift_percent", to_json(accuracy.end_drift_percent)}};
-  if (!accuracy.se3_open_rotation.empty()) json["se3_open_rotation"] = accuracy.se3_open_rotation;
-  return json;
-}
 
 SummaryRow read_summary_row(const std::string& folder, const std::string& name, double min_tracked) {
   SummaryRow row;

@@ -25,7 +25,7 @@ std::string error_cells(const PoseErrors& errors) {
 }
 
 /// One table of errors with the columns of the paper's Table 4.
-std::string error_table(const BatchSummary& summary, PoseErrors SummaryAccuracy::*alignment) {
+std::string error_table(const BatchSummary& summary, PoseErrors TrajectoryEvaluation::*alignment) {
   std::string text =
       "| sequence | APE_R (deg) mean | std | APE_T (m) mean | std | RPE_R (deg) mean | std | RPE_T (m) mean | std |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
@@ -63,12 +63,12 @@ std::string summary_markdown(const BatchSummary& summary) {
   }
   if (summary.pooled) {
     text += "\n## Errors, origin-aligned (the paper's Table 4)\n\nThe first compared poses are made equal.\n\n" +
-            error_table(summary, &SummaryAccuracy::origin_aligned);
+            error_table(summary, &TrajectoryEvaluation::origin_aligned);
     text +=
         "\n## Errors, SE(3)-aligned\n\nThe whole trajectory is moved onto the ground truth (least squares over all "
         "positions, no "
         "scale), as other systems often quote.\n\n" +
-        error_table(summary, &SummaryAccuracy::se3_aligned);
+        error_table(summary, &TrajectoryEvaluation::se3_aligned);
   }
   text += "\n## Tracked frames and latency\n\nLatency in milliseconds, from both images in host memory to the pose.";
   if (shared) text += " Several sequences ran at the same time, so latencies are longer than those of a lone run.";
