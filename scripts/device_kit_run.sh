@@ -2,8 +2,8 @@
 # Measures QuadEdge on this machine's OpenCL device: driver, self-test, device tests, kernel variants, latency, equality
 # with a CPU's results. Needs a driver, a C library, a shell and coreutils.
 #   run.sh [RESULTS [MINUTES]]      default: ./results, 8 minutes
-# RESULTS/page.md has all tables, page.json the same for doc/results, rows.tsv the rows as they came, log.txt what the
-# programs printed. DEVICE_KIT_DRIVER=FILE uses this OpenCL library instead of looking for one.
+# RESULTS/page.md has all tables, rows.tsv the rows as they came, log.txt what the programs printed.
+# DEVICE_KIT_DRIVER=FILE uses this OpenCL library instead of looking for one.
 set -u
 
 # The device tests, called by this script under a time limit. A test that crashes or takes too long ends the process;
@@ -64,7 +64,7 @@ part() {
 }
 
 write_page() {
-  "$check" page "$rows" "$results/page" "commit=$(cat "$kit/commit")" "date=$(date -u +%Y-%m-%d)" \
+  "$check" page "$rows" "$results/page.md" "commit=$(cat "$kit/commit")" "date=$(date -u +%Y-%m-%d)" \
     "CPU results from=$(cat "$kit/recorded_on")" "C library=$(getconf GNU_LIBC_VERSION)" \
     "processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) threads" &&
     echo "$results/page.md"

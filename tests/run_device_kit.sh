@@ -36,8 +36,7 @@ holds() {
   if grep -nE 'TIMED OUT|FAIL|DIFFER|cannot run|tests that did not pass|libopencv' "$1" | grep -vE "$known" >&2; then
     return 1
   fi
-  python3 -c 'import json, sys; poses = json.load(open(sys.argv[1]))["poses"]; assert len(poses) % 3 == 0, poses' \
-    "${1%.md}.json"
+  [ "$(($(grep -c '^poses' "$(dirname "$1")/rows.tsv") % 3))" = 0 ]  # presets
   [ "$(find "$(dirname "$1")" -type f | wc -l)" -le 8 ]
 }
 

@@ -42,7 +42,7 @@ constexpr const char* kUsage =
     "  compare SEQUENCE, record SEQUENCE        add rows to the file ROWS\n"
     "  row TABLE COLUMN=VALUE...                adds one row\n"
     "  name                                     prints the device: \"gpu: NAME, DRIVER\"\n"
-    "  page OUT COLUMN=VALUE...                 writes OUT.md and OUT.json from the rows\n"
+    "  page FILE COLUMN=VALUE...                writes a page (Markdown) from the rows\n"
     "Environment: DEVICE_KIT_DATA, folder of the sequences; DEVICE_KIT_PROGRAMS, folder of built programs;\n"
     "DEVICE_KIT_DEVICE, auto without it.\n";
 
@@ -59,10 +59,9 @@ Row given_row(const std::vector<std::string>& arguments) {
 
 void write_page(const Options& options, const std::string& rows) {
   const Row origin = given_row(options.arguments);
-  std::ofstream markdown(options.argument(0) + ".md"), json(options.argument(0) + ".json");
-  markdown << markdown_page(rows, origin);
-  json << json_rows(rows, origin);
-  if (!markdown.flush() || !json.flush()) throw quadedge::DataError(options.argument(0) + ": cannot be written");
+  std::ofstream page(options.argument(0));
+  if (!(page << markdown_page(rows, origin)).flush())
+    throw quadedge::DataError(options.argument(0) + ": cannot be written");
 }
 
 std::string environment(const char* name, const char* otherwise) {

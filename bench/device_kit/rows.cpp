@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -76,18 +75,13 @@ std::vector<Line> read(const std::string& file) {
   return lines;
 }
 
-std::string escaped(const std::string& text, const std::string& special) {
-  std::string result;
-  for (const char c : text) {
-    if (special.find(c) != std::string::npos) result += '\\';
-    result += c;
-  }
-  return result;
-}
-
 std::string markdown_line(const std::vector<std::string>& cells) {
   std::string line = "|";
-  for (const auto& cell : cells) line += " " + escaped(cell, "|") + " |";
+  for (const auto& cell : cells) {
+    line += ' ';
+    for (const char c : cell) line += c == '|' ? std::string("\\|") : std::string(1, c);
+    line += " |";
+  }
   return line + "\n";
 }
 
@@ -108,22 +102,6 @@ std::string markdown_table(const std::vector<Line>& lines, const std::string& ta
     text += markdown_line(cells);
   }
   return text;
-}
-
-/// A number where the whole text is one, else a string.
-std::string json_value(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value) &&
-                         text.find_first_not_of("0123456789.e+-") == std::string::npos && text.front() != '+';
-  return is_number ? text : text == "-" ? "null" : "\"" + escaped(text, "\"\\") + "\"";
-}
-
-std::string json_object(const Row& row) {
-  std::string text;
-  for (const auto& [column, value] : row)
-    text += (text.empty() ? "{\"" : ", \"") + escaped(column, "\"\\") + "\": " + json_value(value);
-  return text.empty() ? "{}" : text + "}";
 }
 
 }  // namespace
@@ -164,18 +142,6 @@ std::string markdown_page(const std::string& file, const Row& origin) {
     text += table;
   }
   return text;
-}
-
-std::string json_rows(const std::string& file, const Row& origin) {
-  const auto lines = read(file);
-  std::string text = "{\"schema\": 1, \"origin\": " + json_object(origin);
-  for (const auto& section : kSections) {
-    std::string rows;
-    for (const auto& line : lines)
-      if (line.table == section.table) rows += (rows.empty() ? "\n  " : ",\n  ") + json_object(line.row);
-    if (!rows.empty()) text += std::string(",\n\"") + section.table + "\": [" + rows + "]";
-  }
-  return text + "}\n";
 }
 
 }  // namespace device_kit

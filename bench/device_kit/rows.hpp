@@ -25,9 +25,7 @@ class Rows {
 /// A number with three significant digits or more, "-" for NaN.
 std::string number(double value);
 
-/// The page of all tables (Markdown) and the same rows for doc/results (JSON), from such a file.
-/// \param origin  facts of the run for the head of both
+/// The page of all tables (Markdown) from such a file. \param origin  facts of the run for its head
 std::string markdown_page(const std::string& file, const Row& origin);
-std::string json_rows(const std::string& file, const Row& origin);
 
 }  // namespace device_kit
