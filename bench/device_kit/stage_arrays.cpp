@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "frontend/frontend.hpp"
+#include "frontend/prediction.hpp"
 #include "opencl/buffer.hpp"
 #include "stages/undistortion.hpp"
 
@@ -83,15 +84,6 @@ class StereoTap : public Tap {
   bool only_sift_;
 };
 
-TemporalSearch without_motion(const StereoEdges& base, double radius, bool coarse) {
-  TemporalSearch search;
-  search.left = {base.left_x, base.left_y, base.left_direction};
-  search.right = {base.right_x, base.right_y, base.right_direction};
-  search.radius = static_cast<float>(radius);
-  search.coarse = coarse;
-  return search;
-}
-
 void add_undistorted(const Sequence& sequence, Device& device, const Config& config, Arrays& arrays) {
   const StereoRig& rig = sequence.rig;
   if (rig.left_undistortion.empty()) return;
@@ -125,7 +117,7 @@ void add_pair(const Sequence& sequence, Device& device, const Config& config, Ar
   arrays.add("stereo_mutual", "right direction [rad]", edges.right_direction);
   arrays.add("stereo_mutual", "NCC", edges.ncc);
   const auto search = [&](bool coarse) {
-    return without_motion(base->edges, coarse ? config.temporal.coarse_radius : config.temporal.radius, coarse);
+    return frontend::search_without_motion(base->edges, config.temporal, coarse);
   };
   arrays.add("point_index, temporal_match", frontend->match(*base, search(false)));
   arrays.add("temporal_match, coarse", frontend->match(*base, search(true)));
@@ -143,7 +135,7 @@ void add_sift(const Sequence& sequence, Device& device, Config config, Arrays& a
   frontend->process(sequence.frames.at(1).view());
   frontend->set_tap(nullptr);
   arrays.add("temporal_candidates, temporal_quads",
-             frontend->match(*base, without_motion(base->edges, config.temporal.coarse_radius, true)));
+             frontend->match(*base, frontend::search_without_motion(base->edges, config.temporal, true)));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "frontend/prediction.hpp"
+
 namespace quadedge::bench {
 namespace {
 
@@ -109,23 +111,16 @@ void compare(const char* stage, const char* row, const TemporalMatches& a, const
 
 }  // namespace
 
-TemporalSearch search_without_motion(const StereoEdges& previous, const TemporalConfig& config, bool coarse) {
-  TemporalSearch search;
-  search.left = {previous.left_x, previous.left_y, previous.left_direction};
-  search.right = {previous.right_x, previous.right_y, previous.right_direction};
-  search.radius = static_cast<float>(coarse ? config.coarse_radius : config.radius);
-  search.coarse = coarse;
-  return search;
-}
-
 FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,
                             const FramePrefetcher::Frame& second, const Config& config) {
   FrontendOutput output;
   output.first = frontend.process(first.view());
   const auto now = frontend.process(second.view());
   output.previous = output.first->edges;
-  output.coarse = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, true));
-  output.quads = frontend.match(*output.first, search_without_motion(output.previous, config.temporal, false));
+  output.coarse =
+      frontend.match(*output.first, frontend::search_without_motion(output.previous, config.temporal, true));
+  output.quads =
+      frontend.match(*output.first, frontend::search_without_motion(output.previous, config.temporal, false));
   output.global_matches = frontend.match_globally(*output.first);
   output.left_edges = frontend.edges(Side::left);
   output.right_edges = frontend.edges(Side::right);

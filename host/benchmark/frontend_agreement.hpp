@@ -17,10 +17,6 @@ struct FrontendOutput {
   TemporalMatches global_matches;  ///< between edges anywhere in the left image
 };
 
-/// A coarse or guided search that predicts no motion: every edge of the first frame is searched for around its old
-/// position.
-TemporalSearch search_without_motion(const StereoEdges& previous, const TemporalConfig& config, bool coarse);
-
 /// Processes both frames and matches them by both kinds of search, predicting no motion.
 FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher::Frame& first,
                             const FramePrefetcher::Frame& second, const Config& config);

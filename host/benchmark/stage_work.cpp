@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/layouts.hpp"
+#include "frontend/prediction.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/tap.hpp"
 #include "reference/patches.hpp"
@@ -153,9 +154,9 @@ FrameSize count_frame(frontend::Frontend& frontend, const FramePrefetcher::Frame
   const auto base = frontend.process(first.view());
   frontend.set_tap(&tap);
   const auto now = frontend.process(second.view());
-  frontend.match(*base, search_without_motion(base->edges, config.temporal, false));
+  frontend.match(*base, frontend::search_without_motion(base->edges, config.temporal, false));
   size.guided_candidates = std::exchange(tap.near, 0);
-  frontend.match(*base, search_without_motion(base->edges, config.temporal, true));
+  frontend.match(*base, frontend::search_without_motion(base->edges, config.temporal, true));
   size.coarse_candidates = tap.near;
   frontend.set_tap(nullptr);
   const auto some = [](std::size_t edges, int wanted) {

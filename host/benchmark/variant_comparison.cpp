@@ -8,6 +8,7 @@
 
 #include "benchmark/frontend_agreement.hpp"
 #include "benchmark/stage_work.hpp"
+#include "frontend/prediction.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/synthetic.hpp"
@@ -53,7 +54,7 @@ double measure_once(const std::string& stage, const VariantInput& input, Candida
   candidate.frontend->process(input.second.view());
   const frontend::Rig& first = *candidate.output.first;
   const auto match = [&](bool coarse) {
-    candidate.frontend->match(first, search_without_motion(first.edges, input.config.temporal, coarse));
+    candidate.frontend->match(first, frontend::search_without_motion(first.edges, input.config.temporal, coarse));
   };
   match(false);
   if (stage != kGuidedMatch) match(true);

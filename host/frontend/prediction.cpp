@@ -17,13 +17,9 @@ void set(EdgePositions& edges, std::size_t i, const std::optional<pose::ImageEdg
   edges.direction[i] = edge ? static_cast<float>(std::atan2(edge->direction.y(), edge->direction.x())) : kNowhere;
 }
 
-}  // namespace
-
-void predict_positions(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
-                       const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
-                       TemporalSearch& search) {
+/// Assigns to vectors that keep their memory.
+void set_without_motion(const StereoEdges& previous, double radius, TemporalSearch& search) {
   search.radius = static_cast<float>(radius);
-  search.step = step;
   search.coarse = false;
   search.left.x = previous.left_x;
   search.left.y = previous.left_y;
@@ -31,6 +27,22 @@ void predict_positions(const StereoRig& rig, const StereoEdges& previous, const 
   search.right.x = previous.right_x;
   search.right.y = previous.right_y;
   search.right.direction = previous.right_direction;
+}
+
+}  // namespace
+
+TemporalSearch search_without_motion(const StereoEdges& previous, const TemporalConfig& config, bool coarse) {
+  TemporalSearch search;
+  set_without_motion(previous, coarse ? config.coarse_radius : config.radius, search);
+  search.coarse = coarse;
+  return search;
+}
+
+void predict_positions(const StereoRig& rig, const StereoEdges& previous, const pose::MeasuredEdges& measured,
+                       const std::optional<Eigen::Isometry3d>& current_from_previous, double radius, int step,
+                       TemporalSearch& search) {
+  set_without_motion(previous, radius, search);
+  search.step = step;
   if (!current_from_previous) return;
   const Eigen::Isometry3d right_from_previous = rig.right_from_left * *current_from_previous;
   const auto predict = [&](std::size_t i) {

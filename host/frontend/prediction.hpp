@@ -7,9 +7,13 @@
 #include "common/temporal_search.hpp"
 #include "pose/quads.hpp"
 #include "quadedge/camera.hpp"
+#include "quadedge/config.hpp"
 #include "quadedge/edges.hpp"
 
 namespace quadedge::frontend {
+
+/// A coarse or guided search for all edges around their previous positions.
+TemporalSearch search_without_motion(const StereoEdges& previous, const TemporalConfig& config, bool coarse);
 
 /// Transforms every stereo edge's oriented point by the predicted motion and projects it into both images; without a
 /// prediction, positions and directions are unchanged. With a prediction, edges without depth and edges outside the

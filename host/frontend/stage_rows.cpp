@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "frontend/prediction.hpp"
 #include "opencl/buffer.hpp"
 #include "quadedge/synthetic.hpp"
 #include "reference/undistortion.hpp"
@@ -135,21 +136,13 @@ void observe_undistortion(const Image& image, Device& device, const std::map<std
                     pinhole.view().value(i % image.width, i / image.width), 0, 0});
 }
 
-TemporalSearch without_motion(const StereoEdges& base, double radius, bool coarse) {
-  TemporalSearch search;
-  search.left = {base.left_x, base.left_y, base.left_direction};
-  search.right = {base.right_x, base.right_y, base.right_direction};
-  search.radius = static_cast<float>(radius);
-  search.coarse = coarse;
-  return search;
-}
-
 /// The default configuration with every stage enabled.
 Config configuration(const SmallSequence& sequence, const std::map<std::string, std::string>& variants) {
   Config config;
   config.stereo.max_disparity = sequence.max_disparity;
   config.stereo.sift_max = 500;
   config.temporal.coarse_sift_max = 500;
+  config.temporal.coarse_radius = config.temporal.radius;
   config.edges.budget = 200;
   config.variants = variants;
   return config;
@@ -196,10 +189,10 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
   frontend->process(second);
   frontend->set_tap(nullptr);
   const StereoEdges& edges = base->edges;
-  collector.add_quads("temporal_match", frontend->match(*base, without_motion(edges, config.temporal.radius, false)),
+  collector.add_quads("temporal_match", frontend->match(*base, search_without_motion(edges, config.temporal, false)),
                       edges);
   collector.add_quads("temporal_candidates, temporal_quads",
-                      frontend->match(*base, without_motion(edges, config.temporal.radius, true)), edges);
+                      frontend->match(*base, search_without_motion(edges, config.temporal, true)), edges);
   collector.add_quads("wide_description, wide_matching", frontend->match_globally(*base), edges);
   return std::move(collector.stages);
 }
