@@ -10,7 +10,12 @@ namespace quadedge::odometry {
 class StillCamera : public MotionHypothesis {
  public:
   explicit StillCamera(StepBuilder& steps) : steps_(steps) {}
-  StepHandle propose(const MotionQuery& query, const Evidence& evidence) override;
+  StepHandle propose(const MotionQuery& query, const Evidence&) override {
+    StepHandle step = steps_.take(query.base);
+    step->motion = {};
+    step->motion.status = pose::MotionStatus::ok;
+    return step;
+  }
   Effort effort() const override { return Effort::inexpensive; }
   bool requires_close_agreement() const override { return true; }
 
