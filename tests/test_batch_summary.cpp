@@ -64,8 +64,7 @@ TEST_CASE("batch summary: pooled figures are computed over all poses of all sequ
             2));
 }
 
-TEST_CASE("batch summary: JSON holds every figure unrounded, including failed and missing sequences",
-          "[report]") {
+TEST_CASE("batch summary: JSON holds every figure unrounded, including failed and missing sequences", "[report]") {
   const TemporaryFolder folder;
   const auto run = made_up_run(6, 0.02);
   write_member(folder.path(), "good", run);

@@ -71,8 +71,7 @@ TEST_CASE("batch: runs all sequences, names the broken one and ends with the wor
       CHECK(fs::file_size(folder + "/" + file) > 0);
     }
   }
-  for (const char* file : {"summary.md", "config.toml"})
-    CHECK(fs::file_size(batch.out + "/" + file) > 100);
+  for (const char* file : {"summary.md", "config.toml"}) CHECK(fs::file_size(batch.out + "/" + file) > 100);
   // No report was requested: a Python without the module is a note, not a failure.
   CHECK_THAT(batch.result.err, Contains("no page: no_python has no module quadedge.report"));
   CHECK(summary["input"] == batch_root());

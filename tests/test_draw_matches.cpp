@@ -31,6 +31,12 @@ DrawnFrame small_frame() {
   return frame;
 }
 
+cv::Mat drawn(const DrawnFrame& frame) {
+  const TemporaryFolder folder;
+  draw_matches(folder / "matches.png", frame, "paper", {});
+  return cv::imread(folder / "matches.png");
+}
+
 /// Colour at a position in one of the views of the whole images.
 cv::Vec3b at(const cv::Mat& picture, double x, double y, Side side) {
   return picture.at<cv::Vec3b>(
@@ -51,7 +57,7 @@ int difference(const cv::Vec3b& a, const cv::Vec3b& b) {
 }  // namespace
 
 TEST_CASE("Drawn by class, every class has one colour in both views, unlike the others", "[report]") {
-  const cv::Mat picture = draw_matches(small_frame(), "paper", {});
+  const cv::Mat picture = drawn(small_frame());
   const auto correct = at(picture, 60, 20, Side::left), inaccurate = at(picture, 120, 60, Side::left),
              wrong = at(picture, 150, 30, Side::left);
   CHECK(difference(correct, at(picture, 90, 40, Side::left)) < 20);
@@ -65,14 +71,14 @@ TEST_CASE("Drawn by class, every class has one colour in both views, unlike the 
 }
 
 TEST_CASE("Matches that are not correct are linked to their true position in the right view alone", "[report]") {
-  const cv::Mat picture = draw_matches(small_frame(), "paper", {});
+  const cv::Mat picture = drawn(small_frame());
   CHECK(colourfulness(at(picture, 120, 30, Side::right)) > 50);  // on the line from 100 to 140
   CHECK(colourfulness(at(picture, 120, 30, Side::left)) == 0);
   DrawnFrame other = small_frame();
   other.matches[3].true_x = std::nanf("");
-  CHECK(colourfulness(at(draw_matches(other, "paper", {}), 120, 30, Side::right)) == 0);
+  CHECK(colourfulness(at(drawn(other), 120, 30, Side::right)) == 0);
   other.right = Image(60, 120);  // another size than the left one
-  CHECK(draw_matches(other, "paper", {}).rows > 120 * kScale);
+  CHECK(drawn(other).rows > 120 * kScale);
 }
 
 TEST_CASE("Drawings are written one file per result, and repeated names are made unique", "[report]") {

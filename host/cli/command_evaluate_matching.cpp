@@ -50,8 +50,7 @@ class EvaluateMatchingCommand : public Command {
         "also make an HTML page with tables, plots and drawings; its data is written beside it, as by --json and "
         "--draw",
         "FILE");
-    options.text("--draw", draw_, "also draw the last frame of each pair or sequence as PNG, in a folder",
-                 "DIR");
+    options.text("--draw", draw_, "also draw the last frame of each pair or sequence as PNG, in a folder", "DIR");
     options.flag("--force", force_, "overwrite existing files");
     options.flag("--quiet", quiet_, "hide progress");
     method_.declare(options);

@@ -66,8 +66,8 @@ std::string file_name_of(const std::string& name) {
 
 }  // namespace
 
-cv::Mat draw_matches(const evaluation::DrawnFrame& frame, const std::string& name,
-                     const evaluation::MatchingTolerance& tolerance) {
+void draw_matches(const std::string& path, const evaluation::DrawnFrame& frame, const std::string& name,
+                  const evaluation::MatchingTolerance& tolerance) {
   Canvas left(frame.left.view(), kMatchesBrightness, 2), right(frame.right.view(), kMatchesBrightness, 2);
   const std::array<std::string, kClassMarks.size()> limits = {" (within " + limit(tolerance.position) + ")",
                                                               " (up to " + limit(tolerance.wrong) + ")", " (beyond)",
@@ -96,7 +96,7 @@ cv::Mat draw_matches(const evaluation::DrawnFrame& frame, const std::string& nam
                                    left.picture().cols + right.picture().cols, CV_8UC3);
   left.picture().copyTo(picture(cv::Rect({}, left.picture().size())));
   right.picture().copyTo(picture(cv::Rect({left.picture().cols, 0}, right.picture().size())));
-  return picture;
+  write_png(path, picture);
 }
 
 std::vector<WrittenDrawing> write_match_drawings(const std::string& folder,
@@ -112,7 +112,7 @@ std::vector<WrittenDrawing> write_match_drawings(const std::string& folder,
     std::string name = file_name_of(result.name);
     if (const int number = ++used[name]; number > 1) name += "_" + std::to_string(number);
     const std::string file = (std::filesystem::absolute(folder) / (name + ".png")).string();
-    write_png(file, draw_matches(*result.drawn, result.name, tolerance));
+    draw_matches(file, *result.drawn, result.name, tolerance);
     written.push_back({result.name, file, result.name + ": all stereo edges of known truth, by class."});
   }
   return written;

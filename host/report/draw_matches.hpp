@@ -1,7 +1,6 @@
 #pragma once
 /// \file draw_matches.hpp  Final stereo edges over their image pair, as the paper's Figures 8 and 9 show them.
 
-#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
@@ -11,8 +10,9 @@ namespace quadedge::report {
 
 /// The stereo edges of known truth over both images side by side, each class with a colour and a shape. In the right
 /// image a line leads from each match that is not correct to a ring at its true position.
-cv::Mat draw_matches(const evaluation::DrawnFrame& frame, const std::string& name,
-                     const evaluation::MatchingTolerance& tolerance);
+/// \throws DataError.
+void draw_matches(const std::string& path, const evaluation::DrawnFrame& frame, const std::string& name,
+                  const evaluation::MatchingTolerance& tolerance);
 
 /// A drawing that was written.
 struct WrittenDrawing {
