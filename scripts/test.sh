@@ -2,14 +2,15 @@
 # Installs missing packages, builds, and runs the tests. QUADEDGE_DATA names the folder of recorded data; without it,
 # tests that need recorded data print a message and pass.
 #   scripts/test.sh [--all] [--all-runtimes] [CTEST OPTION...]      example: scripts/test.sh -R edge_detection
-# --all also runs the slow tests: attacks, oclgrind, sanitizers, clang-tidy, packages, the wheel and the device kit.
+# --all also runs the slow tests: attacks, oclgrind, sanitizers, clang-tidy, packages, the wheel and the device kit, and
+# treats compiler warnings as errors. Without it, what scripts/run.sh has built is not built again.
 # --all-runtimes first installs Intel's OpenCL for CPUs from PyPI into the virtual environment and runs the tests of
 # kernels, pipeline and recorded data on it as well (tests/run_other_runtime.sh).
 set -euo pipefail
-all_runtimes=false slow=(--label-exclude slow)
+all_runtimes=false slow=(--label-exclude slow) strict=()
 while :; do
   case "${1:-}" in
-    --all) slow=() ;;
+    --all) slow=() strict=(-DQUADEDGE_WARNINGS_AS_ERRORS=ON) ;;
     --all-runtimes) all_runtimes=true ;;
     *) break ;;
   esac
@@ -20,7 +21,7 @@ repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 install_missing $build_packages $python_packages $wheel_packages $test_packages
 cmake -S "$repository" -B "$repository/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DQUADEDGE_TESTS=ON \
-  -DQUADEDGE_UNITY=ON -DQUADEDGE_WARNINGS_AS_ERRORS=ON
+  -DQUADEDGE_UNITY=ON "${strict[@]}"
 cmake --build "$repository/build"
 
 # One virtual environment with evo, the reference for trajectory errors, Snakemake and pandas; made anew when the list
