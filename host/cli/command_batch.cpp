@@ -6,7 +6,6 @@
 #include "cli/batch_plan.hpp"
 #include "cli/batch_run.hpp"
 #include "cli/command.hpp"
-#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/folder_lock.hpp"
 #include "cli/page_maker.hpp"

@@ -7,7 +7,6 @@
 #include "cli/bench_options.hpp"
 #include "cli/bench_tables.hpp"
 #include "cli/command.hpp"
-#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"

@@ -9,7 +9,6 @@
 #include "benchmark/variants_file.hpp"
 #include "cli/bench_options.hpp"
 #include "cli/command.hpp"
-#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "cli/command.hpp"
-#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "data/atomic_file.hpp"

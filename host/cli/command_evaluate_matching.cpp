@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "cli/command.hpp"
-#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/matching_tables.hpp"

@@ -12,7 +12,7 @@
 #include "quadedge/match_stereo.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
-#include "report/matches_csv.hpp"
+#include "report/edges_csv.hpp"
 #include "report/statistics.hpp"
 
 namespace quadedge::cli {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "cli/command.hpp"
-#include "cli/command_line.hpp"
+#include "cli/console.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/page_maker.hpp"
 #include "data/atomic_file.hpp"

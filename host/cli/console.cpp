@@ -172,6 +172,14 @@ std::string duration_text(double seconds) {
   return text;
 }
 
+std::string command_line() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string argument, line = "quadedge";
+  std::getline(stream, argument, '\0');  // the program
+  while (std::getline(stream, argument, '\0')) line += " " + argument;
+  return line;
+}
+
 void print_error(const std::string& message) {
   std::fprintf(stderr, "quadedge: %s\n", message.c_str());
   if (const char* file = std::getenv(kErrorFile); file != nullptr) std::ofstream(file) << message << "\n";

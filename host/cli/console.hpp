@@ -50,6 +50,9 @@ class Progress {
 /// "47 s", "2 min 05 s", "1 h 03 min".
 std::string duration_text(double seconds);
 
+/// The command line of this process as it was typed, the program itself named quadedge: results say it.
+std::string command_line();
+
 /// A sentence on stderr that the user should see, also with --quiet.
 void note(const std::string& sentence);
 

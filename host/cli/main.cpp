@@ -1,16 +1,30 @@
 /// \file main.cpp  The quadedge program: runs one command and turns errors into exit codes.
+#include <cerrno>
 #include <csignal>
 #include <exception>
+#include <fcntl.h>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <unistd.h>
 
 #include "cli/console.hpp"
 #include "cli/parser.hpp"
-#include "cli/standard_streams.hpp"
 #include "quadedge/error.hpp"
 
 namespace {
+
+/// Replaces closed standard streams, so that no file of the program gets their numbers, and with them what is printed.
+/// Input is at its end, errors go nowhere, and printing fails as it does into a closed stream.
+void occupy_standard_streams() {
+  // In this order: open() takes the lowest number that is free. What is open for reading alone cannot be written.
+  constexpr struct {
+    int stream, mode;
+  } kStreams[] = {{STDIN_FILENO, O_RDONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}};
+  for (const auto& [stream, mode] : kStreams) {
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) open("/dev/null", mode);
+  }
+}
 
 int end(const std::string& message, quadedge::ExitCode code) {
   quadedge::cli::print_error(message);
@@ -21,7 +35,7 @@ int end(const std::string& message, quadedge::ExitCode code) {
 
 int main(int argc, char** argv) {
   using namespace quadedge;
-  cli::occupy_standard_streams();
+  occupy_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is a write that fails, like a full disk
   try {
     std::vector<std::unique_ptr<cli::Command>> commands;

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cli/command_line.hpp"
 #include "cli/console.hpp"
 #include "cli/loop_output.hpp"
 #include "cli/output_folder.hpp"

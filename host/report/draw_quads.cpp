@@ -5,8 +5,8 @@
 #include <set>
 
 #include "report/canvas.hpp"
-#include "report/disparity_colours.hpp"
 #include "report/drawing.hpp"
+#include "report/statistics.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -15,6 +15,48 @@ constexpr double kQuadsBrightness = 0.45;
 constexpr int kThumbnailWidth = 480;  // px
 constexpr int kCell = 16;             // px of the image; one motion is drawn per cell
 const cv::Scalar kText(255, 255, 255), kInlier(255, 255, 255), kOutlier(60, 60, 255);
+
+constexpr int kLevels = 256;  // colours of a disparity
+
+/// Matplotlib's viridis, which colour-blind readers can read as well.
+class DisparityColours {
+ public:
+  /// The scale for these disparities [px]; a few wrong matches do not stretch it.
+  explicit DisparityColours(const std::vector<double>& disparities);
+
+  cv::Scalar of(double disparity) const;
+  /// The disparity of the brightest colour [px]; larger ones share it.
+  double largest() const { return largest_; }
+  /// Draws the scale as a bar that begins at `x` with its lower edge at `y`; returns the x after its end.
+  int draw_bar(cv::Mat& picture, int x, int y) const;
+
+ private:
+  std::vector<cv::Scalar> colours_;
+  double largest_;
+};
+
+DisparityColours::DisparityColours(const std::vector<double>& disparities)
+    : largest_(disparities.empty() ? 1.0 : std::max(percentile(disparities, 0.98), 1e-3)) {
+  cv::Mat levels(1, kLevels, CV_8UC1), bgr;
+  for (int i = 0; i < kLevels; ++i) levels.at<unsigned char>(0, i) = static_cast<unsigned char>(i);
+  cv::applyColorMap(levels, bgr, cv::COLORMAP_VIRIDIS);
+  for (int i = 0; i < kLevels; ++i) {
+    const auto colour = bgr.at<cv::Vec3b>(0, i);
+    colours_.emplace_back(colour[0], colour[1], colour[2]);
+  }
+}
+
+cv::Scalar DisparityColours::of(double disparity) const {
+  return colours_[static_cast<std::size_t>(std::clamp(disparity / largest_, 0.0, 1.0) * (kLevels - 1))];
+}
+
+int DisparityColours::draw_bar(cv::Mat& picture, int x, int y) const {
+  for (const auto& colour : colours_) {
+    cv::line(picture, {x, y - 14}, {x, y}, colour);
+    ++x;
+  }
+  return x;
+}
 
 /// Length of the way between the two positions of a stereo edge, which is the disparity for a rectified rig [px].
 double disparity(const StereoEdges& stereo, std::size_t i) {
