@@ -7,6 +7,14 @@ using namespace quadedge::pose;
 
 namespace {
 
+MotionEstimate estimate_motion(const quadedge::StereoRig& rig, const QuadObservations& quads,
+                               const quadedge::PoseConfig& config, std::uint64_t seed,
+                               const std::optional<Eigen::Isometry3d>& initial = std::nullopt) {
+  MotionEstimate estimate;
+  MotionEstimator().estimate(rig, quads, config, seed, initial, 0, estimate);
+  return estimate;
+}
+
 generated::Problem forward_drive() {
   generated::Problem problem;
   problem.motion.linear() = Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.1).normalized()).toRotationMatrix();

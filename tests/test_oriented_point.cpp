@@ -6,6 +6,16 @@
 
 using namespace quadedge::pose;
 
+namespace {
+
+std::optional<OrientedPoint> reconstruct(const quadedge::StereoRig& rig, const StereoObservation& observation,
+                                         double min_epipolar_angle) {
+  const auto measurement = measure(rig, observation, min_epipolar_angle);
+  return measurement ? std::optional(measurement->oriented_point()) : std::nullopt;
+}
+
+}  // namespace
+
 TEST_CASE("A point and its tangent are recovered from their projections, on any rig", "[pose][oriented_point]") {
   for (const quadedge::StereoRig& rig : {generated::car_rig(), generated::crooked_rig()}) {
     generated::Random random(1);

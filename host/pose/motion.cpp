@@ -37,14 +37,6 @@ const char* to_string(MotionStatus status) {
   return "unknown";
 }
 
-MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
-                               std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
-                               double offset_variance) {
-  MotionEstimate estimate;
-  MotionEstimator().estimate(rig, quads, config, seed, initial, offset_variance, estimate);
-  return estimate;
-}
-
 void MotionEstimator::estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
                                std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial,
                                double offset_variance, MotionEstimate& estimate, RefinementGoal goal) {

@@ -42,15 +42,11 @@ struct MotionEstimate {
 /// Estimates the motion: consensus of two-quad samples, followed by least squares over all inliers.
 /// With config.refine off, the pose is the best of the paper's two-quad samples and their local optimisations over at
 /// most kPreviewQuads, compared by their cost over all quads; there is no fit over all inliers and no covariance.
-/// \param offset_variance variance of the disparity offset [px^2]; 0: disparities are assumed exact
-/// \param initial a hypothesis besides the samples, current_from_previous: a predicted or frame-to-frame pose
-MotionEstimate estimate_motion(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config,
-                               std::uint64_t seed, const std::optional<Eigen::Isometry3d>& initial = std::nullopt,
-                               double offset_variance = 0);
-
-/// estimate_motion() with buffers that are kept between calls.
+/// Buffers are kept between calls.
 class MotionEstimator {
  public:
+  /// \param initial a hypothesis besides the samples, current_from_previous: a predicted or frame-to-frame pose
+  /// \param offset_variance variance of the disparity offset [px^2]; 0: disparities are assumed exact
   /// \param estimate is replaced
   void estimate(const StereoRig& rig, const QuadObservations& quads, const PoseConfig& config, std::uint64_t seed,
                 const std::optional<Eigen::Isometry3d>& initial, double offset_variance, MotionEstimate& estimate,

@@ -83,13 +83,6 @@ std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObser
   return result;
 }
 
-std::optional<OrientedPoint> reconstruct(const StereoRig& rig, const StereoObservation& observation,
-                                         double min_epipolar_angle) {
-  const std::optional<StereoMeasurement> measurement = measure(rig, observation, min_epipolar_angle);
-  if (!measurement) return std::nullopt;
-  return measurement->oriented_point();
-}
-
 std::optional<ImageEdge> project(const PinholeCamera& camera, const Eigen::Isometry3d& camera_from_points,
                                  const OrientedPoint& oriented_point) {
   const Eigen::Vector3d point = camera_from_points * oriented_point.point;

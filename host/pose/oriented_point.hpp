@@ -61,10 +61,6 @@ struct StereoMeasurement {
 std::optional<StereoMeasurement> measure(const StereoRig& rig, const StereoObservation& observation,
                                          double min_epipolar_angle);
 
-/// Point [m] and tangent of measure().
-std::optional<OrientedPoint> reconstruct(const StereoRig& rig, const StereoObservation& observation,
-                                         double min_epipolar_angle);
-
 /// An edge as seen by a camera.
 struct ImageEdge {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
