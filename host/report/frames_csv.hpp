@@ -5,9 +5,7 @@
 
 namespace quadedge::report {
 
-/// The columns of frames.csv: frame, stamp_s, status, segment, key_rig, new_key_rig, edge_threshold, disparity_range,
-/// the counts, matched_ratio, epipolar_residual, moving_ratio, ambiguous_motion, latency_ms, one NAME_ms per stage of
-/// kHostStages, warning, message. Fields without a value are empty.
+/// The columns of frames.csv (doc/usage.md). Fields without a value are empty.
 const FrameColumns& frames_csv_columns();
 
 /// \throws DataError for a missing or damaged file.

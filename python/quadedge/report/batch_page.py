@@ -6,11 +6,10 @@ from pathlib import Path
 from .error_tables import ALIGNMENTS, ErrorRow, error_table
 from .numbers import difference, length_text, share_of, significant
 from .origin import origin
-from .page import Detail, Facts, Figures, Page, Section, Text
-from .results import DamagedResults, Errors, Run, aligned, numbers, read_json, read_run, read_tum
-from .run_page import LATENCY, picture_blocks
-from .figure import FEWEST_FRAMES
-from .sequence_figures import Other, error_figures, frame_figures, trajectory_figures
+from .page import Detail, Facts, Page, Section, Text
+from .results import DamagedResults, Errors, Run, aligned, read_json, read_run, read_tum
+from .run_page import LATENCY, NO_PLOTS, picture_blocks, plots
+from .sequence_figures import Other
 from .table import Cell, Table
 
 RAN = ("done", "too few tracked")
@@ -96,9 +95,8 @@ def _read(folder: Path, entry: dict, compared: dict) -> Sequence:
 def _errors(columns: dict | None) -> Errors | None:
     if not columns:
         return None
-    names = ("stamp_s", "ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
-    return Errors(*[numbers(["" if value is None else str(value) for value in columns[name]], Path(name))
-                    for name in names])
+    texts = {name: ["" if value is None else str(value) for value in values] for name, values in columns.items()}
+    return Errors.of(texts, Path("comparison.json"))
 
 
 def _facts(batch: Batch) -> Facts:
@@ -192,13 +190,5 @@ def _sequence_blocks(sequence: Sequence, detail: Detail) -> list:
     facts += [("Note", note) for note in sequence.notes]
     blocks: list = [Facts(facts)]
     blocks += [Text(f"Frame {warning['frame']}: {warning['text']}", warns=True) for warning in run.report["warnings"]]
-    if run.count() < FEWEST_FRAMES:
-        blocks.append(Text(f"No plots of fewer than {FEWEST_FRAMES} frames."))
-    world = "In the frame of the first left camera" + (" with ground truth, origin-aligned." if run.truth else ".")
-    for figures, caption in ((trajectory_figures(run, sequence.others, detail.points), world),
-                             (error_figures(run, sequence.others, detail.points),
-                              "Errors against ground truth, origin-aligned."),
-                             (frame_figures(run, detail.points), "")):
-        if figures:
-            blocks.append(Figures(figures, caption))
+    blocks += [figures for _, figures in plots(run, sequence.others, detail)] or [NO_PLOTS]
     return blocks + picture_blocks(run, detail)

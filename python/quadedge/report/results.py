@@ -76,6 +76,12 @@ class Errors:
     rpe_rotation_deg: np.ndarray
     rpe_translation_m: np.ndarray
 
+    @classmethod
+    def of(cls, columns: dict[str, list[str]], file: Path) -> "Errors":
+        """From columns of texts; a missing one is empty. Raises DamagedResults, which names the file."""
+        names = ("stamp_s", "ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
+        return cls(*[numbers(columns.get(name, []), file) for name in names])
+
 
 @dataclass
 class Run:
@@ -180,11 +186,7 @@ def read_run(folder: Path, name: str = "") -> Run:
         estimate = aligned(estimate, truth)
     run = Run(name or report["input"]["name"], folder, report, frames, estimate, truth if match else None, None, None)
     if (folder / "errors.csv").is_file() and match:
-        columns = read_columns(folder / "errors.csv")
-        values = [numbers(columns.get(column, []), folder / "errors.csv")
-                  for column in ("stamp_s", "ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg",
-                                 "rpe_translation_m")]
-        run.errors = Errors(*values)
+        run.errors = Errors.of(read_columns(folder / "errors.csv"), folder / "errors.csv")
     if (folder / "poses.csv").is_file():
         columns = read_columns(folder / "poses.csv", may_be_cut=killed)
         if "covariance_x_x" in columns:

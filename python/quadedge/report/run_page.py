@@ -13,6 +13,7 @@ QUADS_CAPTION = ("Dots: stereo edges, brighter ones have larger disparities. Lin
                  "that they were matched with, white for inliers, red for others, one per cell of 16 px.")
 MOST_LOSSES = 30  # rows of a table
 LATENCY = ("median", "p90", "p99", "max", "first")
+NO_PLOTS = Text(f"No plots of fewer than {FEWEST_FRAMES} frames.")
 
 
 def run_page(run: Run, detail: Detail) -> Page:
@@ -23,7 +24,8 @@ def run_page(run: Run, detail: Detail) -> Page:
     facts.entries += facts_of(run)
     page = Page(f"QuadEdge: {run.name}", facts)
     sections = [Section("Results", [*warnings(run), latency_table(run), *accuracy_tables(run), *loss_tables(run)])]
-    page.sections += sections + plot_sections(run, [], detail)
+    figures = plots(run, [], detail) or [("Plots", NO_PLOTS)]
+    page.sections += sections + [Section(name, [block]) for name, block in figures]
     pictures = picture_blocks(run, detail)
     if pictures:
         page.sections.append(Section("Pictures", pictures))
@@ -203,16 +205,13 @@ def configuration_table(content: dict) -> Table:
     return table
 
 
-def plot_sections(run: Run, others: list[Other], detail: Detail, level: int = 2, title: str = "") -> list[Section]:
-    """Trajectory, errors and frames."""
-    if run.count() < FEWEST_FRAMES:
-        return [Section(title or "Plots", [Text(f"No plots of fewer than {FEWEST_FRAMES} frames.")], level)]
+def plots(run: Run, others: list[Other], detail: Detail) -> list[tuple[str, Figures]]:
+    """Trajectory, errors and frames, each with its name; nothing for a run of few frames."""
     world = "In the left camera's first pose" + (" that has ground truth, origin-aligned." if run.truth else ".")
     blocks = [("Trajectory", trajectory_figures(run, others, detail.points), world),
-              ("Errors", error_figures(run, others, detail.points), "Against the ground truth, origin-aligned."),
+              ("Errors", error_figures(run, others, detail.points), "Errors against the ground truth, origin-aligned."),
               ("Frames", frame_figures(run, detail.points), "")]
-    return [Section(f"{title}{name}", [Figures(figures, caption)], level) for name, figures, caption in blocks
-            if figures]
+    return [(name, Figures(figures, caption)) for name, figures, caption in blocks if figures]
 
 
 def picture_blocks(run: Run, detail: Detail) -> list:
