@@ -50,7 +50,8 @@ class RunCommand : public Command {
     options.flag("--loops", run_.loops,
                  "recognise places and close loops: trajectory_map.txt and loops.csv beside the odometry's files");
     options.text("--offset-file", run_.offset_file,
-                 "disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the end", "FILE");
+                 "disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the end",
+                 "FILE");
     options.flag("--force", run_.force, "replace results in OUT");
     options.flag("--quiet", run_.quiet, "hide progress; warnings and the summary remain");
     run_.map.declare(options);

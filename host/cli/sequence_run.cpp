@@ -242,9 +242,8 @@ void evaluate(const FrameSource& source, const SequenceRunOptions& options, repo
 
 /// The disparity offset as the last frame that was located left it, as a configuration file.
 void write_offset(const std::string& file, const report::RunRecord& run) {
-  const auto last = std::find_if(run.frames.rbegin(), run.frames.rend(), [](const auto& frame) {
-    return frame.result.disparity_offset_sigma > 0;
-  });
+  const auto last = std::find_if(run.frames.rbegin(), run.frames.rend(),
+                                 [](const auto& frame) { return frame.result.disparity_offset_sigma > 0; });
   if (last == run.frames.rend()) return;
   data::write_atomically(
       file, "# Disparity offset of a stereo rig, learned by `quadedge run --offset-file`\npose.disparity_offset = " +

@@ -21,9 +21,9 @@ struct SequenceRunOptions {
   int draw_every = 0;
   int draw_frame = -1;
   MapFiles map;
-  bool loops = false;  ///< recognise places, and write the corrected trajectory and the closures
+  bool loops = false;       ///< recognise places, and write the corrected trajectory and the closures
   std::string offset_file;  ///< the rig's disparity offset: read if it exists, written at the end; empty: none
-  int thumbnails = 0;  ///< number of quad thumbnails, spread evenly over the frames after the first
+  int thumbnails = 0;       ///< number of quad thumbnails, spread evenly over the frames after the first
 };
 
 /// Tracks all frames, writing every finished one at once, then the accuracy, the pictures and the report. After a

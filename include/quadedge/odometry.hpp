@@ -97,9 +97,9 @@ struct FrameResult {
   /// Covariance of current_from_reference due to edge errors alone, ROTATION first: rotation about x, y, z [rad], then
   /// x, y, z [m], as a left perturbation in the current left camera frame. Empty for a lost frame.
   std::optional<Eigen::Matrix<double, 6, 6>> relative_covariance;
-  int reference_frame = 0;      ///< number of the frame that was the key stereo rig; -1 before the first
-  bool new_key_rig = false;     ///< whether this frame becomes the key stereo rig of the following frames
-  double disparity_offset = 0;  ///< estimated so far, added to every disparity [px]
+  int reference_frame = 0;            ///< number of the frame that was the key stereo rig; -1 before the first
+  bool new_key_rig = false;           ///< whether this frame becomes the key stereo rig of the following frames
+  double disparity_offset = 0;        ///< estimated so far, added to every disparity [px]
   double disparity_offset_sigma = 0;  ///< its standard deviation [px]
   /// Another motion explains nearly as much of the image, so that the camera's motion is ambiguous.
   bool ambiguous_motion = false;
