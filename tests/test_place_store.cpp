@@ -38,13 +38,15 @@ TEST_CASE("place store: the most similar places come first, without those that a
 }
 
 TEST_CASE("place store: beyond its bound the place most similar to the next one leaves") {
-  const std::size_t one = sizeof(Place) + place(0, 0).rig.bytes();
-  PlaceStore store(3 * one);
+  PlaceStore one(1'000'000);
+  one.add(place(0, 0));
+  PlaceStore store(3 * one.bytes());
   store.add(place(0, 0));
   store.add(place(1, 20));
   store.add(place(2, 20, 0.1F));
   store.add(place(3, 40));
-  CHECK(store.bytes() <= 3 * one);
+  CHECK(store.bytes() == 3 * one.bytes());
+  CHECK(store.most_similar(PlaceSignature::Unit(40), 1, any).front().place->node == 3);
   std::vector<int> nodes;
   for (const Place& kept : store.places()) nodes.push_back(kept.node);
   CHECK(nodes == std::vector<int>{0, 2, 3});

@@ -1,17 +1,21 @@
 #include "map/place_store.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace quadedge::map {
-namespace {
 
-std::size_t bytes_of(const Place& place) { return sizeof(Place) + place.rig.bytes(); }
-
-}  // namespace
+PlaceStore::Rounded PlaceStore::rounded(const PlaceSignature& signature) {
+  Rounded result;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = static_cast<std::int16_t>(std::lround(32767 * signature[static_cast<Eigen::Index>(i)]));
+  return result;
+}
 
 void PlaceStore::add(Place place) {
   bytes_ += bytes_of(place);
+  rounded_.push_back(rounded(place.signature));
   places_.push_back(std::move(place));
   while (bytes_ > max_bytes_ && places_.size() > 1) {
     auto redundant = places_.begin();
@@ -24,20 +28,28 @@ void PlaceStore::add(Place place) {
       }
     }
     bytes_ -= bytes_of(*redundant);
+    rounded_.erase(rounded_.begin() + (redundant - places_.begin()));
     places_.erase(redundant);
   }
 }
 
 std::vector<PlaceStore::Similar> PlaceStore::most_similar(const PlaceSignature& signature, int count,
                                                           const std::function<bool(const Place&)>& may_be) const {
+  const Rounded wanted = rounded(signature);
+  std::vector<std::pair<std::int32_t, std::size_t>> heap(places_.size());  // product, index; of equal ones the latest
+  for (std::size_t i = 0; i < heap.size(); ++i) {
+    std::int32_t product = 0;  // at most 2^30, since signatures have unit length
+    for (std::size_t k = 0; k < wanted.size(); ++k) product += rounded_[i][k] * wanted[k];
+    heap[i] = {product, i};
+  }
+  std::make_heap(heap.begin(), heap.end());
   std::vector<Similar> found;
-  for (const Place& place : places_)
+  while (!heap.empty() && found.size() < static_cast<std::size_t>(count)) {
+    const Place& place = places_[heap.front().second];
     if (may_be(place)) found.push_back({&place, place.signature.dot(signature)});
-  const auto end = found.begin() + std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(found.size()));
-  std::partial_sort(found.begin(), end, found.end(), [](const Similar& a, const Similar& b) {
-    return a.similarity != b.similarity ? a.similarity > b.similarity : a.place > b.place;
-  });
-  found.erase(end, found.end());
+    std::pop_heap(heap.begin(), heap.end());
+    heap.pop_back();
+  }
   return found;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 /// \file place_store.hpp  Kept key rigs, and those most similar to a given one (doc/method.md section 10).
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -38,9 +40,16 @@ class PlaceStore {
   const std::vector<Place>& places() const { return places_; }
 
  private:
+  /// A signature in whole numbers. In an array of their own, those of 100,000 places are compared in a few
+  /// milliseconds.
+  using Rounded = std::array<std::int16_t, kWords * kWordNumbers>;
+  static Rounded rounded(const PlaceSignature& signature);
+  static std::size_t bytes_of(const Place& place) { return sizeof(Place) + sizeof(Rounded) + place.rig.bytes(); }
+
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
-  std::vector<Place> places_;  ///< oldest first
+  std::vector<Place> places_;     ///< oldest first
+  std::vector<Rounded> rounded_;  ///< their signatures
 };
 
 }  // namespace quadedge::map
