@@ -157,20 +157,49 @@ TEST_CASE("acceptance: global matches confirm the motion that they follow", "[od
   problem.motion = shift(0.1, -0.9);
   problem.quads = 40;
   MotionStep global, step;
+  double ratio = 0;
   global.quads = generated::generate(problem, 3).quads;
   step.base = query.base;
   step.motion.current_from_previous = problem.motion;
-  CHECK(acceptance.agrees_with_global_matches(global, query, step));
+  CHECK(acceptance.agrees_with_global_matches(global, query, step, ratio));
+  CHECK(ratio > 0.9);
   step.motion.current_from_previous = shift(-1, 0.9);
-  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step));
+  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step, ratio));
   // Measured against the key rig.
   step.base = query.key;
   step.motion.current_from_previous = problem.motion * query.base_from_key;
-  CHECK(acceptance.agrees_with_global_matches(global, query, step));
+  CHECK(acceptance.agrees_with_global_matches(global, query, step, ratio));
   // Neighbours on one curve count once.
   problem.quads = 1;
   problem.copies = 40;
   global.quads = generated::generate(problem, 4).quads;
   REQUIRE(global.quads.size() == 40);
-  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step));
+  CHECK_FALSE(acceptance.agrees_with_global_matches(global, query, step, ratio));
+}
+
+TEST_CASE("acceptance: what one motion explains beside another is where the other one is wrong", "[odometry]") {
+  generated::Problem thing, scene;
+  thing.quads = 3000;
+  thing.width_ratio = 0.3;
+  thing.motion = shift(0.6, 0);
+  thing.near = thing.far = 8;
+  scene.quads = 3000;
+  scene.motion = shift(0, -1);
+  TwoMotions seen(thing, scene);
+  const double area = seen.area_of(scene.motion);
+  const Config config;
+  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const Acceptance acceptance(config, offset);
+  const auto beside = [&](const Eigen::Isometry3d& chosen) {
+    return acceptance.explained_beside(seen.step, chosen, config.pose.inlier_distance);
+  };
+  CHECK(beside(scene.motion).explained_area() == 0);
+  CHECK(beside(thing.motion).explained_area() > 0.6 * area);
+  CHECK(beside(thing.motion).explained_area() <= area);
+  CHECK(seen.step.cells.count(true) > seen.step.cells.count(false));
+  // The scene is all around the object, which covers a third of the image.
+  const double all = seen.step.cells.spread(false);
+  CHECK(beside(thing.motion).spread(true) > 0.8 * all);
+  seen.area_of(thing.motion);
+  CHECK(beside(scene.motion).spread(true) < 0.6 * all);
 }

@@ -36,13 +36,17 @@ Verdict at_rest(Verdict verdict, double ratio) {
 const Verdict kFailure;
 const Expectation kPredicted{0, false, 0.35}, kDoubtful{0, true, 0.35}, kUnpredicted{std::nullopt, false, 0.35};
 
-/// Motions with the same number are the same; by default, all differ.
-Selection choose(const std::vector<Verdict>& verdicts, const Expectation& expectation, std::vector<int> motion = {}) {
+/// Motions with the same number are the same; by default, all differ. \param shared fraction of a motion's explained
+/// area that the others explain, too
+Selection choose(const std::vector<Verdict>& verdicts, const Expectation& expectation, std::vector<int> motion = {},
+                 double shared = 0) {
   if (motion.empty()) {
     motion.resize(verdicts.size());
     std::iota(motion.begin(), motion.end(), 0);
   }
-  return select(verdicts, expectation, [&](std::size_t a, std::size_t b) { return motion[a] == motion[b]; });
+  return select(verdicts, expectation,
+                {[&](std::size_t a, std::size_t b) { return motion[a] == motion[b]; },
+                 [&](std::size_t a, std::size_t) { return (1 - shared) * verdicts[a].explained_area; }});
 }
 
 Effort needed(const Verdict& prediction, const Expectation& expectation = kPredicted) {
@@ -118,8 +122,34 @@ TEST_CASE("motion selection: every doubt is told with its ratio", "[odometry]") 
   CHECK_FALSE(doubt({found(0.5), found(0.19)}).exists());
   CHECK_FALSE(doubt({found(0.5), found(0.3)}, {0, 0}).exists());
   CHECK(doubt({found(0), found(0)}).kind == Ambiguity::competing_motion);
+  const Doubt elsewhere = doubt_about({0.2, 0.5, 0.4}, false);
+  CHECK(elsewhere.kind == Ambiguity::motion_elsewhere);
+  CHECK(elsewhere.ratio == 0.2);
   std::set<std::string> texts;
-  for (const Doubt& each : {moving_image, static_scene, competing}) texts.insert(to_string(each));
-  CHECK(texts.size() == 3);
+  for (const Doubt& each : {moving_image, static_scene, competing, elsewhere}) texts.insert(to_string(each));
+  CHECK(texts.size() == 4);
   for (const auto& text : texts) CHECK(text.find(" %") != std::string::npos);
+}
+
+TEST_CASE("motion selection: edges of distant views that are not found again are no second motion", "[odometry]") {
+  Verdict confirmed = moving(found(0.5), 0.6);
+  confirmed.global_ratio = 0.5;
+  CHECK_FALSE(choose({confirmed}, kPredicted).doubt.exists());
+  confirmed.global_ratio = 0.2;
+  CHECK(choose({confirmed}, kPredicted).doubt.kind == Ambiguity::moving_image);
+  // A competing motion counts by what the chosen one does not explain.
+  CHECK(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.3).doubt.ratio == Approx(0.42));
+  CHECK_FALSE(choose({found(0.5), found(0.3)}, kPredicted, {}, 0.4).doubt.exists());
+}
+
+TEST_CASE("motion selection: a motion elsewhere counts by its area, a smaller one if it is on all sides",
+          "[odometry]") {
+  CHECK_FALSE(doubt_about(Elsewhere(), false).exists());
+  CHECK(doubt_about({0.1, 0.2, 0.1}, false).exists());
+  CHECK_FALSE(doubt_about({0.05, 0.2, 0.1}, false).exists());  // an object
+  CHECK(doubt_about({0.05, 0.2, 0.9}, false).exists());
+  CHECK_FALSE(doubt_about({0.01, 0.2, 0.9}, false).exists());
+  CHECK(doubt_about({0.01, 0.05, 0.1}, true).exists());  // after a doubt
+  CHECK_FALSE(doubt_about({0.005, 0.05, 0.9}, true).exists());
+  CHECK_FALSE(doubt_about({0.1, 0.05, 0.9}, false).exists());  // most of what was searched does not follow
 }

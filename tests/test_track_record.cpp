@@ -46,3 +46,36 @@ TEST_CASE("track record: a doubt about the last motion is one about the predicti
   record.remember(with(0.5));
   CHECK_FALSE(record.is_doubtful());
 }
+
+TEST_CASE("track record: the rest of the image is checked at the start, now and then, and when more of it moves",
+          "[odometry]") {
+  const Config config;
+  odometry::TrackRecord record(config);
+  odometry::MotionStep step;
+  step.motion.status = pose::MotionStatus::ok;
+  const auto frames_until_check = [&](double moving_ratio) {
+    step.verdict.moving_ratio = moving_ratio;
+    for (int frame = 1;; ++frame) {
+      step.is_checked = record.is_check_due(step.verdict);
+      record.remember(step);
+      if (step.is_checked || frame > 100) return frame;
+    }
+  };
+  for (int frame = 0; frame < 3; ++frame) CHECK(frames_until_check(0.05) == 1);
+  CHECK(frames_until_check(0.05) == 10);
+  CHECK(frames_until_check(0.3) == 1);
+  CHECK(frames_until_check(0.35) == 10);  // no more than at the last check
+  // After a doubt, every frame until three of them were clear.
+  step.doubt = {odometry::Ambiguity::motion_elsewhere, 0.2};
+  CHECK(frames_until_check(0.3) == 10);
+  CHECK(frames_until_check(0.3) == 1);
+  step.doubt = {};
+  for (int frame = 0; frame < 3; ++frame) CHECK(frames_until_check(0.3) == 1);
+  CHECK(frames_until_check(0.3) == 10);
+  // After a loss.
+  step.motion.status = pose::MotionStatus::no_consensus;
+  step.is_checked = false;
+  record.remember(step);
+  step.motion.status = pose::MotionStatus::ok;
+  CHECK(frames_until_check(0.3) == 1);
+}

@@ -5,16 +5,9 @@
 #include "frontend/prediction.hpp"
 #include "odometry/odometry_constants.hpp"
 #include "pose/scoring.hpp"
+#include "quadedge/pi.hpp"
 
 namespace quadedge::odometry {
-namespace {
-
-/// Edges of the base in one cell of the image.
-struct Cell {
-  double edges = 0, found = 0, explained = 0;
-};
-
-}  // namespace
 
 void Acceptance::test_support(const EdgePositions& predicted, MotionStep& step) const {
   const int in_view = frontend::count_in_view(offset_.rig().left, predicted);
@@ -32,35 +25,33 @@ void Acceptance::judge(const EdgePositions& predicted, MotionStep& step) const {
 }
 
 void Acceptance::measure_area(const EdgePositions& predicted, MotionStep& step) const {
-  const PinholeCamera& camera = offset_.rig().left;
-  const double side = config_.pose.scoring_cell > 0 ? config_.pose.scoring_cell : std::max(camera.width, camera.height);
-  const int columns = static_cast<int>(camera.width / side) + 1, rows = static_cast<int>(camera.height / side) + 1;
-  std::vector<Cell> cells(static_cast<std::size_t>(columns * rows));
-  const auto cell_of = [&](std::size_t i) -> Cell* {
-    const double x = static_cast<double>(predicted.x[i]) / side, y = static_cast<double>(predicted.y[i]) / side;
-    if (!(x >= 0 && x < columns && y >= 0 && y < rows)) return nullptr;
-    return &cells[static_cast<std::size_t>(static_cast<int>(y) * columns + static_cast<int>(x))];
-  };
+  step.cells.start(offset_.rig().left, config_.pose.scoring_cell);
   for (std::size_t i = 0; i < predicted.x.size(); ++i)
-    if (Cell* cell = cell_of(i)) cell->edges += 1;
+    if (ExplainedCell* cell = step.cells.at(predicted.x[i], predicted.y[i])) cell->edges += 1;
   for (std::size_t q = 0; q < step.quads.size(); ++q) {
-    const auto edge = step.matches.previous[static_cast<std::size_t>(step.quads.match[q])];
-    Cell* cell = cell_of(static_cast<std::size_t>(edge));
+    const auto edge = static_cast<std::size_t>(step.matches.previous[static_cast<std::size_t>(step.quads.match[q])]);
+    ExplainedCell* cell = step.cells.at(predicted.x[edge], predicted.y[edge]);
     if (cell == nullptr) continue;
     cell->found += 1;
     cell->explained += step.agrees[q] != 0 ? 1 : 0;
   }
-  double sum = 0, held = 0, in_view = 0, elsewhere = 0;
-  for (const Cell& cell : cells) {
-    if (!(cell.edges > 0)) continue;
-    sum += cell.explained / cell.edges;
-    held += 1;
-    in_view += cell.edges;
-    if (cell.explained < kMinExplainedRatio * std::max(cell.found, kMinFoundRatio * cell.edges))
-      elsewhere += cell.edges;
+  step.verdict.explained_area = step.cells.explained_area();
+  step.verdict.moving_ratio = step.cells.moving_ratio();
+}
+
+ExplainedCells Acceptance::explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen,
+                                            double distance) const {
+  std::vector<std::uint8_t> shared;
+  pose::select_inliers(other.quads.scoring, pose::LaterCameras(offset_.rig(), chosen), distance, 0.5 * kPi, shared);
+  ExplainedCells cells = other.cells;
+  for (ExplainedCell& cell : cells.all()) cell.explained = 0;
+  for (std::size_t q = 0; q < shared.size(); ++q) {
+    ExplainedCell* cell = cells.at(other.quads.scoring.left_x[q], other.quads.scoring.left_y[q]);
+    if (cell != nullptr && other.agrees[q] != 0 && shared[q] == 0) cell->explained += 1;
   }
-  step.verdict.explained_area = held > 0 ? sum / held : 0;
-  step.verdict.moving_ratio = in_view > 0 ? elsewhere / in_view : 0;
+  for (ExplainedCell& cell : cells.all())
+    if (cell.explained < kMinCellEdges) cell.explained = 0;
+  return cells;
 }
 
 double Acceptance::static_ratio(MotionStep& step) const {
@@ -91,12 +82,12 @@ bool Acceptance::are_same_motion(const MotionStep& found, const MotionStep& othe
 }
 
 bool Acceptance::agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query,
-                                            const MotionStep& step) const {
+                                            const MotionStep& step, double& ratio) const {
   std::vector<std::uint8_t> agrees;
-  Eigen::Isometry3d current_from_base = step.motion.current_from_previous;
-  if (step.base != query.base) current_from_base = current_from_base * query.base_from_key.inverse();
-  pose::select_inliers(global_matches.quads.scoring, pose::LaterCameras(offset_.rig(), current_from_base),
-                       config_.temporal.wide_inlier_distance, config_.pose.inlier_orientation_rad(), agrees);
+  const int agreeing =
+      pose::select_inliers(global_matches.quads.scoring, pose::LaterCameras(offset_.rig(), since_base(query, step)),
+                           config_.temporal.wide_inlier_distance, config_.pose.inlier_orientation_rad(), agrees);
+  ratio = agreeing / std::max(1.0, static_cast<double>(agrees.size()));
   return pose::count_cells(global_matches.quads.scoring, agrees, config_.pose.inflation_cell) >=
          config_.pose.min_inliers;
 }

@@ -30,11 +30,16 @@ class Acceptance {
   bool are_same_motion(const MotionStep& found, const MotionStep& other,
                        const Eigen::Isometry3d& base_from_other) const;
 
+  /// What `other` explains closely of the image while `chosen` is off by more than `distance` [px].
+  /// \param chosen current_from_base, since the base of `other`
+  ExplainedCells explained_beside(const MotionStep& other, const Eigen::Isometry3d& chosen, double distance) const;
+
   /// Whether global matches agree with a motion in at least as many image cells as an estimate needs inliers. A global
   /// match can lie anywhere in the image, so that a wrong motion agrees with hardly any of them. Matches in the same
   /// cell count once, because the errors of neighbours are correlated.
-  bool agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query,
-                                  const MotionStep& step) const;
+  /// \param ratio is set to the fraction of the global matches that agree
+  bool agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query, const MotionStep& step,
+                                  double& ratio) const;
 
  private:
   /// Fraction of the quads that are static although the motion would have moved them. Edges are not static by chance,

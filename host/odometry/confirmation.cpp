@@ -1,11 +1,25 @@
 #include "odometry/confirmation.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "frontend/prediction.hpp"
 #include "odometry/odometry_constants.hpp"
 
 namespace quadedge::odometry {
+namespace {
+
+/// Leaves out the edges that are predicted where another motion explains the image.
+void hide_explained(const ExplainedCells& other, TemporalSearch& search) {
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < search.left.size(); ++i) {
+    const ExplainedCell* cell = other.at(search.left.x[i], search.left.y[i]);
+    if (cell != nullptr && cell->is_free()) continue;
+    search.left.x[i] = search.left.y[i] = search.right.x[i] = search.right.y[i] = kNowhere;
+  }
+}
+
+}  // namespace
 
 StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
                                  double confident_support) {
@@ -20,6 +34,13 @@ StepHandle Confirmation::confirm(const MotionQuery& query, const Eigen::Isometry
   return match(query, query.base, limits, current_from_base);
 }
 
+StepHandle Confirmation::confirm_beside(const MotionQuery& query, const Eigen::Isometry3d& current_from_base,
+                                        const ExplainedCells& other) {
+  PoseConfig limits = limits_of_proposals(config_);
+  limits.min_hypotheses = 0;
+  return match(query, query.base, limits, current_from_base, &other);
+}
+
 /// Few edges match a key rig that is moving out of view. If the edges of the base, which is closer in time, follow the
 /// same motion, their support is used.
 void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
@@ -30,10 +51,11 @@ void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConf
 }
 
 StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
-                               Eigen::Isometry3d current_from_base) {
+                               Eigen::Isometry3d current_from_base, const ExplainedCells* other) {
   const auto predict = [&](int every, TemporalSearch& search) {
     frontend::predict_positions(steps_.calibration(), base->edges, steps_.measured(*base), current_from_base,
                                 config_.temporal.radius, every, search);
+    if (other != nullptr) hide_explained(*other, search);
   };
   predict(1, search_);
   StepHandle step = steps_.take(base);

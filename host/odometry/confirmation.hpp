@@ -24,9 +24,14 @@ class Confirmation {
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
                      double confident_support);
 
+  /// Confirms a motion with only those edges of the base that it brings to where `other` explains nothing.
+  StepHandle confirm_beside(const MotionQuery& query, const Eigen::Isometry3d& current_from_base,
+                            const ExplainedCells& other);
+
  private:
+  /// \param other if not null, only edges where it explains nothing are matched
   StepHandle match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
-                   Eigen::Isometry3d current_from_base);
+                   Eigen::Isometry3d current_from_base, const ExplainedCells* other = nullptr);
 
   void take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key);
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "odometry/coarse_search.hpp"
+#include "odometry/odometry_constants.hpp"
 #include "odometry/relocalisation.hpp"
 #include "odometry/remaining_motion.hpp"
 #include "odometry/second_motion.hpp"
@@ -15,7 +16,9 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, c
     : steps_(config, offset),
       acceptance_(config, offset),
       confirmation_(config, frontend, steps_, acceptance_),
-      record_(config) {
+      elsewhere_(config, frontend, steps_, confirmation_, acceptance_),
+      record_(config),
+      inlier_distance_(config.pose.inlier_distance) {
   const auto add = [&](auto hypothesis) {
     hypotheses_.push_back(std::make_unique<decltype(hypothesis)>(std::move(hypothesis)));
   };
@@ -38,6 +41,13 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
     try_out(effort, query, trials);
     selection = choose(query, trials);
     if (selection.needed <= effort) break;
+  }
+  MotionStep& chosen = *trials.at(selection.trial).outcome();
+  chosen.is_checked = selection.accepted && record_.is_check_due(chosen.verdict);
+  if (chosen.is_checked) {
+    const Doubt beside =
+        doubt_about(elsewhere_.find(query, chosen, evidence_of(trials).global_matches), record_.is_doubtful());
+    if (!selection.doubt.exists()) selection.doubt = beside;
   }
   StepHandle found = std::move(trials.at(selection.trial).outcome());
   found->doubt = selection.doubt;
@@ -80,10 +90,21 @@ Selection MotionSearch::choose(const MotionQuery& query, const Trials& trials) c
   const auto base_from_its = [&](const MotionStep& step) -> Eigen::Isometry3d {
     return query.key && step.base == query.base ? query.base_from_key : Eigen::Isometry3d::Identity();
   };
-  return select(verdicts, expectation, [&](std::size_t one, std::size_t other) {
+  Comparison comparison;
+  comparison.is_same = [&](std::size_t one, std::size_t other) {
     const MotionStep &found = trials[one].outcome(), &its = trials[other].outcome();
     return acceptance_.are_same_motion(found, its, base_from_its(found) * base_from_its(its).inverse());
-  });
+  };
+  comparison.area_beside = [&](std::size_t one, std::size_t other) {
+    const MotionStep &found = trials[one].outcome(), &its = trials[other].outcome();
+    const Eigen::Isometry3d motion =
+        its.motion.current_from_previous * (base_from_its(found) * base_from_its(its).inverse()).inverse();
+    ExplainedCells cells = acceptance_.explained_beside(found, motion, kCloseAgreement * inlier_distance_);
+    for (std::size_t i = 0; i < cells.all().size(); ++i)
+      if (!its.cells.all()[i].is_free()) cells.all()[i].explained = 0;
+    return cells.explained_area();
+  };
+  return select(verdicts, expectation, comparison);
 }
 
 Verdict MotionSearch::verdict_of(const Trial& trial, const Evidence& evidence, const MotionQuery& query) const {
@@ -91,8 +112,9 @@ Verdict MotionSearch::verdict_of(const Trial& trial, const Evidence& evidence, c
   Verdict verdict = step.verdict;
   verdict.found = step.ok();
   verdict.has_all_inliers = !trial.hypothesis->requires_close_agreement();
-  verdict.agrees_globally = !verdict.found || evidence.global_matches == nullptr ||
-                            acceptance_.agrees_with_global_matches(*evidence.global_matches, query, step);
+  if (verdict.found && evidence.global_matches != nullptr)
+    verdict.agrees_globally =
+        acceptance_.agrees_with_global_matches(*evidence.global_matches, query, step, verdict.global_ratio);
   return verdict;
 }
 

@@ -8,6 +8,7 @@
 #include "odometry/acceptance.hpp"
 #include "odometry/confirmation.hpp"
 #include "odometry/disparity_offset.hpp"
+#include "odometry/motion_elsewhere.hpp"
 #include "odometry/motion_hypothesis.hpp"
 #include "odometry/motion_step.hpp"
 #include "odometry/step_builder.hpp"
@@ -53,7 +54,9 @@ class MotionSearch {
   StepBuilder steps_;
   Acceptance acceptance_;
   Confirmation confirmation_;
+  MotionElsewhere elsewhere_;
   TrackRecord record_;
+  double inlier_distance_;
   std::vector<std::unique_ptr<MotionHypothesis>> hypotheses_;  ///< in the order in which they are tried
 };
 

@@ -18,6 +18,7 @@ struct Verdict {
   double moving_ratio = 0;      ///< fraction of the edges in view in cells that hardly follow the motion
   double static_ratio = 0;      ///< fraction of the quads that are static although the motion would have moved them
   bool agrees_globally = true;  ///< with the global matches, if there are any
+  double global_ratio = 0;      ///< fraction of the global matches that agree; 0 if there are none
 };
 
 /// How much is tried to find a motion. Each level includes those before.
@@ -37,13 +38,14 @@ struct Expectation {
 /// Why a motion may not be the camera's.
 enum class Ambiguity {
   none,
-  moving_image,     ///< most of the image moves differently
-  static_scene,     ///< a part of the image is static that the motion would have moved
-  competing_motion  ///< another motion explains nearly as much
+  moving_image,      ///< most of the image moves differently
+  static_scene,      ///< a part of the image is static that the motion would have moved
+  competing_motion,  ///< another motion explains nearly as much
+  motion_elsewhere   ///< another motion explains parts of the image of which the motion explains nothing
 };
 
-/// An ambiguity and the ratio that shows it: the verdict's, or the explained area of the competing motion in units of
-/// the chosen one's.
+/// An ambiguity and the ratio that shows it: the verdict's, the area that only the competing motion explains in units
+/// of the chosen one's, or the fraction of the image that moves otherwise.
 struct Doubt {
   Ambiguity kind = Ambiguity::none;
   double ratio = 0;
@@ -62,10 +64,27 @@ struct Selection {
   Effort needed = Effort::everything;  ///< if less was tried, the choice is preliminary
 };
 
-/// Whether most inliers of the first trial's motion agree with the second one's.
-using IsSameMotion = std::function<bool(std::size_t, std::size_t)>;
+/// Comparisons of two trials by their numbers.
+struct Comparison {
+  /// Whether most inliers of the first trial's motion agree with the second one's.
+  std::function<bool(std::size_t, std::size_t)> is_same;
+  /// Explained area of the first trial's motion in cells that do not follow the second one's, without edges that the
+  /// latter explains closely as well.
+  std::function<double(std::size_t, std::size_t)> area_beside;
+};
 
 /// Takes the motion that explains the largest area of the image. `verdicts` are in the order of the trials.
-Selection select(const std::vector<Verdict>& verdicts, const Expectation& expectation, const IsSameMotion& is_same);
+Selection select(const std::vector<Verdict>& verdicts, const Expectation& expectation, const Comparison& comparison);
+
+/// What was found in the image cells that do not follow the chosen motion.
+struct Elsewhere {
+  double area = 0;    ///< fraction of all cells that follow another motion
+  double ratio = 0;   ///< fraction of the cells searched that follow it
+  double spread = 0;  ///< of these cells over the image, in units of that of all cells
+};
+
+/// Whether it is a motion that may be the camera's. \param is_doubtful whether the last motion was ambiguous
+/// \returns no doubt, or motion_elsewhere
+Doubt doubt_about(const Elsewhere& elsewhere, bool is_doubtful);
 
 }  // namespace quadedge::odometry

@@ -8,6 +8,7 @@
 
 #include "common/pool.hpp"
 #include "frontend/rig.hpp"
+#include "odometry/explained_cells.hpp"
 #include "odometry/motion_selection.hpp"
 #include "pose/motion.hpp"
 #include "quadedge/edges.hpp"
@@ -32,8 +33,10 @@ struct MotionStep {
   pose::MotionEstimate motion;
   std::vector<std::uint8_t> agrees;    ///< one per quad: whether it agrees closely with the confirmed motion
   std::vector<std::uint8_t> is_still;  ///< one per quad: whether it is where it was
+  ExplainedCells cells;                ///< of the confirmed motion
   Verdict verdict;
   Doubt doubt;
+  bool is_checked = false;  ///< whether the rest of the image was searched for another motion
 
   bool ok() const { return motion.status == pose::MotionStatus::ok; }
   /// Mean inverse depth of the inliers in the earlier left camera [1/m]; 0 without inliers.
@@ -50,10 +53,18 @@ struct MotionStep {
     motion.status = pose::MotionStatus::too_few_quads;
     agrees.clear();
     is_still.clear();
+    cells.clear();
     verdict = {};
     doubt = {};
+    is_checked = false;
   }
 };
+
+/// A step's motion since the query's base.
+inline Eigen::Isometry3d since_base(const MotionQuery& query, const MotionStep& step) {
+  if (step.base == query.base) return step.motion.current_from_previous;
+  return step.motion.current_from_previous * query.base_from_key.inverse();
+}
 
 /// A step from a pool.
 using StepHandle = Pool<MotionStep>::Handle;

@@ -12,6 +12,9 @@ constexpr double kCloseAgreement = 1.0 / 3.0;
 /// motion. A cell counts as having found at least kMinFoundRatio of its edges in view.
 constexpr double kMinExplainedRatio = 0.25, kMinFoundRatio = 0.1;
 
+/// Edges of a cell that must follow a second motion and not the first, since a single one may do so by chance.
+constexpr double kMinCellEdges = 2;
+
 /// Fraction of the edges in view that lie in such cells, above which another motion is searched for. Rendered scenes
 /// reach 0.02, EuRoC 0.07, KITTI mostly 0.15 to 0.21; a motion that is not the camera's fails to explain more of the
 /// image than it explains.
@@ -20,6 +23,26 @@ constexpr double kSecondaryMotionRatio = 0.25;
 /// A motion with more than this fraction of the edges in view in such cells is a compromise between motions or
 /// accidental.
 constexpr double kMinorityMotionRatio = 0.5;
+
+/// A motion that this fraction of the global matches agree with is not that of a minority: between distant views, most
+/// edges are not found again. Key frames of EuRoC V1_01 reach 0.54 in nine of ten frames.
+constexpr double kConfirmedGlobalRatio = 1.0 / 3.0;
+
+/// A part of the image that moves otherwise counts above these fractions of all image cells and of those that the
+/// chosen motion does not explain. Sound recordings reach 0.06 and 0.16; boards over 40 % of recordings 0.08 to 0.44.
+constexpr double kElsewhereArea = 0.08, kElsewhereRatio = 0.12;
+/// The same for parts on all sides, which are less likely those of an object: their standard deviation over the image
+/// reaches this fraction of that of all cells.
+constexpr double kSurroundingArea = 0.035, kSurroundingRatio = 0.1, kSurroundingSpread = 0.6;
+/// The limits of areas and ratios are this fraction of those if the last motion was in doubt: a motion elsewhere that
+/// is found in one frame is seldom gone in the next.
+constexpr double kDoubtfulElsewhere = 0.25;
+
+/// The rest of the image is searched for another motion after this number of frames, or earlier if the moving ratio has
+/// risen to kCheckedMovingRatio and by kMovingRatioStep; at the start, after a loss and after one was found, in each of
+/// the next kRechecks frames.
+constexpr int kCheckInterval = 10, kRechecks = 3;
+constexpr double kCheckedMovingRatio = 0.1, kMovingRatioStep = 0.1;
 
 /// Two motions whose explained areas have a ratio above this are ambiguous.
 constexpr double kCompetingAreaRatio = 0.4;

@@ -20,10 +20,8 @@ StepHandle RemainingMotion::propose(const MotionQuery& query, const Evidence& ev
                          first.matches.ncc[m], first.matches.competing_clusters[m]);
   }
   steps_.propose(query, limits_, std::nullopt, *step);
-  if (step->base != query.base) {
-    step->motion.current_from_previous = step->motion.current_from_previous * query.base_from_key.inverse();
-    step->base = query.base;
-  }
+  step->motion.current_from_previous = since_base(query, *step);
+  step->base = query.base;
   return step;
 }
 

@@ -19,6 +19,15 @@ class TrackRecord {
     const double support = std::max(found.verdict.support, kSupportDecay * recent_support_);
     recent_support_ = found.ok() ? support : kUnknownSupport;
     is_doubtful_ = found.doubt.exists();
+    --frames_to_check_;
+    if (!found.ok()) {
+      frames_to_check_ = 0;
+      rechecks_ = kRechecks;
+    }
+    if (!found.is_checked) return;
+    rechecks_ = is_doubtful_ ? kRechecks : std::max(0, rechecks_ - 1);
+    frames_to_check_ = rechecks_ > 0 ? 0 : kCheckInterval - 1;
+    checked_moving_ratio_ = found.verdict.moving_ratio;
   }
 
   /// Support from which a motion near the prediction is accepted without further tests: temporal.confident_support, or
@@ -26,6 +35,12 @@ class TrackRecord {
   double confident_support() const {
     if (limits_.wide_edges == 0) return 0;
     return std::min(limits_.confident_support, std::max(kChanceSupport, kRecentSupportRatio * recent_support_));
+  }
+  /// Whether the parts of the image that do not follow a motion have to be searched for another one.
+  bool is_check_due(const Verdict& verdict) const {
+    if (limits_.wide_edges == 0) return false;
+    const double noticeable = std::max(kCheckedMovingRatio, checked_moving_ratio_ + kMovingRatioStep);
+    return frames_to_check_ <= 0 || verdict.moving_ratio > noticeable;
   }
   /// Whether the last motion, which the prediction repeats, was ambiguous.
   bool is_doubtful() const { return is_doubtful_; }
@@ -36,6 +51,8 @@ class TrackRecord {
   TemporalConfig limits_;
   double recent_support_ = kUnknownSupport;
   bool is_doubtful_ = false;
+  int frames_to_check_ = 0, rechecks_ = kRechecks;
+  double checked_moving_ratio_ = 0;
 };
 
 }  // namespace quadedge::odometry

@@ -251,6 +251,9 @@ std::vector<GeometryCase> make_cases() {
                              " % before a moving camera" + (source == cables ? ", cables" : "") +
                              (fine ? ", mosaic" : ""),
                          Demand::right, source, boards_before_a_moving_camera(area, fine)});
+  for (const bool fine : {false, true})
+    cases.push_back({std::string("board over 60 % before a moving camera") + (fine ? ", mosaic" : ""), Demand::reported,
+                     room, boards_before_a_moving_camera(0.6, fine)});
   for (const double area : {0.1, 0.2, 0.4, 0.6})
     for (const double speed : {2.0, 4.0, 8.0})
       for (const bool fine : {false, true})
