@@ -139,6 +139,49 @@ TEST_CASE("edge map: the same frames give the same bytes, and memory is bounded"
   CHECK(small.points().size() > 100);
 }
 
+TEST_CASE("edge map: corrected poses move the views with their points, other views stay", "[map][device]") {
+  EdgeMap map(tracked_room().config, seen_by(1));
+  tracked_room().track_into({&map});
+  const auto before = map.points();
+  const auto views = map.views();
+  Eigen::Isometry3d moved(Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 3).normalized()));
+  moved.translation() = Eigen::Vector3d(4, 5, 6);
+  const auto pose_of = [&](int frame) {
+    for (const MapView& view : views)
+      if (view.frame == frame) return view.world_from_left;
+    return Eigen::Isometry3d::Identity();
+  };
+  map.correct([&](int) { return std::nullopt; });
+  REQUIRE(map.points().size() == before.size());
+  CHECK(map.points().front().position == before.front().position);
+  map.correct([&](int frame) { return moved * pose_of(frame); });
+  const auto after = map.points();
+  REQUIRE(after.size() == before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    CHECK((after[i].position - moved * before[i].position).norm() < 1e-9);
+    CHECK((after[i].tangent.cast<double>() - moved.linear() * before[i].tangent.cast<double>()).norm() < 1e-5);
+    CHECK(after[i].sigma == Approx(before[i].sigma).epsilon(1e-3));
+  }
+  for (std::size_t i = 0; i < views.size(); ++i)
+    CHECK((map.views()[i].world_from_left.matrix() - (moved * views[i].world_from_left).matrix()).norm() < 1e-12);
+  // Only the last view moves: so do the points that it observed last, and no others.
+  EdgeMap other(tracked_room().config, seen_by(1));
+  tracked_room().track_into({&other});
+  other.correct([&](int frame) -> std::optional<Eigen::Isometry3d> {
+    if (frame != views.back().frame) return std::nullopt;
+    return moved * pose_of(frame);
+  });
+  const auto some = other.points();
+  std::size_t same = 0, with_view = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    same += some[i].position == before[i].position ? 1 : 0;
+    with_view += (some[i].position - moved * before[i].position).norm() < 1e-9 ? 1 : 0;
+  }
+  CHECK(same > 0);
+  CHECK(with_view > 0);
+  CHECK(same + with_view == some.size());
+}
+
 TEST_CASE("edge map: files describe their content and are either complete or absent", "[map]") {
   const TemporaryFolder folder;
   MapPoint point;

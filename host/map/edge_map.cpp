@@ -71,6 +71,7 @@ class EdgeMap::Implementation {
   Implementation(const Config& config, const EdgeMapOptions& options) : config_(config), options_(options) {}
 
   bool add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry);
+  void correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left);
   template <class Visit>
   void for_each_seen(const Visit& visit) const {
     for (std::size_t i = 0; i < points_.size(); ++i)
@@ -219,6 +220,22 @@ void EdgeMap::Implementation::append(const map::MeasuredPoint& measured) {
   point.last_view = number();
 }
 
+void EdgeMap::Implementation::correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left) {
+  std::vector<Eigen::Isometry3d> corrections;
+  for (MapView& view : views_) {
+    const auto corrected = world_from_left(view.frame);
+    corrections.push_back(corrected ? *corrected * view.world_from_left.inverse() : Eigen::Isometry3d::Identity());
+    if (corrected) view.world_from_left = *corrected;
+  }
+  for (Point& point : points_) {
+    const Eigen::Isometry3d& correction = corrections[static_cast<std::size_t>(point.last_view)];
+    const Eigen::Matrix3d rotation = correction.linear();
+    point.position = correction * point.position;
+    point.tangent = (rotation * point.tangent.cast<double>()).cast<float>();
+    point.set_information(rotation * point.information_matrix() * rotation.transpose());
+  }
+}
+
 void EdgeMap::Implementation::note_sighting(std::size_t index, float x, float y) {
   if (sightings_.size() < points_.size()) sightings_.resize(points_.size());
   const auto count = static_cast<std::size_t>(points_[index].views) - 1;
@@ -262,6 +279,9 @@ EdgeMap::EdgeMap(const Config& config, const EdgeMapOptions& options)
 EdgeMap::~EdgeMap() = default;
 bool EdgeMap::add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry) {
   return implementation_->add(frame, result, odometry);
+}
+void EdgeMap::correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left) {
+  implementation_->correct(world_from_left);
 }
 const std::vector<MapView>& EdgeMap::views() const { return implementation_->views(); }
 std::size_t EdgeMap::dropped() const { return implementation_->dropped(); }

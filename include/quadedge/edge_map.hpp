@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,11 @@ class EdgeMap {
   /// To be called for every frame after it was tracked. Adds the frame's edges if the frame became the key stereo rig
   /// and its motion is not ambiguous. \returns whether they were added
   bool add(const StereoFrame& frame, const FrameResult& result, const StereoOdometry& odometry);
+
+  /// Moves the view of every frame to `world_from_left(frame)`, and each point with the view that observed it last.
+  /// Views of frames without such a pose stay. To be called after all frames: later ones are not merged with moved
+  /// points.
+  void correct(const std::function<std::optional<Eigen::Isometry3d>(int)>& world_from_left);
 
   /// Points observed by enough key stereo rigs, in the world frame (the first left camera), oldest first.
   std::vector<MapPoint> points() const;
