@@ -52,18 +52,26 @@ void shrink(int factor, PinholeCamera& camera, UndistortionTable& table) {
 
 double focal_length(const PinholeCamera& camera) { return std::sqrt(camera.fx * camera.fy); }
 
+void shrink_camera(double times, PinholeCamera& camera, UndistortionTable& table, PixelMask& mask) {
+  if (times < kMinScaleRatio) return;
+  const int factor = static_cast<int>(std::lround(times));
+  shrink(factor, camera, mask);
+  shrink(factor, camera, table);
+}
+
 }  // namespace
 
 StereoRig with_equal_scales(StereoRig rig) {
   const double ratio = focal_length(rig.left) / focal_length(rig.right);
-  const auto shrink_camera = [](double times, PinholeCamera& camera, UndistortionTable& table, PixelMask& mask) {
-    if (times < kMinScaleRatio) return;
-    const int factor = static_cast<int>(std::lround(times));
-    shrink(factor, camera, mask);
-    shrink(factor, camera, table);
-  };
   shrink_camera(ratio, rig.left, rig.left_undistortion, rig.left_mask);
   shrink_camera(1 / ratio, rig.right, rig.right_undistortion, rig.right_mask);
+  return rig;
+}
+
+StereoRig with_scale_of(const PinholeCamera& camera, StereoRig rig) {
+  const double ratio = focal_length(rig.left) / focal_length(camera);
+  shrink_camera(ratio, rig.left, rig.left_undistortion, rig.left_mask);
+  shrink_camera(ratio, rig.right, rig.right_undistortion, rig.right_mask);
   return rig;
 }
 

@@ -11,4 +11,8 @@ namespace quadedge {
 /// half is the mean of four pixels. Other rigs are returned unchanged.
 StereoRig with_equal_scales(StereoRig rig);
 
+/// Reduces both cameras of such a rig in the same way if their focal length is at least one and a half times that of
+/// another camera, with whose edges theirs are to be matched.
+StereoRig with_scale_of(const PinholeCamera& camera, StereoRig rig);
+
 }  // namespace quadedge

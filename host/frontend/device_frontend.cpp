@@ -247,6 +247,7 @@ RigHandle DeviceFrontend::restore(const KeptRig& kept) {
   restored->start(kept.frame);
   restored->edges = kept.edges;
   restored->edges_spacing = kept.edges_spacing;
+  restored->own_calibration = kept.own_calibration;
   restored->is_restored = true;
   const std::size_t count = kept.edges.size();
   stages::DeviceStereoEdges& rig = restored->on_device;

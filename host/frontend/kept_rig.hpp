@@ -17,10 +17,11 @@ constexpr std::size_t kKeptEdges = 2400;
 /// values of descriptors have four bits.
 struct KeptRig {
   int frame = -1;
-  double edges_spacing = 0;           ///< see Rig
-  StereoEdges edges;                  ///< left_index and right_index count from 0
-  std::vector<std::uint8_t> patches;  ///< kKeptPatchBytes per edge: left, then right
-  std::vector<std::uint8_t> wide;     ///< kKeptWideBytes per edge
+  double edges_spacing = 0;                          ///< see Rig
+  std::shared_ptr<const StereoRig> own_calibration;  ///< see Rig
+  StereoEdges edges;                                 ///< left_index and right_index count from 0
+  std::vector<std::uint8_t> patches;                 ///< kKeptPatchBytes per edge: left, then right
+  std::vector<std::uint8_t> wide;                    ///< kKeptWideBytes per edge
 
   std::size_t bytes() const;
 };

@@ -174,6 +174,7 @@ RigHandle ReferenceFrontend::restore(const KeptRig& kept) {
   restored->start(kept.frame);
   restored->edges = kept.edges;
   restored->edges_spacing = kept.edges_spacing;
+  restored->own_calibration = kept.own_calibration;
   KeptPatches patches = unpack_patches(kept);
   const std::vector<std::uint8_t> no_sift(kept.edges.size() * kEdgeSiftBytes);
   restored->left_descriptions = {std::move(patches.left), no_sift};

@@ -22,14 +22,16 @@ class Rig {
   StereoEdges edges;  ///< on the host
   /// Spacing of the epipolar lines on which edges were selected [px]; 0: all edges. See kernels/edge_selection.cl.
   double edges_spacing = 0;
+  /// The cameras that the edges refer to, if these are not the front end's; offset included.
+  std::shared_ptr<const StereoRig> own_calibration;
 
-  /// Measurements of the stereo edges with a calibration whose disparities include `offset` [px]. Cached until the
-  /// offset changes.
+  /// Measurements of the stereo edges with a calibration whose disparities include `offset` [px], or with their own
+  /// calibration. Cached until the offset changes.
   /// \param min_epipolar_angle see pose::measure() [rad]
   const pose::MeasuredEdges& measured_edges(const StereoRig& calibration, double offset,
                                             double min_epipolar_angle) const {
     if (measured_with_ != offset) {
-      pose::measure_edges(calibration, edges, min_epipolar_angle, measured_);
+      pose::measure_edges(own_calibration ? *own_calibration : calibration, edges, min_epipolar_angle, measured_);
       measured_with_ = offset;
     }
     return measured_;
@@ -37,6 +39,7 @@ class Rig {
   /// Prepares the rig for another frame; keeps its memory.
   void start(int frame_number) {
     frame = frame_number;
+    own_calibration = nullptr;
     measured_with_ = kNever;
   }
 

@@ -7,11 +7,11 @@
 
 #include "map/place_store.hpp"
 #include "map/pose_graph.hpp"
+#include "map/saved_places.hpp"
 #include "odometry/current_rig.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/odometry_constants.hpp"
 #include "pose/rig_uncertainty.hpp"
-#include "quadedge/error.hpp"
 #include "quadedge/pi.hpp"
 
 namespace quadedge {
@@ -38,12 +38,6 @@ struct PendingClosure {
   GraphEdge edge;
 };
 
-void check_filters(const Config& config) {
-  if (config.temporal.wide_edges == 0) throw UsageError("a map needs the global search: temporal.wide_edges above 0");
-  if (config.temporal.sift_max > 0 || config.temporal.coarse_sift_max > 0)
-    throw UsageError("a map keeps no SIFT descriptors: expected temporal.sift_max and temporal.coarse_sift_max of 0");
-}
-
 }  // namespace
 
 const char* to_string(ClosureVerdict verdict) {
@@ -64,11 +58,13 @@ class Map::Implementation {
         store_(static_cast<std::size_t>(config_.map.max_memory_mb * kBytesPerMegabyte)),
         graph_(config_.pose),
         search_(config_, odometry.current_rig().frontend, odometry.current_rig().offset) {
-    check_filters(config_);
+    map::check_map_config(config_);
   }
 
   bool add(const FrameResult& result);
   Trajectory trajectory() const;
+  std::optional<Eigen::Isometry3d> pose(std::size_t frame) const;
+  SavedMap saved() const;
   int segments() const;
   const Eigen::Isometry3d& map_from_odometry() const { return map_from_odometry_; }
   const std::vector<Closure>& closures() const { return closures_; }
@@ -84,6 +80,7 @@ class Map::Implementation {
   void keep(const GraphEdge& edge, Closure& closure);
   LocatedFrame& frame(int number) { return frames_[static_cast<std::size_t>(number)]; }
   std::map<int, int> frames_of_segments() const;
+  int largest_segment() const;
 
   StereoOdometry& odometry_;
   Config config_;
@@ -241,15 +238,44 @@ int Map::Implementation::segments() const {
   return static_cast<int>(std::count_if(counts.begin(), counts.end(), [](const auto& one) { return one.second > 1; }));
 }
 
-Trajectory Map::Implementation::trajectory() const {
-  Trajectory trajectory;
+/// The component with the largest number of frames; -1 without frames.
+int Map::Implementation::largest_segment() const {
   const auto counts = frames_of_segments();
   const auto largest =
       std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return largest == counts.end() ? -1 : largest->first;
+}
+
+Trajectory Map::Implementation::trajectory() const {
+  Trajectory trajectory;
+  const int largest = largest_segment();
   for (const LocatedFrame& located : frames_)
-    if (located.node >= 0 && graph_.component(located.node) == largest->first)
+    if (located.node >= 0 && graph_.component(located.node) == largest)
       trajectory.push_back({located.stamp_ns, graph_.pose(located.node) * located.node_from_left});
   return trajectory;
+}
+
+std::optional<Eigen::Isometry3d> Map::Implementation::pose(std::size_t frame) const {
+  const LocatedFrame& located = frames_.at(frame);
+  if (located.node < 0 || graph_.component(located.node) != largest_segment()) return std::nullopt;
+  return graph_.pose(located.node) * located.node_from_left;
+}
+
+SavedMap Map::Implementation::saved() const {
+  map::SavedPlaces saved;
+  saved.rig = odometry::with_disparity_offset(odometry_.rig(), 0);
+  const odometry::DisparityOffset& offset = odometry_.current_rig().offset;
+  saved.offset = offset.value();
+  saved.offset_variance = offset.variance();
+  saved.settings = map::descriptor_settings(config_);
+  std::vector<map::Place> places;
+  const int largest = largest_segment();
+  for (const map::Place& place : store_.places()) {
+    if (graph_.component(place.node) != largest) continue;
+    places.push_back(place);
+    saved.poses.push_back(graph_.pose(place.node));
+  }
+  return {std::move(saved), std::move(places)};
 }
 
 Map::Map(StereoOdometry& odometry) : implementation_(std::make_unique<Implementation>(odometry)) {}
@@ -257,6 +283,10 @@ Map::~Map() = default;
 bool Map::add(const FrameResult& result) { return implementation_->add(result); }
 const Eigen::Isometry3d& Map::map_from_odometry() const { return implementation_->map_from_odometry(); }
 Trajectory Map::trajectory() const { return implementation_->trajectory(); }
+std::optional<Eigen::Isometry3d> Map::pose(int frame) const {
+  return implementation_->pose(static_cast<std::size_t>(frame));
+}
+SavedMap Map::saved() const { return implementation_->saved(); }
 int Map::segments() const { return implementation_->segments(); }
 const std::vector<Closure>& Map::closures() const { return implementation_->closures(); }
 std::size_t Map::key_rigs() const { return implementation_->store().size(); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "quadedge/odometry.hpp"
+#include "quadedge/saved_map.hpp"
 #include "quadedge/trajectory.hpp"
 
 namespace quadedge {
@@ -55,6 +56,10 @@ class Map {
   /// Corrected poses in the map of all frames that are connected with the largest number of others. A frame that the
   /// odometry has lost is among them if its place was recognised.
   Trajectory trajectory() const;
+  /// Pose of a frame in this trajectory; empty if it is not among them.
+  std::optional<Eigen::Isometry3d> pose(int frame) const;
+  /// The kept key rigs of these frames with their corrected poses, copied.
+  SavedMap saved() const;
   /// Number of segments: groups of at least two frames that measured motions connect.
   int segments() const;
 

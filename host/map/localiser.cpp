@@ -1,0 +1,270 @@
+/// \file localiser.cpp  Frames located in a saved map (doc/method.md section 10).
+#include "quadedge/localiser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/disparity_range.hpp"
+#include "common/equal_scale.hpp"
+#include "common/recorded_images.hpp"
+#include "common/run_cost.hpp"
+#include "map/saved_places.hpp"
+#include "odometry/constant_velocity.hpp"
+#include "odometry/motion_search.hpp"
+#include "odometry/odometry_constants.hpp"
+#include "pose/rig_uncertainty.hpp"
+#include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
+#include "rig_check/rig_monitor.hpp"
+
+namespace quadedge {
+namespace {
+
+/// Two poses are the same if points at the depth of the scene are seen in directions that differ by less than this: far
+/// more than the error of a map between neighbouring key rigs, and less than the distance of two places.
+constexpr double kSamePlace = 3 * kDegree;
+
+/// A frame is compared with `map.candidates` key rigs and, as long as it is lost, up to this many times as many.
+constexpr int kBatches = 4;
+
+/// A motion from a key rig of the map to the frame.
+struct Match {
+  const map::Place* place;
+  pose::RelativePose current_from_key;
+  Eigen::Isometry3d map_from_left;
+  int inliers;
+  double support, inverse_depth;
+  odometry::Doubt doubt;
+};
+
+bool agree(const Match& one, const Match& other) {
+  const Eigen::Isometry3d error = one.map_from_left.inverse() * other.map_from_left;
+  const double depth_shift = error.translation().norm() * std::max(one.inverse_depth, other.inverse_depth);
+  return Eigen::AngleAxisd(error.linear()).angle() + depth_shift < kSamePlace;
+}
+
+bool is_certain(const Match& match) { return !match.doubt.exists() && match.support > odometry::kChanceSupport; }
+
+bool are_equal(const PinholeCamera& one, const PinholeCamera& other) {
+  return one.matrix() == other.matrix() && one.width == other.width && one.height == other.height;
+}
+
+bool are_equal(const StereoRig& one, const StereoRig& other) {
+  return are_equal(one.left, other.left) && are_equal(one.right, other.right) &&
+         one.right_from_left.matrix() == other.right_from_left.matrix();
+}
+
+/// The disparity offset that the map's recording has learned is that of the rig, unless another is given.
+PoseConfig with_offset_of(const map::SavedPlaces& map, const StereoRig& rig, PoseConfig config) {
+  if (!are_equal(map.rig, rig) || config.disparity_offset != 0) return config;
+  config.disparity_offset = map.offset;
+  config.disparity_offset_sigma = std::sqrt(map.offset_variance);
+  return config;
+}
+
+Config checked(const SavedMap& map, const StereoRig& rig, const Config& config) {
+  check_rig(rig, "stereo rig");
+  if (!has_disparity_range(config.stereo)) check_disparity_range(rig, "stereo rig");
+  check_config(config);
+  map::check_map_config(config);
+  const auto settings = map::descriptor_settings(config);
+  for (const auto& [key, value] : map.places().settings)
+    if (std::find(settings.begin(), settings.end(), std::pair(key, value)) == settings.end())
+      throw UsageError("the map was made with " + key + " = " + value + ": expected the same");
+  return config;
+}
+
+std::string rig_text(const Match& match) { return "key rig " + std::to_string(match.place->rig.frame); }
+
+}  // namespace
+
+const char* to_string(LocalisationStatus status) {
+  switch (status) {
+    case LocalisationStatus::located: return "located";
+    case LocalisationStatus::lost_too_few_edges: return "lost_too_few_edges";
+    case LocalisationStatus::lost_rig_mismatch: return "lost_rig_mismatch";
+    case LocalisationStatus::lost_unknown_place: return "lost_unknown_place";
+    case LocalisationStatus::lost_ambiguous: return "lost_ambiguous";
+  }
+  return "unknown";
+}
+
+class Localiser::Implementation {
+ public:
+  Implementation(const SavedMap& map, const StereoRig& rig, Device& device, const Config& config, bool follow)
+      : map_(map),
+        follow_(follow),
+        config_(checked(map, rig, config)),
+        recorded_(rig),
+        rig_(with_scale_of(map.rig().left, with_equal_scales(rig))),
+        frontend_(frontend::make_frontend(rig_, device, config, &warnings_)),
+        offset_(rig_, with_offset_of(map.places(), rig_, config.pose)),
+        search_(config_, *frontend_, offset_),
+        rig_monitor_(rig_) {
+    for (const auto& finding : rig_check::implausible_numbers(rig_)) warnings_.push_back(rig_check::warning(finding));
+  }
+
+  Localisation locate(const StereoFrame& frame);
+  const Config& config() const { return config_; }
+
+ private:
+  void locate(const frontend::RigHandle& rig, Localisation& result);
+  bool follow(const frontend::RigHandle& rig, Localisation& result);
+  std::optional<Match> compare(const map::Place& place, const frontend::RigHandle& rig,
+                               const std::optional<Eigen::Isometry3d>& map_from_left);
+  bool judge(const std::vector<Match>& matches, Localisation& result) const;
+  void take(const Match& match, Localisation& result) const;
+
+  SavedMap map_;
+  bool follow_;
+  Config config_;
+  std::vector<Warning> warnings_;  ///< for the next frame
+  std::set<WarningKind> reported_;
+  RecordedImages recorded_;
+  StereoRig rig_;  ///< the cameras in which edges are detected
+  std::unique_ptr<frontend::Frontend> frontend_;
+  odometry::DisparityOffset offset_;
+  odometry::MotionSearch search_;
+  rig_check::RigMonitor rig_monitor_;
+  std::optional<Eigen::Isometry3d> last_;  ///< pose of the previous frame, if that was located
+  odometry::ConstantVelocity velocity_;
+};
+
+Localisation Localiser::Implementation::locate(const StereoFrame& frame) {
+  recorded_.check(frame.left, frame.right);
+  const auto start = Clock::now();
+  Localisation result;
+  result.stamp_ns = frame.stamp_ns;
+  const frontend::RigHandle rig = frontend_->process(frame);
+  const frontend::FrontendCounts& counts = frontend_->counts();
+  const rig_check::RigReport report = rig_monitor_.judge(frame, rig->edges, counts.edges_left, counts.disparity_range);
+  if (static_cast<int>(rig->edges.size()) < config_.pose.min_inliers) {
+    result.status = LocalisationStatus::lost_too_few_edges;
+    result.message = std::to_string(rig->edges.size()) + " stereo edges";
+  } else if (const auto* mismatch = report.mismatch()) {
+    result.status = LocalisationStatus::lost_rig_mismatch;
+    result.message = rig_check::sentence(*mismatch);
+  } else if (!follow(rig, result)) {
+    locate(rig, result);
+  }
+  if (report.mismatch() == nullptr)
+    for (const auto& finding : report.findings) warnings_.push_back(rig_check::warning(finding));
+  for (const Warning& warning : std::exchange(warnings_, {}))
+    if (reported_.insert(warning.kind).second) result.warnings.push_back(warning);
+  if (last_ && result.map_from_left)
+    velocity_.observe(result.map_from_left->inverse() * *last_, 1);
+  else
+    velocity_.forget();
+  last_ = result.map_from_left;
+  result.latency_ms = milliseconds_since(start);
+  return result;
+}
+
+/// Tries the key rig nearest to the predicted pose: 1 rad counts as much as 1 m.
+bool Localiser::Implementation::follow(const frontend::RigHandle& rig, Localisation& result) {
+  const auto motion = velocity_.predict(1);
+  if (!follow_ || !last_ || !motion) return false;
+  const Eigen::Isometry3d predicted = *last_ * motion->inverse();
+  const std::vector<map::Place>& places = map_.places().store.places();
+  const auto distance = [&](const map::Place& place) {
+    const Eigen::Isometry3d error = map_.places().poses[static_cast<std::size_t>(place.node)].inverse() * predicted;
+    return Eigen::AngleAxisd(error.linear()).angle() + error.translation().norm();
+  };
+  const auto nearest = std::min_element(places.begin(), places.end(), [&](const auto& one, const auto& other) {
+    return distance(one) < distance(other);
+  });
+  const auto match = compare(*nearest, rig, predicted);
+  if (!match || !is_certain(*match)) return false;
+  result.is_followed = true;
+  take(*match, result);
+  return true;
+}
+
+/// Compares the frame with the most similar key rigs, and with more of them while it is lost.
+void Localiser::Implementation::locate(const frontend::RigHandle& rig, Localisation& result) {
+  const map::PlaceSignature signature = map::place_signature(frontend_->keep());
+  const auto may_be = [](const map::Place&) { return true; };
+  const int batch = config_.map.candidates;
+  const auto similar = map_.places().store.most_similar(signature, kBatches * batch, may_be);
+  result.message = "the map has no key rigs";
+  std::vector<Match> matches;
+  for (std::size_t k = 0; k < similar.size(); ++k) {
+    if (auto match = compare(*similar[k].place, rig, std::nullopt)) matches.push_back(*match);
+    const bool is_last = k + 1 == similar.size() || (k + 1) % static_cast<std::size_t>(batch) == 0;
+    if (is_last && judge(matches, result)) return;
+  }
+}
+
+/// The match with most inliers gives the pose if its support, or another that agrees with it, shows that it is not
+/// found by chance, and none that is certain contradicts it. \returns whether the frame is located
+bool Localiser::Implementation::judge(const std::vector<Match>& matches, Localisation& result) const {
+  const auto lose = [&](LocalisationStatus status, const std::string& message) {
+    result.status = status;
+    result.message = message;
+    return false;
+  };
+  if (matches.empty()) return lose(LocalisationStatus::lost_unknown_place, "no key rig of the map matches");
+  const Match* best = nullptr;
+  for (const Match& match : matches)
+    if (!match.doubt.exists() && (best == nullptr || match.inliers > best->inliers)) best = &match;
+  if (best == nullptr)
+    return lose(LocalisationStatus::lost_ambiguous,
+                rig_text(matches.front()) + ": " + odometry::to_string(matches.front().doubt));
+  bool is_confirmed = is_certain(*best);
+  for (const Match& match : matches) {
+    if (&match == best || match.doubt.exists()) continue;
+    if (agree(match, *best)) {
+      is_confirmed = true;
+    } else if (is_certain(match)) {
+      return lose(LocalisationStatus::lost_ambiguous,
+                  "two places match: " + rig_text(*best) + " and " + rig_text(match));
+    }
+  }
+  if (!is_confirmed)
+    return lose(LocalisationStatus::lost_unknown_place, rig_text(*best) + " alone matches, with little support");
+  take(*best, result);
+  return true;
+}
+
+/// Searches for the motion from a place, near a predicted pose if there is one.
+std::optional<Match> Localiser::Implementation::compare(const map::Place& place, const frontend::RigHandle& rig,
+                                                        const std::optional<Eigen::Isometry3d>& map_from_left) {
+  const Eigen::Isometry3d& map_from_key = map_.places().poses[static_cast<std::size_t>(place.node)];
+  odometry::MotionQuery query;
+  query.current = rig;
+  query.base = frontend_->restore(place.rig);
+  query.seed = config_.seed;
+  if (map_from_left) query.prediction = map_from_left->inverse() * map_from_key;
+  const odometry::StepHandle step = search_.find(query);
+  if (!step->ok()) return std::nullopt;
+  const pose::MotionEstimate& motion = step->motion;
+  return Match{&place,
+               {motion.current_from_previous, motion.covariance},
+               map_from_key * motion.current_from_previous.inverse(),
+               motion.inliers,
+               step->verdict.support,
+               step->mean_inverse_depth(),
+               step->doubt};
+}
+
+void Localiser::Implementation::take(const Match& match, Localisation& result) const {
+  pose::UncertainPose key_from_left = pose::pose_in_earlier(match.current_from_key);
+  key_from_left.by_rig = pose::rig_sensitivity(key_from_left.fixed_from_camera, match.inverse_depth);
+  const pose::UncertainPose map_from_key{map_.places().poses[static_cast<std::size_t>(match.place->node)]};
+  result.status = LocalisationStatus::located;
+  result.message.clear();
+  result.map_from_left = match.map_from_left;
+  result.covariance = pose::whole_covariance(map_from_key * key_from_left, config_.pose);
+  result.key_rig = match.place->rig.frame;
+  result.inliers = match.inliers;
+  result.support = match.support;
+}
+
+Localiser::Localiser(const SavedMap& map, const StereoRig& rig, Device& device, const Config& config, bool follow)
+    : implementation_(std::make_unique<Implementation>(map, rig, device, config, follow)) {}
+Localiser::~Localiser() = default;
+Localisation Localiser::locate(const StereoFrame& frame) { return implementation_->locate(frame); }
+const Config& Localiser::config() const { return implementation_->config(); }
+
+}  // namespace quadedge

@@ -1,0 +1,50 @@
+#pragma once
+/// \file saved_maps.hpp  Maps of small rendered recordings, for tests.
+
+#include <string>
+
+#include "devices.hpp"
+#include "quadedge/localiser.hpp"
+#include "quadedge/map.hpp"
+#include "quadedge/odometry.hpp"
+#include "quadedge/synthetic.hpp"
+
+namespace saved_maps {
+
+/// A walk around a room.
+inline quadedge::SyntheticOptions walk(const std::string& scene) {
+  quadedge::SyntheticOptions options;
+  options.scene = scene;
+  options.path = "loop";
+  options.frames = 49;
+  options.width = 320;
+  options.height = 200;
+  options.focal = 184;
+  options.baseline = 0.15;
+  options.supersampling = 2;
+  return options;
+}
+
+/// The map of every second frame of a recording, all of them key rigs.
+inline quadedge::SavedMap map_of(const quadedge::SyntheticOptions& options, const std::string& device_name) {
+  const quadedge::SyntheticSequence sequence(options);
+  quadedge::Device device(device_name, kept_programs());
+  quadedge::Config config;
+  config.odometry.key_max_frames = 1;
+  quadedge::StereoOdometry odometry(sequence.rig(), device, config);
+  quadedge::Map map(odometry);
+  for (int i = 0; i < sequence.frames(); i += 2) {
+    const quadedge::Image left = sequence.render(i, quadedge::Side::left).image,
+                          right = sequence.render(i, quadedge::Side::right).image;
+    map.add(odometry.track({sequence.stamp_ns(i), left.view(), right.view()}));
+  }
+  return map.saved();
+}
+
+/// The map of a room, made once.
+inline const quadedge::SavedMap& room_map() {
+  static const quadedge::SavedMap map = map_of(walk("room"), "0");
+  return map;
+}
+
+}  // namespace saved_maps

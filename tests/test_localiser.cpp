@@ -1,0 +1,148 @@
+#include <cmath>
+
+#include "quadedge/error.hpp"
+#include "quadedge/pi.hpp"
+#include "saved_maps.hpp"
+
+using namespace quadedge;
+
+namespace {
+
+struct LocatedWalk {
+  int frames = 0, located = 0, followed = 0, wrong = 0;
+};
+
+/// Locates every `step`-th frame, from the second, of a walk, in a map that has its even frames.
+LocatedWalk locate_walk(const SavedMap& map, const SyntheticOptions& options, int step,
+                        const std::string& device_name = "0", bool follow = false) {
+  const SyntheticSequence sequence(options);
+  Device device(device_name, kept_programs());
+  Localiser localiser(map, sequence.rig(), device, {}, follow);
+  LocatedWalk walk;
+  for (int i = 1; i < sequence.frames(); i += step) {
+    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
+    const Localisation found = localiser.locate({sequence.stamp_ns(i), left.view(), right.view()});
+    ++walk.frames;
+    CHECK(found.stamp_ns == sequence.stamp_ns(i));
+    CHECK(found.map_from_left.has_value() == (found.status == LocalisationStatus::located));
+    CHECK(found.covariance.has_value() == found.map_from_left.has_value());
+    CHECK(found.message.empty() == found.map_from_left.has_value());
+    if (!found.map_from_left) continue;
+    ++walk.located;
+    walk.followed += found.is_followed ? 1 : 0;
+    const Eigen::Isometry3d error = sequence.world_from_left(i).inverse() * *found.map_from_left;
+    INFO("frame " << i << " against key rig " << found.key_rig << " off by " << error.translation().norm() << " m");
+    const bool is_wrong = error.translation().norm() > 0.05 || Eigen::AngleAxisd(error.linear()).angle() > 1 * kDegree;
+    CHECK_FALSE(is_wrong);
+    walk.wrong += is_wrong ? 1 : 0;
+  }
+  return walk;
+}
+
+}  // namespace
+
+TEST_CASE("localiser: frames between those of the map are located, on all devices", "[device]") {
+  for (const std::string& name : all_devices()) {
+    INFO(name);
+    const LocatedWalk walk = locate_walk(saved_maps::room_map(), saved_maps::walk("room"), 6, name);
+    CHECK(walk.located >= 0.9 * walk.frames);
+  }
+}
+
+TEST_CASE("localiser: half and double light change nothing", "[device]") {
+  for (const double light : {0.5, 2.0}) {
+    INFO(light);
+    SyntheticOptions other = saved_maps::walk("room");
+    other.light = light;
+    const LocatedWalk walk = locate_walk(saved_maps::room_map(), other, 6);
+    CHECK(walk.located >= 0.9 * walk.frames);
+  }
+}
+
+TEST_CASE("localiser: other cameras than the map's", "[device]") {
+  SyntheticOptions longer = saved_maps::walk("room");
+  longer.focal *= 1.15;
+  longer.baseline = 0.1;
+  const LocatedWalk near = locate_walk(saved_maps::room_map(), longer, 6);
+  CHECK(near.located >= 0.8 * near.frames);
+  SyntheticOptions finer = saved_maps::walk("room");
+  finer.width *= 2;
+  finer.height *= 2;
+  finer.focal *= 2;
+  const LocatedWalk far = locate_walk(saved_maps::room_map(), finer, 6);
+  CHECK(far.located >= 0.9 * far.frames);
+}
+
+TEST_CASE("localiser: a recording is followed, and lost frames are found again", "[device]") {
+  const SyntheticSequence sequence(saved_maps::walk("room"));
+  Device device("0", kept_programs());
+  Localiser localiser(saved_maps::room_map(), sequence.rig(), device, {}, true);
+  const Image black(320, 200);
+  int followed = 0;
+  for (int i = 0; i < 16; ++i) {
+    const bool is_black = i == 6;
+    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
+    const Localisation found = localiser.locate(
+        {sequence.stamp_ns(i), is_black ? black.view() : left.view(), is_black ? black.view() : right.view()});
+    INFO(i);
+    if (is_black) {
+      CHECK(found.status == LocalisationStatus::lost_too_few_edges);
+      continue;
+    }
+    REQUIRE(found.map_from_left);
+    CHECK((found.map_from_left->translation() - sequence.world_from_left(i).translation()).norm() < 0.05);
+    if (i < 2 || i == 7 || i == 8) CHECK_FALSE(found.is_followed);  // no velocity is known
+    followed += found.is_followed ? 1 : 0;
+  }
+  CHECK(followed >= 9);
+}
+
+TEST_CASE("localiser: frames of other scenes are not located", "[device]") {
+  for (const char* scene : {"cables", "facade"}) {
+    INFO(scene);
+    CHECK(locate_walk(saved_maps::room_map(), saved_maps::walk(scene), 6).located == 0);
+  }
+}
+
+TEST_CASE("localiser: the same frames give the same bytes, and others before them hardly matter", "[device]") {
+  const SyntheticSequence sequence(saved_maps::walk("room"));
+  Device device("0", kept_programs());
+  const auto locate = [&](Localiser& localiser, int i) {
+    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
+    Localisation found = localiser.locate({0, left.view(), right.view()});
+    REQUIRE(found.map_from_left);
+    return found;
+  };
+  Localiser one(saved_maps::room_map(), sequence.rig(), device), same(saved_maps::room_map(), sequence.rig(), device),
+      other(saved_maps::room_map(), sequence.rig(), device);
+  const Localisation first = locate(one, 7), second = locate(same, 7);
+  CHECK(first.map_from_left->matrix() == second.map_from_left->matrix());
+  CHECK(*first.covariance == *second.covariance);
+  CHECK(first.inliers == second.inliers);
+  // The disparity range follows the images.
+  locate(other, 21);
+  const Localisation later = locate(other, 7);
+  CHECK((later.map_from_left->translation() - first.map_from_left->translation()).norm() < 0.001);
+}
+
+TEST_CASE("localiser: exchanged cameras do not fit the calibration", "[device]") {
+  const SyntheticSequence sequence(saved_maps::walk("room"));
+  Device device("0", kept_programs());
+  Localiser localiser(saved_maps::room_map(), sequence.rig(), device);
+  const Image left = sequence.render(3, Side::left).image, right = sequence.render(3, Side::right).image;
+  const Localisation found = localiser.locate({0, right.view(), left.view()});
+  CHECK(found.status != LocalisationStatus::located);
+}
+
+TEST_CASE("localiser: a configuration whose edges differ from the map's is a usage error", "[device]") {
+  Device device("reference");
+  const StereoRig& rig = saved_maps::room_map().rig();
+  Config config;
+  config.edges.sigma = 3;
+  CHECK_THROWS_AS(Localiser(saved_maps::room_map(), rig, device, config), UsageError);
+  CHECK_THROWS_WITH(Localiser(saved_maps::room_map(), rig, device, config),
+                    Catch::Matchers::Contains("edges.sigma = 2"));
+  config = {};
+  config.temporal.wide_edges = 0;
+  CHECK_THROWS_AS(Localiser(saved_maps::room_map(), rig, device, config), UsageError);
+}
