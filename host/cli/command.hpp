@@ -55,6 +55,7 @@ class Command {
 };
 
 std::unique_ptr<Command> make_run_command();
+std::unique_ptr<Command> make_localise_command();
 std::unique_ptr<Command> make_demo_command();
 std::unique_ptr<Command> make_edges_command();
 std::unique_ptr<Command> make_match_command();

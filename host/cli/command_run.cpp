@@ -1,6 +1,4 @@
 /// \file command_run.cpp  quadedge run: one recorded sequence to a trajectory.
-#include <charconv>
-
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/output_folder.hpp"
@@ -10,17 +8,6 @@
 
 namespace quadedge::cli {
 namespace {
-
-/// One side of "A:B"; `missing` where it is omitted.
-int frame_number(const std::string& text, int missing, const std::string& whole) {
-  if (text.empty()) return missing;
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 0) {
-    throw UsageError("--frames " + whole + ": expected A:B, the first frame and the one after the last, such as 10:50");
-  }
-  return value;
-}
 
 class RunCommand : public Command {
  public:
@@ -49,6 +36,8 @@ class RunCommand : public Command {
     options.number("--min-tracked", min_tracked_, "exit with code 5 if fewer frames are tracked [percent]");
     options.flag("--loops", run_.loops,
                  "recognise places and close loops: trajectory_map.txt and loops.csv beside the odometry's files");
+    options.text("--save-map", run_.saved_map,
+                 "write the places of the recording for `quadedge localise`; implies --loops", "FILE");
     options.text("--offset-file", run_.offset_file,
                  "disparity offset of the rig, learned by earlier runs: read if FILE exists, written at the end",
                  "FILE");
@@ -66,12 +55,8 @@ class RunCommand : public Command {
       throw UsageError("--thumbnails " + std::to_string(run_.thumbnails) + ": expected 0 (none) or more");
     if (!(min_tracked_ >= 0 && min_tracked_ <= 100)) throw UsageError("--min-tracked: expected 0 to 100 percent");
     method_.config();  // reports wrong options before data is read
-    if (!frames_.empty()) {
-      const auto colon = frames_.find(':');
-      if (colon == std::string::npos) frame_number("?", 0, frames_);
-      dataset_.first_frame = frame_number(frames_.substr(0, colon), 0, frames_);
-      dataset_.last_frame = frame_number(frames_.substr(colon + 1), -1, frames_);
-    }
+    set_frames(dataset_, frames_);
+    run_.loops = run_.loops || !run_.saved_map.empty();
     Dataset dataset = source_.open(dataset_);
     if (run_.profile && dataset.format == "pipe")
       throw UsageError("--profile reads the recording twice, which a pipe does not allow");

@@ -15,10 +15,11 @@ void LoopOutput::add(const FrameResult& result) {
   if (map_.closures().size() > before) times_ms_.push_back(milliseconds_since(start));
 }
 
-report::LoopFacts LoopOutput::write(const std::string& folder) const {
+report::LoopFacts LoopOutput::write(const std::string& folder, const std::string& saved_map) const {
   const Trajectory trajectory = map_.trajectory();
   write_tum(folder + "/trajectory_map.txt", trajectory);
   data::write_atomically(folder + "/loops.csv", report::loops_csv(map_.closures()));
+  if (!saved_map.empty()) write_map(saved_map, map_.saved());
   report::LoopFacts facts;
   facts.compared = map_.closures().size();
   facts.kept = static_cast<std::size_t>(

@@ -18,8 +18,10 @@ class LoopOutput {
 
   /// Takes in the frame that was tracked last.
   void add(const FrameResult& result);
-  /// Writes trajectory_map.txt and loops.csv. \throws DataError. \returns what they hold
-  report::LoopFacts write(const std::string& folder) const;
+  const Map& map() const { return map_; }
+  /// Writes trajectory_map.txt and loops.csv and, unless its name is empty, a map file. \throws DataError. \returns
+  /// what they hold
+  report::LoopFacts write(const std::string& folder, const std::string& saved_map) const;
 
  private:
   Map map_;

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   try {
     std::vector<std::unique_ptr<cli::Command>> commands;
     commands.push_back(cli::make_run_command());
+    commands.push_back(cli::make_localise_command());
     commands.push_back(cli::make_demo_command());
     commands.push_back(cli::make_batch_command());
     commands.push_back(cli::make_report_command());

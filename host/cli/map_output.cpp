@@ -61,6 +61,10 @@ void MapOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& resu
   write_image(files_.colmap + "/images", "right", number, frame.right, rig.right_undistortion);
 }
 
+void MapOutput::correct(const Map& map) {
+  if (map_) map_->correct([&](int frame) { return map.pose(frame); });
+}
+
 void MapOutput::write() {
   if (!map_ || map_->views().empty()) return;
   const auto points = map_->points();

@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "quadedge/dataset.hpp"
 #include "quadedge/edge_map.hpp"
+#include "quadedge/map.hpp"
 #include "report/run_record.hpp"
 
 namespace quadedge::cli {
@@ -32,6 +33,8 @@ class MapOutput {
   MapOutput(const MapFiles& files, const Config& config);
   /// Takes in the frame that was tracked last. For COLMAP, writes the pinhole images of a key stereo rig.
   void add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry);
+  /// Moves everything to the corrected poses of the frames.
+  void correct(const Map& map);
   /// Writes what has been collected; nothing before the first key stereo rig. \throws DataError.
   void write();
   /// What was written; nothing if no map is requested.

@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kResultFiles[] = {
-    "trajectory.txt", "trajectory_kitti.txt", "groundtruth.txt", "errors.csv",         "frames.csv",
-    "poses.csv",      "report.json",          "config.toml",     "trajectory_map.txt", "loops.csv"};
+    "trajectory.txt", "trajectory_kitti.txt", "groundtruth.txt",    "errors.csv", "frames.csv",    "poses.csv",
+    "report.json",    "config.toml",          "trajectory_map.txt", "loops.csv",  "locations.csv", "localisation.json"};
 
 bool is_picture(const fs::path& file) {
   const std::string name = file.filename().string();

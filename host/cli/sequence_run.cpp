@@ -145,7 +145,9 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
   Progress progress(options.quiet, "frames");
   int lost = 0;
   const auto write_loops = [&] {
-    if (loops) run.loops = loops->write(options.output);
+    if (!loops) return;
+    map.correct(loops->map());
+    run.loops = loops->write(options.output, options.saved_map);
   };
   try {
     while (const auto frame = source.next()) {
@@ -302,6 +304,7 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   const FolderLock lock = prepare_output_folder(options.output, options.force);
   check_output_file(options.trace, options.force);
   check_output_file(options.offset_file, true);
+  check_output_file(options.saved_map, options.force);
   options.map.check(options.force);
   MapOutput map(options.map, run.config);
   try {

@@ -1,10 +1,34 @@
 #include "cli/source_options.hpp"
 
+#include <charconv>
+
 #include "cli/console.hpp"
 #include "data/source_line.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge::cli {
+namespace {
+
+/// One side of "A:B"; `missing` where it is omitted.
+int frame_number(const std::string& text, int missing, const std::string& whole) {
+  if (text.empty()) return missing;
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 0) {
+    throw UsageError("--frames " + whole + ": expected A:B, the first frame and the one after the last, such as 10:50");
+  }
+  return value;
+}
+
+}  // namespace
+
+void set_frames(DatasetOptions& options, const std::string& frames) {
+  if (frames.empty()) return;
+  const auto colon = frames.find(':');
+  if (colon == std::string::npos) frame_number("?", 0, frames);
+  options.first_frame = frame_number(frames.substr(0, colon), 0, frames);
+  options.last_frame = frame_number(frames.substr(colon + 1), -1, frames);
+}
 
 void SourceOptions::declare_path(Options& options, const std::string& help, const std::string& name) {
   options.positional(name, path_, help + "; -: images from a pipe", false);

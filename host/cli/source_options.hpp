@@ -17,6 +17,9 @@ struct PairOfSource {
   FramePrefetcher::Frame pair;
 };
 
+/// Sets the range of frames to "A:B", either of which may be omitted; empty: all. \throws UsageError
+void set_frames(DatasetOptions& options, const std::string& frames);
+
 /// PATH, which is a recorded sequence or "-", and the options for the user's own cameras.
 class SourceOptions {
  public:
