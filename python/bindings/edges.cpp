@@ -13,8 +13,6 @@
 namespace quadedge::python {
 namespace {
 
-constexpr int kMaxValue16 = 65535;
-
 void bind_edge_set(nb::module_& module) {
   nb::class_<EdgeSet>(module, "Edges", "Third-order edges of one image in scan order. All arrays are (N,) float32.")
       .def("__len__", &EdgeSet::size)
@@ -90,7 +88,7 @@ StereoEdgesInSpace match(nb::handle left, nb::handle right, nb::handle source, n
                          const std::string& preset, nb::handle config) {
   const StereoRig rig = rig_of(source);
   const Config constants = make_config(preset, config);
-  const int max_value = rig.max_value > kMaxValue8 ? rig.max_value : kMaxValue16;
+  const int max_value = max_value_of(rig);
   const ImageArgument left_image(left, "the left image", max_value), right_image(right, "the right image", max_value);
   return DeviceArgument(device).run([&](Device& chosen) {
     StereoOdometry odometry(rig, chosen, constants);

@@ -6,9 +6,15 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
 
 namespace quadedge::python {
+
+constexpr int kMaxValue16 = 65535;
+
+/// Value of a saturated pixel of 16-bit images of a rig.
+inline int max_value_of(const StereoRig& rig) { return rig.max_value > kMaxValue8 ? rig.max_value : kMaxValue16; }
 
 /// An image argument: an array of uint8 or uint16, height x width or height x width x 1. Rows may be padded; an array
 /// that is strided along its rows is copied. Keeps the array alive, and must be destroyed with the GIL held.

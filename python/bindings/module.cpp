@@ -16,5 +16,6 @@ NB_MODULE(_quadedge, module) {
   bind_synthetic(module);
   bind_edges(module);
   bind_odometry(module);
+  bind_maps(module);
   bind_evaluation(module);
 }

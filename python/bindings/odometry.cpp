@@ -2,8 +2,10 @@
 
 #include "quadedge/odometry.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -14,13 +16,24 @@
 #include "device_argument.hpp"
 #include "edges.hpp"
 #include "images.hpp"
+#include "optional_matrix.hpp"
 #include "pickling.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/map.hpp"
+#include "trajectories.hpp"
 
 namespace quadedge::python {
 namespace {
 
-constexpr int kMaxValue16 = 65535;
+/// The result of a frame with the state of the map, if there is one.
+struct MappedResult : FrameResult {
+  std::optional<Eigen::Isometry3d> map_from_odometry;
+};
+template <class Self>
+auto members(Self& self, const MappedResult&) {
+  return std::tuple_cat(quadedge::python::members(self, static_cast<const FrameResult&>(self)),
+                        std::tie(self.map_from_odometry));
+}
 
 /// The edges and quads of one frame.
 struct Details {
@@ -32,17 +45,29 @@ struct Details {
 /// The library's odometry with its device. Calls from several threads are serialised.
 class Odometry {
  public:
-  Odometry(const StereoRig& rig, const std::string& device, const Config& config)
-      : max_value_(rig.max_value > kMaxValue8 ? rig.max_value : kMaxValue16),
-        running_(std::make_unique<Running>(rig, device, config)),
+  Odometry(const StereoRig& rig, const std::string& device, const Config& config, bool loops)
+      : max_value_(max_value_of(rig)),
+        running_(std::make_unique<Running>(rig, device, config, loops)),
         config_(running_->odometry.config()),
         rig_(running_->odometry.rig()) {}
 
-  FrameResult track(const StereoFrame& frame) {
+  MappedResult track(const StereoFrame& frame) {
     const std::lock_guard<std::mutex> alone(in_use_);
-    FrameResult result = running().odometry.track(frame);
+    MappedResult result{running().odometry.track(frame), std::nullopt};
     disparity_offset_ = result.disparity_offset;
+    if (std::optional<Map>& map = running().map) {
+      map->add(result);
+      result.map_from_odometry = map->map_from_odometry();
+    }
     return result;
+  }
+  Trajectory map_trajectory() {
+    const std::lock_guard<std::mutex> alone(in_use_);
+    return map().trajectory();
+  }
+  void save_map(const std::string& file) {
+    const std::lock_guard<std::mutex> alone(in_use_);
+    write_map(file, map().saved());
   }
   StereoEdgesInSpace edges() {
     const std::lock_guard<std::mutex> alone(in_use_);
@@ -70,14 +95,21 @@ class Odometry {
 
  private:
   struct Running {
-    Running(const StereoRig& rig, const std::string& choice, const Config& config)
-        : device(choice), odometry(rig, device, config) {}
+    Running(const StereoRig& rig, const std::string& choice, const Config& config, bool loops)
+        : device(choice), odometry(rig, device, config) {
+      if (loops) map.emplace(odometry);
+    }
     Device device;
     StereoOdometry odometry;
+    std::optional<Map> map;
   };
   Running& running() {
     if (!running_) throw UsageError("the odometry is closed");
     return *running_;
+  }
+  Map& map() {
+    if (!running().map) throw UsageError("the odometry keeps no map: expected Odometry(rig, loops=True)");
+    return *running().map;
   }
   StereoEdgesInSpace in_space(StereoEdges edges) const {
     EdgePoints points = edge_points(edges, rig_, config_, disparity_offset_);
@@ -119,23 +151,6 @@ void bind_evidence(nb::module_& module) {
       .def_ro("found_ratio", &RigEvidence::found_ratio, "Share of these corners that were found, 0 to 1.")
       .def_ro("on_line_ratio", &RigEvidence::on_line_ratio,
               "Share of the found corners within 1 px of their epipolar line, 0 to 1.");
-}
-
-/// A matrix of the object `owner` as an array that keeps it alive; None if there is none.
-template <class Matrix>
-nb::object optional_matrix(const std::optional<Matrix>& matrix, nb::handle owner) {
-  if (!matrix) return nb::none();
-  constexpr std::size_t kSize = Matrix::RowsAtCompileTime;
-  return nb::cast(ArrayView<double>(matrix->data(), {kSize, kSize}, owner, {1, static_cast<std::int64_t>(kSize)}));
-}
-
-/// A property of T that is an optional matrix.
-template <class T, class Matrix>
-void def_optional(nb::class_<T>& bound, const char* name, std::optional<Matrix> T::*member, const char* help) {
-  const std::string signature = std::string("def ") + name + "(self) -> numpy.typing.NDArray[numpy.float64] | None";
-  bound.def_prop_ro(
-      name, [member](nb::handle_t<T> self) { return optional_matrix(nb::cast<const T&>(self).*member, self); },
-      nb::sig(signature.c_str()), help);
 }
 
 void bind_warning(nb::module_& module) {
@@ -198,8 +213,8 @@ void bind_diagnostics(nb::module_& module) {
                "``current_from_reference``. None for a lost frame.");
 }
 
-void bind_poses(nb::class_<FrameResult>& result) {
-  using Self = FrameResult;
+void bind_poses(nb::class_<MappedResult>& result) {
+  using Self = MappedResult;
   using Pose = std::optional<Eigen::Isometry3d>;
   def_optional(
       result, "covariance", &Self::covariance,
@@ -211,39 +226,32 @@ void bind_poses(nb::class_<FrameResult>& result) {
       "(6, 6) float64: covariance of ``current_from_reference`` due to edge errors alone, ROTATION first:\n"
       "rotation about x, y, z [rad], then x, y, z [m], as a left perturbation in the frame of this left camera.\n"
       "None for a lost frame.");
-  const auto def_pose = [&](const char* name, const Pose& (*pose_of)(const Self&), const char* help) {
-    const std::string signature = std::string("def ") + name + "(self) -> numpy.typing.NDArray[numpy.float64] | None";
-    result.def_prop_ro(
-        name,
-        [pose_of](nb::handle_t<Self> self) -> nb::object {
-          const Pose& pose = pose_of(nb::cast<const Self&>(self));
-          if (!pose) return nb::none();
-          return nb::cast(ArrayView<double>(pose->matrix().data(), {4, 4}, self, {1, 4}));
-        },
-        nb::sig(signature.c_str()), help);
-  };
-  def_pose(
-      "world_from_left", [](const Self& self) -> const Pose& { return self.world_from_left; },
+  def_optional(
+      result, "world_from_left", &Self::world_from_left,
       "(4, 4) float64: pose of the left camera in the world frame [m], which is the left camera frame of the first\n"
       "frame (x right, y down, z forward). A segment after the first continues from a predicted pose: its place in\n"
       "the world is not measured. None for a lost frame.");
-  def_pose(
-      "predicted_world_from_left", [](const Self& self) -> const Pose& { return self.predicted_world_from_left; },
+  def_optional(
+      result, "predicted_world_from_left", &Self::predicted_world_from_left,
       "(4, 4) float64: for a lost frame, the pose if the last motion is repeated [m]. None for any other frame.");
-  def_pose(
-      "pose_or_prediction",
+  def_optional(
+      result, "pose_or_prediction",
       [](const Self& self) -> const Pose& {
         return self.world_from_left ? self.world_from_left : self.predicted_world_from_left;
       },
       "(4, 4) float64: ``world_from_left`` or, for a lost frame, ``predicted_world_from_left`` [m].");
-  def_pose(
-      "current_from_reference", [](const Self& self) -> const Pose& { return self.current_from_reference; },
+  def_optional(
+      result, "current_from_reference", &Self::current_from_reference,
       "(4, 4) float64: maps points from the left camera frame of the key rig to that of this frame [m]. None for a\n"
       "lost frame.");
+  def_optional(
+      result, "map_from_odometry", &Self::map_from_odometry,
+      "(4, 4) float64: maps points from the world frame of the odometry to that of the map [m], in which loops are\n"
+      "closed; ``map_from_odometry @ world_from_left`` is the corrected pose. None without ``loops=True``.");
 }
 
 void bind_result(nb::module_& module) {
-  using Self = FrameResult;
+  using Self = MappedResult;
   nb::class_<Self> result(module, "FrameResult", "The result of tracking one frame. Can be pickled and copied.");
   add_pickling(result);
   bind_poses(result);
@@ -288,7 +296,7 @@ void bind_details(nb::module_& module) {
       .def_ro("quads", &Details::quads, "Indices into ``previous_stereo`` and ``stereo``.");
 }
 
-FrameResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::handle right) {
+MappedResult track(Odometry& self, std::int64_t stamp_ns, nb::handle left, nb::handle right) {
   const ImageArgument left_image(left, "the left image", self.max_value());
   const ImageArgument right_image(right, "the right image", self.max_value());
   const nb::gil_scoped_release released;
@@ -303,7 +311,9 @@ constexpr const char* kOdometryHelp =
     "an index of ``devices()``, or a part of a device's name.\n"
     "preset: \"fast\", \"default\" or \"accurate\".\n"
     "config: values that differ from the preset, as a dictionary such as ``{\"stereo.max_disparity\": 100}``\n"
-    "(doc/configuration.md), or the path of a TOML file.\n\n"
+    "(doc/configuration.md), or the path of a TOML file.\n"
+    "loops: keep a map beside the odometry, as ``quadedge run --loops`` does. It recognises places, closes loops and\n"
+    "gives ``map_from_odometry`` of every result and map_trajectory(); the odometry's own poses stay the same.\n\n"
     "Raises DataError for an unusable rig, UsageError for an invalid configuration, and DeviceError when no device\n"
     "matches, a kernel does not build, or the process was forked after OpenCL had been used.";
 
@@ -320,16 +330,18 @@ void bind_odometry(nb::module_& module) {
   nb::class_<Odometry>(module, "Odometry", kOdometryHelp)
       .def(
           "__init__",
-          [](Odometry* self, nb::handle rig, nb::handle device, const std::string& preset, nb::handle config) {
+          [](Odometry* self, nb::handle rig, nb::handle device, const std::string& preset, nb::handle config,
+             bool loops) {
             const StereoRig cameras = rig_of(rig);
             const std::string choice = device_choice(device);
             const Config constants = make_config(preset, config);
             const nb::gil_scoped_release released;
-            new (self) Odometry(cameras, choice, constants);
+            new (self) Odometry(cameras, choice, constants, loops);
           },
           "rig"_a.none(), nb::arg("device").none() = "auto", "preset"_a = "default", "config"_a = nb::none(),
+          "loops"_a = false,
           nb::sig("def __init__(self, rig: Rig | Dataset | Synthetic, device: str | int = 'auto', preset: str = "
-                  "'default', config: dict | str | os.PathLike | None = None) -> None"))
+                  "'default', config: dict | str | os.PathLike | None = None, loops: bool = False) -> None"))
       .def("track", &track, "stamp_ns"_a, "left"_a.none(), "right"_a.none(),
            nb::sig("def track(self, stamp_ns: int, left: numpy.typing.NDArray, right: numpy.typing.NDArray) -> "
                    "FrameResult"),
@@ -357,6 +369,24 @@ void bind_odometry(nb::module_& module) {
             return self.details();
           },
           "All edges and quads of the last tracked frame. Raises UsageError after close().")
+      .def(
+          "map_trajectory",
+          [](Odometry& self) {
+            const nb::gil_scoped_release released;
+            return self.map_trajectory();
+          },
+          "The corrected Trajectory, in the frame of the map: all frames that measured motions connect; if the\n"
+          "trajectory broke and no place joins its segments, those of the largest segment. Raises UsageError without\n"
+          "``loops=True`` and after close().")
+      .def(
+          "save_map",
+          [](Odometry& self, const std::filesystem::path& path) {
+            const nb::gil_scoped_release released;
+            self.save_map(path.string());
+          },
+          "path"_a,
+          "Writes the places of these frames to a file, for Map.load() and ``quadedge localise``.\n\n"
+          "Raises DataError if it cannot be written, UsageError without ``loops=True`` and after close().")
       .def_prop_ro(
           "rig", &Odometry::rig, kView,
           "The pinhole cameras whose pixel coordinates edges are given in: the rig passed to the constructor, or,\n"
