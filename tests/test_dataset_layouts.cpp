@@ -170,6 +170,17 @@ TEST_CASE("dataset: still pairs and the quad are recognised by file names", "[da
   CHECK(calibrated.notes.empty());
   CHECK_THAT(calibrated.disparity_truth, Contains("two_view_training_gt/s/disp0GT.pfm"));
 
+  // As the third Middlebury benchmark has them: spaces around keys, the ground truth beside the images.
+  for (const char* name : {"v3/im0.png", "v3/im1.png"}) write_image(folder / name, 710, 40);
+  write_text(folder / "v3/calib.txt",
+             "cam0=[ 50 0 20; 0 51 15; 0 0 1 ] \n cam1=[50 0 23.5; 0 51 15; 0 0 1]\n doffs= 3.5\nbaseline= 60 \n"
+             " width= 710 \n height= 40\nndisp= 190\n");
+  write_text(folder / "v3/disp0GT.pfm", "Pf");
+  const Dataset benchmark = open_dataset(folder / "v3");
+  CHECK_THAT(benchmark.disparity_truth, Contains("v3/disp0GT.pfm"));
+  CHECK(benchmark.rig.right.cx == 23.5);
+  CHECK(benchmark.rig.max_disparity == Approx(193.5));
+
   for (const char* name : {"m14/im0.png", "m14/im1.png"}) write_image(folder / name, 710, 40);
   write_text(folder / "m14/calib.txt", calibration);
   const Dataset middlebury = open_dataset(folder / "m14");

@@ -1,6 +1,6 @@
 /// \file eth3d_two_view.cpp  ETH3D low-resolution two-view pairs: two_view_training/SCENE/{im0.png,im1.png,calib.txt}
 /// and two_view_training_gt/SCENE/disp0GT.pfm. The same files as in Middlebury 2014; folder names and ground truth
-/// distinguish the two.
+/// distinguish the two. The third Middlebury benchmark has these files too, the ground truth beside the images.
 
 #include "data/layout.hpp"
 
@@ -8,8 +8,8 @@ namespace quadedge::data {
 namespace {
 
 /// Indoor and outdoor scenes at distances of about 0.7 m and more: at most 64 px of disparity, the usual search range
-/// on this benchmark; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %). (ndisp in
-/// calib.txt is the image width and therefore not usable.)
+/// on this benchmark; semi-global matching finds up to 39 px in terrains_1s and 59 px in forest_1s (99 %). ndisp of
+/// ETH3D is the image width and says nothing; the third Middlebury benchmark has a smaller one, which holds.
 constexpr double kMaxDisparity = 64;
 /// Published calibrations are of two kinds: the wide "l" images (above 900 columns) and the "s" images, both with a
 /// baseline of about 6 cm.
@@ -38,9 +38,13 @@ bool is_eth3d_two_view(const fs::path& folder) {
 Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findings& findings) {
   Dataset dataset = still_pair(folder, (folder / "im0.png").string(), (folder / "im1.png").string(), findings);
   dataset.disparity_truth = truth_of(folder);
+  double max_disparity = kMaxDisparity;
   findings.attempt([&] {
     if (fs::exists(folder / "calib.txt")) {
-      dataset.rig = read_pair_calibration((folder / "calib.txt").string()).rig;
+      const PairCalibration calibration = read_pair_calibration((folder / "calib.txt").string());
+      dataset.rig = calibration.rig;
+      if (calibration.disparities > 0 && calibration.disparities < dataset.rig.left.width)
+        max_disparity = calibration.disparities + calibration.disparity_offset;
       return;
     }
     set_sizes_from_first_frame(dataset);
@@ -55,7 +59,7 @@ Dataset read_eth3d_two_view(const fs::path& folder, const DatasetOptions&, Findi
     dataset.notes.push_back("no calib.txt: nominal calibration (f " + std::to_string(dataset.rig.left.fx) +
                             " px, baseline 0.06 m); matches are valid, depths and poses are nominal");
   });
-  dataset.rig.max_disparity = kMaxDisparity;
+  dataset.rig.max_disparity = max_disparity;
   return dataset;
 }
 

@@ -185,8 +185,9 @@ PairCalibration read_pair_calibration(const std::string& file) {
   std::map<std::string, std::pair<std::string, int>> entries;
   for (const auto& line : data_lines(file)) {
     const std::size_t equals = line.text.find('=');
-    if (equals == std::string::npos) fail(file, line.number, in_quotes(line.text), "key=value");
-    const std::string key = line.text.substr(0, equals);
+    const auto names = split(line.text.substr(0, equals));
+    if (equals == std::string::npos || names.size() != 1) fail(file, line.number, in_quotes(line.text), "key=value");
+    const std::string& key = names[0];
     if (!entries.insert({key, {line.text.substr(equals + 1), line.number}}).second)
       fail(file, line.number, "a second entry " + key, "each entry once");
   }
