@@ -158,7 +158,7 @@ enum {
   kSelectionUnit = 256,  // of the weights that edge_selection.cl adds up
   kSelectionSample = 4   // one of so many pairs of rows of the doubled grid is weighed
 };
-FLOAT_CONSTANT kSearchedWidth = 1.5f;     // of the maxima around a line that the searched image keeps, in steps
+FLOAT_CONSTANT kSearchedWidth = 1.25f;    // of the maxima around a line that the searched image keeps, in steps
 FLOAT_CONSTANT kSelectionSteps = 32.0f;   // of the spacing per px: a maximum more or less does not change it
 FLOAT_CONSTANT kClosestSelection = 0.5f;  // px; maxima of a curve are not closer
 
