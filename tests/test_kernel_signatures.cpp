@@ -64,16 +64,16 @@ TEST_CASE("kernels: a wrong host signature is reported with the argument's name"
       for (std::size_t i = before; i < context.kernel_faults().size(); ++i) text += context.kernel_faults()[i];
       return text;
     };
-    using Right = opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
+    using Right = opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
                                  opencl::Out<cl_uchar>, cl_int>;
-    using FloatForInt = opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
+    using FloatForInt = opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
                                        opencl::Out<cl_uchar>, cl_float>;
-    using Writable = opencl::Kernel<opencl::Out<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
+    using Writable = opencl::Kernel<opencl::Out<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
                                     opencl::Out<cl_uchar>, cl_int>;
-    using TooFew = opencl::Kernel<opencl::In<cl_uchar>>;
+    using TooFew = opencl::Kernel<opencl::In<cl_uint>>;
     CHECK(faults_of(Right()).empty());
     CHECK_THAT(faults_of(FloatForInt()), Contains("count") && Contains("float") && Contains("int"));
-    CHECK_THAT(faults_of(Writable()), Contains("recorded") && Contains("const"));
+    CHECK_THAT(faults_of(Writable()), Contains("corners") && Contains("const"));
     CHECK_THAT(faults_of(TooFew()), Contains("7 arguments"));
     CHECK_THROWS_AS(Right(context, program, "no_such_kernel"), DeviceError);
     context.check_kernels(false);

@@ -15,6 +15,7 @@ Undistortion::Undistortion(opencl::Context& context, const UndistortionTable& ta
   const auto& variant = opencl::choose_variant("undistortion", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   kernel_ = {context, variant.program(context, image_defines(max_value)), "undistort"};
+  corners_.emplace(context, max_value);
   source_x_.write(context, table.source_x);
   source_y_.write(context, table.source_y);
 }
@@ -42,7 +43,8 @@ void Undistortion::run(const ImageView& recorded, opencl::Buffer<cl_uchar>& imag
   }
   upload(recorded, recorded_);
   image.ensure(context_, pixels_ * bytes_per_pixel_);
-  kernel_({pixels_, local_size_}, recorded_, recorded.width, recorded.height, source_x_, source_y_, image,
+  corners_->prepare(recorded_, recorded.width, recorded.height);
+  kernel_({pixels_, local_size_}, corners_->values(), recorded.width, recorded.height, source_x_, source_y_, image,
           static_cast<cl_int>(pixels_));
 }
 

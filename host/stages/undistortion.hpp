@@ -2,11 +2,13 @@
 /// \file undistortion.hpp  Stage 1: converts the recorded image to a pinhole image on the device.
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "opencl/kernel.hpp"
 #include "quadedge/camera.hpp"
 #include "quadedge/image.hpp"
+#include "stages/pixel_corners.hpp"
 
 namespace quadedge::stages {
 
@@ -31,8 +33,9 @@ class Undistortion {
   bool active_ = false;
   opencl::Buffer<cl_float> source_x_, source_y_;
   opencl::Buffer<cl_uchar> recorded_;
-  opencl::Kernel<opencl::In<cl_uchar>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>,
-                 opencl::Out<cl_uchar>, cl_int>
+  std::optional<PixelCorners> corners_;  ///< of the recorded image
+  opencl::Kernel<opencl::In<cl_uint>, cl_int, cl_int, opencl::In<cl_float>, opencl::In<cl_float>, opencl::Out<cl_uchar>,
+                 cl_int>
       kernel_;
 };
 
