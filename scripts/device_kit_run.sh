@@ -147,7 +147,7 @@ for sequence in $sequences; do
   part 15 "results, $sequence" "$check" compare "$rows" "$sequence"
 done
 for sequence in $sequences; do
-  for preset in fast default accurate; do
+  for preset in fast default dense; do
     part 12 "latency, $sequence, $preset" "$check" bench "$rows" "$sequence" "$preset" 4
   done
 done

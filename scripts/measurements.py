@@ -42,8 +42,8 @@ JUDGED = (
 )
 # Steps are a few cm: a limit of 5 cm would hide any error.
 STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)
-PRESETS = ("fast", "default", "accurate")
-SYSTEMS = ("default", "fast", "accurate", "paper", "opencv")
+PRESETS = ("fast", "default", "dense")
+SYSTEMS = ("default", "fast", "dense", "paper", "opencv")
 ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_translation_m")
 MATCHED = {
     "ETH3D terrace_2s": ("eth3d_two_view/two_view_training/terrace_2s",),

@@ -5,11 +5,11 @@
 
 import disturbances as sweeps
 
-PRESETS = ("fast", "default", "accurate")
+PRESETS = ("fast", "default", "dense")
 SYSTEMS = {
     "default": "QuadEdge",
     "fast": "QuadEdge, fast",
-    "accurate": "QuadEdge, accurate",
+    "dense": "QuadEdge, dense",
     "paper": "QuadEdge, paper.toml",
     "opencv": "OpenCV SIFT + PnP",
 }

@@ -1,4 +1,4 @@
-/// \file test_presets.cpp  config/fast.toml, default.toml and accurate.toml.
+/// \file test_presets.cpp  config/fast.toml, default.toml and dense.toml.
 #include <catch2/catch.hpp>
 
 #include "data/presets.hpp"
@@ -26,16 +26,16 @@ Config effective(const std::vector<std::string>& options) {
 TEST_CASE("presets: the default preset equals the program's defaults", "[cli]") {
   const Config none, said = read_config(QUADEDGE_KERNELS "/../config/default.toml");
   for (const auto& constant : constants()) CHECK(constant.text(said) == constant.text(none));
-  CHECK(data::preset_names() == std::vector<std::string>{"fast", "default", "accurate"});
+  CHECK(data::preset_names() == std::vector<std::string>{"fast", "default", "dense"});
 }
 
 TEST_CASE("presets: --preset applies its file; --config and the command line override it", "[cli][device]") {
-  CHECK(effective({"--preset", "accurate"}).edges.budget == 0);
+  CHECK(effective({"--preset", "dense"}).edges.budget == 0);
   CHECK(effective({"--preset", "fast"}).edges.budget == 8000);
-  CHECK(effective({"--preset", "accurate", "--edges.budget", "9000"}).edges.budget == 9000);
+  CHECK(effective({"--preset", "dense", "--edges.budget", "9000"}).edges.budget == 9000);
   const TemporaryFolder folder;
   dataset_files::write_text(folder / "mine.toml", "[edges]\nbudget = 7000\n");
-  const Config both = effective({"--preset", "accurate", "--config", folder / "mine.toml"});
+  const Config both = effective({"--preset", "dense", "--config", folder / "mine.toml"});
   CHECK(both.edges.budget == 7000);
   CHECK(both.temporal.ncc_min == 0.6);
   const auto wrong = run_program({"run", small_sequence(), "-o", folder / "out", "--preset", "fastest"});

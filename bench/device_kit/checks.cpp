@@ -78,7 +78,7 @@ void programs_part(const Options& options) {
 namespace {
 
 constexpr double kAllowed = 1e-5;  // px, m, rad
-const char* const kPresets[] = {"fast", "default", "accurate"};
+const char* const kPresets[] = {"fast", "default", "dense"};
 
 std::string stage_file(const Options& options) { return options.data + "/" + options.argument(0) + "/stages"; }
 std::string pose_file(const Options& options, const std::string& preset) {

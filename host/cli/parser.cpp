@@ -109,7 +109,7 @@ class ParserOptions : public Options {
   }
   void config_file() override {
     app_.add_option("--preset", preset_,
-                    "accuracy against speed: accurate uses all edges, fast half as many as default")
+                    "number of edges: fast uses half as many as default, dense all of them, for maps")
         ->check(CLI::IsMember(data::preset_names()).description(""))
         ->type_name(joined(data::preset_names()) + "=default")
         ->group(group_);

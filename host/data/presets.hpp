@@ -13,7 +13,7 @@ struct Preset {
   std::string text;  ///< TOML
 };
 
-/// From fast to accurate.
+/// By the number of edges.
 const std::vector<Preset>& presets();
 
 std::vector<std::string> preset_names();

@@ -18,7 +18,7 @@ Config read_config(const std::string& file, const Config& base = {});
 /// As read_config(), from TOML text; messages refer to it as `name`.
 Config read_config_text(const std::string& text, const std::string& name, const Config& base = {});
 
-/// The values of `--preset`, from fast to accurate.
+/// The values of `--preset`, by the number of edges.
 std::vector<std::string> preset_names();
 
 /// The defaults, modified by a preset. \throws UsageError for an unknown name.

@@ -73,7 +73,7 @@ nb::dict to_dict(const Config& config) {
 }
 
 void bind_configuration(nb::module_& module) {
-  module.def("presets", &preset_names, "Values of ``preset=``, from fast to accurate.");
+  module.def("presets", &preset_names, "Values of ``preset=``, by the number of edges.");
   module.def(
       "configuration",
       [](const std::string& preset, nb::handle config) { return to_dict(make_config(preset, config)); },
