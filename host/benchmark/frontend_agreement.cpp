@@ -121,7 +121,7 @@ FrontendOutput run_frontend(frontend::Frontend& frontend, const FramePrefetcher:
       frontend.match(*output.first, frontend::search_without_motion(output.previous, config.temporal, true));
   output.quads =
       frontend.match(*output.first, frontend::search_without_motion(output.previous, config.temporal, false));
-  output.global_matches = frontend.match_globally(*output.first);
+  output.global_matches = frontend.match_globally(*output.first, config.temporal.wide_edges);
   output.left_edges = frontend.edges(Side::left);
   output.right_edges = frontend.edges(Side::right);
   output.current = now->edges;

@@ -207,34 +207,35 @@ void DeviceFrontend::match(const Rig& base_rig, const TemporalSearch& search, Te
   if (tap_ != nullptr) tap_->quads(matches);
 }
 
-stages::DeviceWideEdges DeviceFrontend::describe_current() {
+stages::DeviceWideEdges DeviceFrontend::describe_current(int wanted) {
   const stages::DeviceStereoEdges& current = rigs_.current().on_device;
-  const int step = wide_step(static_cast<std::size_t>(current.count), 2 * config_.temporal.wide_edges);
-  if (wide_rows_ < 0) {
+  const int step = wide_step(static_cast<std::size_t>(current.count), wanted);
+  if (wide_rows_ < 0 || wide_step_ != step) {
     wide_description_.prepare(current.left_image.pixels, small_);
     wide_rows_ = wide_description_.describe(small_, current, step, wide_now_);
+    wide_step_ = step;
   }
   return {current, step, wide_rows_, wide_now_};
 }
 
-void DeviceFrontend::match_globally(const Rig& base, TemporalMatches& matches) {
+void DeviceFrontend::match_globally(const Rig& base, int edges, TemporalMatches& matches) {
   const DeviceRig& own = rigs_.own(base);
   const stages::DeviceStereoEdges& before = own.on_device;
   const StereoEdges& current = rigs_.current().edges;
   if (own.is_restored) {
-    matches = wide_matching_.run({before, 1, before.count, own.wide}, describe_current(), current);
+    matches = wide_matching_.run({before, 1, before.count, own.wide}, describe_current(2 * edges), current);
     return;
   }
-  const int step = wide_step(static_cast<std::size_t>(before.count), config_.temporal.wide_edges);
+  const int step = wide_step(static_cast<std::size_t>(before.count), edges);
   wide_description_.prepare(before.left_image.pixels, small_);
   const int rows = wide_description_.describe(small_, before, step, wide_before_);
-  matches = wide_matching_.run({before, step, rows, wide_before_}, describe_current(), current);
+  matches = wide_matching_.run({before, step, rows, wide_before_}, describe_current(2 * edges), current);
 }
 
 KeptRig DeviceFrontend::keep() {
   const DeviceRig& current = rigs_.current();
   const stages::DeviceStereoEdges& rig = current.on_device;
-  const stages::DeviceWideEdges described = describe_current();
+  const stages::DeviceWideEdges described = describe_current(2 * config_.temporal.wide_edges);
   const auto wide = described.descriptors.read(static_cast<std::size_t>(described.rows) * kWideBytes);
   const auto left = rig.left_patches.read(static_cast<std::size_t>(left_.edges.host_count) * kEdgePatchBytes);
   const auto right = rig.right_patches.read(current.edges.size() * kEdgePatchBytes);

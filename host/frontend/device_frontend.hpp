@@ -39,7 +39,7 @@ class DeviceFrontend : public Frontend {
 
   RigHandle process(const StereoFrame& frame) override;
   void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) override;
-  void match_globally(const Rig& base, TemporalMatches& matches) override;
+  void match_globally(const Rig& base, int edges, TemporalMatches& matches) override;
   KeptRig keep() override;
   RigHandle restore(const KeptRig& kept) override;
   EdgeSet edges(Side side) override;
@@ -67,7 +67,8 @@ class DeviceFrontend : public Frontend {
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
   /// Computes wide descriptors of the current rig, once per frame.
-  stages::DeviceWideEdges describe_current();
+  /// About `wanted` stereo edges of the current rig with their wide descriptors.
+  stages::DeviceWideEdges describe_current(int wanted);
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
   stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, Side side) const;
   /// Computes SIFT descriptors of a rig's stereo edges, unless they exist.
@@ -114,7 +115,7 @@ class DeviceFrontend : public Frontend {
   stages::DevicePositions predicted_;  ///< lists: left, right
   stages::DevicePointIndex left_index_, right_index_;
   bool indexed_ = false;                   ///< for the current frame
-  int wide_rows_ = -1;                     ///< of wide_now_; -1: not yet described
+  int wide_rows_ = -1, wide_step_ = 1;     ///< of wide_now_; -1: not yet described
   opencl::Buffer<cl_char> right_patches_;  ///< of all edges of the right image
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
       right_sift_{context_, 0};    ///< of all edges, if the stereo cascade uses SIFT

@@ -41,15 +41,17 @@ class Frontend {
   virtual void match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) = 0;
   /// Quads between a subset of the base's edges and the current rig, matched over the whole left image by wide
   /// descriptors.
-  virtual void match_globally(const Rig& base, TemporalMatches& matches) = 0;
+  /// \param edges approximate number of the base's edges and, twice as many, of the current rig's that take part;
+  /// ignored for a restored rig, which has its own
+  virtual void match_globally(const Rig& base, int edges, TemporalMatches& matches) = 0;
   TemporalMatches match(const Rig& base, const TemporalSearch& search) {
     TemporalMatches matches;
     match(base, search, matches);
     return matches;
   }
-  TemporalMatches match_globally(const Rig& base) {
+  TemporalMatches match_globally(const Rig& base, int edges) {
     TemporalMatches matches;
-    match_globally(base, matches);
+    match_globally(base, edges, matches);
     return matches;
   }
 

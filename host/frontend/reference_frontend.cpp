@@ -154,9 +154,9 @@ reference::WideEdges describe_some(const ReferenceRig& rig, int wanted) {
 
 }  // namespace
 
-void ReferenceFrontend::match_globally(const Rig& base, TemporalMatches& matches) {
-  matches = reference::wide_matches(describe_some(rigs_.own(base), config_.temporal.wide_edges),
-                                    describe_some(rigs_.current(), 2 * config_.temporal.wide_edges), config_.temporal);
+void ReferenceFrontend::match_globally(const Rig& base, int edges, TemporalMatches& matches) {
+  matches = reference::wide_matches(describe_some(rigs_.own(base), edges), describe_some(rigs_.current(), 2 * edges),
+                                    config_.temporal);
 }
 
 KeptRig ReferenceFrontend::keep() {

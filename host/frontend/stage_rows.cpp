@@ -193,7 +193,8 @@ std::vector<StageRows> observe_stages(const SmallSequence& sequence, Device& dev
                       edges);
   collector.add_quads("temporal_candidates, temporal_quads",
                       frontend->match(*base, search_without_motion(edges, config.temporal, true)), edges);
-  collector.add_quads("wide_description, wide_matching", frontend->match_globally(*base), edges);
+  collector.add_quads("wide_description, wide_matching", frontend->match_globally(*base, config.temporal.wide_edges),
+                      edges);
   return std::move(collector.stages);
 }
 

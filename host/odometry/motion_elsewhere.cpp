@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "odometry/odometry_constants.hpp"
 #include "odometry/relocalisation.hpp"
 
 namespace quadedge::odometry {
@@ -16,7 +17,8 @@ MotionElsewhere::MotionElsewhere(const Config& config, frontend::Frontend& front
       acceptance_(acceptance) {}
 
 Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chosen, const MotionStep* global_matches) {
-  if (global_matches == nullptr) frontend_.match_globally(*query.base, matches_);
+  if (global_matches == nullptr)
+    frontend_.match_globally(*query.base, std::max(1, config_.temporal.wide_edges / kElsewhereThinning), matches_);
   const TemporalMatches& all = global_matches != nullptr ? global_matches->matches : matches_;
   const StepHandle proposed = steps_.take(query.base);
   for (std::size_t m = 0; m < all.size(); ++m) {

@@ -3,11 +3,14 @@
 namespace quadedge::odometry {
 
 Relocalisation::Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config)
-    : frontend_(frontend), steps_(steps), limits_(limits_of_global_matches(config)) {}
+    : frontend_(frontend),
+      steps_(steps),
+      limits_(limits_of_global_matches(config)),
+      wide_edges_(config.temporal.wide_edges) {}
 
 StepHandle Relocalisation::propose(const MotionQuery& query, const Evidence&) {
   StepHandle step = steps_.take(query.base);
-  frontend_.match_globally(*query.base, step->matches);
+  frontend_.match_globally(*query.base, wide_edges_, step->matches);
   steps_.propose(query, limits_, std::nullopt, *step);
   return step;
 }

@@ -18,6 +18,7 @@ class Relocalisation : public MotionHypothesis {
   frontend::Frontend& frontend_;
   StepBuilder& steps_;
   PoseConfig limits_;
+  int wide_edges_;
 };
 
 /// Limits for the motion of global matches, whose inlier distance is larger because a match may be a neighbour of the
