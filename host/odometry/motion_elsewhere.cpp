@@ -16,9 +16,10 @@ MotionElsewhere::MotionElsewhere(const Config& config, frontend::Frontend& front
       confirmation_(confirmation),
       acceptance_(acceptance) {}
 
-Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chosen, const MotionStep* global_matches) {
-  if (global_matches == nullptr)
-    frontend_.match_globally(*query.base, std::max(1, config_.temporal.wide_edges / kElsewhereThinning), matches_);
+Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chosen, const MotionStep* global_matches,
+                                bool thorough) {
+  const int edges = config_.temporal.wide_edges / (thorough ? 1 : kElsewhereThinning);
+  if (global_matches == nullptr) frontend_.match_globally(*query.base, std::max(1, edges), matches_);
   const TemporalMatches& all = global_matches != nullptr ? global_matches->matches : matches_;
   const StepHandle proposed = steps_.take(query.base);
   for (std::size_t m = 0; m < all.size(); ++m) {

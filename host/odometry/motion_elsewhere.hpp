@@ -18,7 +18,9 @@ class MotionElsewhere {
                   const Acceptance& acceptance);
 
   /// \param global_matches of the query's base; null if none were computed
-  Elsewhere find(const MotionQuery& query, const MotionStep& chosen, const MotionStep* global_matches);
+  /// \param thorough whether all of temporal.wide_edges take part if they have to be computed, which takes as long as
+  /// the rest of the frame
+  Elsewhere find(const MotionQuery& query, const MotionStep& chosen, const MotionStep* global_matches, bool thorough);
 
  private:
   Config config_;

@@ -46,7 +46,8 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   chosen.is_checked = selection.accepted && record_.is_check_due(chosen.verdict);
   if (chosen.is_checked) {
     const Doubt beside =
-        doubt_about(elsewhere_.find(query, chosen, evidence_of(trials).global_matches), record_.is_doubtful());
+        doubt_about(elsewhere_.find(query, chosen, evidence_of(trials).global_matches, !record_.is_settled()),
+                    record_.is_doubtful());
     if (!selection.doubt.exists()) selection.doubt = beside;
   }
   StepHandle found = std::move(trials.at(selection.trial).outcome());

@@ -42,6 +42,8 @@ class TrackRecord {
     const double noticeable = std::max(kCheckedMovingRatio, checked_moving_ratio_ + kMovingRatioStep);
     return frames_to_check_ <= 0 || verdict.moving_ratio > noticeable;
   }
+  /// Whether the last searches found no other motion.
+  bool is_settled() const { return rechecks_ == 0; }
   /// Whether the last motion, which the prediction repeats, was ambiguous.
   bool is_doubtful() const { return is_doubtful_; }
 
