@@ -117,10 +117,8 @@ void report_doubts(const FrameResult& result, const report::RunRecord& run) {
   if (starts_segment && result.warnings.empty()) note(warning + result.message);
 }
 
-/// First pass: poses and latencies.
-void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
-                  const Interruption& interruption, MapOutput& map, report::RunRecord& run) {
-  const auto opening = Clock::now();
+/// Opens the device and reports its self-test.
+Device open_tested_device(const MethodOptions& method, report::RunRecord& run) {
   SelfTestResult test;
   Device device = method.open_device(false, &test);
   run.self_test = {device.is_reference() ? "not needed" : test.passed() ? "passed" : "failed", test};
@@ -128,6 +126,14 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
     note("warning: the device fails the self-test at stage " + test.stage + " (" + test.difference +
          "); it is used because of --trust");
   }
+  return device;
+}
+
+/// First pass: poses and latencies.
+void track_frames(FrameSource& source, const MethodOptions& method, const SequenceRunOptions& options,
+                  const Interruption& interruption, MapOutput& map, report::RunRecord& run) {
+  const auto opening = Clock::now();
+  Device device = open_tested_device(method, run);
   add_saved_variants(device, run.config);
   const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
   StereoOdometry& odometry = *pipeline;
