@@ -66,8 +66,8 @@ class DeviceFrontend : public Frontend {
   void find_stereo_edges(DeviceRig& current);
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
-  /// Computes wide descriptors of the current rig, once per frame.
-  /// About `wanted` stereo edges of the current rig with their wide descriptors.
+  /// About `wanted` stereo edges of the current rig with their wide descriptors, which are computed once per frame and
+  /// number.
   stages::DeviceWideEdges describe_current(int wanted);
   const stages::DevicePointIndex& index(Side side) const { return side == Side::left ? left_index_ : right_index_; }
   stages::DescribedEdges described(const stages::DeviceStereoEdges& rig, Side side) const;
