@@ -11,12 +11,12 @@
 
 namespace saved_maps {
 
-/// A walk around a room.
-inline quadedge::SyntheticOptions walk(const std::string& scene) {
+/// A recording of a scene in small images.
+inline quadedge::SyntheticOptions small(const std::string& scene, const std::string& path, int frames) {
   quadedge::SyntheticOptions options;
   options.scene = scene;
-  options.path = "loop";
-  options.frames = 49;
+  options.path = path;
+  options.frames = frames;
   options.width = 320;
   options.height = 200;
   options.focal = 184;
@@ -24,6 +24,9 @@ inline quadedge::SyntheticOptions walk(const std::string& scene) {
   options.supersampling = 2;
   return options;
 }
+
+/// A walk around a room.
+inline quadedge::SyntheticOptions walk(const std::string& scene) { return small(scene, "loop", 49); }
 
 /// The map of every second frame of a recording, all of them key rigs.
 inline quadedge::SavedMap map_of(const quadedge::SyntheticOptions& options, const std::string& device_name) {

@@ -6,8 +6,10 @@
 #include "quadedge/map.hpp"
 #include "quadedge/pi.hpp"
 #include "quadedge/synthetic.hpp"
+#include "saved_maps.hpp"
 
 using namespace quadedge;
+using saved_maps::small;
 
 namespace {
 
@@ -17,19 +19,6 @@ struct Shot {
   Image left, right;
   Eigen::Isometry3d world_from_left;
 };
-
-SyntheticOptions small(const std::string& scene, const std::string& path, int frames) {
-  SyntheticOptions options;
-  options.scene = scene;
-  options.path = path;
-  options.frames = frames;
-  options.width = 320;
-  options.height = 200;
-  options.focal = 184;
-  options.baseline = 0.15;
-  options.supersampling = 2;
-  return options;
-}
 
 /// Appends frames first, first + step ... up to last.
 void visit(const SyntheticOptions& options, int first, int last, int step, std::vector<Shot>& shots) {

@@ -54,23 +54,29 @@ ExplainedCells Acceptance::explained_beside(const MotionStep& other, const Eigen
   return cells;
 }
 
-double Acceptance::static_ratio(MotionStep& step) const {
+double Acceptance::static_ratio(const MotionStep& step) const {
   const double close = kCloseAgreement * config_.pose.inlier_distance, turn = config_.pose.inlier_orientation_rad();
   const auto& quads = step.quads.scoring;
+  std::vector<std::uint8_t> follows, is_still;
   pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous), 2 * close, turn,
-                       step.agrees);
-  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn,
-                       step.is_still);
+                       follows);
+  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn, is_still);
   std::size_t still = 0;
-  for (std::size_t q = 0; q < quads.size(); ++q) still += step.is_still[q] != 0 && step.agrees[q] == 0 ? 1 : 0;
+  for (std::size_t q = 0; q < quads.size(); ++q) still += is_still[q] != 0 && follows[q] == 0 ? 1 : 0;
   return static_cast<double>(still) / std::max(1.0, static_cast<double>(quads.size()));
 }
 
-bool Acceptance::are_same_motion(const MotionStep& found, const MotionStep& other,
-                                 const Eigen::Isometry3d& base_from_other) const {
+double Acceptance::area_beside(const MotionStep& found, const MotionStep& other,
+                               const Eigen::Isometry3d& motion) const {
+  ExplainedCells cells = explained_beside(found, motion, kCloseAgreement * config_.pose.inlier_distance);
+  for (std::size_t i = 0; i < cells.all().size(); ++i)
+    if (!other.cells.all()[i].is_free()) cells.all()[i].explained = 0;
+  return cells.explained_area();
+}
+
+bool Acceptance::is_same_motion(const MotionStep& found, const Eigen::Isometry3d& other) const {
   std::vector<std::uint8_t> agrees;
-  const Eigen::Isometry3d motion = other.motion.current_from_previous * base_from_other.inverse();
-  pose::select_inliers(found.quads.scoring, pose::LaterCameras(offset_.rig(), motion), config_.pose.inlier_distance,
+  pose::select_inliers(found.quads.scoring, pose::LaterCameras(offset_.rig(), other), config_.pose.inlier_distance,
                        config_.pose.inlier_orientation_rad(), agrees);
   int inliers = 0, shared = 0;
   for (std::size_t q = 0; q < agrees.size(); ++q) {
@@ -84,9 +90,9 @@ bool Acceptance::are_same_motion(const MotionStep& found, const MotionStep& othe
 bool Acceptance::agrees_with_global_matches(const MotionStep& global_matches, const MotionQuery& query,
                                             const MotionStep& step, double& ratio) const {
   std::vector<std::uint8_t> agrees;
-  const int agreeing =
-      pose::select_inliers(global_matches.quads.scoring, pose::LaterCameras(offset_.rig(), since_base(query, step)),
-                           config_.temporal.wide_inlier_distance, config_.pose.inlier_orientation_rad(), agrees);
+  const int agreeing = pose::select_inliers(
+      global_matches.quads.scoring, pose::LaterCameras(offset_.rig(), motion_since(query.base, query, step)),
+      config_.temporal.wide_inlier_distance, config_.pose.inlier_orientation_rad(), agrees);
   ratio = agreeing / std::max(1.0, static_cast<double>(agrees.size()));
   return pose::count_cells(global_matches.quads.scoring, agrees, config_.pose.inflation_cell) >=
          config_.pose.min_inliers;

@@ -25,10 +25,12 @@ class Acceptance {
   /// still.
   void judge(const EdgePositions& predicted, MotionStep& step) const;
 
-  /// Whether most inliers of `found` also agree with `other`.
-  /// \param base_from_other between the rigs that the two motions are measured against
-  bool are_same_motion(const MotionStep& found, const MotionStep& other,
-                       const Eigen::Isometry3d& base_from_other) const;
+  /// Whether most inliers of `found` also agree with the motion `other` since the same rig.
+  bool is_same_motion(const MotionStep& found, const Eigen::Isometry3d& other) const;
+
+  /// Explained area of `found` in cells that do not follow the motion of `other`, without edges that the latter
+  /// explains closely as well. \param motion that of `other`, since the rig of `found`
+  double area_beside(const MotionStep& found, const MotionStep& other, const Eigen::Isometry3d& motion) const;
 
   /// What `other` explains closely of the image while `chosen` is off by more than `distance` [px].
   /// \param chosen current_from_base, since the base of `other`
@@ -45,7 +47,7 @@ class Acceptance {
   /// Fraction of the quads that are static although the motion would have moved them. Edges are not static by chance,
   /// and distant edges agree with the motion as well. Hence, either the camera did not move, or something moves along
   /// with it.
-  double static_ratio(MotionStep& step) const;
+  double static_ratio(const MotionStep& step) const;
 
   /// Sets the explained area, which weights objects by the area that they cover, not by their number of edges, and the
   /// moving ratio.

@@ -44,9 +44,9 @@ StepHandle Confirmation::confirm_beside(const MotionQuery& query, const Eigen::I
 /// Few edges match a key rig that is moving out of view. If the edges of the base, which is closer in time, follow the
 /// same motion, their support is used.
 void Confirmation::take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key) {
-  const Eigen::Isometry3d key_from_base = query.base_from_key.inverse();
-  const StepHandle by_base = match(query, query.base, limits, by_key.motion.current_from_previous * key_from_base);
-  if (by_base->ok() && acceptance_.are_same_motion(*by_base, by_key, query.base_from_key))
+  const Eigen::Isometry3d current_from_base = motion_since(query.base, query, by_key);
+  const StepHandle by_base = match(query, query.base, limits, current_from_base);
+  if (by_base->ok() && acceptance_.is_same_motion(*by_base, current_from_base))
     by_key.verdict.support = std::max(by_key.verdict.support, by_base->verdict.support);
 }
 

@@ -33,7 +33,7 @@ Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chos
   const StepHandle other = confirmation_.confirm_beside(query, proposed->motion.current_from_previous, chosen.cells);
   if (!other->ok()) return {};
   const ExplainedCells cells =
-      acceptance_.explained_beside(*other, since_base(query, chosen), config_.pose.inlier_distance);
+      acceptance_.explained_beside(*other, motion_since(query.base, query, chosen), config_.pose.inlier_distance);
   const int searched = chosen.cells.count(false), following = cells.count(true);
   const double count = following;
   Elsewhere found;

@@ -17,8 +17,7 @@ MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, c
       acceptance_(config, offset),
       confirmation_(config, frontend, steps_, acceptance_),
       elsewhere_(config, frontend, steps_, confirmation_, acceptance_),
-      record_(config),
-      inlier_distance_(config.pose.inlier_distance) {
+      record_(config) {
   const auto add = [&](auto hypothesis) {
     hypotheses_.push_back(std::make_unique<decltype(hypothesis)>(std::move(hypothesis)));
   };
@@ -87,23 +86,14 @@ Selection MotionSearch::choose(const MotionQuery& query, const Trials& trials) c
     if (trial.hypothesis->effort() == Effort::prediction) expectation.trial = verdicts.size();
     verdicts.push_back(verdict_of(trial, evidence, query));
   }
-  // The base of a step may be the key rig.
-  const auto base_from_its = [&](const MotionStep& step) -> Eigen::Isometry3d {
-    return query.key && step.base == query.base ? query.base_from_key : Eigen::Isometry3d::Identity();
-  };
   Comparison comparison;
   comparison.is_same = [&](std::size_t one, std::size_t other) {
     const MotionStep &found = trials[one].outcome(), &its = trials[other].outcome();
-    return acceptance_.are_same_motion(found, its, base_from_its(found) * base_from_its(its).inverse());
+    return acceptance_.is_same_motion(found, motion_since(found.base, query, its));
   };
   comparison.area_beside = [&](std::size_t one, std::size_t other) {
     const MotionStep &found = trials[one].outcome(), &its = trials[other].outcome();
-    const Eigen::Isometry3d motion =
-        its.motion.current_from_previous * (base_from_its(found) * base_from_its(its).inverse()).inverse();
-    ExplainedCells cells = acceptance_.explained_beside(found, motion, kCloseAgreement * inlier_distance_);
-    for (std::size_t i = 0; i < cells.all().size(); ++i)
-      if (!its.cells.all()[i].is_free()) cells.all()[i].explained = 0;
-    return cells.explained_area();
+    return acceptance_.area_beside(found, its, motion_since(found.base, query, its));
   };
   return select(verdicts, expectation, comparison);
 }

@@ -56,7 +56,6 @@ class MotionSearch {
   Confirmation confirmation_;
   MotionElsewhere elsewhere_;
   TrackRecord record_;
-  double inlier_distance_;
   std::vector<std::unique_ptr<MotionHypothesis>> hypotheses_;  ///< in the order in which they are tried
 };
 

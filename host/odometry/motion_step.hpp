@@ -31,9 +31,8 @@ struct MotionStep {
   TemporalMatches matches;
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
-  std::vector<std::uint8_t> agrees;    ///< one per quad: whether it agrees closely with the confirmed motion
-  std::vector<std::uint8_t> is_still;  ///< one per quad: whether it is where it was
-  ExplainedCells cells;                ///< of the confirmed motion
+  std::vector<std::uint8_t> agrees;  ///< one per quad: whether it agrees closely with the confirmed motion
+  ExplainedCells cells;              ///< of the confirmed motion
   Verdict verdict;
   Doubt doubt;
   bool is_checked = false;  ///< whether the rest of the image was searched for another motion
@@ -52,7 +51,6 @@ struct MotionStep {
     matches.clear();
     motion.status = pose::MotionStatus::too_few_quads;
     agrees.clear();
-    is_still.clear();
     cells.clear();
     verdict = {};
     doubt = {};
@@ -60,10 +58,11 @@ struct MotionStep {
   }
 };
 
-/// A step's motion since the query's base.
-inline Eigen::Isometry3d since_base(const MotionQuery& query, const MotionStep& step) {
-  if (step.base == query.base) return step.motion.current_from_previous;
-  return step.motion.current_from_previous * query.base_from_key.inverse();
+/// A step's motion since `rig`, which, like the step's own rig, is the query's base or key.
+inline Eigen::Isometry3d motion_since(const frontend::RigHandle& rig, const MotionQuery& query,
+                                      const MotionStep& step) {
+  if (step.base == rig) return step.motion.current_from_previous;
+  return step.motion.current_from_previous * (rig == query.base ? query.base_from_key.inverse() : query.base_from_key);
 }
 
 /// A step from a pool.

@@ -20,7 +20,7 @@ StepHandle RemainingMotion::propose(const MotionQuery& query, const Evidence& ev
                          first.matches.ncc[m], first.matches.competing_clusters[m]);
   }
   steps_.propose(query, limits_, std::nullopt, *step);
-  step->motion.current_from_previous = since_base(query, *step);
+  step->motion.current_from_previous = motion_since(query.base, query, *step);
   step->base = query.base;
   return step;
 }
