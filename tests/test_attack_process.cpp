@@ -61,6 +61,12 @@ const std::vector<ProcessAttack> kProcessAttacks = {
      "cp -r $DATA $OUT.data; echo > $OUT.data/rgb2/0.100000000.png; $QUADEDGE run $OUT.data -o $OUT --map /dev/full "
      "--force",
      3, "2 finished frames in", true},
+    {"an image is damaged while frames are located",
+     "$QUADEDGE run $DATA -o $OUT.run --save-map $OUT.map --quiet >$OUT.log; cp -r $DATA $OUT.data; echo > "
+     "$OUT.data/rgb2/0.100000000.png; $QUADEDGE localise $OUT.map $OUT.data -o $OUT --quiet",
+     3, "2 finished frames in", true},
+    {"the file of the disparity offset is a symbolic link to itself",
+     "ln -s $OUT.toml $OUT.toml; $QUADEDGE run $DATA -o $OUT --offset-file $OUT.toml", 2, "out.toml", false},
     {"times go back",
      "$QUADEDGE check $DATA --write-calibration $OUT.yaml >$OUT.log; printf \"0\\n2\\n1\\n3\\n\" >$OUT.txt; $QUADEDGE "
      "run "

@@ -82,9 +82,8 @@ class LocaliseCommand : public Command {
     try {
       locate(map, *source, interruption, record);
     } catch (const DataError& error) {
-      record.ended_early = error.what();
-      if (!record.frames.empty()) write_results(*source, record);
-      throw;
+      if (record.frames.empty()) throw;
+      end_with_error(error, *source, record);
     }
     if (interruption.signal() != 0) record.ended_early = "interrupted";
     write_results(*source, record);
@@ -115,6 +114,18 @@ class LocaliseCommand : public Command {
       progress.update(record.input.name + " frame", number + 1, record.input.frames, std::to_string(lost) + " lost");
       if (interruption.signal() != 0) break;
     }
+  }
+
+  /// The recording ended with an error: keeps what is finished. \throws DataError with what happened.
+  [[noreturn]] void end_with_error(const DataError& error, const FrameSource& source,
+                                   report::LocalisationRecord& record) const {
+    record.ended_early = error.what();
+    try {
+      write_results(source, record);
+    } catch (const DataError&) {  // NOLINT(bugprone-empty-catch): a full disk, beside what `error` reports
+    }
+    throw DataError(record.ended_early + "\n" + data::counted(record.frames.size(), "finished frame") + " in " +
+                    output_);
   }
 
   /// Compares with the ground truth, if any, up to a rigid motion, and writes localisation.json.

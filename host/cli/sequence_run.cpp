@@ -306,7 +306,9 @@ report::RunRecord run_sequence(FrameSource& source, const MethodOptions& method,
   run.command = command_line();
   run.input = source.facts();
   run.config = method.config();
-  if (std::filesystem::exists(options.offset_file)) run.config = read_config(options.offset_file, run.config);
+  std::error_code unreadable;  // reading it says why
+  if (std::filesystem::exists(options.offset_file, unreadable) || unreadable)
+    run.config = read_config(options.offset_file, run.config);
   const FolderLock lock = prepare_output_folder(options.output, options.force);
   check_output_file(options.trace, options.force);
   check_output_file(options.offset_file, true);
