@@ -154,6 +154,18 @@ TEST_CASE("map: a street that is driven once has no closure", "[device]") {
   check_kept(outcome, shots);
 }
 
+TEST_CASE("map: bays of a corridor with equal doors are not taken for one another", "[device]") {
+  std::vector<Shot> shots;
+  const SyntheticOptions corridor = small("corridor", "drive", 119);  // a bay is twelve frames long
+  visit(corridor, 0, 24, 2, shots);
+  black(5, shots);
+  visit(corridor, 60, 84, 2, shots);
+  const Outcome outcome = track(shots, with_gap(3));
+  REQUIRE(outcome.closures.size() > 5);
+  check_kept(outcome, shots);
+  CHECK(outcome.segments == 2);
+}
+
 TEST_CASE("map: what it cannot work with is a usage error") {
   const SyntheticSequence any(small("room", "loop", 10));
   Device reference("reference");

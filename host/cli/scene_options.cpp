@@ -12,7 +12,8 @@ namespace quadedge::cli {
 
 void declare_scene(Options& options, SyntheticOptions& scene, SceneTexts& texts) {
   options.choice("--scene", scene.scene, synthetic_scenes(),
-                 "room; cables: thin curves in front of a plain wall; facade: siding, brick, a fence and shrubs");
+                 "room; cables: thin curves in front of a plain wall; facade: siding, brick, a fence and shrubs; "
+                 "corridor: equal doors");
   options.number("--frames", scene.frames, "number of frames");
   declare_view(options, scene, texts.size);
   options.choice("--lens", scene.lens, synthetic_lenses(),
@@ -46,10 +47,10 @@ void set_texts(SyntheticOptions& scene, const SceneTexts& texts) {
 }
 
 void declare_view(Options& options, SyntheticOptions& scene, std::string& size) {
-  options.choice(
-      "--path", scene.path, synthetic_paths(),
-      "camera path in a built-in scene; drive: to the end of the scene (61 frames, facade: 103); loop: returns "
-      "to the first pose");
+  options.choice("--path", scene.path, synthetic_paths(),
+                 "camera path in a built-in scene; drive: to the end of the scene (61 frames, facade: 103, corridor: "
+                 "119); loop: returns "
+                 "to the first pose");
   options.text("--size", size, "image size of built-in scenes [px]; default 942x489", "WxH");
 }
 
