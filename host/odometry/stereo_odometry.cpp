@@ -177,7 +177,9 @@ FrameResult StereoOdometry::Implementation::track(const StereoFrame& frame) {
     if (step_->ok()) {
       locate(*step_, result);
     } else {
-      lose(lost_status(step_->motion.status), pose::to_string(step_->motion.status), result);
+      const std::string reason = step_->doubt.exists() ? "ambiguous motion after a loss: " + to_string(step_->doubt)
+                                                       : pose::to_string(step_->motion.status);
+      lose(lost_status(step_->motion.status), reason, result);
     }
     result.timing.stages.push_back({kPoseStage, found.pose_ms + clock.lap()});
   }
@@ -222,7 +224,8 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
   state_.set_key(current_, {*result.world_from_left, PoseCovariance::Zero(), RigSensitivity::Zero()});
 }
 
-/// Finds the motion since the base. After a loss, also tries the motion since the lost frame.
+/// Finds the motion since the base. After a loss, when nothing is known of the motion, an ambiguous one is refused, and
+/// the motion since the lost frame is tried.
 StereoOdometry::Implementation::FoundMotion StereoOdometry::Implementation::search() {
   odometry::MotionQuery query;
   query.current = current_;
@@ -235,6 +238,8 @@ StereoOdometry::Implementation::FoundMotion StereoOdometry::Implementation::sear
   }
   FoundMotion found;
   found.step = motion_search_.find(query);
+  const bool is_after_loss = current_->frame - state_.base.rig->frame > 1;
+  if (is_after_loss && found.step->doubt.exists()) found.step->motion.status = pose::MotionStatus::no_consensus;
   if (!found.step->ok() && state_.lost) {
     query.base = state_.lost->rig;
     query.prediction = std::nullopt;
