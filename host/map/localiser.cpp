@@ -25,7 +25,8 @@ namespace {
 /// more than the error of a map between neighbouring key rigs, and less than the distance of two places.
 constexpr double kSamePlace = 3 * kDegree;
 
-/// A frame is compared with `map.candidates` key rigs and, as long as it is lost, up to this many times as many.
+/// A frame is compared with `map.candidates` key rigs and, as long as it is lost, up to this many times as many. If it
+/// is located, those of them that see other places are compared as well.
 constexpr int kBatches = 4;
 
 /// A motion from a key rig of the map to the frame.
@@ -42,6 +43,13 @@ bool agree(const Match& one, const Match& other) {
   const Eigen::Isometry3d error = one.map_from_left.inverse() * other.map_from_left;
   const double depth_shift = error.translation().norm() * std::max(one.inverse_depth, other.inverse_depth);
   return Eigen::AngleAxisd(error.linear()).angle() + depth_shift < kSamePlace;
+}
+
+/// Whether a key rig sees the scene from elsewhere than the frame, by the location that a match gives: points at the
+/// scene's depth lie in directions that differ by more than 0.3 rad.
+bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
+  const Eigen::Isometry3d motion = map_from_key.inverse() * match.map_from_left;
+  return motion.translation().norm() * match.inverse_depth + Eigen::AngleAxisd(motion.linear()).angle() > 0.3;
 }
 
 bool is_certain(const Match& match) { return !match.doubt.exists() && match.support > odometry::kChanceSupport; }
@@ -75,7 +83,20 @@ Config checked(const SavedMap& map, const StereoRig& rig, const Config& config) 
   return config;
 }
 
+using SimilarPlaces = std::vector<map::PlaceStore::Similar>;
+
+const Match* lose(LocalisationStatus status, const std::string& message, Localisation& result) {
+  result.status = status;
+  result.message = message;
+  return nullptr;
+}
+
 std::string rig_text(const Match& match) { return "key rig " + std::to_string(match.place->rig.frame); }
+
+const Match* lose_between(const Match& one, const Match& other, Localisation& result) {
+  return lose(LocalisationStatus::lost_ambiguous, "two places match: " + rig_text(one) + " and " + rig_text(other),
+              result);
+}
 
 }  // namespace
 
@@ -113,7 +134,9 @@ class Localiser::Implementation {
   bool follow(const frontend::RigHandle& rig, Localisation& result);
   std::optional<Match> compare(const map::Place& place, const frontend::RigHandle& rig,
                                const std::optional<Eigen::Isometry3d>& map_from_left);
-  bool judge(const std::vector<Match>& matches, Localisation& result) const;
+  static const Match* judge(const std::vector<Match>& matches, Localisation& result);
+  std::optional<Match> find_rival(const Match& best, const SimilarPlaces& similar, std::size_t next,
+                                  const frontend::RigHandle& rig);
   void take(const Match& match, Localisation& result) const;
 
   SavedMap map_;
@@ -192,39 +215,51 @@ void Localiser::Implementation::locate(const frontend::RigHandle& rig, Localisat
   for (std::size_t k = 0; k < similar.size(); ++k) {
     if (auto match = compare(*similar[k].place, rig, std::nullopt)) matches.push_back(*match);
     const bool is_last = k + 1 == similar.size() || (k + 1) % static_cast<std::size_t>(batch) == 0;
-    if (is_last && judge(matches, result)) return;
+    const Match* best = is_last ? judge(matches, result) : nullptr;
+    if (best == nullptr) continue;
+    if (const auto rival = find_rival(*best, similar, k + 1, rig))
+      lose_between(*best, *rival, result);
+    else
+      take(*best, result);
+    return;
   }
 }
 
+/// Searches further key rigs, from places that the located frame does not see, for one that matches all the same.
+std::optional<Match> Localiser::Implementation::find_rival(const Match& best, const SimilarPlaces& similar,
+                                                           std::size_t next, const frontend::RigHandle& rig) {
+  for (; next < similar.size(); ++next) {
+    const map::Place& place = *similar[next].place;
+    if (!is_elsewhere(best, map_.places().poses[static_cast<std::size_t>(place.node)])) continue;
+    auto match = compare(place, rig, std::nullopt);
+    if (match && is_certain(*match) && !agree(*match, best)) return match;
+  }
+  return std::nullopt;
+}
+
 /// The match with most inliers gives the pose if its support, or another that agrees with it, shows that it is not
-/// found by chance, and none that is certain contradicts it. \returns whether the frame is located
-bool Localiser::Implementation::judge(const std::vector<Match>& matches, Localisation& result) const {
-  const auto lose = [&](LocalisationStatus status, const std::string& message) {
-    result.status = status;
-    result.message = message;
-    return false;
-  };
-  if (matches.empty()) return lose(LocalisationStatus::lost_unknown_place, "no key rig of the map matches");
+/// found by chance, and none that is certain contradicts it. \returns it, or null if the frame is lost
+const Match* Localiser::Implementation::judge(const std::vector<Match>& matches, Localisation& result) {
+  if (matches.empty()) return lose(LocalisationStatus::lost_unknown_place, "no key rig of the map matches", result);
   const Match* best = nullptr;
   for (const Match& match : matches)
     if (!match.doubt.exists() && (best == nullptr || match.inliers > best->inliers)) best = &match;
   if (best == nullptr)
     return lose(LocalisationStatus::lost_ambiguous,
-                rig_text(matches.front()) + ": " + odometry::to_string(matches.front().doubt));
+                rig_text(matches.front()) + ": " + odometry::to_string(matches.front().doubt), result);
   bool is_confirmed = is_certain(*best);
   for (const Match& match : matches) {
     if (&match == best || match.doubt.exists()) continue;
     if (agree(match, *best)) {
       is_confirmed = true;
     } else if (is_certain(match)) {
-      return lose(LocalisationStatus::lost_ambiguous,
-                  "two places match: " + rig_text(*best) + " and " + rig_text(match));
+      return lose_between(*best, match, result);
     }
   }
   if (!is_confirmed)
-    return lose(LocalisationStatus::lost_unknown_place, rig_text(*best) + " alone matches, with little support");
-  take(*best, result);
-  return true;
+    return lose(LocalisationStatus::lost_unknown_place, rig_text(*best) + " alone matches, with little support",
+                result);
+  return best;
 }
 
 /// Searches for the motion from a place, near a predicted pose if there is one.

@@ -68,7 +68,7 @@ class Corridor {
   /// Tiles in tones of their own, which tell one part of the corridor from another; and the walls at its ends.
   void floor_and_ceiling() {
     const double half = 0.5 * kBays * kBay, middle = kStart + half, height = 0.5 * (kFloor - kCeiling);
-    build_.plane(pose({0.0, kFloor, middle}, 0.0, -0.5 * kPi, 0.0), kWall, half, tiled(0.3, 140.0, 14.0, kWall, half));
+    build_.plane(pose({0.0, kFloor, middle}, 0.0, -0.5 * kPi, 0.0), kWall, half, tiled(0.31, 140.0, 14.0, kWall, half));
     build_.plane(pose({0.0, kCeiling, middle}, 0.0, 0.5 * kPi, 0.0), kWall, half, tiled(0.6, 205.0, 3.0, kWall, half));
     for (const double end : {-1.0, 1.0})
       build_.plane(pose({0.0, kFloor - height, middle + end * half}, end > 0 ? 0.0 : kPi, 0.0, 0.0), kWall, height,
