@@ -15,9 +15,9 @@ using TexturePointer = std::shared_ptr<const Texture>;
 
 constexpr double kWall = 2.0;                    // x [m], of both walls
 constexpr double kCeiling = -1.2, kFloor = 1.4;  // y [m]
-constexpr double kStart = -6.0, kBay = 3.0;      // z [m] of the first bay, length of a bay with a door
+constexpr double kFirstBay = -6.0, kBay = 3.0;      // z [m] of the first bay, length of a bay with a door
 constexpr int kBays = 16;
-constexpr double kNear = 0.9;  // [m], where a texel covers half a pixel
+constexpr double kTexelDistance = 0.9;  // [m], where a texel covers half a pixel
 
 /// Start of the path "ellipse".
 Isometry3d world_from_corridor() { return pose(Vector3d::Zero(), 0.08, 0.02, 0.01); }
@@ -42,7 +42,7 @@ class Corridor {
   Scene take() {
     floor_and_ceiling();
     for (int bay = 0; bay < kBays; ++bay) {
-      const double z = kStart + (bay + 0.5) * kBay;
+      const double z = kFirstBay + (bay + 0.5) * kBay;
       for (const double side : {-1.0, 1.0}) bay_wall(pose({side * kWall, 0.0, z}, side * 0.5 * kPi, 0.0, 0.0));
       build_.plane(pose({0.0, kCeiling + 0.01, z}, 0.0, 0.5 * kPi, 0.0), 0.6, 0.15, lamp_);
     }
@@ -56,18 +56,18 @@ class Corridor {
     return style;
   }
   TexturePointer speckled(const TextureStyle& style, double half_width, double half_height) {
-    return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, kNear);
+    return build_.shared_texture(dead_leaves(style, build_.next_seed()), half_width, half_height, kTexelDistance);
   }
   TexturePointer tiled(double side, double mean, double spread, double half_width, double half_height) {
     CladdingStyle style;
     style.unit_width = style.unit_height = side, style.joint = 0.008;
     style.mean = mean, style.spread = spread, style.joint_grey = 0.6 * mean, style.noise = 6.0;
-    return build_.shared_texture(cladding(style, build_.next_seed()), half_width, half_height, kNear);
+    return build_.shared_texture(cladding(style, build_.next_seed()), half_width, half_height, kTexelDistance);
   }
 
   /// Tiles in tones of their own, which tell one part of the corridor from another; and the walls at its ends.
   void floor_and_ceiling() {
-    const double half = 0.5 * kBays * kBay, middle = kStart + half, height = 0.5 * (kFloor - kCeiling);
+    const double half = 0.5 * kBays * kBay, middle = kFirstBay + half, height = 0.5 * (kFloor - kCeiling);
     build_.plane(pose({0.0, kFloor, middle}, 0.0, -0.5 * kPi, 0.0), kWall, half, tiled(0.31, 140.0, 14.0, kWall, half));
     build_.plane(pose({0.0, kCeiling, middle}, 0.0, 0.5 * kPi, 0.0), kWall, half, tiled(0.6, 205.0, 3.0, kWall, half));
     for (const double end : {-1.0, 1.0})
