@@ -284,11 +284,12 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
   const bool by_key = step.base == state_.key.rig();
   pose::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
-  const auto late =
-      rig_monitor_.observe_motion(step.base->edges, step.base->frame, current_->edges, current_->frame, step.matches);
-  if (late) warn(rig_check::warning(*late), result);
-  velocity_.observe(current_from_key.transform * state_.base.from_key.transform.inverse(),
-                    current_->frame - state_.base.rig->frame);
+  const Eigen::Isometry3d current_from_base = current_from_key.transform * state_.base.from_key.transform.inverse();
+  const int frames = current_->frame - state_.base.rig->frame;
+  velocity_.observe(current_from_base, frames);
+  if (frames == 1) {
+    if (const auto late = rig_monitor_.observe_motion(current_from_base)) warn(rig_check::warning(*late), result);
+  }
 
   odometry::KeyRigFitness fitness;
   fitness.quads = static_cast<int>(step.matches.size());

@@ -99,7 +99,7 @@ std::optional<EpipolarProbe::Line> EpipolarProbe::line(const Eigen::Vector2d& le
   const Eigen::Vector2d towards = t_.head<2>() - *infinity * t_.z();
   if (!(towards.norm() > 0)) return std::nullopt;
   const Eigen::Vector2d direction = towards.normalized();
-  return Line{*infinity, direction, {direction.y(), -direction.x()}};
+  return Line{*infinity, direction, {direction.y(), -direction.x()}, h_.row(2).dot(left.homogeneous())};
 }
 
 std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const PinholeView& right,
@@ -132,12 +132,14 @@ std::optional<CornerMatch> EpipolarProbe::refine(const PinholeView& left, const 
   const double sigma = std::sqrt(epipolar->normal.dot(covariance * epipolar->normal));
   if (1 - sums.cost / 2 < kMinProbeCorrelation || sigma > kMaxSigma) return std::nullopt;
   const Eigen::Vector2d from_infinity = position - epipolar->infinity;
+  const double along = from_infinity.dot(epipolar->direction);
   return CornerMatch{corner_at,
-                     from_infinity.dot(epipolar->direction),
+                     along,
                      from_infinity.dot(epipolar->normal),
                      sigma,
                      true,
                      epipolar->normal,
+                     epipolar->inverse_depth(along, t_),
                      -1};
 }
 

@@ -22,6 +22,7 @@ struct CornerMatch {
   double sigma = 0;   ///< standard deviation of `across`, from the contrast of the patch [px]
   bool is_aligned = true;  ///< whether it was aligned with sub-pixel accuracy, not only found at the coarse resolution
   Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the line, in the direction of increasing `across`
+  double inverse_depth = 0;                           ///< in the left camera, by `along` [1/m]
   int edge = -1;                                      ///< index of the stereo edge, if it is one
 };
 
@@ -55,6 +56,12 @@ class EpipolarProbe {
   /// An epipolar line in the right image.
   struct Line {
     Eigen::Vector2d infinity, direction, normal;
+    double scale = 1;  ///< z of `infinity` in homogeneous coordinates
+
+    /// Inverse depth [1/m] of a point at `along` [px] from `infinity`. \param t K_R T0
+    double inverse_depth(double along, const Eigen::Vector3d& t) const {
+      return along * scale / (direction.dot(t.head<2>()) - (direction.dot(infinity) + along) * t.z());
+    }
   };
   std::optional<Line> line(const Eigen::Vector2d& left) const;
   std::optional<Eigen::Vector2d> at_infinity(const Eigen::Vector2d& left) const;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
-#include <limits>
 
 #include "rig_check/rig_check_constants.hpp"
 
@@ -101,36 +100,16 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
   return report;
 }
 
-std::optional<RigFinding> RigMonitor::observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now,
-                                                     int frame, const TemporalMatches& matches) {
-  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
-  if (base_frame == frame - 1) {
-    last_x_ = base.left_x;
-    last_y_ = base.left_y;
-  } else if (base_frame != base_frame_ || last_frame_ != frame - 1) {
-    last_x_.assign(base.size(), kNowhere);
-    last_y_.assign(base.size(), kNowhere);
-  }
-  base_frame_ = base_frame;
-  last_frame_ = frame;
-  sampled_.assign(now.size(), -1);
-  for (std::size_t i = 0; i < corner_matches_.size(); ++i)
-    sampled_[static_cast<std::size_t>(corner_matches_[i].edge)] = static_cast<int>(i);
-  next_x_.assign(base.size(), kNowhere);
-  next_y_.assign(base.size(), kNowhere);
-  for (std::size_t m = 0; m < matches.size(); ++m) {
-    const auto before = static_cast<std::size_t>(matches.previous[m]);
-    next_x_[before] = matches.left_x[m];
-    next_y_[before] = matches.left_y[m];
-    const int at = sampled_[static_cast<std::size_t>(matches.current[m])];
-    if (at < 0 || std::isnan(last_x_[before])) continue;
-    const CornerMatch& match = corner_matches_[static_cast<std::size_t>(at)];
-    const Eigen::Vector2d motion = match.left - Eigen::Vector2d(last_x_[before], last_y_[before]);
+std::optional<RigFinding> RigMonitor::observe_motion(const Eigen::Isometry3d& current_from_last) {
+  const Eigen::Isometry3d last_from_current = current_from_last.inverse();
+  for (const CornerMatch& match : corner_matches_) {
+    const Eigen::Vector3d last =
+        last_from_current.linear() * rig_.left.ray(match.left) + last_from_current.translation() * match.inverse_depth;
+    if (!(last.z() > 0)) continue;
+    const Eigen::Vector2d motion = match.left - rig_.left.project(last);
     synchronisation_.add(match.left.x() / rig_.left.width - 0.5, match.left.y() / rig_.left.height - 0.5, match.across,
                          motion.dot(match.normal));
   }
-  last_x_.swap(next_x_);
-  last_y_.swap(next_y_);
   const double time_offset = synchronisation_.time_offset_frames();
   if (time_offset == 0) return std::nullopt;
   RigFinding late{RigFindingKind::late_camera};

@@ -1,6 +1,7 @@
 #pragma once
 /// \file rig_monitor.hpp  Checks whether the images match the calibration (doc/method.md section 7).
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,11 +27,8 @@ class RigMonitor {
   /// \param max_disparity up to which they were searched, in the middle of the left image [px]
   RigReport judge(const StereoFrame& frame, const StereoEdges& edges, int left_edges, double max_disparity);
 
-  /// Adds the image motion of that frame's edges; reports a camera that seems to lag.
-  /// \param base_frame number of the frame of `base`, which `matches` refers to \param frame number of the current
-  /// frame
-  std::optional<RigFinding> observe_motion(const StereoEdges& base, int base_frame, const StereoEdges& now, int frame,
-                                           const TemporalMatches& matches);
+  /// Adds the image motion of that frame since the last one; reports a camera that seems to lag.
+  std::optional<RigFinding> observe_motion(const Eigen::Isometry3d& current_from_last);
 
   /// Checks a single frame without edges, as `quadedge check` does. \param max_disparity of the cascade [px]
   static RigReport examine(const StereoRig& rig, const StereoFrame& frame, double max_disparity);
@@ -44,12 +42,8 @@ class RigMonitor {
   EpipolarProbe probe_;
   Synchronisation synchronisation_;
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
-  std::vector<int> sampled_;  ///< index in corner_matches_ of every stereo edge, or -1; kept between calls
-  // Positions of the base's edges in the previous frame:
-  int base_frame_ = -1, last_frame_ = -1;
-  std::vector<float> last_x_, last_y_, next_x_, next_y_;
-  std::optional<RigEvidence> searched_;  ///< of the last frame that was searched
-  bool fits_ = true;                     ///< whether that search found a match with the calibration
+  std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
+  bool fits_ = true;                         ///< whether that search found a match with the calibration
   int frames_since_search_ = 0;
   std::optional<std::uint64_t> last_left_, last_right_;  ///< fingerprints of the previous images
 };
