@@ -165,8 +165,8 @@ TEST_CASE("pose graph: the deviation of true motions follows chi^2 with six degr
     circle.odometry.clear();
     for (int i = 1; i < Circle::kNodes; ++i) circle.odometry.push_back(circle.measured(i - 1, i, false));
     const PoseGraph graph = circle.driven();
-    sum += graph.deviation(circle.measured(3, 17, true));
-    sum += graph.deviation(circle.measured(0, 30, true));
+    sum += graph.deviation(graph.motion(3, 17), circle.measured(3, 17, true));
+    sum += graph.deviation(graph.motion(30, 0), circle.measured(0, 30, true).reversed());
     count += 2;
   }
   CHECK(sum / count == Approx(6).margin(1.5));
@@ -217,7 +217,7 @@ TEST_CASE("pose graph: a calibration error shared by all motions explains what e
     }
     pose::RelativePose whole = step;
     whole.transform.translation() << 0, 0, -10;
-    const double deviation = graph.deviation(GraphEdge::of(0, 10, whole, RigSensitivity::Zero(), true));
+    const double deviation = graph.deviation(graph.motion(0, 10), GraphEdge::of(0, 10, whole, RigSensitivity::Zero(), true));
     if (length_error > 0)
       CHECK(deviation < 6);
     else

@@ -76,7 +76,7 @@ class Map::Implementation {
   bool recognise(int node);
   std::optional<GraphEdge> compare(const map::Place& place, int node, Closure& closure);
   bool decide(const GraphEdge& edge);
-  bool agree(const GraphEdge& witness, const GraphEdge& edge) const;
+  bool agree(GraphEdge witness, const GraphEdge& edge) const;
   void keep(const GraphEdge& edge, Closure& closure);
   LocatedFrame& frame(int number) { return frames_[static_cast<std::size_t>(number)]; }
   std::map<int, int> frames_of_segments() const;
@@ -181,7 +181,7 @@ std::optional<GraphEdge> Map::Implementation::compare(const map::Place& place, i
   if (graph_.component(place.node) == graph_.component(node)) {
     const Eigen::Isometry3d before = graph_.pose(node).inverse() * graph_.pose(place.node);
     const Eigen::Isometry3d error = motion.current_from_previous * before.inverse();
-    closure.deviation = std::sqrt(graph_.deviation(edge));
+    closure.deviation = std::sqrt(graph_.deviation(graph_.motion(edge.from, edge.to), edge));
     closure.distance_m = error.translation().norm();
     closure.angle_deg = Eigen::AngleAxisd(error.linear()).angle() / kDegree;
   }
@@ -189,15 +189,13 @@ std::optional<GraphEdge> Map::Implementation::compare(const map::Place& place, i
   return edge;
 }
 
-/// Whether the map would expect the edge if it contained the witness.
-bool Map::Implementation::agree(const GraphEdge& witness, const GraphEdge& edge) const {
-  map::PoseGraph with = graph_;
-  GraphEdge certain = witness;
-  certain.robust = false;
-  with.add_edge(certain);
-  if (with.component(edge.from) != with.component(edge.to)) return false;
-  with.optimise();
-  return with.deviation(edge) < kExpected;
+/// Whether the loop of both closures and the map's motions between their ends closes.
+bool Map::Implementation::agree(GraphEdge witness, const GraphEdge& edge) const {
+  const auto is_joined = [&](int one, int other) { return graph_.component(one) == graph_.component(other); };
+  if (!is_joined(witness.from, edge.from)) witness = witness.reversed();
+  if (!is_joined(witness.from, edge.from) || !is_joined(witness.to, edge.to)) return false;
+  const GraphEdge around = graph_.motion(witness.to, edge.to).after(witness).after(graph_.motion(edge.from, witness.from));
+  return graph_.deviation(around, edge) < kExpected;
 }
 
 void Map::Implementation::keep(const GraphEdge& edge, Closure& closure) {
@@ -208,7 +206,7 @@ void Map::Implementation::keep(const GraphEdge& edge, Closure& closure) {
 /// Keeps the closure listed last if the map expects it, or if it agrees with another that the map does not expect.
 bool Map::Implementation::decide(const GraphEdge& edge) {
   const bool has_prior = graph_.component(edge.from) == graph_.component(edge.to);
-  const double deviation = has_prior ? graph_.deviation(edge) : 0;
+  const double deviation = has_prior ? graph_.deviation(graph_.motion(edge.from, edge.to), edge) : 0;
   if (deviation > kPossible) return false;
   // To join two segments, support that a wrong motion does not reach by chance suffices.
   if (has_prior ? deviation < kExpected : closures_.back().support > odometry::kChanceSupport) {

@@ -3,6 +3,9 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace quadedge::map {
 namespace {
@@ -56,6 +59,17 @@ GraphEdge GraphEdge::of(int from, int to, const pose::RelativePose& measured, co
   return edge;
 }
 
+GraphEdge GraphEdge::reversed() const {
+  const Eigen::Isometry3d from_from_to = measured.transform.inverse();
+  const Eigen::Matrix<double, 6, 6> back = pose::adjoint(from_from_to);
+  return {to, from, {from_from_to, back * measured.covariance * back.transpose()}, -back * by_rig, robust};
+}
+
+GraphEdge GraphEdge::after(const GraphEdge& before) const {
+  return {before.from, to, measured * before.measured, by_rig + pose::adjoint(measured.transform) * before.by_rig,
+          robust || before.robust};
+}
+
 PoseGraph::PoseGraph(const PoseConfig& config) {
   rig_sigma_ << config.rig_sigma_length, Eigen::Vector3d::Constant(config.rig_sigma_axis_rad()), config.rig_sigma_focal,
       Eigen::Vector3d::Constant(config.rig_sigma_lens);
@@ -65,11 +79,13 @@ PoseGraph::PoseGraph(const PoseConfig& config) {
 int PoseGraph::add_node(const Eigen::Isometry3d& map_from_node) {
   poses_.push_back(map_from_node);
   components_.push_back(nodes() - 1);
+  edges_of_.emplace_back();
   return nodes() - 1;
 }
 
 void PoseGraph::add_edge(const GraphEdge& edge) {
   const int from = component(edge.from), to = component(edge.to);
+  for (const int node : {edge.from, edge.to}) edges_of_[static_cast<std::size_t>(node)].push_back(edges_.size());
   edges_.push_back(edge);
   if (from == to) return;
   const Eigen::Isometry3d to_in_map = pose(edge.from) * edge.measured.transform.inverse();
@@ -95,10 +111,7 @@ PoseGraph::Linearised PoseGraph::linearise(const GraphEdge& edge) const {
   change.topLeftCorner<3, 3>() = inverse_left_jacobian(turn);
   change.bottomRightCorner<3, 3>().setIdentity();
   change.bottomLeftCorner<3, 3>() = -cross_matrix(difference.translation());
-  Block carried = Block::Zero();
-  carried.topLeftCorner<3, 3>() = carried.bottomRightCorner<3, 3>() = predicted.linear();
-  carried.bottomLeftCorner<3, 3>() = cross_matrix(predicted.translation()) * predicted.linear();
-  result.by_from = change * carried;
+  result.by_from = change * pose::adjoint(predicted);
   result.by_to = -change;
   return result;
 }
@@ -130,12 +143,11 @@ std::vector<int> PoseGraph::columns() const {
 
 Eigen::SparseMatrix<double> PoseGraph::normal_equations(const std::vector<int>& columns,
                                                         Eigen::VectorXd& gradient) const {
-  Eigen::Index rig = 0;
+  Eigen::Index size = 0;
   for (const int column : columns)
-    if (column >= 0) rig = column + 6;
-  const Eigen::Index size = rig + kRigErrors;
+    if (column >= 0) size = column + 6;
   std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block) {
+  const auto add = [&](Eigen::Index row, Eigen::Index column, const Block& block) {
     for (Eigen::Index r = 0; r < block.rows(); ++r)
       for (Eigen::Index c = 0; c < block.cols(); ++c)
         if (row + r >= column + c) entries.emplace_back(row + r, column + c, block(r, c));
@@ -145,23 +157,16 @@ Eigen::SparseMatrix<double> PoseGraph::normal_equations(const std::vector<int>& 
     const Linearised at = linearise(edge);
     const Block information = edge.measured.covariance.inverse();
     const double factor = weight(edge, at.error.dot(information * at.error));
-    const int from = columns[static_cast<std::size_t>(edge.from)], to = columns[static_cast<std::size_t>(edge.to)];
-    struct Part {
-      Eigen::Index column;
-      Eigen::MatrixXd derivative;
-    };
-    std::vector<Part> parts;
-    if (from >= 0) parts.push_back({from, at.by_from});
-    if (to >= 0) parts.push_back({to, at.by_to});
-    parts.push_back({rig, -edge.by_rig});
-    for (const Part& a : parts) {
-      const Eigen::MatrixXd weighted = factor * a.derivative.transpose() * information;
-      gradient.segment(a.column, a.derivative.cols()) += weighted * at.error;
-      for (const Part& b : parts)
-        if (a.column >= b.column) add(a.column, b.column, weighted * b.derivative);
+    const std::pair<Eigen::Index, const Block&> parts[] = {{columns[static_cast<std::size_t>(edge.from)], at.by_from},
+                                                           {columns[static_cast<std::size_t>(edge.to)], at.by_to}};
+    for (const auto& [row, by_row] : parts) {
+      if (row < 0) continue;
+      const Block weighted = factor * by_row.transpose() * information;
+      gradient.segment<6>(row) += weighted * at.error;
+      for (const auto& [column, by_column] : parts)
+        if (column >= 0 && row >= column) add(row, column, weighted * by_column);
     }
   }
-  add(rig, rig, rig_sigma_.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -178,11 +183,9 @@ void PoseGraph::optimise() {
   for (int round = 0; round < kMaxSteps; ++round) {
     Eigen::VectorXd gradient;
     const Eigen::SparseMatrix<double> matrix = normal_equations(columns, gradient);
-    const Eigen::Index size = matrix.rows() - kRigErrors;
-    if (size == 0) return;
-    const Eigen::SparseMatrix<double> of_poses = matrix.topLeftCorner(size, size);
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(of_poses);
-    Eigen::VectorXd step = -factor.solve(gradient.head(size));
+    if (matrix.rows() == 0) return;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+    Eigen::VectorXd step = -factor.solve(gradient);
     const auto poses = poses_;
     double found = best;
     for (int halving = 0; halving <= kMostHalvings; ++halving, step *= 0.5) {
@@ -196,20 +199,48 @@ void PoseGraph::optimise() {
   }
 }
 
-double PoseGraph::deviation(const GraphEdge& edge) const {
-  const std::vector<int> columns = this->columns();
-  Eigen::VectorXd gradient;
-  const Eigen::SparseMatrix<double> matrix = normal_equations(columns, gradient);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  const Linearised at = linearise(edge);
-  Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(matrix.rows(), 6);
-  const int from = columns[static_cast<std::size_t>(edge.from)], to = columns[static_cast<std::size_t>(edge.to)];
-  if (from >= 0) derivative.middleRows<6>(from) = at.by_from.transpose();
-  if (to >= 0) derivative.middleRows<6>(to) = at.by_to.transpose();
-  derivative.bottomRows<kRigErrors>() = -edge.by_rig.transpose();
-  const Eigen::MatrixXd solved = factor.solve(derivative);
-  const Block covariance = derivative.transpose() * solved + edge.measured.covariance;
-  return at.error.dot(covariance.ldlt().solve(at.error));
+GraphEdge PoseGraph::as_weighted(const GraphEdge& edge) const {
+  const Residual error = linearise(edge).error;
+  GraphEdge result = edge;
+  result.measured.transform = pose(edge.to).inverse() * pose(edge.from);
+  result.measured.covariance /= weight(edge, error.dot(edge.measured.covariance.ldlt().solve(error)));
+  return result;
+}
+
+GraphEdge PoseGraph::motion(int from, int to) const {
+  // Dijkstra's algorithm; of the variances, 1 rad counts as much as 1 m.
+  std::map<int, std::pair<double, std::size_t>> reached{{from, {0, 0}}};  // variance, edge that leads there
+  std::set<std::pair<double, int>> next{{0, from}};
+  while (!next.empty() && next.begin()->second != to) {
+    const auto [variance, node] = *next.begin();
+    next.erase(next.begin());
+    for (const std::size_t e : edges_of_[static_cast<std::size_t>(node)]) {
+      const int other = edges_[e].from == node ? edges_[e].to : edges_[e].from;
+      const double there = variance + as_weighted(edges_[e]).measured.covariance.trace();
+      const auto found = reached.find(other);
+      if (found != reached.end() && found->second.first <= there) continue;
+      if (found != reached.end()) next.erase({found->second.first, other});
+      reached[other] = {there, e};
+      next.insert({there, other});
+    }
+  }
+  GraphEdge result{to, to, {}};
+  while (result.from != from) {
+    const GraphEdge last = as_weighted(edges_[reached.at(result.from).second]);
+    result = result.after(last.to == result.from ? last : last.reversed());
+  }
+  return result;
+}
+
+double PoseGraph::deviation(const GraphEdge& one, const GraphEdge& other) const {
+  const Eigen::Isometry3d difference = one.measured.transform * other.measured.transform.inverse();
+  const Eigen::AngleAxisd rotation(difference.linear());
+  Residual error;
+  error << rotation.angle() * rotation.axis(), difference.translation();
+  const RigSensitivity by_rig = one.by_rig - other.by_rig;
+  const Block covariance = one.measured.covariance + other.measured.covariance +
+                           by_rig * rig_sigma_.cwiseAbs2().asDiagonal() * by_rig.transpose();
+  return error.dot(covariance.ldlt().solve(error));
 }
 
 }  // namespace quadedge::map

@@ -23,6 +23,10 @@ struct GraphEdge {
   /// \param from_from_to_by_rig pose::rig_sensitivity() of the inverse motion
   static GraphEdge of(int from, int to, const pose::RelativePose& measured, const RigSensitivity& from_from_to_by_rig,
                       bool robust);
+  /// The motion from `to` to `from`.
+  GraphEdge reversed() const;
+  /// The motion from `before.from` to `to`, through `before.to`, which is the same place as `from`.
+  GraphEdge after(const GraphEdge& before) const;
 };
 
 /// Minimises the squared errors of all edges, in standard deviations, over the poses of the nodes, by Gauss-Newton. The
@@ -46,9 +50,12 @@ class PoseGraph {
   /// First node of a node's component.
   int component(int node) const { return components_[static_cast<std::size_t>(node)]; }
 
-  /// Squared deviation of an edge that is not part of the graph from the motion between its nodes, which belong to one
-  /// component, in standard deviations of both; its expectation is six if the edge is true.
-  double deviation(const GraphEdge& edge) const;
+  /// The motion between two nodes of one component at their poses, with the covariance along the most certain chain of
+  /// edges between them: that of the graph if it is the only chain, and larger otherwise.
+  GraphEdge motion(int from, int to) const;
+  /// Squared deviation of two independently measured motions between the same places, in standard deviations of both;
+  /// its expectation is six.
+  double deviation(const GraphEdge& one, const GraphEdge& other) const;
   /// Sum that optimise() minimises.
   double cost() const;
 
@@ -62,15 +69,18 @@ class PoseGraph {
   };
   Linearised linearise(const GraphEdge& edge) const;
   static double weight(const GraphEdge& edge, double squared);
+  /// An edge at the poses of its nodes, with the covariance that its weight gives it.
+  GraphEdge as_weighted(const GraphEdge& edge) const;
   /// First column of a node in the normal equations; -1 for the first node of a component, which is fixed.
   std::vector<int> columns() const;
-  /// Lower triangle; the last rows belong to the errors of the calibration.
+  /// Lower triangle.
   Eigen::SparseMatrix<double> normal_equations(const std::vector<int>& columns, Eigen::VectorXd& gradient) const;
   void move(const std::vector<int>& columns, const Eigen::VectorXd& step);
 
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<int> components_;
   std::vector<GraphEdge> edges_;
+  std::vector<std::vector<std::size_t>> edges_of_;  ///< of each node
   Eigen::Matrix<double, kRigErrors, 1> rig_sigma_;
 };
 

@@ -1,9 +1,7 @@
 #include "pose/relative_pose.hpp"
 
 namespace quadedge::pose {
-namespace {
 
-/// Maps a left perturbation before `transform` to the perturbation after it.
 Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform) {
   Eigen::Matrix3d cross;
   const Eigen::Vector3d t = transform.translation();
@@ -14,8 +12,6 @@ Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform) {
   result.bottomLeftCorner<3, 3>() = cross * transform.linear();
   return result;
 }
-
-}  // namespace
 
 RelativePose operator*(const RelativePose& c_from_b, const RelativePose& b_from_a) {
   const Eigen::Matrix<double, 6, 6> carried = adjoint(c_from_b.transform);

@@ -12,6 +12,9 @@ struct RelativePose {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
+/// Maps a left perturbation before `transform` (rotation, translation) to the perturbation after it.
+Eigen::Matrix<double, 6, 6> adjoint(const Eigen::Isometry3d& transform);
+
 /// c_from_a from c_from_b and b_from_a, with independent errors.
 RelativePose operator*(const RelativePose& c_from_b, const RelativePose& b_from_a);
 
