@@ -217,7 +217,8 @@ TEST_CASE("pose graph: a calibration error shared by all motions explains what e
     }
     pose::RelativePose whole = step;
     whole.transform.translation() << 0, 0, -10;
-    const double deviation = graph.deviation(graph.motion(0, 10), GraphEdge::of(0, 10, whole, RigSensitivity::Zero(), true));
+    const double deviation =
+        graph.deviation(graph.motion(0, 10), GraphEdge::of(0, 10, whole, RigSensitivity::Zero(), true));
     if (length_error > 0)
       CHECK(deviation < 6);
     else

@@ -214,6 +214,8 @@ void print_run(const report::RunRecord& run, const std::string& output) {
     std::printf("loops      %s kept of %zu compared; %zu frames in the largest of %s\n",
                 data::counted(run.loops->kept, "closure").c_str(), run.loops->compared, run.loops->frames,
                 data::counted(run.loops->segments, "segment").c_str());
+    std::printf("           latency with loops: median %s, p99 %s\n", milliseconds(run.loops->latency.median).c_str(),
+                milliseconds(run.loops->latency.p99).c_str());
   }
   std::printf("latency    median %s, p90 %s, p99 %s, max %s; first frame %s\n", milliseconds(latency.median).c_str(),
               milliseconds(latency.p90).c_str(), milliseconds(latency.p99).c_str(), milliseconds(latency.max).c_str(),

@@ -10,9 +10,10 @@ namespace quadedge::cli {
 
 void LoopOutput::add(const FrameResult& result) {
   const auto start = Clock::now();
-  const std::size_t before = map_.closures().size();
   map_.add(result);
-  if (map_.closures().size() > before) times_ms_.push_back(milliseconds_since(start));
+  const double ms = milliseconds_since(start);
+  total_ms_ += ms;
+  latencies_ms_.push_back(result.timing.latency_ms + ms);
 }
 
 report::LoopFacts LoopOutput::write(const std::string& folder, const std::string& saved_map) const {
@@ -29,7 +30,8 @@ report::LoopFacts LoopOutput::write(const std::string& folder, const std::string
   facts.frames = trajectory.size();
   facts.key_rigs = map_.key_rigs();
   facts.megabytes = static_cast<double>(map_.bytes()) / 1e6;
-  for (const double ms : times_ms_) facts.total_ms += ms;
+  facts.total_ms = total_ms_;
+  facts.latency = report::latency_summary(latencies_ms_);
   return facts;
 }
 

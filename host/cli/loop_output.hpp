@@ -25,7 +25,8 @@ class LoopOutput {
 
  private:
   Map map_;
-  std::vector<double> times_ms_;  ///< of the frames that were compared with others
+  double total_ms_ = 0;
+  std::vector<double> latencies_ms_;  ///< of all frames, with the time of the map
 };
 
 }  // namespace quadedge::cli

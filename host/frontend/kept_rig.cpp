@@ -1,6 +1,7 @@
 #include "frontend/kept_rig.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -21,11 +22,21 @@ void append_nibbles(const std::vector<int>& values, std::vector<std::uint8_t>& b
 
 int nibble(const std::uint8_t* bytes, std::size_t i) { return (bytes[i / 2] >> (4 * (i % 2))) & 15; }
 
+/// The nibbles of all samples, from -kPatchLargest on.
+std::array<int, 2 * kPatchLargest + 1> sample_nibbles() {
+  std::array<int, 2 * kPatchLargest + 1> nibbles;
+  for (int sample = -kPatchLargest; sample <= kPatchLargest; ++sample)
+    nibbles[static_cast<std::size_t>(sample + kPatchLargest)] =
+        kZeroNibble + static_cast<int>(std::lround(1.0 * sample * kLargestNibble / kPatchLargest));
+  return nibbles;
+}
+
 /// Appends the samples of both sides.
 void append_samples(const std::int8_t* edge, std::vector<int>& values) {
+  static const auto nibbles = sample_nibbles();
   for (int side = 0; side < 2; ++side)
     for (const double sample : reference::stored_side(edge, side))
-      values.push_back(kZeroNibble + static_cast<int>(std::lround(sample * kLargestNibble / kPatchLargest)));
+      values.push_back(nibbles[static_cast<std::size_t>(static_cast<int>(sample) + kPatchLargest)]);
 }
 
 /// Restores the patches of one edge from sample `first` on.

@@ -10,6 +10,7 @@
 #include "common/recorded_images.hpp"
 #include "common/run_cost.hpp"
 #include "map/saved_places.hpp"
+#include "map/view_change.hpp"
 #include "odometry/constant_velocity.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/odometry_constants.hpp"
@@ -45,11 +46,10 @@ bool agree(const Match& one, const Match& other) {
   return Eigen::AngleAxisd(error.linear()).angle() + depth_shift < kSamePlace;
 }
 
-/// Whether a key rig sees the scene from elsewhere than the frame, by the location that a match gives: points at the
-/// scene's depth lie in directions that differ by more than 0.3 rad.
+/// Whether a key rig sees the scene from elsewhere than the frame, by the location that a match gives.
 bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
   const Eigen::Isometry3d motion = map_from_key.inverse() * match.map_from_left;
-  return motion.translation().norm() * match.inverse_depth + Eigen::AngleAxisd(motion.linear()).angle() > 0.3;
+  return map::view_change(motion, match.inverse_depth) > map::kSameView;
 }
 
 bool is_certain(const Match& match) { return !match.doubt.exists() && match.support > odometry::kChanceSupport; }

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
+#include <utility>
 
 #include "map/place_store.hpp"
 #include "map/pose_graph.hpp"
 #include "map/saved_places.hpp"
+#include "map/view_change.hpp"
 #include "odometry/current_rig.hpp"
 #include "odometry/motion_search.hpp"
 #include "odometry/odometry_constants.hpp"
@@ -25,6 +28,23 @@ constexpr double kBytesPerMegabyte = 1e6;
 /// second closure that agrees, ten times the deviation in standard deviations is possible.
 constexpr double kExpected = 22.5, kPossible = 100 * kExpected;
 
+/// Standard deviations of the map's prediction that a search near it has to cover; otherwise all edges are matched.
+constexpr double kCovered = 3;
+
+/// Two places of a segment may share a part of their views if these, by the map, differ by less than this [rad].
+constexpr double kMostChange = 1;
+
+/// A closure within a segment is worth its search if the map's motion has this many times the variance of a motion
+/// since the key rig. A closure has about four times that variance, since a kept rig has a fraction of the edges.
+constexpr double kWorthwhile = 12;
+
+/// A rig that matches a place of another segment is compared with up to this many times `map.candidates` places, in
+/// case another matches as well.
+constexpr int kBatches = 4;
+
+/// Number of closures that wait for a witness. A witness is found in the rigs that follow, or not at all.
+constexpr std::size_t kMostPending = 20;
+
 /// Where a frame lies.
 struct LocatedFrame {
   std::int64_t stamp_ns = 0;
@@ -32,8 +52,8 @@ struct LocatedFrame {
   Eigen::Isometry3d node_from_left = Eigen::Isometry3d::Identity();
 };
 
-/// A closure that may still be confirmed by another.
-struct PendingClosure {
+/// A closure that may be kept.
+struct ListedClosure {
   std::size_t number;  ///< in the list of closures
   GraphEdge edge;
 };
@@ -74,10 +94,25 @@ class Map::Implementation {
   void locate(const FrameResult& result);
   int node_of_reference(int frame);
   bool recognise(int node);
-  std::optional<GraphEdge> compare(const map::Place& place, int node, Closure& closure);
-  bool decide(const GraphEdge& edge);
+  bool is_joined(int one, int other) const { return graph_.component(one) == graph_.component(other); }
+  const map::Place* nearest(int node, int max_gap, int min_gap, double inverse_depth) const;
+  double mean_inverse_depth() const;
+  double spread(const GraphEdge& motion, double inverse_depth) const;
+  bool may_overlap(const GraphEdge& motion, double inverse_depth) const;
+  bool is_predictable(const GraphEdge& motion, double inverse_depth) const;
+  bool is_worthwhile(const GraphEdge& motion) const;
+  std::optional<ListedClosure> compare(const map::PlaceStore::Similar& similar, int node, bool near_prediction);
+  std::optional<GraphEdge> search(const map::Place& place, int node, bool near_prediction, Closure& closure);
+  Closure& listed(const ListedClosure& closure) { return closures_[closure.number]; }
+  /// Whether its support, which a wrong motion does not reach by chance, suffices to join two segments.
+  bool is_certain(const ListedClosure& closure) const {
+    return closures_[closure.number].support > odometry::kChanceSupport;
+  }
+  bool is_rival(const map::Place& place, const std::vector<ListedClosure>& joining, double inverse_depth) const;
+  void reject_contradictions(const std::vector<ListedClosure>& joining);
+  bool decide(const ListedClosure& closure);
   bool agree(GraphEdge witness, const GraphEdge& edge) const;
-  void keep(const GraphEdge& edge, Closure& closure);
+  void keep(const ListedClosure& closure);
   LocatedFrame& frame(int number) { return frames_[static_cast<std::size_t>(number)]; }
   std::map<int, int> frames_of_segments() const;
   int largest_segment() const;
@@ -92,7 +127,7 @@ class Map::Implementation {
   /// Motion of the frame located last, from its node to itself, in case it becomes a reference.
   GraphEdge last_motion_;
   std::vector<Closure> closures_;
-  std::vector<PendingClosure> pending_;
+  std::deque<ListedClosure> pending_;  ///< the latest kMostPending that no other has confirmed
   Eigen::Isometry3d map_from_odometry_ = Eigen::Isometry3d::Identity();
 };
 
@@ -137,37 +172,126 @@ bool Map::Implementation::add(const FrameResult& result) {
   return changed;
 }
 
-/// Compares the current rig, which is a node, with similar places and keeps it.
+/// Of the current rig's edges [1/m].
+double Map::Implementation::mean_inverse_depth() const {
+  const odometry::CurrentRig now = odometry_.current_rig();
+  const auto& edges =
+      now.rig->measured_edges(now.offset.rig(), now.offset.value(), config_.stereo.min_epipolar_angle_rad());
+  double sum = 0, count = 0;
+  for (const auto& edge : edges) {
+    if (!edge) continue;
+    sum += edge->inverse_depth;
+    ++count;
+  }
+  return sum / std::max(1.0, count);
+}
+
+/// The place of the node's segment, at least `min_gap` and at most `max_gap` nodes before it, that sees most nearly the
+/// same according to the map; null if none does.
+const map::Place* Map::Implementation::nearest(int node, int max_gap, int min_gap, double inverse_depth) const {
+  const map::Place* best = nullptr;
+  double smallest = map::kSameView;
+  for (const map::Place& place : store_.places()) {
+    const int gap = node - place.node;
+    if (!is_joined(place.node, node) || gap < min_gap || gap > max_gap) continue;
+    const Eigen::Isometry3d motion = graph_.pose(node).inverse() * graph_.pose(place.node);
+    const double angle = map::view_change(motion, inverse_depth);
+    if (angle >= smallest) continue;
+    smallest = angle;
+    best = &place;
+  }
+  return best;
+}
+
+/// By how much the directions to points may differ from those that a motion of the map predicts [rad].
+double Map::Implementation::spread(const GraphEdge& motion, double inverse_depth) const {
+  const auto covariance = graph_.whole_covariance(motion);
+  const double turn = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  const double shift = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  return kCovered * (turn + shift * inverse_depth);
+}
+
+/// Whether a search near the predicted positions covers the uncertainty of a motion.
+bool Map::Implementation::is_predictable(const GraphEdge& motion, double inverse_depth) const {
+  const double focal = odometry_.current_rig().offset.rig().left.fx;
+  return focal * spread(motion, inverse_depth) < config_.temporal.coarse_radius;
+}
+
+/// Whether both ends of a motion of the map may see the same.
+bool Map::Implementation::may_overlap(const GraphEdge& motion, double inverse_depth) const {
+  return map::view_change(motion.measured.transform, inverse_depth) < kMostChange + spread(motion, inverse_depth);
+}
+
+bool Map::Implementation::is_worthwhile(const GraphEdge& motion) const {
+  return motion.measured.covariance.trace() > kWorthwhile * last_motion_.measured.covariance.trace();
+}
+
+/// Compares the current rig, which is a node, with places and keeps it, unless a place sees the same already.
 bool Map::Implementation::recognise(int node) {
-  map::Place place;
-  place.rig = odometry_.current_rig().frontend.keep();
+  const odometry::CurrentRig now = odometry_.current_rig();
+  const double inverse_depth = mean_inverse_depth();
+  const int min_gap = config_.map.min_gap;
+  if (const map::Place* seen = nearest(node, node, min_gap + 1, inverse_depth)) {
+    const GraphEdge motion = graph_.motion(seen->node, node);
+    if (is_predictable(motion, inverse_depth)) {
+      const auto closure = is_worthwhile(motion) ? compare({seen, 0}, node, true) : std::nullopt;
+      return closure && decide(*closure);
+    }
+  } else if (nearest(node, min_gap, 1, inverse_depth) != nullptr) {
+    return false;
+  }
+  map::Place place{now.frontend.keep(), {}, node};
   place.signature = map::place_signature(place.rig);
-  place.node = node;
-  const auto is_candidate = [&](const map::Place& other) {
-    return graph_.component(other.node) != graph_.component(node) || node - other.node > config_.map.min_gap;
+  const auto may_be = [&](const map::Place& other) {
+    return !is_joined(other.node, node) || node - other.node > min_gap;
   };
-  bool changed = false;
-  for (const auto& similar : store_.most_similar(place.signature, config_.map.candidates, is_candidate)) {
-    Closure closure;
-    closure.frame = static_cast<int>(frames_.size()) - 1;
-    closure.other = similar.place->rig.frame;
-    closure.similarity = static_cast<double>(similar.similarity);
-    const auto edge = compare(*similar.place, node, closure);
-    closures_.push_back(closure);
-    if (edge) changed = decide(*edge) || changed;
+  bool is_own_compared = false;
+  std::optional<ListedClosure> own;
+  std::vector<ListedClosure> joining;
+  int rank = 0;
+  for (const auto& similar : store_.most_similar(place.signature, kBatches * config_.map.candidates, may_be)) {
+    const bool is_candidate = rank++ < config_.map.candidates;
+    if (!is_joined(similar.place->node, node)) {
+      if (!is_candidate && !is_rival(*similar.place, joining, inverse_depth)) continue;
+      if (auto closure = compare(similar, node, false)) joining.push_back(*std::move(closure));
+    } else if (is_candidate && !is_own_compared) {
+      const GraphEdge motion = graph_.motion(similar.place->node, node);
+      is_own_compared = is_worthwhile(motion) && may_overlap(motion, inverse_depth);
+      if (is_own_compared) own = compare(similar, node, is_predictable(motion, inverse_depth));
+    }
   }
   store_.add(std::move(place));
-  if (changed) graph_.optimise();
+  reject_contradictions(joining);
+  bool changed = own && decide(*own);
+  for (const ListedClosure& closure : joining) changed = decide(closure) || changed;
   return changed;
 }
 
-/// Searches for the motion from a place to the current rig. \returns it, unless it is ambiguous
-std::optional<GraphEdge> Map::Implementation::compare(const map::Place& place, int node, Closure& closure) {
+/// Lists the comparison of the current rig with a place. \returns the closure, if a motion was found
+std::optional<ListedClosure> Map::Implementation::compare(const map::PlaceStore::Similar& similar, int node,
+                                                          bool near_prediction) {
+  Closure closure;
+  closure.frame = static_cast<int>(frames_.size()) - 1;
+  closure.other = similar.place->rig.frame;
+  closure.similarity = static_cast<double>(similar.similarity);
+  auto edge = search(*similar.place, node, near_prediction, closure);
+  closures_.push_back(closure);
+  if (!edge) return std::nullopt;
+  return ListedClosure{closures_.size() - 1, *std::move(edge)};
+}
+
+/// Searches for the motion from a place to the current rig, only near the map's if that is known well enough.
+std::optional<GraphEdge> Map::Implementation::search(const map::Place& place, int node, bool near_prediction,
+                                                     Closure& closure) {
   const odometry::CurrentRig now = odometry_.current_rig();
   odometry::MotionQuery query;
   query.current = now.rig;
   query.base = now.frontend.restore(place.rig);
   query.seed = config_.seed + static_cast<std::uint64_t>(closure.frame);
+  if (near_prediction) {
+    query.prediction = graph_.pose(node).inverse() * graph_.pose(place.node);
+    query.most = odometry::Effort::prediction;
+  }
   const odometry::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const pose::MotionEstimate& motion = step->motion;
@@ -178,50 +302,74 @@ std::optional<GraphEdge> Map::Implementation::compare(const map::Place& place, i
   GraphEdge edge =
       GraphEdge::of(place.node, node, {motion.current_from_previous, motion.covariance},
                     pose::rig_sensitivity(motion.current_from_previous.inverse(), step->mean_inverse_depth()), true);
-  if (graph_.component(place.node) == graph_.component(node)) {
+  if (is_joined(place.node, node)) {
     const Eigen::Isometry3d before = graph_.pose(node).inverse() * graph_.pose(place.node);
     const Eigen::Isometry3d error = motion.current_from_previous * before.inverse();
     closure.deviation = std::sqrt(graph_.deviation(graph_.motion(edge.from, edge.to), edge));
     closure.distance_m = error.translation().norm();
     closure.angle_deg = Eigen::AngleAxisd(error.linear()).angle() / kDegree;
   }
-  if (step->doubt.exists()) return std::nullopt;
   return edge;
 }
 
 /// Whether the loop of both closures and the map's motions between their ends closes.
 bool Map::Implementation::agree(GraphEdge witness, const GraphEdge& edge) const {
-  const auto is_joined = [&](int one, int other) { return graph_.component(one) == graph_.component(other); };
   if (!is_joined(witness.from, edge.from)) witness = witness.reversed();
   if (!is_joined(witness.from, edge.from) || !is_joined(witness.to, edge.to)) return false;
-  const GraphEdge around = graph_.motion(witness.to, edge.to).after(witness).after(graph_.motion(edge.from, witness.from));
+  const GraphEdge around =
+      graph_.motion(witness.to, edge.to).after(witness).after(graph_.motion(edge.from, witness.from));
   return graph_.deviation(around, edge) < kExpected;
 }
 
-void Map::Implementation::keep(const GraphEdge& edge, Closure& closure) {
-  graph_.add_edge(edge);
-  closure.verdict = ClosureVerdict::kept;
+/// Whether a place lies in a segment that a closure would join, but where it does not see what the current rig sees.
+bool Map::Implementation::is_rival(const map::Place& place, const std::vector<ListedClosure>& joining,
+                                   double inverse_depth) const {
+  return std::any_of(joining.begin(), joining.end(), [&](const ListedClosure& closure) {
+    const GraphEdge& edge = closure.edge;
+    if (!is_certain(closure) || !is_joined(place.node, edge.from)) return false;
+    const Eigen::Isometry3d map_from_now = graph_.pose(edge.from) * edge.measured.transform.inverse();
+    return map::view_change(map_from_now.inverse() * graph_.pose(place.node), inverse_depth) > map::kSameView;
+  });
 }
 
-/// Keeps the closure listed last if the map expects it, or if it agrees with another that the map does not expect.
-bool Map::Implementation::decide(const GraphEdge& edge) {
-  const bool has_prior = graph_.component(edge.from) == graph_.component(edge.to);
+/// Of the current rig's closures with another segment, those that place it in two different parts of that are
+/// ambiguous.
+void Map::Implementation::reject_contradictions(const std::vector<ListedClosure>& joining) {
+  for (const ListedClosure& one : joining) {
+    for (const ListedClosure& other : joining) {
+      if (!is_certain(one) || !is_certain(other) || !is_joined(one.edge.from, other.edge.from)) continue;
+      if (!agree(one.edge, other.edge)) listed(one).verdict = listed(other).verdict = ClosureVerdict::ambiguous;
+    }
+  }
+}
+
+void Map::Implementation::keep(const ListedClosure& closure) {
+  graph_.add_edge(closure.edge);
+  listed(closure).verdict = ClosureVerdict::kept;
+}
+
+/// Keeps a closure if the map expects it, or if it agrees with another that the map does not expect. \returns whether
+/// the map has changed
+bool Map::Implementation::decide(const ListedClosure& closure) {
+  if (listed(closure).verdict == ClosureVerdict::ambiguous) return false;
+  const GraphEdge& edge = closure.edge;
+  const bool has_prior = is_joined(edge.from, edge.to);
   const double deviation = has_prior ? graph_.deviation(graph_.motion(edge.from, edge.to), edge) : 0;
   if (deviation > kPossible) return false;
-  // To join two segments, support that a wrong motion does not reach by chance suffices.
-  if (has_prior ? deviation < kExpected : closures_.back().support > odometry::kChanceSupport) {
-    keep(edge, closures_.back());
-    return true;
-  }
-  for (auto witness = pending_.begin(); witness != pending_.end(); ++witness) {
-    if (!agree(witness->edge, edge)) continue;
-    keep(witness->edge, closures_[witness->number]);
-    keep(edge, closures_.back());
+  if (has_prior ? deviation >= kExpected : !is_certain(closure)) {
+    const auto witness = std::find_if(pending_.begin(), pending_.end(),
+                                      [&](const ListedClosure& other) { return agree(other.edge, edge); });
+    if (witness == pending_.end()) {
+      pending_.push_back(closure);
+      if (pending_.size() > kMostPending) pending_.pop_front();
+      return false;
+    }
+    keep(*witness);
     pending_.erase(witness);
-    return true;
   }
-  pending_.push_back({closures_.size() - 1, edge});
-  return false;
+  keep(closure);
+  graph_.optimise();
+  return true;
 }
 
 std::map<int, int> Map::Implementation::frames_of_segments() const {

@@ -237,10 +237,14 @@ double PoseGraph::deviation(const GraphEdge& one, const GraphEdge& other) const 
   const Eigen::AngleAxisd rotation(difference.linear());
   Residual error;
   error << rotation.angle() * rotation.axis(), difference.translation();
-  const RigSensitivity by_rig = one.by_rig - other.by_rig;
-  const Block covariance = one.measured.covariance + other.measured.covariance +
-                           by_rig * rig_sigma_.cwiseAbs2().asDiagonal() * by_rig.transpose();
-  return error.dot(covariance.ldlt().solve(error));
+  GraphEdge both = one;
+  both.measured.covariance += other.measured.covariance;
+  both.by_rig -= other.by_rig;
+  return error.dot(whole_covariance(both).ldlt().solve(error));
+}
+
+Eigen::Matrix<double, 6, 6> PoseGraph::whole_covariance(const GraphEdge& edge) const {
+  return edge.measured.covariance + edge.by_rig * rig_sigma_.cwiseAbs2().asDiagonal() * edge.by_rig.transpose();
 }
 
 }  // namespace quadedge::map

@@ -56,6 +56,8 @@ class PoseGraph {
   /// Squared deviation of two independently measured motions between the same places, in standard deviations of both;
   /// its expectation is six.
   double deviation(const GraphEdge& one, const GraphEdge& other) const;
+  /// Covariance of a motion due to edge and calibration errors.
+  Eigen::Matrix<double, 6, 6> whole_covariance(const GraphEdge& edge) const;
   /// Sum that optimise() minimises.
   double cost() const;
 

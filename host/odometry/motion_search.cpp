@@ -36,13 +36,13 @@ StepHandle MotionSearch::find(const MotionQuery& query) {
   Trials trials;
   Selection selection;
   Effort effort = Effort::prediction;
-  for (;; effort = selection.needed) {
+  for (;; effort = std::min(selection.needed, query.most)) {
     try_out(effort, query, trials);
     selection = choose(query, trials);
-    if (selection.needed <= effort) break;
+    if (std::min(selection.needed, query.most) <= effort) break;
   }
   MotionStep& chosen = *trials.at(selection.trial).outcome();
-  chosen.is_checked = selection.accepted && record_.is_check_due(chosen.verdict);
+  chosen.is_checked = selection.accepted && query.most == Effort::everything && record_.is_check_due(chosen.verdict);
   if (chosen.is_checked) {
     const Doubt beside =
         doubt_about(elsewhere_.find(query, chosen, evidence_of(trials).global_matches, !record_.is_settled()),
@@ -80,7 +80,8 @@ Evidence MotionSearch::evidence_of(const Trials& trials) {
 
 Selection MotionSearch::choose(const MotionQuery& query, const Trials& trials) const {
   const Evidence evidence = evidence_of(trials);
-  Expectation expectation{std::nullopt, record_.is_doubtful(), record_.confident_support()};
+  const double confident_support = query.most == Effort::prediction ? kChanceSupport : record_.confident_support();
+  Expectation expectation{std::nullopt, record_.is_doubtful(), confident_support};
   std::vector<Verdict> verdicts;
   for (const Trial& trial : trials) {
     if (trial.hypothesis->effort() == Effort::prediction) expectation.trial = verdicts.size();

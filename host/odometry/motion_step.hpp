@@ -23,6 +23,8 @@ struct MotionQuery {
   Eigen::Isometry3d base_from_key = Eigen::Isometry3d::Identity();  ///< valid if `key` is not null
   std::optional<Eigen::Isometry3d> prediction;                      ///< current_from_base by constant velocity
   std::uint64_t seed = 0;
+  /// Effort::prediction: only a motion near the prediction, with more support than chance gives; no global matches.
+  Effort most = Effort::everything;
 };
 
 /// Quads between an earlier rig and the current one, and the motion that they support.

@@ -42,9 +42,10 @@ Json stages(const std::vector<std::vector<StageTime>>& frames) {
 }
 
 Json loops_json(const LoopFacts& loops) {
-  return {{"compared", loops.compared}, {"kept", loops.kept},         {"segments", loops.segments},
-          {"frames", loops.frames},     {"key_rigs", loops.key_rigs}, {"megabytes", loops.megabytes},
-          {"total_ms", loops.total_ms}};
+  return {{"compared", loops.compared}, {"kept", loops.kept},
+          {"segments", loops.segments}, {"frames", loops.frames},
+          {"key_rigs", loops.key_rigs}, {"megabytes", loops.megabytes},
+          {"total_ms", loops.total_ms}, {"latency_ms", to_json(loops.latency)}};
 }
 
 }  // namespace

@@ -18,14 +18,18 @@ std::size_t first_counted(std::size_t frames) { return frames > 1 ? 1 : 0; }
 
 LatencySummary latency_summary(const std::vector<FrameRecord>& frames) {
   std::vector<double> values;
-  for (std::size_t i = first_counted(frames.size()); i < frames.size(); ++i)
-    values.push_back(frames[i].result.timing.latency_ms);
+  for (const FrameRecord& frame : frames) values.push_back(frame.result.timing.latency_ms);
+  return latency_summary(values);
+}
+
+LatencySummary latency_summary(std::vector<double> values) {
   LatencySummary summary;
+  summary.first = values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first_counted(values.size())));
   summary.median = median(values);
   summary.p90 = percentile(values, 0.9);
   summary.p99 = percentile(values, 0.99);
   summary.max = percentile(values, 1.0);
-  summary.first = frames.empty() ? std::numeric_limits<double>::quiet_NaN() : frames.front().result.timing.latency_ms;
   return summary;
 }
 

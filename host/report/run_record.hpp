@@ -44,6 +44,11 @@ struct MapFacts {
   std::size_t dropped = 0;  ///< points dropped because memory was full
 };
 
+/// Latencies of a run [ms]; the first frame is separate. NaN without frames.
+struct LatencySummary {
+  double median = 0, p90 = 0, p99 = 0, max = 0, first = 0;
+};
+
 /// The closures of a run with --loops.
 struct LoopFacts {
   std::size_t compared = 0, kept = 0;  ///< pairs of a frame and an earlier key stereo rig
@@ -51,7 +56,8 @@ struct LoopFacts {
   std::size_t frames = 0;              ///< in the corrected trajectory
   std::size_t key_rigs = 0;            ///< kept
   double megabytes = 0;                ///< of the kept key rigs, on the host
-  double total_ms = 0;                 ///< time of all comparisons, which is not part of the frames' latency
+  double total_ms = 0;                 ///< time of the map in all frames, which is not part of their latency
+  LatencySummary latency;              ///< of the frames with the time of the map in it
 };
 
 /// One run.
@@ -83,11 +89,9 @@ struct RunRecord {
   }
 };
 
-/// Latencies of a run [ms]; the first frame is separate. NaN without frames.
-struct LatencySummary {
-  double median = 0, p90 = 0, p99 = 0, max = 0, first = 0;
-};
 LatencySummary latency_summary(const std::vector<FrameRecord>& frames);
+/// Of latencies in the order of the frames [ms].
+LatencySummary latency_summary(std::vector<double> values);
 
 /// Median and 90th percentile of each stage over all frames but the first, in order of first appearance.
 struct StageSummary {

@@ -23,11 +23,11 @@ enum class ClosureVerdict {
 };
 const char* to_string(ClosureVerdict verdict);
 
-/// A frame compared with an earlier key stereo rig that looks similar.
+/// A frame compared with an earlier key stereo rig that looks similar or, according to the map, sees the same.
 struct Closure {
   int frame = 0;          ///< number of the frame
   int other = 0;          ///< number of the earlier frame
-  double similarity = 0;  ///< of their signatures, at most 1
+  double similarity = 0;  ///< of their signatures, at most 1; 0 if the map knew that the frame sees this place
   ClosureVerdict verdict = ClosureVerdict::not_found;
   /// Gamma_frame = frame_from_other * Gamma_other, left cameras [m]; empty if no motion was found.
   std::optional<Eigen::Isometry3d> frame_from_other;
