@@ -17,7 +17,7 @@ void Acceptance::test_support(const EdgePositions& predicted, MotionStep& step) 
 }
 
 void Acceptance::judge(const EdgePositions& predicted, MotionStep& step) const {
-  step.verdict.static_ratio = static_ratio(step);
+  step.verdict.static_ratio = static_ratio(step, step.masks);
   pose::select_inliers(step.quads.scoring, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous),
                        kCloseAgreement * config_.pose.inlier_distance, config_.pose.inlier_orientation_rad(),
                        step.agrees);
@@ -54,15 +54,15 @@ ExplainedCells Acceptance::explained_beside(const MotionStep& other, const Eigen
   return cells;
 }
 
-double Acceptance::static_ratio(const MotionStep& step) const {
+double Acceptance::static_ratio(const MotionStep& step, InlierMasks& masks) const {
   const double close = kCloseAgreement * config_.pose.inlier_distance, turn = config_.pose.inlier_orientation_rad();
   const auto& quads = step.quads.scoring;
-  std::vector<std::uint8_t> follows, is_still;
   pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), step.motion.current_from_previous), 2 * close, turn,
-                       follows);
-  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn, is_still);
+                       masks.follows);
+  pose::select_inliers(quads, pose::LaterCameras(offset_.rig(), Eigen::Isometry3d::Identity()), close, turn,
+                       masks.is_still);
   std::size_t still = 0;
-  for (std::size_t q = 0; q < quads.size(); ++q) still += is_still[q] != 0 && follows[q] == 0 ? 1 : 0;
+  for (std::size_t q = 0; q < quads.size(); ++q) still += masks.is_still[q] != 0 && masks.follows[q] == 0 ? 1 : 0;
   return static_cast<double>(still) / std::max(1.0, static_cast<double>(quads.size()));
 }
 

@@ -47,7 +47,7 @@ class Acceptance {
   /// Fraction of the quads that are static although the motion would have moved them. Edges are not static by chance,
   /// and distant edges agree with the motion as well. Hence, either the camera did not move, or something moves along
   /// with it.
-  double static_ratio(const MotionStep& step) const;
+  double static_ratio(const MotionStep& step, InlierMasks& masks) const;
 
   /// Sets the explained area, which weights objects by the area that they cover, not by their number of edges, and the
   /// moving ratio.

@@ -27,6 +27,11 @@ struct MotionQuery {
   Effort most = Effort::everything;
 };
 
+/// Inliers of two motions, one value per quad; a step keeps them for the next frame, which then allocates nothing.
+struct InlierMasks {
+  std::vector<std::uint8_t> follows, is_still;
+};
+
 /// Quads between an earlier rig and the current one, and the motion that they support.
 struct MotionStep {
   frontend::RigHandle base;  ///< the earlier rig
@@ -34,6 +39,7 @@ struct MotionStep {
   pose::QuadObservations quads;
   pose::MotionEstimate motion;
   std::vector<std::uint8_t> agrees;  ///< one per quad: whether it agrees closely with the confirmed motion
+  InlierMasks masks;
   ExplainedCells cells;              ///< of the confirmed motion
   Verdict verdict;
   Doubt doubt;

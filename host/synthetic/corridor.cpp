@@ -46,7 +46,7 @@ class Corridor {
       for (const double side : {-1.0, 1.0}) bay_wall(pose({side * kWall, 0.0, z}, side * 0.5 * kPi, 0.0, 0.0));
       build_.plane(pose({0.0, kCeiling + 0.01, z}, 0.0, 0.5 * kPi, 0.0), 0.6, 0.15, lamp_);
     }
-    return build_.take(0.6, {world_from_corridor() * pose({0.0, 0.0, -1.0}, 0.0, 0.0, 0.0), 30.0, 0.25});
+    return build_.take(1.0, {world_from_corridor() * pose({0.0, 0.0, -1.0}, 0.0, 0.0, 0.0), 30.0, 0.25});
   }
 
  private:
