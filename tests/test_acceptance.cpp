@@ -3,11 +3,11 @@
 #include <numeric>
 
 #include "generated_quads.hpp"
-#include "odometry/acceptance.hpp"
+#include "motion/acceptance.hpp"
 
 using namespace quadedge;
-using odometry::Acceptance;
-using odometry::MotionStep;
+using motion::Acceptance;
+using motion::MotionStep;
 
 namespace {
 
@@ -28,7 +28,7 @@ struct TwoMotions {
   }
   double area_of(const Eigen::Isometry3d& motion) {
     const Config config;
-    const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+    const motion::DisparityOffset offset(generated::car_rig(), config.pose);
     step.motion.current_from_previous = motion;
     Acceptance(config, offset).judge(predicted, step);
     return step.verdict.explained_area;
@@ -89,7 +89,7 @@ TEST_CASE("acceptance: the moving ratio is a fraction of the image, and motions 
   CHECK(alike.step.verdict.moving_ratio < 0.02);
 
   const Config config;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
   const Acceptance acceptance(config, offset);
   alike.step.motion.inlier.assign(alike.step.quads.size(), 1);
   CHECK(acceptance.is_same_motion(alike.step, shift(0.005, 0) * scene.motion));
@@ -121,7 +121,7 @@ TEST_CASE("acceptance: points at rest contradict a motion: the camera may be at 
 TEST_CASE("acceptance: without enough support among the edges in view there is no consensus", "[odometry]") {
   Config config;
   config.temporal.min_support = 0.06;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
   const Acceptance acceptance(config, offset);
   EdgePositions predicted;
   predicted.x.assign(100, 5.0f);
@@ -143,9 +143,9 @@ TEST_CASE("acceptance: without enough support among the edges in view there is n
 
 TEST_CASE("acceptance: global matches confirm the motion that they follow", "[odometry]") {
   const Config config;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
   const Acceptance acceptance(config, offset);
-  odometry::MotionQuery query;
+  motion::MotionQuery query;
   query.base = rig_of_frame(3);
   query.key = rig_of_frame(1);
   query.base_from_key = shift(0.2, -0.8);
@@ -184,7 +184,7 @@ TEST_CASE("acceptance: what one motion explains beside another is where the othe
   TwoMotions seen(thing, scene);
   const double area = seen.area_of(scene.motion);
   const Config config;
-  const odometry::DisparityOffset offset(generated::car_rig(), config.pose);
+  const motion::DisparityOffset offset(generated::car_rig(), config.pose);
   const Acceptance acceptance(config, offset);
   const auto beside = [&](const Eigen::Isometry3d& chosen) {
     return acceptance.explained_beside(seen.step, chosen, config.pose.inlier_distance);

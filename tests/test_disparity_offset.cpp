@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "odometry/disparity_offset.hpp"
+#include "motion/disparity_offset.hpp"
 #include "pose/oriented_point.hpp"
 
 using namespace quadedge;
-using odometry::DisparityOffset;
+using motion::DisparityOffset;
 
 TEST_CASE("disparity offset: the corrected rig reconstructs points nearer by the offset", "[odometry]") {
   PoseConfig config;
@@ -43,7 +43,7 @@ TEST_CASE("disparity offset: it starts from the configured value", "[odometry]")
   const StereoRig rig = generated::car_rig();
   DisparityOffset offset(rig, config);
   CHECK(offset.value() == -0.4);
-  CHECK(offset.rig().right.cx == odometry::with_disparity_offset(rig, -0.4).right.cx);
+  CHECK(offset.rig().right.cx == motion::with_disparity_offset(rig, -0.4).right.cx);
   offset.update(0.1, 0.0004, 1);
   CHECK(offset.value() == Approx(-0.3));
 }

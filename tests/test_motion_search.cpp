@@ -1,5 +1,5 @@
 #include "frontends.hpp"
-#include "odometry/motion_search.hpp"
+#include "motion/motion_search.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -39,15 +39,15 @@ class CountingFrontend : public frontend::Frontend {
 struct TwoFrames {
   RenderedScene scene{"room", 200, 125, 2, 3};
   std::unique_ptr<CountingFrontend> frontend;
-  std::unique_ptr<odometry::DisparityOffset> offset;
-  std::unique_ptr<odometry::MotionSearch> search;
-  odometry::MotionQuery query;
+  std::unique_ptr<motion::DisparityOffset> offset;
+  std::unique_ptr<motion::MotionSearch> search;
+  motion::MotionQuery query;
 
   explicit TwoFrames(int wide_edges) {
     scene.config.temporal.wide_edges = wide_edges;
     frontend = std::make_unique<CountingFrontend>(scene.rig, scene.config);
-    offset = std::make_unique<odometry::DisparityOffset>(scene.rig, scene.config.pose);
-    search = std::make_unique<odometry::MotionSearch>(scene.config, *frontend, *offset);
+    offset = std::make_unique<motion::DisparityOffset>(scene.rig, scene.config.pose);
+    search = std::make_unique<motion::MotionSearch>(scene.config, *frontend, *offset);
     query.base = frontend->process(scene.frame(0));
     query.current = frontend->process(scene.frame(1));
   }

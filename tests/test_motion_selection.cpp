@@ -2,9 +2,9 @@
 #include <numeric>
 #include <set>
 
-#include "odometry/motion_selection.hpp"
+#include "motion/motion_selection.hpp"
 
-using namespace quadedge::odometry;
+using namespace quadedge::motion;
 
 namespace {
 

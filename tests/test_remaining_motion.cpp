@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "odometry/acceptance.hpp"
-#include "odometry/remaining_motion.hpp"
+#include "motion/acceptance.hpp"
+#include "motion/remaining_motion.hpp"
 
 using namespace quadedge;
 
@@ -12,11 +12,11 @@ namespace {
 struct TwoMotions {
   Config config;
   StereoRig rig = generated::car_rig();
-  odometry::DisparityOffset offset{rig, config.pose};
-  odometry::StepBuilder steps{config, offset};
+  motion::DisparityOffset offset{rig, config.pose};
+  motion::StepBuilder steps{config, offset};
   std::shared_ptr<frontend::Rig> before = std::make_shared<frontend::Rig>(), now = std::make_shared<frontend::Rig>();
-  odometry::MotionQuery query;
-  odometry::StepHandle confirmed;
+  motion::MotionQuery query;
+  motion::StepHandle confirmed;
 
   /// `first` edges move by the confirmed motion, `others` by another one.
   TwoMotions(const Eigen::Isometry3d& motion, int first, const Eigen::Isometry3d& other, int others) {
@@ -38,12 +38,12 @@ struct TwoMotions {
     for (int i = 0; i < first + others; ++i) confirmed->matches.append(i, i, now->edges, 0.9F, 0);
     steps.estimate(query, config.pose, motion, *confirmed);
     confirmed->motion.current_from_previous = motion;
-    odometry::Acceptance(config, offset).judge({before->edges.left_x, before->edges.left_y, {}}, *confirmed);
+    motion::Acceptance(config, offset).judge({before->edges.left_x, before->edges.left_y, {}}, *confirmed);
   }
 
-  odometry::StepHandle propose() {
-    odometry::RemainingMotion hypothesis(steps, config);
-    odometry::Evidence evidence;
+  motion::StepHandle propose() {
+    motion::RemainingMotion hypothesis(steps, config);
+    motion::Evidence evidence;
     evidence.confirmed = confirmed.get();
     return hypothesis.propose(query, evidence);
   }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kTiny = 1e-6;
 
-Eigen::Isometry3d motion(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& way) {
+Eigen::Isometry3d motion_of(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& way) {
   return Eigen::Translation3d(way) * Eigen::AngleAxisd(angle, axis.normalized());
 }
 
@@ -23,15 +23,15 @@ Eigen::Matrix<double, 6, 1> relative_error(const Eigen::Isometry3d& estimate, co
   return error;
 }
 
-const Eigen::Isometry3d kFirst = motion(0.3, {1, 2, -1}, {0.4, -0.2, 1}),
-                        kSecond = motion(-0.5, {2, 0, 1}, {1, 0.1, 0.5});
+const Eigen::Isometry3d kFirst = motion_of(0.3, {1, 2, -1}, {0.4, -0.2, 1}),
+                        kSecond = motion_of(-0.5, {2, 0, 1}, {1, 0.1, 0.5});
 
 }  // namespace
 
 TEST_CASE("rig uncertainty: a rotated optical frame and a longer baseline change a motion as predicted", "[pose]") {
   const RigSensitivity by_rig = pose::rig_sensitivity(kFirst, 0.2);
   for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Isometry3d turn = motion(kTiny, Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Zero());
+    const Eigen::Isometry3d turn = motion_of(kTiny, Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Zero());
     const auto error = relative_error(turn * kFirst * turn.inverse(), kFirst);
     CHECK((error / kTiny - by_rig.col(1 + axis)).norm() < 1e-4);
   }
@@ -50,7 +50,7 @@ TEST_CASE("rig uncertainty: the rig's errors along a chain add up to those of th
 
 TEST_CASE("rig uncertainty: it grows linearly with the path length and is zero for an exact rig", "[pose]") {
   PoseConfig config;
-  const auto step = exact(motion(0, {0, 0, 1}, {0, 0, 1}), 0.1);
+  const auto step = exact(motion_of(0, {0, 0, 1}, {0, 0, 1}), 0.1);
   pose::UncertainPose far = step;
   for (int k = 1; k < 100; ++k) far = far * step;
   const double sigma = std::sqrt(pose::whole_covariance(far, config)(2, 2));

@@ -1,17 +1,17 @@
 #include <catch2/catch.hpp>
 
 #include "generated_quads.hpp"
-#include "odometry/still_camera.hpp"
+#include "motion/still_camera.hpp"
 
 using namespace quadedge;
 
 TEST_CASE("still camera: zero motion since the base is always proposed", "[odometry]") {
   const Config config;
   const StereoRig rig = generated::car_rig();
-  const odometry::DisparityOffset offset{rig, config.pose};
-  odometry::StepBuilder steps{config, offset};
-  odometry::StillCamera hypothesis(steps);
-  odometry::MotionQuery query;
+  const motion::DisparityOffset offset{rig, config.pose};
+  motion::StepBuilder steps{config, offset};
+  motion::StillCamera hypothesis(steps);
+  motion::MotionQuery query;
   query.base = std::make_shared<frontend::Rig>();
   query.current = std::make_shared<frontend::Rig>();
   query.prediction = Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3));
@@ -20,9 +20,9 @@ TEST_CASE("still camera: zero motion since the base is always proposed", "[odome
   steps.take(query.base)->motion.current_from_previous = *query.prediction;
   const auto used = steps.take(query.base);
   used->motion.current_from_previous = *query.prediction;
-  odometry::Evidence nothing, found;
+  motion::Evidence nothing, found;
   found.confirmed = found.global_matches = used.get();
-  for (const odometry::Evidence* evidence : {&nothing, &found}) {
+  for (const motion::Evidence* evidence : {&nothing, &found}) {
     const auto step = hypothesis.propose(query, *evidence);
     REQUIRE(step);
     CHECK(step->ok());

@@ -1,13 +1,13 @@
 #include <catch2/catch.hpp>
 
-#include "odometry/track_record.hpp"
+#include "motion/track_record.hpp"
 
 using namespace quadedge;
 
 namespace {
 
-odometry::MotionStep with(double support) {
-  odometry::MotionStep step;
+motion::MotionStep with(double support) {
+  motion::MotionStep step;
   step.motion.status = pose::MotionStatus::ok;
   step.verdict.support = support;
   return step;
@@ -18,7 +18,7 @@ odometry::MotionStep with(double support) {
 TEST_CASE("track record: the support required follows the support of recent motions", "[odometry]") {
   Config config;
   config.temporal.confident_support = 0.35;
-  odometry::TrackRecord record(config);
+  motion::TrackRecord record(config);
   CHECK(record.confident_support() == 0.35);  // before the first motion
   for (int frame = 0; frame < 100; ++frame) record.remember(with(0.5));
   CHECK(record.confident_support() == Approx(0.25));
@@ -26,21 +26,21 @@ TEST_CASE("track record: the support required follows the support of recent moti
   CHECK(record.confident_support() == 0.35);
   for (int frame = 0; frame < 100; ++frame) record.remember(with(0.1));
   CHECK(record.confident_support() == Approx(0.2));  // nor less than chance may reach
-  record.remember(odometry::MotionStep());           // lost
+  record.remember(motion::MotionStep());             // lost
   CHECK(record.confident_support() == 0.35);
 }
 
 TEST_CASE("track record: without a global search to ask, any support will do", "[odometry]") {
   Config config;
   config.temporal.wide_edges = 0;
-  CHECK(odometry::TrackRecord(config).confident_support() == 0);
+  CHECK(motion::TrackRecord(config).confident_support() == 0);
 }
 
 TEST_CASE("track record: a doubt about the last motion is one about the prediction", "[odometry]") {
-  odometry::TrackRecord record{Config{}};
+  motion::TrackRecord record{Config{}};
   CHECK_FALSE(record.is_doubtful());
-  odometry::MotionStep step = with(0.5);
-  step.doubt = {odometry::Ambiguity::static_scene, 0.1};
+  motion::MotionStep step = with(0.5);
+  step.doubt = {motion::Ambiguity::static_scene, 0.1};
   record.remember(step);
   CHECK(record.is_doubtful());
   record.remember(with(0.5));
@@ -50,8 +50,8 @@ TEST_CASE("track record: a doubt about the last motion is one about the predicti
 TEST_CASE("track record: the rest of the image is checked at the start, now and then, and when more of it moves",
           "[odometry]") {
   const Config config;
-  odometry::TrackRecord record(config);
-  odometry::MotionStep step;
+  motion::TrackRecord record(config);
+  motion::MotionStep step;
   step.motion.status = pose::MotionStatus::ok;
   const auto frames_until_check = [&](double moving_ratio) {
     step.verdict.moving_ratio = moving_ratio;
@@ -66,7 +66,7 @@ TEST_CASE("track record: the rest of the image is checked at the start, now and 
   CHECK(frames_until_check(0.3) == 1);
   CHECK(frames_until_check(0.35) == 10);  // no more than at the last check
   // After a doubt, every frame until three of them were clear.
-  step.doubt = {odometry::Ambiguity::motion_elsewhere, 0.2};
+  step.doubt = {motion::Ambiguity::motion_elsewhere, 0.2};
   CHECK(frames_until_check(0.3) == 10);
   CHECK(frames_until_check(0.3) == 1);
   step.doubt = {};

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "cli/output_folder.hpp"
-#include "odometry/disparity_offset.hpp"
+#include "motion/disparity_offset.hpp"
 #include "quadedge/error.hpp"
 #include "reference/undistortion.hpp"
 #include "report/drawing.hpp"
@@ -54,7 +54,7 @@ MapOutput::MapOutput(const MapFiles& files, const Config& config) : files_(files
 void MapOutput::add(const FramePrefetcher::Frame& frame, const FrameResult& result, const StereoOdometry& odometry) {
   if (!map_ || !map_->add(frame.view(), result, odometry)) return;
   const StereoRig& rig = odometry.rig();
-  if (map_->views().size() == 1) rig_ = odometry::with_disparity_offset(rig, 0);
+  if (map_->views().size() == 1) rig_ = motion::with_disparity_offset(rig, 0);
   if (files_.colmap.empty()) return;
   const int number = map_->views().back().frame;
   write_image(files_.colmap + "/images", "left", number, frame.left, rig.left_undistortion);

@@ -2,13 +2,13 @@
 
 #include <limits>
 
-#include "odometry/disparity_offset.hpp"
+#include "motion/disparity_offset.hpp"
 #include "pose/quads.hpp"
 
 namespace quadedge {
 
 EdgePoints edge_points(const StereoEdges& edges, const StereoRig& rig, const Config& config, double disparity_offset) {
-  const StereoRig calibration = odometry::with_disparity_offset(rig, disparity_offset);
+  const StereoRig calibration = motion::with_disparity_offset(rig, disparity_offset);
   pose::MeasuredEdges measured;
   pose::measure_edges(calibration, edges, config.stereo.min_epipolar_angle_rad(), measured);
   const auto count = static_cast<Eigen::Index>(measured.size());

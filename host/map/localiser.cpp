@@ -11,9 +11,9 @@
 #include "common/run_cost.hpp"
 #include "map/saved_places.hpp"
 #include "map/view_change.hpp"
+#include "motion/motion_constants.hpp"
+#include "motion/motion_search.hpp"
 #include "odometry/constant_velocity.hpp"
-#include "odometry/motion_search.hpp"
-#include "odometry/odometry_constants.hpp"
 #include "pose/rig_uncertainty.hpp"
 #include "quadedge/error.hpp"
 #include "quadedge/pi.hpp"
@@ -26,10 +26,6 @@ namespace {
 /// more than the error of a map between neighbouring key rigs, and less than the distance of two places.
 constexpr double kSamePlace = 3 * kDegree;
 
-/// A frame is compared with `map.candidates` key rigs and, as long as it is lost, up to this many times as many. If it
-/// is located, those of them that see other places are compared as well.
-constexpr int kBatches = 4;
-
 /// A motion from a key rig of the map to the frame.
 struct Match {
   const map::Place* place;
@@ -37,7 +33,7 @@ struct Match {
   Eigen::Isometry3d map_from_left;
   int inliers;
   double support, inverse_depth;
-  odometry::Doubt doubt;
+  motion::Doubt doubt;
 };
 
 bool agree(const Match& one, const Match& other) {
@@ -52,7 +48,7 @@ bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
   return map::view_change(motion, match.inverse_depth) > map::kSameView;
 }
 
-bool is_certain(const Match& match) { return !match.doubt.exists() && match.support > odometry::kChanceSupport; }
+bool is_certain(const Match& match) { return !match.doubt.exists() && match.support > motion::kChanceSupport; }
 
 bool are_equal(const PinholeCamera& one, const PinholeCamera& other) {
   return one.matrix() == other.matrix() && one.width == other.width && one.height == other.height;
@@ -147,8 +143,8 @@ class Localiser::Implementation {
   RecordedImages recorded_;
   StereoRig rig_;  ///< the cameras in which edges are detected
   std::unique_ptr<frontend::Frontend> frontend_;
-  odometry::DisparityOffset offset_;
-  odometry::MotionSearch search_;
+  motion::DisparityOffset offset_;
+  motion::MotionSearch search_;
   rig_check::RigMonitor rig_monitor_;
   std::optional<Eigen::Isometry3d> last_;  ///< pose of the previous frame, if that was located
   odometry::ConstantVelocity velocity_;
@@ -209,7 +205,7 @@ void Localiser::Implementation::locate(const frontend::RigHandle& rig, Localisat
   const map::PlaceSignature signature = map::place_signature(frontend_->keep());
   const auto may_be = [](const map::Place&) { return true; };
   const int batch = config_.map.candidates;
-  const auto similar = map_.places().store.most_similar(signature, kBatches * batch, may_be);
+  const auto similar = map_.places().store.most_similar(signature, map::kCandidateBatches * batch, may_be);
   result.message = "the map has no key rigs";
   std::vector<Match> matches;
   for (std::size_t k = 0; k < similar.size(); ++k) {
@@ -246,7 +242,7 @@ const Match* Localiser::Implementation::judge(const std::vector<Match>& matches,
     if (!match.doubt.exists() && (best == nullptr || match.inliers > best->inliers)) best = &match;
   if (best == nullptr)
     return lose(LocalisationStatus::lost_ambiguous,
-                rig_text(matches.front()) + ": " + odometry::to_string(matches.front().doubt), result);
+                rig_text(matches.front()) + ": " + motion::to_string(matches.front().doubt), result);
   bool is_confirmed = is_certain(*best);
   for (const Match& match : matches) {
     if (&match == best || match.doubt.exists()) continue;
@@ -266,12 +262,12 @@ const Match* Localiser::Implementation::judge(const std::vector<Match>& matches,
 std::optional<Match> Localiser::Implementation::compare(const map::Place& place, const frontend::RigHandle& rig,
                                                         const std::optional<Eigen::Isometry3d>& map_from_left) {
   const Eigen::Isometry3d& map_from_key = map_.places().poses[static_cast<std::size_t>(place.node)];
-  odometry::MotionQuery query;
+  motion::MotionQuery query;
   query.current = rig;
   query.base = frontend_->restore(place.rig);
   query.seed = config_.seed;
   if (map_from_left) query.prediction = map_from_left->inverse() * map_from_key;
-  const odometry::StepHandle step = search_.find(query);
+  const motion::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const pose::MotionEstimate& motion = step->motion;
   return Match{&place,

@@ -11,9 +11,9 @@
 #include "map/pose_graph.hpp"
 #include "map/saved_places.hpp"
 #include "map/view_change.hpp"
+#include "motion/motion_constants.hpp"
+#include "motion/motion_search.hpp"
 #include "odometry/current_rig.hpp"
-#include "odometry/motion_search.hpp"
-#include "odometry/odometry_constants.hpp"
 #include "pose/rig_uncertainty.hpp"
 #include "quadedge/pi.hpp"
 
@@ -37,10 +37,6 @@ constexpr double kMostChange = 1;
 /// A closure within a segment is worth its search if the map's motion has this many times the variance of a motion
 /// since the key rig. A closure has about four times that variance, since a kept rig has a fraction of the edges.
 constexpr double kWorthwhile = 12;
-
-/// A rig that matches a place of another segment is compared with up to this many times `map.candidates` places, in
-/// case another matches as well.
-constexpr int kBatches = 4;
 
 /// Number of closures that wait for a witness. A witness is found in the rigs that follow, or not at all.
 constexpr std::size_t kMostPending = 20;
@@ -106,7 +102,7 @@ class Map::Implementation {
   Closure& listed(const ListedClosure& closure) { return closures_[closure.number]; }
   /// Whether its support, which a wrong motion does not reach by chance, suffices to join two segments.
   bool is_certain(const ListedClosure& closure) const {
-    return closures_[closure.number].support > odometry::kChanceSupport;
+    return closures_[closure.number].support > motion::kChanceSupport;
   }
   bool is_rival(const map::Place& place, const std::vector<ListedClosure>& joining, double inverse_depth) const;
   void reject_contradictions(const std::vector<ListedClosure>& joining);
@@ -121,7 +117,7 @@ class Map::Implementation {
   Config config_;
   map::PlaceStore store_;
   map::PoseGraph graph_;
-  odometry::MotionSearch search_;
+  motion::MotionSearch search_;
   std::vector<LocatedFrame> frames_;
   std::vector<int> frame_of_node_;
   /// Motion of the frame located last, from its node to itself, in case it becomes a reference.
@@ -249,7 +245,8 @@ bool Map::Implementation::recognise(int node) {
   std::optional<ListedClosure> own;
   std::vector<ListedClosure> joining;
   int rank = 0;
-  for (const auto& similar : store_.most_similar(place.signature, kBatches * config_.map.candidates, may_be)) {
+  for (const auto& similar :
+       store_.most_similar(place.signature, map::kCandidateBatches * config_.map.candidates, may_be)) {
     const bool is_candidate = rank++ < config_.map.candidates;
     if (!is_joined(similar.place->node, node)) {
       if (!is_candidate && !is_rival(*similar.place, joining, inverse_depth)) continue;
@@ -284,15 +281,15 @@ std::optional<ListedClosure> Map::Implementation::compare(const map::PlaceStore:
 std::optional<GraphEdge> Map::Implementation::search(const map::Place& place, int node, bool near_prediction,
                                                      Closure& closure) {
   const odometry::CurrentRig now = odometry_.current_rig();
-  odometry::MotionQuery query;
+  motion::MotionQuery query;
   query.current = now.rig;
   query.base = now.frontend.restore(place.rig);
   query.seed = config_.seed + static_cast<std::uint64_t>(closure.frame);
   if (near_prediction) {
     query.prediction = graph_.pose(node).inverse() * graph_.pose(place.node);
-    query.most = odometry::Effort::prediction;
+    query.most = motion::Effort::prediction;
   }
-  const odometry::StepHandle step = search_.find(query);
+  const motion::StepHandle step = search_.find(query);
   if (!step->ok()) return std::nullopt;
   const pose::MotionEstimate& motion = step->motion;
   closure.frame_from_other = motion.current_from_previous;
@@ -409,8 +406,8 @@ std::optional<Eigen::Isometry3d> Map::Implementation::pose(std::size_t frame) co
 
 SavedMap Map::Implementation::saved() const {
   map::SavedPlaces saved;
-  saved.rig = odometry::with_disparity_offset(odometry_.rig(), 0);
-  const odometry::DisparityOffset& offset = odometry_.current_rig().offset;
+  saved.rig = motion::with_disparity_offset(odometry_.rig(), 0);
+  const motion::DisparityOffset& offset = odometry_.current_rig().offset;
   saved.offset = offset.value();
   saved.offset_variance = offset.variance();
   saved.settings = map::descriptor_settings(config_);

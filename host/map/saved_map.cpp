@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "map/saved_places.hpp"
-#include "odometry/disparity_offset.hpp"
+#include "motion/disparity_offset.hpp"
 #include "quadedge/error.hpp"
 
 namespace quadedge {
@@ -201,7 +201,7 @@ class Check {
 }  // namespace
 
 SavedMap::SavedMap(SavedPlaces header, std::vector<map::Place> places) {
-  const auto calibration = std::make_shared<StereoRig>(odometry::with_disparity_offset(header.rig, header.offset));
+  const auto calibration = std::make_shared<StereoRig>(motion::with_disparity_offset(header.rig, header.offset));
   for (map::Place& place : places) {
     place.node = static_cast<int>(header.store.size());
     place.rig.own_calibration = calibration;

@@ -10,11 +10,11 @@
 #include "common/host_stages.hpp"
 #include "common/recorded_images.hpp"
 #include "frontend/frontend.hpp"
+#include "motion/disparity_offset.hpp"
+#include "motion/motion_search.hpp"
 #include "odometry/constant_velocity.hpp"
 #include "odometry/current_rig.hpp"
-#include "odometry/disparity_offset.hpp"
 #include "odometry/key_rig.hpp"
-#include "odometry/motion_search.hpp"
 #include "odometry/tracking_state.hpp"
 #include "opencl/context.hpp"
 #include "opencl/variants.hpp"
@@ -103,7 +103,7 @@ class StereoOdometry::Implementation {
   /// The motion of the current rig, found before it is known whether the frame can be used. Until adopt() it changes
   /// nothing.
   struct FoundMotion {
-    odometry::StepHandle step;  ///< null if none was searched for
+    motion::StepHandle step;  ///< null if none was searched for
     bool is_from_lost_rig = false;
     double pose_ms = 0;
   };
@@ -113,7 +113,7 @@ class StereoOdometry::Implementation {
   FoundMotion search();
   void adopt(FoundMotion& found, FrameResult& result);
   void start_segment(FrameResult& result);
-  void locate(const odometry::MotionStep& step, FrameResult& result);
+  void locate(const motion::MotionStep& step, FrameResult& result);
   void lose(FrameStatus status, const std::string& message, FrameResult& result);
   void take(const rig_check::RigReport& report, FrameResult& result) const;
   void warn(const Warning& warning, FrameResult& result) const;
@@ -125,14 +125,14 @@ class StereoOdometry::Implementation {
   Config config_;
   std::vector<Warning> start_warnings_;  ///< for the first frame
   std::unique_ptr<frontend::Frontend> frontend_;
-  odometry::DisparityOffset offset_;
-  odometry::MotionSearch motion_search_;
+  motion::DisparityOffset offset_;
+  motion::MotionSearch motion_search_;
   rig_check::RigMonitor rig_monitor_;
 
   odometry::TrackingState state_;
   odometry::ConstantVelocity velocity_;
   frontend::RigHandle current_;  ///< of the last frame tracked; null before the first frame
-  odometry::StepHandle step_;    ///< its motion; null if none was searched for
+  motion::StepHandle step_;      ///< its motion; null if none was searched for
   std::optional<std::int64_t> last_stamp_ns_;
   std::vector<double> distances_;   ///< buffer of median_parallax()
   std::set<WarningKind> reported_;  ///< kinds of warnings of the frames before
@@ -227,7 +227,7 @@ void StereoOdometry::Implementation::start(FrameResult& result) {
 /// Finds the motion since the base. After a loss, when nothing is known of the motion, an ambiguous one is refused, and
 /// the motion since the lost frame is tried.
 StereoOdometry::Implementation::FoundMotion StereoOdometry::Implementation::search() {
-  odometry::MotionQuery query;
+  motion::MotionQuery query;
   query.current = current_;
   query.seed = config_.seed + static_cast<std::uint64_t>(current_->frame);
   query.base = state_.base.rig;
@@ -243,7 +243,7 @@ StereoOdometry::Implementation::FoundMotion StereoOdometry::Implementation::sear
   if (!found.step->ok() && state_.lost) {
     query.base = state_.lost->rig;
     query.prediction = std::nullopt;
-    odometry::StepHandle relocalised = motion_search_.find(query);
+    motion::StepHandle relocalised = motion_search_.find(query);
     if (relocalised->ok()) {
       found.step = std::move(relocalised);
       found.is_from_lost_rig = true;
@@ -280,7 +280,7 @@ void StereoOdometry::Implementation::start_segment(FrameResult& result) {
 
 /// Locates the frame against the key rig or, if that is out of view, against the base; in the latter case the frame
 /// becomes the key rig.
-void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, FrameResult& result) {
+void StereoOdometry::Implementation::locate(const motion::MotionStep& step, FrameResult& result) {
   const bool by_key = step.base == state_.key.rig();
   pose::RelativePose current_from_key{step.motion.current_from_previous, step.motion.covariance};
   if (!by_key) current_from_key = current_from_key * state_.base.from_key;
@@ -307,7 +307,7 @@ void StereoOdometry::Implementation::locate(const odometry::MotionStep& step, Fr
     warn(rig_check::warning(*large), result);
   result.ambiguous_motion = step.doubt.exists();
   result.diagnostics.moving_ratio = step.verdict.moving_ratio;
-  if (step.doubt.exists()) add_message("ambiguous motion: " + odometry::to_string(step.doubt), result);
+  if (step.doubt.exists()) add_message("ambiguous motion: " + motion::to_string(step.doubt), result);
   result.diagnostics.base_frame = step.base->frame;
   result.diagnostics.search = step.matches.search;
   result.reference_frame = state_.key.frame();

@@ -15,7 +15,7 @@ using TexturePointer = std::shared_ptr<const Texture>;
 
 constexpr double kWall = 2.0;                    // x [m], of both walls
 constexpr double kCeiling = -1.2, kFloor = 1.4;  // y [m]
-constexpr double kFirstBay = -6.0, kBay = 3.0;      // z [m] of the first bay, length of a bay with a door
+constexpr double kFirstBay = -6.0, kBay = 3.0;   // z [m] of the first bay, length of a bay with a door
 constexpr int kBays = 16;
 constexpr double kTexelDistance = 0.9;  // [m], where a texel covers half a pixel
 

@@ -5,7 +5,7 @@
 
 #include "quadedge/camera.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// The edges of a base that a motion brings into one cell of the image: how many there are, how many of them were found
 /// again, and how many of those the motion explains.
@@ -47,4 +47,4 @@ class ExplainedCells {
   std::vector<ExplainedCell> cells_;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -1,10 +1,10 @@
-#include "odometry/motion_selection.hpp"
+#include "motion/motion_selection.hpp"
 
 #include <cmath>
 
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_constants.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 namespace {
 
 /// The motion that explains the largest area. Of equal trials, such as two failures, one that does not rely on the
@@ -106,4 +106,4 @@ Doubt doubt_about(const Elsewhere& elsewhere, bool is_doubtful) {
   return is_large || surrounds ? Doubt{Ambiguity::motion_elsewhere, elsewhere.area} : Doubt{};
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

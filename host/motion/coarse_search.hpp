@@ -1,10 +1,10 @@
 #pragma once
 /// \file coarse_search.hpp  Hypothesis: a subset of the edges lies within a radius of the predicted positions.
 
-#include "odometry/motion_hypothesis.hpp"
-#include "odometry/step_builder.hpp"
+#include "motion/motion_hypothesis.hpp"
+#include "motion/step_builder.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Matches every n-th edge with the strict limits of temporal.coarse_*.
 class CoarseSearch : public MotionHypothesis {
@@ -30,4 +30,4 @@ class CoarseSearch : public MotionHypothesis {
   TemporalSearch search_;  ///< kept between calls
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

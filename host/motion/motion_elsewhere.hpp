@@ -2,12 +2,12 @@
 /// \file motion_elsewhere.hpp  Searches for another motion where the chosen one explains nothing.
 
 #include "frontend/frontend.hpp"
-#include "odometry/acceptance.hpp"
-#include "odometry/confirmation.hpp"
-#include "odometry/motion_step.hpp"
-#include "odometry/step_builder.hpp"
+#include "motion/acceptance.hpp"
+#include "motion/confirmation.hpp"
+#include "motion/motion_step.hpp"
+#include "motion/step_builder.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// An object that fills much of the image may hold most of the edges, so that its motion is chosen with confidence. The
 /// scene beside it moves too far to be found near that motion; it is searched for among the global matches.
@@ -32,4 +32,4 @@ class MotionElsewhere {
   TemporalMatches matches_;  ///< kept between calls
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

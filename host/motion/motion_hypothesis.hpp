@@ -1,9 +1,9 @@
 #pragma once
 /// \file motion_hypothesis.hpp  Interface of the sources of motion hypotheses. motion_search.cpp lists them.
 
-#include "odometry/motion_step.hpp"
+#include "motion/motion_step.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// What the preceding hypotheses have shown for the same frame.
 struct Evidence {
@@ -30,4 +30,4 @@ class MotionHypothesis {
   virtual bool requires_close_agreement() const { return false; }
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -2,10 +2,10 @@
 /// \file remaining_motion.hpp  Hypothesis: the motion found is that of an object, and the scene moves differently by a
 /// few pixels.
 
-#include "odometry/motion_hypothesis.hpp"
-#include "odometry/step_builder.hpp"
+#include "motion/motion_hypothesis.hpp"
+#include "motion/step_builder.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Searches among the quads of a confirmed motion for another motion of those that do not agree with it closely. Two
 /// motions that differ by a pixel or two both lie within the inlier distance of a compromise between them; the quads
@@ -22,4 +22,4 @@ class RemainingMotion : public MotionHypothesis {
   PoseConfig limits_;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

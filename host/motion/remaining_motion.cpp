@@ -1,8 +1,8 @@
-#include "odometry/remaining_motion.hpp"
+#include "motion/remaining_motion.hpp"
 
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_constants.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 RemainingMotion::RemainingMotion(StepBuilder& steps, const Config& config)
     : steps_(steps), limits_(limits_of_proposals(config)) {
@@ -25,4 +25,4 @@ StepHandle RemainingMotion::propose(const MotionQuery& query, const Evidence& ev
   return step;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

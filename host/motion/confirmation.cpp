@@ -1,12 +1,12 @@
-#include "odometry/confirmation.hpp"
+#include "motion/confirmation.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "frontend/prediction.hpp"
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_constants.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 namespace {
 
 /// Leaves out the edges that are predicted where another motion explains the image.
@@ -73,4 +73,4 @@ StepHandle Confirmation::match(const MotionQuery& query, const frontend::RigHand
   return step;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

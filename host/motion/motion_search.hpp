@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "frontend/frontend.hpp"
-#include "odometry/acceptance.hpp"
-#include "odometry/confirmation.hpp"
-#include "odometry/disparity_offset.hpp"
-#include "odometry/motion_elsewhere.hpp"
-#include "odometry/motion_hypothesis.hpp"
-#include "odometry/motion_step.hpp"
-#include "odometry/step_builder.hpp"
-#include "odometry/track_record.hpp"
+#include "motion/acceptance.hpp"
+#include "motion/confirmation.hpp"
+#include "motion/disparity_offset.hpp"
+#include "motion/motion_elsewhere.hpp"
+#include "motion/motion_hypothesis.hpp"
+#include "motion/motion_step.hpp"
+#include "motion/step_builder.hpp"
+#include "motion/track_record.hpp"
 #include "quadedge/config.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Tries motion hypotheses with growing effort. Each proposal, made from a subset of the edges, is confirmed with all
 /// edges; select() chooses among the verdicts and says whether more has to be tried.
@@ -59,4 +59,4 @@ class MotionSearch {
   std::vector<std::unique_ptr<MotionHypothesis>> hypotheses_;  ///< in the order in which they are tried
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

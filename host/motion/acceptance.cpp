@@ -1,13 +1,13 @@
-#include "odometry/acceptance.hpp"
+#include "motion/acceptance.hpp"
 
 #include <algorithm>
 
 #include "frontend/prediction.hpp"
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_constants.hpp"
 #include "pose/scoring.hpp"
 #include "quadedge/pi.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 void Acceptance::test_support(const EdgePositions& predicted, MotionStep& step) const {
   const int in_view = frontend::count_in_view(offset_.rig().left, predicted);
@@ -98,4 +98,4 @@ bool Acceptance::agrees_with_global_matches(const MotionStep& global_matches, co
          config_.pose.min_inliers;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

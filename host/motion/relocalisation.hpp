@@ -1,10 +1,10 @@
 #pragma once
 /// \file relocalisation.hpp  Hypothesis: the camera may have moved arbitrarily; edges are matched globally.
 
-#include "odometry/motion_hypothesis.hpp"
-#include "odometry/step_builder.hpp"
+#include "motion/motion_hypothesis.hpp"
+#include "motion/step_builder.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Matches a subset of the edges over the whole left image by wide descriptors.
 class Relocalisation : public MotionHypothesis {
@@ -25,4 +25,4 @@ class Relocalisation : public MotionHypothesis {
 /// correct edge.
 PoseConfig limits_of_global_matches(const Config& config);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

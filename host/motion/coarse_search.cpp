@@ -1,10 +1,10 @@
-#include "odometry/coarse_search.hpp"
+#include "motion/coarse_search.hpp"
 
 #include <algorithm>
 
 #include "frontend/prediction.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 CoarseSearch CoarseSearch::near_prediction(frontend::Frontend& frontend, StepBuilder& steps, const Config& config) {
   return {frontend, steps, config, config.temporal.coarse_radius, true};
@@ -37,4 +37,4 @@ StepHandle CoarseSearch::propose(const MotionQuery& query, const Evidence&) {
   return step;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "common/temporal_search.hpp"
-#include "odometry/disparity_offset.hpp"
-#include "odometry/motion_step.hpp"
+#include "motion/disparity_offset.hpp"
+#include "motion/motion_step.hpp"
 #include "quadedge/config.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// The measurements on which the choice between motions rests (motion_selection.hpp).
 class Acceptance {
@@ -57,4 +57,4 @@ class Acceptance {
   const DisparityOffset& offset_;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

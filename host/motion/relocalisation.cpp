@@ -1,6 +1,6 @@
-#include "odometry/relocalisation.hpp"
+#include "motion/relocalisation.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 Relocalisation::Relocalisation(frontend::Frontend& frontend, StepBuilder& steps, const Config& config)
     : frontend_(frontend),
@@ -21,4 +21,4 @@ PoseConfig limits_of_global_matches(const Config& config) {
   return limits;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -1,8 +1,8 @@
-#include "odometry/second_motion.hpp"
+#include "motion/second_motion.hpp"
 
-#include "odometry/relocalisation.hpp"
+#include "motion/relocalisation.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 SecondMotion::SecondMotion(StepBuilder& steps, const Config& config)
     : steps_(steps), limits_(limits_of_global_matches(config)) {}
@@ -23,4 +23,4 @@ StepHandle SecondMotion::propose(const MotionQuery& query, const Evidence& evide
   return step;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -1,6 +1,6 @@
-#include "odometry/disparity_offset.hpp"
+#include "motion/disparity_offset.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 namespace {
 
@@ -40,4 +40,4 @@ void DisparityOffset::update(double correction, double variance, int frames) {
   rig_ = with_disparity_offset(calibration_, value_);
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

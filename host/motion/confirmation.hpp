@@ -4,11 +4,11 @@
 #include <Eigen/Geometry>
 
 #include "frontend/frontend.hpp"
-#include "odometry/acceptance.hpp"
-#include "odometry/motion_step.hpp"
-#include "odometry/step_builder.hpp"
+#include "motion/acceptance.hpp"
+#include "motion/motion_step.hpp"
+#include "motion/step_builder.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Matches all edges of a rig within a few pixels of the positions that a motion predicts, and repeats this with the
 /// motion found until the predicted positions no longer change.
@@ -42,4 +42,4 @@ class Confirmation {
   TemporalSearch search_, next_search_;  ///< kept between calls
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

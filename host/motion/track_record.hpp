@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "odometry/motion_step.hpp"
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_constants.hpp"
+#include "motion/motion_step.hpp"
 #include "quadedge/config.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Remembers the support that recent motions had and whether the last one was in doubt.
 class TrackRecord {
@@ -57,4 +57,4 @@ class TrackRecord {
   double checked_moving_ratio_ = 0;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

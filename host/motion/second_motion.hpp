@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "odometry/motion_hypothesis.hpp"
-#include "odometry/step_builder.hpp"
+#include "motion/motion_hypothesis.hpp"
+#include "motion/step_builder.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Searches among the global matches that the motion of Relocalisation does not explain.
 class SecondMotion : public MotionHypothesis {
@@ -23,4 +23,4 @@ class SecondMotion : public MotionHypothesis {
   std::vector<std::uint8_t> explained_;  ///< kept between calls
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

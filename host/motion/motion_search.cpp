@@ -1,16 +1,16 @@
-#include "odometry/motion_search.hpp"
+#include "motion/motion_search.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "odometry/coarse_search.hpp"
-#include "odometry/odometry_constants.hpp"
-#include "odometry/relocalisation.hpp"
-#include "odometry/remaining_motion.hpp"
-#include "odometry/second_motion.hpp"
-#include "odometry/still_camera.hpp"
+#include "motion/coarse_search.hpp"
+#include "motion/motion_constants.hpp"
+#include "motion/relocalisation.hpp"
+#include "motion/remaining_motion.hpp"
+#include "motion/second_motion.hpp"
+#include "motion/still_camera.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 MotionSearch::MotionSearch(const Config& config, frontend::Frontend& frontend, const DisparityOffset& offset)
     : steps_(config, offset),
@@ -110,4 +110,4 @@ Verdict MotionSearch::verdict_of(const Trial& trial, const Evidence& evidence, c
   return verdict;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

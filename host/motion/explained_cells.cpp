@@ -1,12 +1,12 @@
-#include "odometry/explained_cells.hpp"
+#include "motion/explained_cells.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_constants.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 bool ExplainedCell::follows() const {
   return explained >= kMinExplainedRatio * std::max(found, kMinFoundRatio * edges);
@@ -59,4 +59,4 @@ double ExplainedCells::moving_ratio() const {
   return in_view > 0 ? elsewhere / in_view : 0;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

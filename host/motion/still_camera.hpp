@@ -1,10 +1,10 @@
 #pragma once
 /// \file still_camera.hpp  Hypothesis: the camera is stationary, and only objects in front of it move.
 
-#include "odometry/motion_hypothesis.hpp"
-#include "odometry/step_builder.hpp"
+#include "motion/motion_hypothesis.hpp"
+#include "motion/step_builder.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Proposes that the camera has not moved since the base.
 class StillCamera : public MotionHypothesis {
@@ -23,4 +23,4 @@ class StillCamera : public MotionHypothesis {
   StepBuilder& steps_;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

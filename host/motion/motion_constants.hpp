@@ -1,8 +1,8 @@
 #pragma once
-/// \file odometry_constants.hpp  Constants that decide about motions (doc/method.md section 7) and that no recording
+/// \file motion_constants.hpp  Constants that decide about motions (doc/method.md section 7) and that no recording
 /// has needed to adjust. The others are in quadedge/constants.inc.
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Fraction of the inlier distance that counts as close agreement. In fine texture, edges agree with a wrong position
 /// by chance, less often at a smaller distance. Of two motions that differ by a pixel or two, only one agrees closely.
@@ -76,4 +76,4 @@ constexpr double kProposalMinInlierRatio = 0.03;
 constexpr double kSettled = 0.3;
 constexpr int kSettledStep = 16;
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -4,7 +4,7 @@
 #include "quadedge/camera.hpp"
 #include "quadedge/config.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Moves the right principal point so that all disparities increase by `offset` px. The result has no undistortion
 /// tables and no masks.
@@ -35,4 +35,4 @@ class DisparityOffset {
   double value_, variance_;
 };
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

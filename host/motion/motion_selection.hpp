@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// What a motion explains of the images.
 struct Verdict {
@@ -87,4 +87,4 @@ struct Elsewhere {
 /// \returns no doubt, or motion_elsewhere
 Doubt doubt_about(const Elsewhere& elsewhere, bool is_doubtful);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -1,11 +1,11 @@
-#include "odometry/motion_elsewhere.hpp"
+#include "motion/motion_elsewhere.hpp"
 
 #include <algorithm>
 
-#include "odometry/odometry_constants.hpp"
-#include "odometry/relocalisation.hpp"
+#include "motion/motion_constants.hpp"
+#include "motion/relocalisation.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 MotionElsewhere::MotionElsewhere(const Config& config, frontend::Frontend& frontend, StepBuilder& steps,
                                  Confirmation& confirmation, const Acceptance& acceptance)
@@ -43,4 +43,4 @@ Elsewhere MotionElsewhere::find(const MotionQuery& query, const MotionStep& chos
   return found;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -1,11 +1,11 @@
-#include "odometry/step_builder.hpp"
+#include "motion/step_builder.hpp"
 
 #include <algorithm>
 
 #include "common/run_cost.hpp"
-#include "odometry/odometry_constants.hpp"
+#include "motion/motion_constants.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 StepHandle StepBuilder::take(const frontend::RigHandle& base) {
   StepHandle step = steps_.take();
@@ -36,4 +36,4 @@ PoseConfig limits_of_proposals(const Config& config) {
   return limits;
 }
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

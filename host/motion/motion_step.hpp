@@ -8,12 +8,12 @@
 
 #include "common/pool.hpp"
 #include "frontend/rig.hpp"
-#include "odometry/explained_cells.hpp"
-#include "odometry/motion_selection.hpp"
+#include "motion/explained_cells.hpp"
+#include "motion/motion_selection.hpp"
 #include "pose/motion.hpp"
 #include "quadedge/edges.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// What is known about the current frame before its edges are matched with earlier ones.
 struct MotionQuery {
@@ -40,7 +40,7 @@ struct MotionStep {
   pose::MotionEstimate motion;
   std::vector<std::uint8_t> agrees;  ///< one per quad: whether it agrees closely with the confirmed motion
   InlierMasks masks;
-  ExplainedCells cells;              ///< of the confirmed motion
+  ExplainedCells cells;  ///< of the confirmed motion
   Verdict verdict;
   Doubt doubt;
   bool is_checked = false;  ///< whether the rest of the image was searched for another motion
@@ -76,4 +76,4 @@ inline Eigen::Isometry3d motion_since(const frontend::RigHandle& rig, const Moti
 /// A step from a pool.
 using StepHandle = Pool<MotionStep>::Handle;
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "frontend/frontend.hpp"
-#include "odometry/disparity_offset.hpp"
-#include "odometry/motion_step.hpp"
+#include "motion/disparity_offset.hpp"
+#include "motion/motion_step.hpp"
 #include "pose/motion.hpp"
 #include "pose/quads.hpp"
 #include "quadedge/config.hpp"
 
-namespace quadedge::odometry {
+namespace quadedge::motion {
 
 /// Takes steps from a pool and estimates the motion that their matches support. It must outlive the steps.
 class StepBuilder {
@@ -56,4 +56,4 @@ class StepBuilder {
 /// Relaxed limits for the motion of a subset of the edges, to be confirmed by a guided search.
 PoseConfig limits_of_proposals(const Config& config);
 
-}  // namespace quadedge::odometry
+}  // namespace quadedge::motion
