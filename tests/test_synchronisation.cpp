@@ -36,6 +36,7 @@ TEST_CASE("synchronisation: calibration errors and too few samples give no time 
   CHECK(watched(0, 0).time_offset_frames() == 0);
   CHECK(watched(0, 2).time_offset_frames() == 0);
   CHECK(watched(0.05, 0).time_offset_frames() == 0);  // below the warning threshold
+  CHECK(watched(5, 0).time_offset_frames() == 0);     // no two cameras are so far apart: another error of the rig
   Synchronisation still;                              // no motion: the time offset cannot be measured
   for (int i = 0; i < 1000; ++i) still.add(0.001 * (i % 100), 0.01 * (i % 7), 0.5, 0);
   CHECK(still.time_offset_frames() == 0);

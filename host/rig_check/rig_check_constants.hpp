@@ -78,5 +78,8 @@ constexpr int kMinSamples = 200;
 /// Standard deviations of the time; many, because the errors of neighbours are correlated.
 constexpr double kMinTimeSigmas = 10;
 constexpr double kMinTimeOffset = 0.3;  ///< frame intervals; hardware triggers stay below 0.01
+/// A camera that is later than this shows another motion, to which distances are not proportional [frame intervals].
+/// Larger values come from other errors of the rig in images that hardly move.
+constexpr double kMaxTimeOffset = 3;
 
 }  // namespace quadedge::rig_check

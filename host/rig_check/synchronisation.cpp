@@ -23,7 +23,8 @@ double Synchronisation::time_offset_frames() const {
   const Terms terms = solver.solve(right_side_);
   const double variance = (squares_ - terms.dot(right_side_)) / (count_ - 7);
   const double sigma = std::sqrt(std::fmax(variance, 0) * solver.inverse()(6, 6));
-  return std::abs(terms[6]) > kMinTimeOffset && std::abs(terms[6]) > kMinTimeSigmas * sigma ? terms[6] : 0;
+  const double offset = std::abs(terms[6]);
+  return offset > kMinTimeOffset && offset < kMaxTimeOffset && offset > kMinTimeSigmas * sigma ? terms[6] : 0;
 }
 
 }  // namespace quadedge::rig_check

@@ -15,7 +15,8 @@ class Synchronisation {
   /// \param motion displacement across the line over the last frame interval [px]
   void add(double u, double v, double across, double motion);
 
-  /// Lag of the right camera in frame intervals, negative if the left one lags; 0 if not significant.
+  /// Lag of the right camera in frame intervals, negative if the left one lags; 0 if not significant or
+  /// implausibly large.
   double time_offset_frames() const;
 
  private:

@@ -54,7 +54,7 @@ def test_without_loops_there_is_no_map_and_the_poses_are_the_same(walk, saved):
 def test_frames_are_located_in_a_saved_map(walk, saved):
     path, _, _ = saved
     places = quadedge.Map.load(path)
-    assert len(places) == places.key_rigs > 10
+    assert len(places) == places.key_rigs > 1
     frame = list(walk)[5]
     found = places.localise(frame.left, frame.right, frame.stamp_ns)
     assert found.status == "located" and found.message == "" and found.stamp_ns == frame.stamp_ns
