@@ -21,7 +21,7 @@ void write_bytes(const std::string& path, const std::string& bytes) { std::ofstr
 
 /// A map file with these contents and a header that fits them, unless a part is given. doc/method.md section 10 states
 /// the layout.
-std::string framed(const std::string& bytes, std::uint32_t version = 1) {
+std::string framed(const std::string& bytes, std::uint32_t version = 2) {
   const std::uint64_t size = bytes.size();
   std::string text("\x89QEMAP\r\n", 8);
   text.append(reinterpret_cast<const char*>(&version), 4).append(reinterpret_cast<const char*>(&size), 8);
@@ -83,7 +83,7 @@ TEST_CASE("saved map: files that are cut, damaged, foreign or of another version
   check_refused_map("solid cube\n" + std::string(100, ' '), "another kind");
   check_refused_map(replaced(whole, 0, 'x'), "another kind");
   check_refused_map(whole.substr(0, kHeaderBytes - 1), "another kind");
-  check_refused_map(framed(bytes, 2), "version 2");
+  check_refused_map(framed(bytes, 1), "version 1");
   check_refused_map(replaced(whole, 12, std::uint64_t{1} << 60), "1152921504606846976");
   check_refused_map(whole.substr(0, whole.size() - 1), "bytes of the map");
   check_refused_map(whole + "x", "bytes of the map");
@@ -97,7 +97,7 @@ TEST_CASE("saved map: files that are cut, damaged, foreign or of another version
 
 TEST_CASE("saved map: contents that promise more than there is or hold impossible values are refused", "[device]") {
   const std::string bytes = saved_maps::room_map().bytes();
-  const std::size_t rig = bytes_of_settings(bytes), poses = rig + 2 * 40 + 128 + 4 + 16;
+  const std::size_t rig = bytes_of_settings(bytes), poses = rig + 2 * 40 + 128 + 4 + 1 + 16;
   const std::size_t places = poses + 4 + saved_maps::room_map().key_rigs() * 128;
   const std::size_t count = places + 4 + 4 + 8 + 1024, column = count + 4;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -112,8 +112,9 @@ TEST_CASE("saved map: contents that promise more than there is or hold impossibl
   refused(rig + 80, 2.0, "rotation");
   refused(rig + 80 + 96, kNan, "baseline");
   refused(rig + 208, std::int32_t{0}, "pixel value");
-  refused(rig + 212, kNan, "disparity offset");
-  refused(rig + 220, -1.0, "variance");
+  refused(rig + 212, std::uint8_t{2}, "lens distortion");
+  refused(rig + 213, kNan, "disparity offset");
+  refused(rig + 221, -1.0, "variance");
   refused(poses, std::uint32_t{0xFFFFFFFF}, "more bytes");
   refused(poses, std::uint32_t{1}, "");  // what follows is no list of key rigs
   refused(poses + 4, 3.0, "pose");

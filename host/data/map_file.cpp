@@ -22,7 +22,7 @@ namespace {
 /// Starts like PNG's: what transfers in text mode destroy is not taken for a map.
 constexpr std::string_view kMagic("\x89QEMAP\r\n", 8);
 /// Of the whole format, including the forms of kept rigs, signatures and descriptors.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeader = 36;
 constexpr std::uintmax_t kLargestMap = std::uintmax_t{1} << 31;  // data::read_bytes()
 

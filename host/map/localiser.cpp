@@ -48,7 +48,11 @@ bool is_elsewhere(const Match& match, const Eigen::Isometry3d& map_from_key) {
   return map::view_change(motion, match.inverse_depth) > map::kSameView;
 }
 
-bool is_certain(const Match& match) { return !match.doubt.exists() && match.support > motion::kChanceSupport; }
+/// Whether its support, which a wrong motion does not reach by chance, shows that the frame sees this place or one like
+/// it.
+bool is_supported(const Match& match) { return match.support > motion::kChanceSupport; }
+
+bool is_certain(const Match& match) { return !match.doubt.exists() && is_supported(match); }
 
 bool are_equal(const PinholeCamera& one, const PinholeCamera& other) {
   return one.matrix() == other.matrix() && one.width == other.width && one.height == other.height;
@@ -221,14 +225,15 @@ void Localiser::Implementation::locate(const frontend::RigHandle& rig, Localisat
   }
 }
 
-/// Searches further key rigs, from places that the located frame does not see, for one that matches all the same.
+/// Searches further key rigs, from places that the located frame does not see, for one that matches all the same,
+/// ambiguously or not.
 std::optional<Match> Localiser::Implementation::find_rival(const Match& best, const SimilarPlaces& similar,
                                                            std::size_t next, const frontend::RigHandle& rig) {
   for (; next < similar.size(); ++next) {
     const map::Place& place = *similar[next].place;
     if (!is_elsewhere(best, map_.places().poses[static_cast<std::size_t>(place.node)])) continue;
     auto match = compare(place, rig, std::nullopt);
-    if (match && is_certain(*match) && !agree(*match, best)) return match;
+    if (match && is_supported(*match) && !agree(*match, best)) return match;
   }
   return std::nullopt;
 }

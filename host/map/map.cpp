@@ -38,6 +38,9 @@ constexpr double kMostChange = 1;
 /// since the key rig. A closure has about four times that variance, since a kept rig has a fraction of the edges.
 constexpr double kWorthwhile = 12;
 
+/// A node is kept as a place if its view differs from those of the latest places by more than this [rad].
+constexpr double kNewView = 0.15;
+
 /// Number of closures that wait for a witness. A witness is found in the rigs that follow, or not at all.
 constexpr std::size_t kMostPending = 20;
 
@@ -91,7 +94,7 @@ class Map::Implementation {
   int node_of_reference(int frame);
   bool recognise(int node);
   bool is_joined(int one, int other) const { return graph_.component(one) == graph_.component(other); }
-  const map::Place* nearest(int node, int max_gap, int min_gap, double inverse_depth) const;
+  const map::Place* nearest(int node, int max_gap, int min_gap, double most_change, double inverse_depth) const;
   double mean_inverse_depth() const;
   double spread(const GraphEdge& motion, double inverse_depth) const;
   bool may_overlap(const GraphEdge& motion, double inverse_depth) const;
@@ -182,11 +185,12 @@ double Map::Implementation::mean_inverse_depth() const {
   return sum / std::max(1.0, count);
 }
 
-/// The place of the node's segment, at least `min_gap` and at most `max_gap` nodes before it, that sees most nearly the
-/// same according to the map; null if none does.
-const map::Place* Map::Implementation::nearest(int node, int max_gap, int min_gap, double inverse_depth) const {
+/// The place of the node's segment, at least `min_gap` and at most `max_gap` nodes before it, whose view differs least
+/// by the map; null if all differ by `most_change` [rad].
+const map::Place* Map::Implementation::nearest(int node, int max_gap, int min_gap, double most_change,
+                                               double inverse_depth) const {
   const map::Place* best = nullptr;
-  double smallest = map::kSameView;
+  double smallest = most_change;
   for (const map::Place& place : store_.places()) {
     const int gap = node - place.node;
     if (!is_joined(place.node, node) || gap < min_gap || gap > max_gap) continue;
@@ -227,13 +231,13 @@ bool Map::Implementation::recognise(int node) {
   const odometry::CurrentRig now = odometry_.current_rig();
   const double inverse_depth = mean_inverse_depth();
   const int min_gap = config_.map.min_gap;
-  if (const map::Place* seen = nearest(node, node, min_gap + 1, inverse_depth)) {
+  if (const map::Place* seen = nearest(node, node, min_gap + 1, map::kSameView, inverse_depth)) {
     const GraphEdge motion = graph_.motion(seen->node, node);
     if (is_predictable(motion, inverse_depth)) {
       const auto closure = is_worthwhile(motion) ? compare({seen, 0}, node, true) : std::nullopt;
       return closure && decide(*closure);
     }
-  } else if (nearest(node, min_gap, 1, inverse_depth) != nullptr) {
+  } else if (nearest(node, min_gap, 1, kNewView, inverse_depth) != nullptr) {
     return false;
   }
   map::Place place{now.frontend.keep(), {}, node};
@@ -406,7 +410,9 @@ std::optional<Eigen::Isometry3d> Map::Implementation::pose(std::size_t frame) co
 
 SavedMap Map::Implementation::saved() const {
   map::SavedPlaces saved;
-  saved.rig = motion::with_disparity_offset(odometry_.rig(), 0);
+  const StereoRig& rig = odometry_.rig();
+  saved.rig = motion::with_disparity_offset(rig, 0);
+  saved.is_undistorted = rig.left_undistortion.empty() && rig.right_undistortion.empty() ? 0 : 1;
   const motion::DisparityOffset& offset = odometry_.current_rig().offset;
   saved.offset = offset.value();
   saved.offset_variance = offset.variance();

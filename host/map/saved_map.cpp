@@ -125,6 +125,7 @@ void exchange(Archive& archive, Header& map, Places& places) {
   exchange_camera(archive, map.rig.right);
   exchange_pose(archive, map.rig.right_from_left);
   archive.value(map.rig.max_value);
+  archive.value(map.is_undistorted);
   archive.value(map.offset);
   archive.value(map.offset_variance);
   archive.list(map.poses, [&](auto& pose) { exchange_pose(archive, pose); });
@@ -143,6 +144,7 @@ class Check {
     check_rig(map.rig, source_.c_str());
     require(map.rig.max_value >= 1 && map.rig.max_value <= kLargestPixel, "a largest pixel value", map.rig.max_value,
             "1 to " + std::to_string(kLargestPixel));
+    require(map.is_undistorted <= 1, "a flag of lens distortion", map.is_undistorted, "0 or 1");
     require(std::abs(map.offset) <= map.rig.left.width, "a disparity offset", map.offset, "at most the image's width");
     require(map.offset_variance >= 0 && std::isfinite(map.offset_variance), "a variance", map.offset_variance,
             "a finite number from 0");
@@ -212,6 +214,7 @@ SavedMap::SavedMap(SavedPlaces header, std::vector<map::Place> places) {
 
 std::size_t SavedMap::key_rigs() const { return places_->store.size(); }
 const StereoRig& SavedMap::rig() const { return places_->rig; }
+bool SavedMap::is_undistorted() const { return places_->is_undistorted != 0; }
 
 std::string SavedMap::bytes() const {
   Writer writer;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file saved_places.hpp  What a map file holds (doc/method.md section 10).
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@ namespace quadedge::map {
 
 struct SavedPlaces {
   StereoRig rig;  ///< without undistortion tables and masks
+  /// 1 if the recorded images had lens distortion, so that `rig` does not describe them.
+  std::uint8_t is_undistorted = 0;
   /// Disparity offset that the odometry has learned [px], and its variance [px^2].
   double offset = 0, offset_variance = 0;
   std::vector<std::pair<std::string, std::string>> settings;  ///< descriptor_settings() of the recording

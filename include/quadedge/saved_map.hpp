@@ -26,6 +26,8 @@ class SavedMap {
   std::size_t key_rigs() const;
   /// The pinhole cameras of the recording, without undistortion tables.
   const StereoRig& rig() const;
+  /// Whether the recorded images had lens distortion: then rig() does not describe further images of these cameras.
+  bool is_undistorted() const;
   /// The contents of a map file without its header (doc/method.md section 10).
   std::string bytes() const;
   /// \param source name for messages \throws DataError for anything that bytes() does not write

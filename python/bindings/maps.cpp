@@ -12,6 +12,7 @@
 #include "device_argument.hpp"
 #include "images.hpp"
 #include "optional_matrix.hpp"
+#include "quadedge/error.hpp"
 #include "quadedge/localiser.hpp"
 
 namespace quadedge::python {
@@ -38,6 +39,8 @@ class LoadedMap {
  private:
   LoadedMap(SavedMap map, nb::handle rig, const std::string& device, const Config& config, bool follow)
       : map_(std::move(map)), rig_(rig.is_none() ? map_.rig() : rig_of(rig)) {
+    if (rig.is_none() && map_.is_undistorted())
+      throw UsageError("the images of the map had lens distortion: expected rig=, the cameras of the frames to locate");
     const nb::gil_scoped_release released;
     device_ = std::make_unique<Device>(device);
     localiser_ = std::make_unique<Localiser>(map_, rig_, *device_, config, follow);
@@ -99,14 +102,14 @@ void bind_maps(nb::module_& module) {
                   "'auto', preset: str = 'default', config: dict | str | os.PathLike | None = None, follow: bool = "
                   "False) -> Map"),
           "Reads a map and prepares the device.\n\n"
-          "rig: the cameras of the frames to locate; None: pinhole images of the map's own cameras. Other cameras "
-          "than\n"
-          "the map's may be given.\n"
+          "rig: the cameras of the frames to locate; None: the map's own, if their images had no lens "
+          "distortion.\n"
+          "Other cameras than the map's may be given.\n"
           "follow: after two located frames, search near the prediction from them first; otherwise every frame is\n"
           "located by itself.\n"
           "device, preset, config: as for Odometry.\n\n"
           "Raises DataError for a file that is missing, damaged or of another version, UsageError for a configuration\n"
-          "whose edges differ from the map's, and what Odometry() raises.")
+          "whose edges differ from the map's or cameras that have to be given, and what Odometry() raises.")
       .def("localise", &LoadedMap::localise, "left"_a.none(), "right"_a.none(), "stamp_ns"_a = 0,
            nb::sig("def localise(self, left: numpy.typing.NDArray, right: numpy.typing.NDArray, stamp_ns: int = 0) -> "
                    "Localisation"),

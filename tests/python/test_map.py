@@ -84,3 +84,16 @@ def test_invalid_maps_and_images_are_refused(walk, saved, tmp_path):
         places.localise(None, None)
     with pytest.raises(quadedge.DataError):
         places.localise(np.zeros((10, 10), np.uint8), np.zeros((10, 10), np.uint8))
+
+
+def test_cameras_with_lens_distortion_have_to_be_given(command, tmp_path):
+    done = command("synth", tmp_path / "room", "--frames", 1, "--size", "320x200", "--lens", "radtan", "--quiet")
+    assert done.returncode == 0, done.stderr
+    room = quadedge.open_dataset(tmp_path / "room")
+    with quadedge.Odometry(room, loops=True) as odometry:
+        frame = next(iter(room))
+        odometry.track(frame.stamp_ns, frame.left, frame.right)
+        odometry.save_map(tmp_path / "room.map")
+    with pytest.raises(quadedge.UsageError, match="lens distortion: expected rig="):
+        quadedge.Map.load(tmp_path / "room.map")
+    assert quadedge.Map.load(tmp_path / "room.map", rig=room).localise(frame.left, frame.right).status == "located"
