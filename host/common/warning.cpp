@@ -13,6 +13,7 @@ const char* to_string(WarningKind kind) {
     case WarningKind::unknown_motion: return "unknown_motion";
     case WarningKind::repeated_images: return "repeated_images";
     case WarningKind::large_disparity_offset: return "large_disparity_offset";
+    case WarningKind::static_region: return "static_region";
   }
   return "unknown";
 }

@@ -4,19 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rig_check/median.hpp"
 #include "rig_check/rig_check_constants.hpp"
 
 namespace quadedge::rig_check {
-namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
 EpipolarFit fit_across(const std::vector<CornerMatch>& matches, int width, int height) {
   EpipolarFit fit;
   if (matches.size() < kMinFitCorners) return fit;

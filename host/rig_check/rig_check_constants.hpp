@@ -72,6 +72,19 @@ constexpr double kReliableMatchedRatio = 0.65;
 /// principal point off by 20 px 2.4 to 9.9. [px]
 constexpr double kMaxOffset = 1.5;
 
+// Parts of the image that do not move (static_region.cpp).
+
+constexpr int kStaticCell = 32;  ///< size of the cells that are compared [px]
+/// Frames from the first to the last comparison, and between two of them.
+constexpr int kStaticWindow = 20, kStaticPeriod = 4;
+/// Cells with a lower standard deviation of the reduced grey levels count as flat [grey levels].
+constexpr double kStaticTexture = 4;
+/// Correlation with the start of the window, from which a cell is static and below which it has changed.
+constexpr double kStaticCorrelation = 0.9, kChangedCorrelation = 0.5;
+/// Static part of the textured cells, and the part that has to change.
+constexpr double kMinStaticRatio = 0.05, kMinMovingRatio = 0.3;
+constexpr std::size_t kMinStaticDepths = 20;
+
 // The time between the two images (synchronisation.cpp).
 
 constexpr int kMinSamples = 200;

@@ -8,6 +8,7 @@
 #include "quadedge/side.hpp"
 #include "rig_check/epipolar_fit.hpp"
 #include "rig_check/epipolar_probe.hpp"
+#include "rig_check/static_region.hpp"
 
 namespace quadedge::rig_check {
 
@@ -26,6 +27,7 @@ enum class RigFindingKind {
   late_camera,                ///< distances from the epipolar lines are proportional to the image motion
   repeated_images,            ///< both images are identical to the previous ones
   large_disparity_offset,     ///< the offset that the odometry learns exceeds what rectification leaves
+  static_region,              ///< a part of the image does not move while the rest does
   // Numbers of the calibration:
   long_baseline,
   short_baseline,
@@ -48,6 +50,7 @@ struct RigFinding {
   double max_disparity = 0;          ///< largest disparity searched [px]
   double time_offset = 0;            ///< of late_camera [frame intervals]
   double disparity_offset = 0;       ///< of large_disparity_offset [px]
+  StaticRegion region = {};          ///< of static_region
   Side camera = Side::left;          ///< the camera that is frozen or has an implausible number
   /// The implausible number: baseline [m], focal length [image widths], fx / fy.
   double number = 0;

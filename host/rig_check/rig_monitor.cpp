@@ -97,6 +97,11 @@ RigReport RigMonitor::judge(const StereoFrame& frame, const StereoEdges& edges, 
     fits_ = report.mismatch() == nullptr;
   }
   if (repeated && report.mismatch() == nullptr) report.findings.push_back(*repeated);
+  if (const auto region = static_region_.observe({frame.left, rig_.left_undistortion, rig_.left}, corner_matches_);
+      region && report.mismatch() == nullptr) {
+    report.findings.push_back({RigFindingKind::static_region});
+    report.findings.back().region = *region;
+  }
   return report;
 }
 

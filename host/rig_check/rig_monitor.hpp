@@ -11,6 +11,7 @@
 #include "rig_check/rig_finding.hpp"
 #include "rig_check/rig_judgement.hpp"
 #include "rig_check/rig_sentences.hpp"
+#include "rig_check/static_region.hpp"
 #include "rig_check/synchronisation.hpp"
 
 namespace quadedge::rig_check {
@@ -41,6 +42,7 @@ class RigMonitor {
   StereoRig rig_;
   EpipolarProbe probe_;
   Synchronisation synchronisation_;
+  StaticRegionDetector static_region_;
   std::vector<CornerMatch> corner_matches_;  ///< of the last frame checked
   std::optional<RigEvidence> searched_;      ///< of the last frame that was searched
   bool fits_ = true;                         ///< whether that search found a match with the calibration

@@ -109,6 +109,14 @@ std::string sentence(const RigFinding& finding) {
       return "all disparities seem to be off by " + number(finding.disparity_offset, 1) +
              " px, so that distances and the path length are doubtful: is the right camera's yaw or principal point "
              "wrong?";
+    case RigFindingKind::static_region: {
+      const auto from = finding.region.bounds.min(), to = finding.region.bounds.max();
+      return percent(finding.region.ratio) + " of the left image's texture, between columns " + number(from.x(), 0) +
+             " and " + number(to.x(), 0) + " and rows " + number(from.y(), 0) + " and " + number(to.y(), 0) +
+             ", does not move although it is nearer than most of what moves: is it a part of the vehicle or dirt? a "
+             "mask "
+             "leaves it out";
+    }
     case RigFindingKind::long_baseline:
       return "the baseline is " + number(finding.number, 3) + " m: is it given in millimetres?";
     case RigFindingKind::short_baseline:
@@ -130,6 +138,7 @@ Warning warning(const RigFinding& finding) {
     case RigFindingKind::some_negative_disparities: return {WarningKind::negative_disparities, sentence(finding)};
     case RigFindingKind::repeated_images: return {WarningKind::repeated_images, sentence(finding)};
     case RigFindingKind::large_disparity_offset: return {WarningKind::large_disparity_offset, sentence(finding)};
+    case RigFindingKind::static_region: return {WarningKind::static_region, sentence(finding)};
     case RigFindingKind::late_camera: return {WarningKind::unsynchronised_cameras, sentence(finding)};
     case RigFindingKind::long_baseline:
     case RigFindingKind::short_baseline:

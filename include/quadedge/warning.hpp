@@ -16,6 +16,7 @@ enum class WarningKind {
   unknown_motion,           ///< the motion between two tracked frames is unknown; a new segment starts
   repeated_images,          ///< both images are those of the previous frame, byte for byte
   large_disparity_offset,   ///< the disparities have a larger common offset than rectification leaves
+  static_region,            ///< a part of the image does not move while the rest does, such as a vehicle's bonnet
 };
 /// The name of the enumerator.
 const char* to_string(WarningKind kind);
