@@ -28,25 +28,14 @@ from stamped import commit, stamped, write
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="+", choices=PARTS, default=list(PARTS), help="parts to measure")
-    parser.add_argument(
-        "--data",
-        type=Path,
-        default=os.environ.get("QUADEDGE_DATA"),
-        help="folder with the recorded sequences; without it, only rendered sequences are measured",
-    )
+    parser.add_argument("--data", type=Path, default=os.environ.get("QUADEDGE_DATA"),
+                        help="folder with the recorded sequences; without it, only rendered sequences are measured")
     parser.add_argument("--sequences", nargs="+", choices=(*RECORDED, *RENDERED), default=None)
     parser.add_argument("--systems", nargs="+", choices=SYSTEMS, default=list(SYSTEMS))
-    parser.add_argument(
-        "--frames",
-        type=int,
-        default=0,
-        help="limit on the frames of each sequence; requires --out",
-    )
+    parser.add_argument("--frames", type=int, default=0, help="limit on the frames of each sequence; requires --out")
     parser.add_argument("--keep", action="store_true", help="reuse the complete runs in WORK")
     parser.add_argument("--out", type=Path, default=result_tables.RESULTS)
-    parser.add_argument(
-        "--work", type=Path, default=REPOSITORY / "build" / "measure", help="folder of the runs"
-    )
+    parser.add_argument("--work", type=Path, default=REPOSITORY / "build" / "measure", help="folder of the runs")
     parser.add_argument("--quadedge", type=Path, help="program to use instead of the one in build/")
     parser.add_argument("--baseline", type=Path, help="OpenCV baseline to use instead of the one in build/")
     options = parser.parse_args()
@@ -83,10 +72,7 @@ def main():
                     for scene in (scene for scene in SCENES if scene in options.sequences):
                         plot(scene, [row for row in rows if row["sequence"] == scene], options)
                 except ImportError:
-                    print(
-                        "measure: matplotlib is missing; the plots of the paths remain unchanged",
-                        file=sys.stderr,
-                    )
+                    print("measure: matplotlib is missing; the plots of the paths remain unchanged", file=sys.stderr)
     except Problem as problem:
         print(f"measure: {problem}", file=sys.stderr)
         return 1

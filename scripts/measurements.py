@@ -23,10 +23,8 @@ RECORDED = {
 SCENES = disturbances.SCENES
 PATHS = ("handheld", "drive", "loop")  # besides the ellipse
 # Run -> scene and path; a run on the ellipse has the name of its scene.
-RENDERED = {
-    **{scene: (scene, "ellipse") for scene in SCENES},
-    **{f"{scene}-{path}": (scene, path) for path in PATHS for scene in SCENES},
-}
+RENDERED = {**{scene: (scene, "ellipse") for scene in SCENES},
+            **{f"{scene}-{path}": (scene, path) for path in PATHS for scene in SCENES}}
 # Title, run, first evaluated frame
 JUDGED = (
     ("KITTI 06", "kitti06", 0),
@@ -35,10 +33,8 @@ JUDGED = (
     ("EuRoC MH_01, flight", "flight", 0),
     ("EuRoC V1_01 at rest", "rest", 0),
     ("EuRoC V1_01 key frames", "keyframes", 0),
-    *(
-        (f"rendered {scene}" + (f", {path}" if path != "ellipse" else ""), run, 0)
-        for run, (scene, path) in RENDERED.items()
-    ),
+    *((f"rendered {scene}" + (f", {path}" if path != "ellipse" else ""), run, 0)
+      for run, (scene, path) in RENDERED.items()),
 )
 # Steps are a few cm: a limit of 5 cm would hide any error.
 STEP_OF_RENDERED = ("--step-metres", 0.005, "--step-degrees", 0.25)
@@ -48,12 +44,8 @@ ERRORS = ("ape_rotation_deg", "ape_translation_m", "rpe_rotation_deg", "rpe_tran
 MATCHED = {
     "ETH3D terrace_2s": ("eth3d_two_view/two_view_training/terrace_2s",),
     "Middlebury Motorcycle": ("middlebury_2014/Motorcycle-perfect-quarter",),
-    "Middlebury teddy, Art, Dolls, Reindeer": (
-        "middlebury_2003/teddy",
-        "middlebury_2005/Art",
-        "middlebury_2005/Dolls",
-        "middlebury_2005/Reindeer",
-    ),
+    "Middlebury teddy, Art, Dolls, Reindeer": ("middlebury_2003/teddy", "middlebury_2005/Art",
+                                               "middlebury_2005/Dolls", "middlebury_2005/Reindeer"),
     "Middlebury Laundry": ("middlebury_2005/Laundry",),
     "rendered room": "room",
     "rendered cables": "cables",
@@ -101,19 +93,18 @@ class Programs:
         return shlex.join(part for part in parts if part not in ("--quiet", "--force"))
 
 
+def scene_of(run):
+    """A rendered scene and the options of its path."""
+    scene, path = RENDERED[run]
+    return scene, [] if path == "ellipse" else ["--path", path]
+
+
 def source_of(run, options):
     """Arguments of `quadedge run` or `demo`."""
     if run in RECORDED:
-        frames = ["--frames", f"0:{options.frames}"] if options.frames else []
-        return ["run", options.data / RECORDED[run], *frames]
-    scene, path = RENDERED[run]
-    return [
-        "demo",
-        "--scene",
-        scene,
-        *(["--path", path] if path != "ellipse" else []),
-        *(["--frames", options.frames] if options.frames else []),
-    ]
+        return ["run", options.data / RECORDED[run], *(["--frames", f"0:{options.frames}"] if options.frames else [])]
+    scene, path = scene_of(run)
+    return ["demo", "--scene", scene, *path, *(["--frames", options.frames] if options.frames else [])]
 
 
 def track(system, run, programs):
@@ -122,17 +113,12 @@ def track(system, run, programs):
     output = options.work / system / run
     truth = options.data / RECORDED[run] if run in RECORDED and not options.frames else output / "groundtruth.txt"
     if system == "opencv":
-        if run in RECORDED:
-            place = [options.data / RECORDED[run]]
-        else:
-            scene, path = RENDERED[run]
-            place = [scene, *(["--path", path] if path != "ellipse" else [])]
-        command = [options.baseline, *place, "-o", output, *(["--frames", options.frames] if options.frames else [])]
+        scene, path = (options.data / RECORDED[run], []) if run in RECORDED else scene_of(run)
+        command = [options.baseline, scene, *path, "-o", output,
+                   *(["--frames", options.frames] if options.frames else [])]
     else:
-        method = {
-            "default": [],
-            "paper": ["--config", REPOSITORY / "config" / "paper.toml"],
-        }.get(system, ["--preset", system])
+        method = {"default": [], "paper": ["--config", REPOSITORY / "config" / "paper.toml"]}.get(
+            system, ["--preset", system])
         command = [options.quadedge, *source_of(run, options), "-o", output, *method, "--quiet"]
     if output not in programs.tracked and not (options.keep and (output / COMPLETE).exists()):
         print(f"{system}: {run}", file=sys.stderr, flush=True)
@@ -149,25 +135,10 @@ def judge(system, title, run, first, programs):
     estimate, judged = output / "trajectory.txt", output / f"evaluation_{first}.json"
     frames = sum(1 for _ in open(output / "trajectory_kitti.txt", encoding="utf-8"))
     tracked = sum(1 for line in open(estimate, encoding="utf-8") if not line.startswith("#"))
-    evaluate = [
-        programs.options.quadedge,
-        "evaluate",
-        "trajectory",
-        estimate,
-        truth,
-        "--steps",
-        *(STEP_OF_RENDERED if run in RENDERED else ()),
-        *(["--from-frame", first] if first else []),
-    ]
-    row = {
-        "system": system,
-        "title": title,
-        "sequence": run,
-        "frames": frames,
-        "tracked": tracked,
-        "from_frame": first,
-        "commands": [programs.text(command), programs.text(evaluate)],
-    }
+    evaluate = [programs.options.quadedge, "evaluate", "trajectory", estimate, truth, "--steps",
+                *(STEP_OF_RENDERED if run in RENDERED else ()), *(["--from-frame", first] if first else [])]
+    row = {"system": system, "title": title, "sequence": run, "frames": frames, "tracked": tracked, "from_frame": first,
+           "commands": [programs.text(command), programs.text(evaluate)]}
     if tracked - first < 3:
         return row  # nothing to compare
     programs.call([*evaluate, "--force", "--json", judged])
@@ -185,13 +156,9 @@ def judge(system, title, run, first, programs):
 
 def measure_accuracy(programs):
     options = programs.options
-    judged = [entry for entry in JUDGED if entry[1] in options.sequences]
-    return [
-        judge(system, *entry, programs)
-        for entry in judged
-        for system in options.systems
-        if system in ("default", "opencv") or entry[1] in RECORDED or entry[1] in SCENES
-    ]
+    return [judge(system, *entry, programs) for entry in JUDGED if entry[1] in options.sequences
+            for system in options.systems
+            if system in ("default", "opencv") or entry[1] in RECORDED or entry[1] in SCENES]
 
 
 def matching_row(title, places, programs):
@@ -209,28 +176,18 @@ def matching_row(title, places, programs):
     def figures(table):
         return {name: table[name] for name in ("recall", "precision")}
 
-    row = {
-        "title": title,
-        "commands": [programs.text(command)],
-        "paired": figures(pooled["stereo"][-1]),
-        "all": figures(pooled["stereo_all"][-1]),
-        "disparity_median_px": pooled["disparity_error_px"]["median"],
-        "across_median_px": pooled["across_error_px"]["median"],
-    }
+    row = {"title": title, "commands": [programs.text(command)], "paired": figures(pooled["stereo"][-1]),
+           "all": figures(pooled["stereo_all"][-1]), "disparity_median_px": pooled["disparity_error_px"]["median"],
+           "across_median_px": pooled["across_error_px"]["median"]}
     if "quads" in pooled:
         row["quads"] = {"paired": figures(pooled["quads"]), "all": figures(pooled["quads_all"])}
     return row
 
 
 def measure_matching(programs):
-    wanted = {
-        title: places
-        for title, places in MATCHED.items()
-        if not isinstance(places, str) or places in programs.options.sequences
-    }
-    if not programs.options.data:
-        wanted = {title: places for title, places in wanted.items() if isinstance(places, str)}
-    return [matching_row(title, places, programs) for title, places in wanted.items()]
+    options = programs.options
+    return [matching_row(title, places, programs) for title, places in MATCHED.items()
+            if (places in options.sequences if isinstance(places, str) else options.data)]
 
 
 def measure_speed(programs):
@@ -241,39 +198,21 @@ def measure_speed(programs):
             continue
         print(f"speed: {title}, {preset}", file=sys.stderr, flush=True)
         file = options.work / f"speed_{title.replace(' ', '_').replace(',', '')}_{preset}.json"
-        command = [
-            options.quadedge,
-            "bench",
-            *(["--scene", place] if place in SCENES else [options.data / place]),
-            "--frames",
-            options.frames or 30,
-            "--warm-up",
-            3,
-            "--baseline",
-            *(["--preset", preset] if preset != "default" else []),
-        ]
+        command = [options.quadedge, "bench", *(["--scene", place] if place in SCENES else [options.data / place]),
+                   "--frames", options.frames or 30, "--warm-up", 3, "--baseline",
+                   *(["--preset", preset] if preset != "default" else [])]
         programs.call([*command, "--quiet", "--force", "--json", file])
         bench = json.loads(file.read_text(encoding="utf-8"))
-        rows.append(
-            {
-                "title": f"{title}, {bench['input']['width']}x{bench['input']['height']}",
-                "preset": preset,
-                "commands": [programs.text(command)],
-                "device": bench["device"]["name"],
-                "platform": bench["device"]["platform"],
-                "threads": bench["threads"],
-                "edges_per_image": bench["counts"]["edges_left"],
-                "frames": bench["frames_measured"],
-                "median_ms": bench["latency_ms"]["median"],
-                "p90_ms": bench["latency_ms"]["p90"],
-                "p99_ms": bench["latency_ms"]["p99"],
-                "processor_ms": bench["processor_ms"]["median"],
-                "frame_over_sift": bench["baseline"]["frame_ratio"],
-                "edges_ms": bench["edge_detection_ms"]["median"],
-                "edges_over_filters": bench["baseline"]["edges_ratio"],
-                "host_peak_mb": bench["memory_mb"]["host_peak"],
-            }
-        )
+        rows.append({"title": f"{title}, {bench['input']['width']}x{bench['input']['height']}", "preset": preset,
+                     "commands": [programs.text(command)], "device": bench["device"]["name"],
+                     "platform": bench["device"]["platform"], "threads": bench["threads"],
+                     "edges_per_image": bench["counts"]["edges_left"], "frames": bench["frames_measured"],
+                     "median_ms": bench["latency_ms"]["median"], "p90_ms": bench["latency_ms"]["p90"],
+                     "p99_ms": bench["latency_ms"]["p99"], "processor_ms": bench["processor_ms"]["median"],
+                     "frame_over_sift": bench["baseline"]["frame_ratio"],
+                     "edges_ms": bench["edge_detection_ms"]["median"],
+                     "edges_over_filters": bench["baseline"]["edges_ratio"],
+                     "host_peak_mb": bench["memory_mb"]["host_peak"]})
     return rows
 
 
@@ -337,11 +276,5 @@ def measure_drift(programs):
     return rows
 
 
-PARTS = {
-    "accuracy": measure_accuracy,
-    "matching": measure_matching,
-    "speed": measure_speed,
-    "disturbances": measure_disturbances,
-    "light": measure_light,
-    "drift": measure_drift,
-}
+PARTS = {"accuracy": measure_accuracy, "matching": measure_matching, "speed": measure_speed,
+         "disturbances": measure_disturbances, "light": measure_light, "drift": measure_drift}

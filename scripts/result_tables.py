@@ -19,15 +19,8 @@ from tables import TABLES, command_list
 REPOSITORY = Path(__file__).resolve().parent.parent
 RESULTS = REPOSITORY / "doc" / "results"
 BLOCK = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
-PART_OF = {
-    "beside": "accuracy",
-    "paths": "accuracy",
-    "systems": "accuracy",
-    "steps": "accuracy",
-    "quads": "matching",
-    "presets": "accuracy",
-    "consistency": "accuracy",
-}
+PART_OF = dict.fromkeys(("beside", "paths", "systems", "steps", "presets", "consistency"), "accuracy") | {
+    "quads": "matching"}
 # Part -> (title, introduction, tables)
 PAGES = {
     "accuracy": (
@@ -64,14 +57,9 @@ def page(part, results):
     title, about, names = PAGES[part]
     if part not in results:
         return f"# {title}\n\n{render(part, results)}"
-    parts = [
-        f"# {title}\n",
-        f"Made by `scripts/measure.py --only {part}`. {about}\n",
-        *(render(name, results) for name in names),
-        f"## Commands\n\n{NAMES}\n",
-        command_list(results[part]["rows"]),
-    ]
-    return "\n".join(parts)
+    return "\n".join((f"# {title}\n", f"Made by `scripts/measure.py --only {part}`. {about}\n",
+                      *(render(name, results) for name in names), f"## Commands\n\n{NAMES}\n",
+                      command_list(results[part]["rows"])))
 
 
 def wanted_texts(folder):
@@ -86,11 +74,8 @@ def wanted_texts(folder):
 
 
 def differing(folder):
-    return [
-        (file, text)
-        for file, text in wanted_texts(folder).items()
-        if not file.exists() or file.read_text(encoding="utf-8") != text
-    ]
+    return [(file, text) for file, text in wanted_texts(folder).items()
+            if not file.exists() or file.read_text(encoding="utf-8") != text]
 
 
 def write(folder=RESULTS):
@@ -109,10 +94,7 @@ def main():
         return 0
     stale = [file for file, _ in differing(options.results)]
     for file in stale:
-        print(
-            f"result_tables: {file} differs from its JSON; run scripts/result_tables.py",
-            file=sys.stderr,
-        )
+        print(f"result_tables: {file} differs from its JSON; run scripts/result_tables.py", file=sys.stderr)
     return 1 if stale else 0
 
 

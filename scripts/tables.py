@@ -6,13 +6,8 @@
 import disturbances as sweeps
 
 PRESETS = ("fast", "default", "dense")
-SYSTEMS = {
-    "default": "QuadEdge",
-    "fast": "QuadEdge, fast",
-    "dense": "QuadEdge, dense",
-    "paper": "QuadEdge, paper.toml",
-    "opencv": "OpenCV SIFT + PnP",
-}
+SYSTEMS = {"default": "QuadEdge", "fast": "QuadEdge, fast", "dense": "QuadEdge, dense", "paper": "QuadEdge, paper.toml",
+           "opencv": "OpenCV SIFT + PnP"}
 STEPS = "keyframes"  # evaluated step by step only, because frames are lost
 
 
@@ -29,9 +24,10 @@ def named(row):
     return f"{title.split(',')[0]}, {frames} from frame {row['from_frame']}"
 
 
-def table(head, rows):
+def table(head, rows, below=""):
+    """`below`: a text under the table."""
     lines = [head, ["---"] * len(head), *rows]
-    return "".join("| " + " | ".join(str(cell) for cell in line) + " |\n" for line in lines)
+    return "".join("| " + " | ".join(str(cell) for cell in line) + " |\n" for line in lines) + (below and "\n" + below)
 
 
 def number(value, digits=3):
@@ -42,11 +38,8 @@ def length(metres):
     """In metres, centimetres or millimetres, whichever suits the size."""
     if metres is None:
         return "-"
-    return (
-        f"{number(metres)} m"
-        if metres >= 0.1
-        else f"{number(100 * metres)} cm" if metres >= 0.01 else f"{number(1000 * metres)} mm"
-    )
+    factor, unit = (1, "m") if metres >= 0.1 else (100, "cm") if metres >= 0.01 else (1000, "mm")
+    return f"{number(factor * metres)} {unit}"
 
 
 def percent(value):
@@ -82,33 +75,14 @@ def errors(results, systems):
         cells = ["" if named(row) == shown else named(row)]
         if len(systems) > 1:
             cells.append(SYSTEMS[row["system"]])
-        cells += [
-            f"{row['tracked']} / {row['frames']}",
-            number(row.get("ape_rotation_deg")),
-            length(row.get("ape_translation_m")),
-            number(row.get("rpe_rotation_deg")),
-            length(row.get("rpe_translation_m")),
-            drift(row),
-        ]
-        rows.append(cells)
+        cells.append(f"{row['tracked']} / {row['frames']}")
+        for kind in ("ape", "rpe"):
+            cells += [number(row.get(f"{kind}_rotation_deg")), length(row.get(f"{kind}_translation_m"))]
+        rows.append([*cells, drift(row)])
         shown = named(row)
-    return (
-        table(
-            [
-                "sequence",
-                *(["system"] if len(systems) > 1 else []),
-                "tracked",
-                "APE rotation [deg]",
-                "APE translation",
-                "RPE rotation [deg]",
-                "RPE translation",
-                "end drift",
-            ],
-            rows,
-        )
-        + "\n"
-        + stamp(results["accuracy"])
-    )
+    head = ["sequence", *(["system"] if len(systems) > 1 else []), "tracked", "APE rotation [deg]", "APE translation",
+            "RPE rotation [deg]", "RPE translation", "end drift"]
+    return table(head, rows, stamp(results["accuracy"]))
 
 
 def accuracy(results):
@@ -122,11 +96,8 @@ def systems(results):
 def steps(results):
     judged = [row for row in results["accuracy"]["rows"] if row["sequence"] == STEPS and "steps" in row]
     rows = [[SYSTEMS[row["system"]], *(row["steps"][name] for name in ("right", "wrong", "lost"))] for row in judged]
-    return (
-        table([named(judged[0]) if judged else "", "steps right", "wrong, reported as tracked", "reported lost"], rows)
-        + "\n"
-        + stamp(results["accuracy"])
-    )
+    head = [named(judged[0]) if judged else "", "steps right", "wrong, reported as tracked", "reported lost"]
+    return table(head, rows, stamp(results["accuracy"]))
 
 
 def paths(results):
@@ -136,24 +107,14 @@ def paths(results):
         if row["sequence"] == STEPS or not row["title"].startswith("rendered"):
             continue
         steps_of = row.get("steps", {})
-        rows.append(
-            [
-                row["title"].removeprefix("rendered "),
-                SYSTEMS[row["system"]],
-                f"{row['tracked']} / {row['frames']}",
-                *(steps_of.get(name, "-") for name in ("right", "wrong", "lost")),
-                number(row.get("rpe_rotation_deg")),
-                length(row.get("rpe_translation_m")),
-                length(row.get("path_length_m")),
-                drift(row) if "end_drift_percent" in row else "-",
-            ]
-        )
-    head = ["scene, path", "system", "tracked", "steps right", "wrong", "lost"]
-    return (
-        table([*head, "RPE rotation [deg]", "RPE translation", "path length", "end drift"], rows)
-        + "\n"
-        + stamp(results["accuracy"])
-    )
+        rows.append([row["title"].removeprefix("rendered "), SYSTEMS[row["system"]],
+                     f"{row['tracked']} / {row['frames']}",
+                     *(steps_of.get(name, "-") for name in ("right", "wrong", "lost")),
+                     number(row.get("rpe_rotation_deg")), length(row.get("rpe_translation_m")),
+                     length(row.get("path_length_m")), drift(row) if "end_drift_percent" in row else "-"])
+    head = ["scene, path", "system", "tracked", "steps right", "wrong", "lost", "RPE rotation [deg]", "RPE translation",
+            "path length", "end drift"]
+    return table(head, rows, stamp(results["accuracy"]))
 
 
 def step_error(row):
@@ -177,11 +138,8 @@ def disturbances(results):
             found = {row["value"]: row for row in kept if row["kind"] == kind and row["scene"] == scene}
             cells = [step_error(found.get(value)) for value in values]
             rows.append(["", scene, *cells, *[""] * (width - len(cells))])
-    return (
-        table(["error per step [mm]", f"{counted(kept[0]['frames'], 'frame')} each", *[""] * width], rows)
-        + "\n"
-        + stamp(results["disturbances"])
-    )
+    head = ["error per step [mm]", f"{counted(kept[0]['frames'], 'frame')} each", *[""] * width]
+    return table(head, rows, stamp(results["disturbances"]))
 
 
 def beside(results):
@@ -196,21 +154,16 @@ def beside(results):
         judged = row and "rpe_translation_m" in row
         return f"{number(row['rpe_rotation_deg'], 2)} / {number(1e3 * row['rpe_translation_m'], 2)}" if judged else "-"
 
-    rows = [
-        [named(found["default"]), error(found["default"]), error(others["libviso2"]["rows"].get(title)),
-         error(found.get("opencv"))]
-        for title, found in by_title.items()
-    ]
+    rows = [[named(found["default"]), error(found["default"]), error(others["libviso2"]["rows"].get(title)),
+             error(found.get("opencv"))] for title, found in by_title.items()]
     for title, timed in others["frames_per_second"].items():
         own = [f"{1000 / row['median_ms']:.0f}" for row in results["speed"]["rows"]
                if row["title"].startswith(title) and row.get("preset", "default") == "default"]
         rows.append([f"frames/s, {title.removesuffix(', flight')}", *own[:1],
                      *(timed.get(system, "-") for system in ("libviso2", "OpenCV"))])
     commits = f"Commits {results['accuracy']['commit']} and {results['speed']['commit']} (speed)"
-    return (
-        table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows)
-        + f"\n{commits}, {results['accuracy']['date']}. {others['timed']}\n"
-    )
+    return table(["degrees / mm per frame", "QuadEdge", "libviso2", "OpenCV SIFT + PnP"], rows,
+                 f"{commits}, {results['accuracy']['date']}. {others['timed']}\n")
 
 
 POOL_RATES = ["paired: recall", "precision", "all: recall", "precision"]
@@ -222,58 +175,31 @@ def pool_rates(row):
 
 
 def matching(results):
-    rows = [
-        [row["title"], *pool_rates(row), f"{row['disparity_median_px']:.3f} px", f"{row['across_median_px']:.3f} px"]
-        for row in results["matching"]["rows"]
-    ]
+    rows = [[row["title"], *pool_rates(row), f"{row['disparity_median_px']:.3f} px",
+             f"{row['across_median_px']:.3f} px"] for row in results["matching"]["rows"]]
     head = ["pair", *POOL_RATES, "disparity error, median", "across the edge"]
-    return table(head, rows) + "\n" + stamp(results["matching"])
+    return table(head, rows, stamp(results["matching"]))
 
 
 def quads(results):
     rows = [[row["title"], *pool_rates(row["quads"])] for row in results["matching"]["rows"] if "quads" in row]
-    return table(["quads", *POOL_RATES], rows) + "\n" + stamp(results["matching"])
+    return table(["quads", *POOL_RATES], rows, stamp(results["matching"]))
 
 
 def speed(results):
-    rows = [
-        [
-            row["title"],
-            row.get("preset", "default"),
-            f"{row['edges_per_image']:.0f}",
-            f"{row['median_ms']:.0f} ms",
-            f"{row['p90_ms']:.0f} ms",
-            *(f"{row[name]:.0f} ms" if name in row else "-" for name in ("p99_ms", "processor_ms")),
-            f"{1000 / row['median_ms']:.1f}",
-            f"{row['frame_over_sift']:.2f}",
-            f"{row['edges_ms']:.1f} ms",
-            f"{row['edges_over_filters']:.2f}",
-            f"{row['host_peak_mb']:.0f} MB",
-        ]
-        for row in results["speed"]["rows"]
-    ]
-    first = results["speed"]["rows"][0]
-    return (
-        table(
-            [
-                "sequence",
-                "preset",
-                "edges per image",
-                "frame, median",
-                "p90",
-                "p99",
-                "processor time",
-                "frames/s",
-                "frame / S",
-                "edges of one image",
-                "/ N",
-                "host memory",
-            ],
-            rows,
-        )
-        + f"\n{first['platform']}, {first['device']}, {first['threads']} threads. "
-        + stamp(results["speed"])
-    )
+    # Heading, key in speed.json, format
+    columns = (("sequence", "title", "{}"), ("preset", "preset", "{}"),
+               ("edges per image", "edges_per_image", "{:.0f}"), ("frame, median", "median_ms", "{:.0f} ms"),
+               ("p90", "p90_ms", "{:.0f} ms"), ("p99", "p99_ms", "{:.0f} ms"),
+               ("processor time", "processor_ms", "{:.0f} ms"), ("frames/s", "frames_per_second", "{:.1f}"),
+               ("frame / S", "frame_over_sift", "{:.2f}"),
+               ("edges of one image", "edges_ms", "{:.1f} ms"), ("/ N", "edges_over_filters", "{:.2f}"),
+               ("host memory", "host_peak_mb", "{:.0f} MB"))
+    rows = [{"preset": "default", "frames_per_second": 1000 / row["median_ms"]} | row
+            for row in results["speed"]["rows"]]
+    cells = [[form.format(row[key]) if key in row else "-" for _, key, form in columns] for row in rows]
+    machine = f"{rows[0]['platform']}, {rows[0]['device']}, {rows[0]['threads']} threads. "
+    return table([name for name, _, _ in columns], cells, machine + stamp(results["speed"]))
 
 
 def presets(results):
@@ -292,18 +218,12 @@ def presets(results):
         cells = [f"{row['median_ms']:.0f} ms, {row['frame_over_sift']:.2f} S" if row else "-" for row in found]
         rows.append([f"time per frame, {title.removesuffix(', flight')}", *cells])
     for title, found in errors_of.items():
-        cells = [
-            f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if row else "-"
-            for row in (found.get(preset) for preset in PRESETS)
-        ]
+        cells = [f"{number(row['rpe_rotation_deg'], 2)} deg, {length(row['rpe_translation_m'])}" if row else "-"
+                 for row in map(found.get, PRESETS)]
         rows.append([f"error per frame, {title}", *cells])
-    return (
-        table(["", *(f"`--preset {preset}`" for preset in PRESETS)], rows)
-        + "\nTimes: "
-        + stamp(results["speed"]).replace("Commit", "commit").rstrip()
-        + " Errors: "
-        + stamp(results["accuracy"]).replace("Commit", "commit")
-    )
+    speed_at, accuracy_at = (stamp(results[part]).replace("Commit", "commit") for part in ("speed", "accuracy"))
+    return table(["", *(f"`--preset {preset}`" for preset in PRESETS)], rows,
+                 f"Times: {speed_at.rstrip()} Errors: {accuracy_at}")
 
 
 def light(results):
@@ -320,18 +240,15 @@ def light(results):
             cells += [f"{row['right']}, {row['wrong']}, {row['lost']}", f"{row['edges']:.0f}"]
         lines.append([*cells, number(found["edge_threshold"])])
     head = ["", "scene", "fixed: right, wrong, lost", "edges", "automatic: right, wrong, lost", "edges", "threshold"]
-    return table(head, lines) + f"\n{counted(kept[0]['frames'], 'frame')} each. " + stamp(results["light"])
+    return table(head, lines, f"{counted(kept[0]['frames'], 'frame')} each. " + stamp(results["light"]))
 
 
 def peers(results):
     """Other systems; QuadEdge's time and drift come from the measurements."""
     kept = results["peers"]
     rows = [list(row) for row in kept["rows"]]
-    own = [
-        row
-        for row in results.get("speed", {}).get("rows", [])
-        if row["title"].startswith("KITTI 06") and row.get("preset", "default") == "default"
-    ]
+    own = [row for row in results.get("speed", {}).get("rows", [])
+           if row["title"].startswith("KITTI 06") and row.get("preset", "default") == "default"]
     for row in rows:
         if row[1] == "measured":
             row[1] = f"{own[0]['median_ms']:.0f} ms" if own else "-"
@@ -353,7 +270,7 @@ def drift_over_scenes(results):
             rows.append([row["scene"], name, f"{ends} mm", f"{found['end_percent']:.3f} %", f"({parts}) mm",
                          f"{number(found['rms_mm'], 2)} mm"])
     head = ["scene", "", "end error of each texture", "mean, of the path length", "mean vector", "rms along the path"]
-    return table(head, rows) + "\n" + stamp(results["drift"])
+    return table(head, rows, stamp(results["drift"]))
 
 
 def consistency(results):
@@ -372,22 +289,9 @@ def consistency(results):
             shown = named(row)
     head = ["sequence", "frames apart", "translation: error, rms", "predicted", "rotation: error [deg]", "predicted",
             "NEES, edges alone", "NEES, with the rig"]
-    return table(head, rows) + "\n" + stamp(results["accuracy"])
+    return table(head, rows, stamp(results["accuracy"]))
 
 
-TABLES = {
-    "accuracy": accuracy,
-    "systems": systems,
-    "steps": steps,
-    "beside": beside,
-    "paths": paths,
-    "disturbances": disturbances,
-    "matching": matching,
-    "quads": quads,
-    "speed": speed,
-    "presets": presets,
-    "light": light,
-    "peers": peers,
-    "consistency": consistency,
-    "drift": drift_over_scenes,
-}
+TABLES = {"accuracy": accuracy, "systems": systems, "steps": steps, "beside": beside, "paths": paths,
+          "disturbances": disturbances, "matching": matching, "quads": quads, "speed": speed, "presets": presets,
+          "light": light, "peers": peers, "consistency": consistency, "drift": drift_over_scenes}
