@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quadedge/config.hpp"
@@ -45,13 +46,21 @@ class Options {
 /// One command of the program.
 class Command {
  public:
+  /// \param name      "run", or "evaluate trajectory" for a command of a group
+  /// \param about     one sentence
+  /// \param examples  two lines that can be typed
+  Command(std::string name, std::string about, std::string examples)
+      : name_(std::move(name)), about_(std::move(about)), examples_(std::move(examples)) {}
   virtual ~Command() = default;
-  virtual std::string name() const = 0;      ///< "run", or "evaluate trajectory" for a command of a group
-  virtual std::string about() const = 0;     ///< one sentence
-  virtual std::string examples() const = 0;  ///< two lines that can be typed
+  const std::string& name() const { return name_; }
+  const std::string& about() const { return about_; }
+  const std::string& examples() const { return examples_; }
   virtual void declare(Options& options) = 0;
   /// Does the work after the options are set. Returns the exit code; \throws Error.
   virtual int run() = 0;
+
+ private:
+  std::string name_, about_, examples_;
 };
 
 std::unique_ptr<Command> make_run_command();

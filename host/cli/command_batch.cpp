@@ -21,15 +21,12 @@ namespace {
 
 class BatchCommand : public Command {
  public:
-  std::string name() const override { return "batch"; }
-  std::string about() const override {
-    return "track many sequences, each in its own process, and summarise the results";
+  BatchCommand()
+      : Command("batch", "track many sequences, each in its own process, and summarise the results",
+                "  quadedge batch eth3d/training -o results\n"
+                "  quadedge batch sequences.txt -o results --device gpu --jobs 2") {
+    batch_.output = "quadedge_batch";
   }
-  std::string examples() const override {
-    return "  quadedge batch eth3d/training -o results\n"
-           "  quadedge batch sequences.txt -o results --device gpu --jobs 2";
-  }
-
   void declare(Options& options) override {
     options.positional("ROOT|LIST", input_,
                        "folder with sequences at any depth, or a file with one folder, or one camera source, per line");
@@ -190,15 +187,9 @@ class BatchCommand : public Command {
   }
 
   std::string input_, only_;
-  BatchOptions batch_ = default_batch();
+  BatchOptions batch_;
   bool list_ = false, gather_ = false;
   MethodOptions method_;
-
-  static BatchOptions default_batch() {
-    BatchOptions batch;
-    batch.output = "quadedge_batch";
-    return batch;
-  }
 };
 
 }  // namespace

@@ -27,15 +27,10 @@ constexpr int kYardstickRepetitions = 7;
 
 class BenchCommand : public Command {
  public:
-  std::string name() const override { return "bench"; }
-  std::string about() const override {
-    return "measure the latency of every frame, kernel times and memory, or compare two results";
-  }
-  std::string examples() const override {
-    return "  quadedge bench --baseline --json now.json\n"
-           "  quadedge bench --compare before.json now.json";
-  }
-
+  BenchCommand()
+      : Command("bench", "measure the latency of every frame, kernel times and memory, or compare two results",
+                "  quadedge bench --baseline --json now.json\n"
+                "  quadedge bench --compare before.json now.json") {}
   void declare(Options& options) override {
     source_.declare_path(options, "recorded sequence; default: the built-in one. With --compare also a result file");
     options.choice("--scene", scene_.scene, synthetic_scenes(), "built-in scene");

@@ -17,15 +17,11 @@ namespace {
 
 class CheckCommand : public Command {
  public:
-  std::string name() const override { return "check"; }
-  std::string about() const override {
-    return "read all of a sequence, or of a folder of them, and say what is there, missing or wrong";
-  }
-  std::string examples() const override {
-    return "  quadedge check kitti/sequences/06\n"
-           "  quadedge check eth3d\n"
-           "  quadedge check flight --calibration camchain.yaml --write-calibration rig.yaml";
-  }
+  CheckCommand()
+      : Command("check", "read all of a sequence, or of a folder of them, and say what is there, missing or wrong",
+                "  quadedge check kitti/sequences/06\n"
+                "  quadedge check eth3d\n"
+                "  quadedge check flight --calibration camchain.yaml --write-calibration rig.yaml") {}
   void declare(Options& options) override {
     source_.declare_path(options, "folder of a sequence, or of many");
     auto formats = dataset_formats();

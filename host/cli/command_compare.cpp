@@ -50,12 +50,9 @@ void print_stage(const bench::StageResult& stage) {
 
 class CompareCommand : public Command {
  public:
-  std::string name() const override { return "compare"; }
-  std::string about() const override {
-    return "check and measure every kernel variant of every stage on the same input";
-  }
-  std::string examples() const override { return "  quadedge compare --stage edge_detection"; }
-
+  CompareCommand()
+      : Command("compare", "check and measure every kernel variant of every stage on the same input",
+                "  quadedge compare --stage edge_detection") {}
   void declare(Options& options) override {
     options.text("--stage", stage_, "compare this stage only (`quadedge variants` lists them)", "STAGE");
     options.text("--size", size_, "size of the rendered images [px]; default 942x489", "WxH");

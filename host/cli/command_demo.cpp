@@ -11,13 +11,12 @@ namespace {
 
 class DemoCommand : public Command {
  public:
-  std::string name() const override { return "demo"; }
-  std::string about() const override { return "track the built-in rendered sequence and compare with its exact poses"; }
-  std::string examples() const override {
-    return "  quadedge demo\n"
-           "  quadedge demo --scene cables --frames 20 -o cables --force";
+  DemoCommand()
+      : Command("demo", "track the built-in rendered sequence and compare with its exact poses",
+                "  quadedge demo\n"
+                "  quadedge demo --scene cables --frames 20 -o cables --force") {
+    run_.output = "quadedge_demo";
   }
-
   void declare(Options& options) override {
     options.text("-o,--output", run_.output, "folder for the results", "OUT");
     options.flag("--profile", run_.profile, "measure kernel times in a second pass");
@@ -51,15 +50,9 @@ class DemoCommand : public Command {
  private:
   SyntheticOptions scene_;
   SceneTexts texts_;
-  SequenceRunOptions run_ = default_run();
+  SequenceRunOptions run_;
   double min_tracked_ = 50;
   MethodOptions method_;
-
-  static SequenceRunOptions default_run() {
-    SequenceRunOptions run;
-    run.output = "quadedge_demo";
-    return run;
-  }
 };
 
 }  // namespace

@@ -18,12 +18,10 @@ std::string soundness(const DeviceInfo& device) {
 
 class DevicesCommand : public Command {
  public:
-  std::string name() const override { return "devices"; }
-  std::string about() const override { return "list the OpenCL devices that --device can choose"; }
-  std::string examples() const override {
-    return "  quadedge devices\n"
-           "  QUADEDGE_DEVICE=0 quadedge demo";
-  }
+  DevicesCommand()
+      : Command("devices", "list the OpenCL devices that --device can choose",
+                "  quadedge devices\n"
+                "  QUADEDGE_DEVICE=0 quadedge demo") {}
   void declare(Options&) override {}
   int run() override {
     const auto devices = list_devices();
@@ -48,12 +46,10 @@ class DevicesCommand : public Command {
 
 class VariantsCommand : public Command {
  public:
-  std::string name() const override { return "variants"; }
-  std::string about() const override { return "list the kernel variants that --variant can choose"; }
-  std::string examples() const override {
-    return "  quadedge variants\n"
-           "  quadedge demo --variant undistortion=item16";
-  }
+  VariantsCommand()
+      : Command("variants", "list the kernel variants that --variant can choose",
+                "  quadedge variants\n"
+                "  quadedge demo --variant undistortion=item16") {}
   void declare(Options&) override {}
   int run() override {
     std::printf("%-14s %-16s %10s  %-10s %s\n", "stage", "variant", "local size", "default", "about");

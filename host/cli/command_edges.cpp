@@ -19,14 +19,10 @@ namespace {
 
 class EdgesCommand : public Command {
  public:
-  std::string name() const override { return "edges"; }
-  std::string about() const override {
-    return "detect the third-order edges of one image, or of a left image of your own cameras";
-  }
-  std::string examples() const override {
-    return "  quadedge edges image.png --csv edges.csv --draw edges.png\n"
-           "  quadedge edges image.png --edges.threshold 4 --csv strong.csv";
-  }
+  EdgesCommand()
+      : Command("edges", "detect the third-order edges of one image, or of a left image of your own cameras",
+                "  quadedge edges image.png --csv edges.csv --draw edges.png\n"
+                "  quadedge edges image.png --edges.threshold 4 --csv strong.csv") {}
   void declare(Options& options) override {
     source_.declare_path(options, "image file; colour is converted to grey", "IMAGE");
     options.number("--frame", frame_,

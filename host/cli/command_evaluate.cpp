@@ -51,12 +51,10 @@ std::vector<std::int64_t> stamps_of(const Trajectory& poses) {
 
 class EvaluateTrajectoryCommand : public Command {
  public:
-  std::string name() const override { return "evaluate trajectory"; }
-  std::string about() const override { return "absolute and relative pose errors (APE, RPE) of a trajectory"; }
-  std::string examples() const override {
-    return "  quadedge evaluate trajectory results_06/trajectory_kitti.txt kitti/poses/06.txt --from-frame 10\n"
-           "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --steps --json errors.json";
-  }
+  EvaluateTrajectoryCommand()
+      : Command("evaluate trajectory", "absolute and relative pose errors (APE, RPE) of a trajectory",
+                "  quadedge evaluate trajectory results_06/trajectory_kitti.txt kitti/poses/06.txt --from-frame 10\n"
+                "  quadedge evaluate trajectory quadedge_V1_01/trajectory.txt V1_01_easy --steps --json errors.json") {}
   void declare(Options& options) override {
     options.positional("ESTIMATE", estimate_, "TUM or KITTI file, or results folder of a run");
     options.positional("TRUTH", truth_, "TUM or KITTI file, or folder of a sequence with ground truth");

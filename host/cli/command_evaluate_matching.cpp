@@ -25,12 +25,10 @@ constexpr int kRenderedFrames = 10;  // of a built-in scene, unless --frames say
 
 class EvaluateMatchingCommand : public Command {
  public:
-  std::string name() const override { return "evaluate matching"; }
-  std::string about() const override { return "recall, precision and ambiguity after every filter (Tables 1 to 3)"; }
-  std::string examples() const override {
-    return "  quadedge evaluate matching two_view_training/terrace_2s --html terrace.html --json terrace.json\n"
-           "  quadedge evaluate matching room --frames 5 --sweep stereo.ncc_min=0.4:0.9:0.05";
-  }
+  EvaluateMatchingCommand()
+      : Command("evaluate matching", "recall, precision and ambiguity after every filter (Tables 1 to 3)",
+                "  quadedge evaluate matching two_view_training/terrace_2s --html terrace.html --json terrace.json\n"
+                "  quadedge evaluate matching room --frames 5 --sweep stereo.ncc_min=0.4:0.9:0.05") {}
   void declare(Options& options) override {
     options.positionals("PATH", paths_,
                         "stereo pairs with disparities, sequences with depth (`quadedge synth`), folders of these, or "

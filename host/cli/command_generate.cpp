@@ -61,9 +61,9 @@ std::string configuration_page() {
 
 class GenerateCommand : public Command {
  public:
-  std::string name() const override { return "generate"; }
-  std::string about() const override { return "print the table of constants"; }
-  std::string examples() const override { return "  quadedge generate configuration > doc/configuration.md"; }
+  GenerateCommand()
+      : Command("generate", "print the table of constants",
+                "  quadedge generate configuration > doc/configuration.md") {}
   void declare(Options& options) override { options.positional("WHAT", what_, "configuration (doc/configuration.md)"); }
 
   int run() override {

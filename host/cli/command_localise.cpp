@@ -39,13 +39,10 @@ class LocationFiles {
 
 class LocaliseCommand : public Command {
  public:
-  std::string name() const override { return "localise"; }
-  std::string about() const override { return "locate the frames of a recording in the map of another one"; }
-  std::string examples() const override {
-    return "  quadedge run V1_01_easy --save-map v1.map\n"
-           "  quadedge localise v1.map V1_02_medium -o located";
-  }
-
+  LocaliseCommand()
+      : Command("localise", "locate the frames of a recording in the map of another one",
+                "  quadedge run V1_01_easy --save-map v1.map\n"
+                "  quadedge localise v1.map V1_02_medium -o located") {}
   void declare(Options& options) override {
     options.positional("MAP", map_, "file of `quadedge run --save-map`");
     source_.declare_path(options, "folder of a recorded sequence, by these or other cameras");

@@ -27,12 +27,10 @@ struct Pair {
 
 class MatchCommand : public Command {
  public:
-  std::string name() const override { return "match"; }
-  std::string about() const override { return "match the edges of one stereo pair"; }
-  std::string examples() const override {
-    return "  quadedge match left.png right.png --max-disparity 96 --csv matches.csv --draw matches.png\n"
-           "  quadedge match left.png right.png --calibration camchain.yaml --ply points.ply";
-  }
+  MatchCommand()
+      : Command("match", "match the edges of one stereo pair",
+                "  quadedge match left.png right.png --max-disparity 96 --csv matches.csv --draw matches.png\n"
+                "  quadedge match left.png right.png --calibration camchain.yaml --ply points.ply") {}
   void declare(Options& options) override {
     options.positional("LEFT", left_,
                        "left image file; without --calibration both images must be rectified; -: images from a pipe",

@@ -17,14 +17,11 @@ namespace {
 
 class ReportCommand : public Command {
  public:
-  std::string name() const override { return "report"; }
-  std::string about() const override {
-    return "make an HTML page of the results of a run, a batch or a matching evaluation";
-  }
-  std::string examples() const override {
-    return "  quadedge report results --latex tables --figures figures\n"
-           "  quadedge report results --baseline yesterday --peer ORB-SLAM3=trajectories/orbslam3 -o comparison.html";
-  }
+  ReportCommand()
+      : Command("report", "make an HTML page of the results of a run, a batch or a matching evaluation",
+                "  quadedge report results --latex tables --figures figures\n"
+                "  quadedge report results --baseline yesterday --peer ORB-SLAM3=trajectories/orbslam3 -o "
+                "comparison.html") {}
   void declare(Options& options) override {
     options.positional("OUT", results_, "folder of a run or a batch, or a file written by `evaluate matching --json`");
     options.text("--baseline", baseline_, "another batch; the page shows the differences from it", "OTHER");

@@ -11,15 +11,10 @@ namespace {
 
 class RunCommand : public Command {
  public:
-  std::string name() const override { return "run"; }
-  std::string about() const override {
-    return "track a recorded sequence or your own cameras and write the trajectory";
-  }
-  std::string examples() const override {
-    return "  quadedge run kitti/sequences/06 -o results_06\n"
-           "  quadedge run --left left --right right --calibration camchain.yaml --fps 20 --device gpu";
-  }
-
+  RunCommand()
+      : Command("run", "track a recorded sequence or your own cameras and write the trajectory",
+                "  quadedge run kitti/sequences/06 -o results_06\n"
+                "  quadedge run --left left --right right --calibration camchain.yaml --fps 20 --device gpu") {}
   void declare(Options& options) override {
     source_.declare_path(options, "folder of a recorded sequence");
     options.text("-o,--output", run_.output, "output folder; default: quadedge_NAME in the current folder", "OUT");

@@ -15,15 +15,11 @@ namespace {
 
 class SynthCommand : public Command {
  public:
-  std::string name() const override { return "synth"; }
-  std::string about() const override {
-    return "write the rendered sequence to disk (ETH3D SLAM layout, with depth and poses)";
-  }
-  std::string examples() const override {
-    return "  quadedge synth room60 --scene room --frames 60\n"
-           "  quadedge synth blurred --scene cables --frames 4 --size 320x200 --blur 3\n"
-           "  quadedge synth fisheye --lens equidistant --right-rotation 0,2,0";
-  }
+  SynthCommand()
+      : Command("synth", "write the rendered sequence to disk (ETH3D SLAM layout, with depth and poses)",
+                "  quadedge synth room60 --scene room --frames 60\n"
+                "  quadedge synth blurred --scene cables --frames 4 --size 320x200 --blur 3\n"
+                "  quadedge synth fisheye --lens equidistant --right-rotation 0,2,0") {}
   void declare(Options& options) override {
     options.positional("OUT", output_, "folder for the sequence");
     options.number("--seed", scene_.seed, "seed of textures and camera noise");

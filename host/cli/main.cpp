@@ -39,22 +39,13 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is a write that fails, like a full disk
   try {
     std::vector<std::unique_ptr<cli::Command>> commands;
-    commands.push_back(cli::make_run_command());
-    commands.push_back(cli::make_localise_command());
-    commands.push_back(cli::make_demo_command());
-    commands.push_back(cli::make_batch_command());
-    commands.push_back(cli::make_report_command());
-    commands.push_back(cli::make_edges_command());
-    commands.push_back(cli::make_match_command());
-    commands.push_back(cli::make_evaluate_trajectory_command());
-    commands.push_back(cli::make_evaluate_matching_command());
-    commands.push_back(cli::make_bench_command());
-    commands.push_back(cli::make_compare_command());
-    commands.push_back(cli::make_synth_command());
-    commands.push_back(cli::make_check_command());
-    commands.push_back(cli::make_devices_command());
-    commands.push_back(cli::make_variants_command());
-    commands.push_back(cli::make_generate_command());
+    for (const auto make :
+         {cli::make_run_command, cli::make_localise_command, cli::make_demo_command, cli::make_batch_command,
+          cli::make_report_command, cli::make_edges_command, cli::make_match_command,
+          cli::make_evaluate_trajectory_command, cli::make_evaluate_matching_command, cli::make_bench_command,
+          cli::make_compare_command, cli::make_synth_command, cli::make_check_command, cli::make_devices_command,
+          cli::make_variants_command, cli::make_generate_command})
+      commands.push_back(make());
     const cli::Parsed parsed = cli::parse_command_line(argc, argv, commands);
     if (parsed.command == nullptr) return parsed.exit_code;
     const int code = parsed.command->run();
