@@ -5,6 +5,7 @@
 
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
+#include "data/user_folder.hpp"
 #include "opencl/variants.hpp"
 #include "quadedge/error.hpp"
 #include "report/json_values.hpp"
@@ -74,6 +75,19 @@ std::map<std::string, std::string> read_variants_file(const std::string& path, c
     refuse(path, error.what());
   }
   return variants;
+}
+
+std::string saved_variants_path(const DeviceInfo& device) {
+  const std::string folder = data::configuration_folder();
+  return folder.empty() ? folder : folder + "/" + variants_file_name(device);
+}
+
+void add_saved_variants(const Device& device, Config& config) {
+  if (device.is_reference()) return;
+  const std::string path = saved_variants_path(device.info());
+  if (path.empty()) return;
+  const auto saved = read_variants_file(path, device.info());
+  config.variants.insert(saved.begin(), saved.end());  // what is there already stays
 }
 
 }  // namespace quadedge::bench

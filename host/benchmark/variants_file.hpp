@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "quadedge/config.hpp"
 #include "quadedge/device.hpp"
 
 namespace quadedge::bench {
@@ -19,5 +20,12 @@ void write_variants_file(const std::string& path, const DeviceInfo& device,
 /// \throws UsageError, naming the file, if it has other content, belongs to another device, or names a stage or variant
 /// that does not exist.
 std::map<std::string, std::string> read_variants_file(const std::string& path, const DeviceInfo& device);
+
+/// $XDG_CONFIG_HOME/quadedge/variants-DEVICE.json, or ~/.config where that is not set; empty where neither is.
+std::string saved_variants_path(const DeviceInfo& device);
+
+/// Stages without a variant in the configuration get the one saved for this device, if any.
+/// \throws UsageError that names the file when it is not fit for this device or program.
+void add_saved_variants(const Device& device, Config& config);
 
 }  // namespace quadedge::bench

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "benchmark/latency.hpp"
+#include "benchmark/variants_file.hpp"
 #include "benchmark/yardsticks.hpp"
 #include "cli/bench_options.hpp"
 #include "cli/bench_tables.hpp"
@@ -12,7 +13,6 @@
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/rendering_status.hpp"
-#include "cli/saved_variants.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
@@ -122,7 +122,7 @@ class BenchCommand : public Command {
     const bool is_counted = run.input.frames > 0;
     if (is_counted) check_length(run.input);
     bench::measure_start(
-        source->rig(), [&] { return method_.open_device(); }, add_saved_variants, record);
+        source->rig(), [&] { return method_.open_device(); }, bench::add_saved_variants, record);
     std::vector<FramePrefetcher::Frame> frames;
     const int all = 1 + warm_up_ + frames_, wanted = is_counted ? std::min(all, run.input.frames) : all;
     while (static_cast<int>(frames.size()) < wanted) {

@@ -13,7 +13,6 @@
 #include "cli/frame_source.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
-#include "cli/saved_variants.hpp"
 #include "common/disparity_range.hpp"
 #include "data/atomic_file.hpp"
 #include "quadedge/error.hpp"
@@ -74,7 +73,7 @@ class CompareCommand : public Command {
     Device device = method_.open_device(true);
     if (device.is_reference()) throw UsageError("the reference device has no kernel variants");
     const DeviceInfo info = device.info();
-    const std::string file = saved_variants_path(info);
+    const std::string file = bench::saved_variants_path(info);
     if (save_ && file.empty()) throw UsageError("--save: neither XDG_CONFIG_HOME nor HOME is set");
 
     SyntheticOptions scene;

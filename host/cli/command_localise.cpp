@@ -1,13 +1,13 @@
 /// \file command_localise.cpp  quadedge localise: frames of a recording in a map of another.
 #include <cstdio>
 
+#include "benchmark/variants_file.hpp"
 #include "cli/command.hpp"
 #include "cli/console.hpp"
 #include "cli/frame_source.hpp"
 #include "cli/interruption.hpp"
 #include "cli/method_options.hpp"
 #include "cli/output_folder.hpp"
-#include "cli/saved_variants.hpp"
 #include "cli/source_options.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -93,7 +93,7 @@ class LocaliseCommand : public Command {
   void locate(const SavedMap& map, FrameSource& source, const Interruption& interruption,
               report::LocalisationRecord& record) {
     Device device = method_.open_device();
-    add_saved_variants(device, record.config);
+    bench::add_saved_variants(device, record.config);
     record.device = device.info();
     Localiser localiser(map, source.rig(), device, record.config, follow_);
     data::write_atomically(output_ + "/config.toml", report::config_toml(record.config, method_.device_choice()));

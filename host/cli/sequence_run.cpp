@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "benchmark/variants_file.hpp"
 #include "cli/console.hpp"
 #include "cli/loop_output.hpp"
 #include "cli/output_folder.hpp"
-#include "cli/saved_variants.hpp"
 #include "common/run_cost.hpp"
 #include "data/atomic_file.hpp"
 #include "data/text.hpp"
@@ -134,7 +134,7 @@ void track_frames(FrameSource& source, const MethodOptions& method, const Sequen
                   const Interruption& interruption, MapOutput& map, report::RunRecord& run) {
   const auto opening = Clock::now();
   Device device = open_tested_device(method, run);
-  add_saved_variants(device, run.config);
+  bench::add_saved_variants(device, run.config);
   const auto pipeline = start_odometry(source.rig(), device, options.quiet, run);
   StereoOdometry& odometry = *pipeline;
   std::optional<LoopOutput> loops;
