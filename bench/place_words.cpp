@@ -42,8 +42,7 @@ void describe(const std::string& scene, std::uint64_t seed, Descriptors& all) {
   const SyntheticSequence sequence(options);
   StereoOdometry odometry(sequence.rig());
   for (int frame = 0; frame < kFrames; frame += kEveryFrame) {
-    const Image left = sequence.render(frame, Side::left).image, right = sequence.render(frame, Side::right).image;
-    odometry.track({sequence.stamp_ns(frame), left.view(), right.view()});
+    odometry.track(sequence.pair(frame).view());
     const Descriptors view = map::rooted_descriptors(odometry.current_rig().frontend.keep());
     Eigen::Index next = all.cols();
     all.conservativeResize(Eigen::NoChange, next + (view.cols() + kEveryEdge - 1) / kEveryEdge);

@@ -36,11 +36,7 @@ inline quadedge::SavedMap map_of(const quadedge::SyntheticOptions& options, cons
   config.odometry.key_max_frames = 1;
   quadedge::StereoOdometry odometry(sequence.rig(), device, config);
   quadedge::Map map(odometry);
-  for (int i = 0; i < sequence.frames(); i += 2) {
-    const quadedge::Image left = sequence.render(i, quadedge::Side::left).image,
-                          right = sequence.render(i, quadedge::Side::right).image;
-    map.add(odometry.track({sequence.stamp_ns(i), left.view(), right.view()}));
-  }
+  for (int i = 0; i < sequence.frames(); i += 2) map.add(odometry.track(sequence.pair(i).view()));
   return map.saved();
 }
 

@@ -61,8 +61,7 @@ DisturbedRun track_disturbed(const SyntheticOptions& options, Device& device) {
   std::vector<std::int64_t> stamps;
   DisturbedRun tracked;
   for (int i = 0; i < options.frames; ++i) {
-    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
-    const auto result = odometry.track({sequence.stamp_ns(i), left.view(), right.view()});
+    const auto result = odometry.track(sequence.pair(i).view());
     stamps.push_back(sequence.stamp_ns(i));
     truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
     if (is_tracked(result.status))

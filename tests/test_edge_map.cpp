@@ -16,7 +16,7 @@ namespace {
 struct TrackedRoom {
   SyntheticSequence sequence;
   Config config;
-  std::vector<Image> left, right;
+  std::vector<StereoPair> pairs;
   static SyntheticOptions options() {
     SyntheticOptions options;
     options.frames = 6;
@@ -27,18 +27,14 @@ struct TrackedRoom {
   }
   TrackedRoom() : sequence(options()) {
     config.odometry.key_rig = false;
-    for (int i = 0; i < sequence.frames(); ++i) {
-      left.push_back(sequence.render(i, Side::left).image);
-      right.push_back(sequence.render(i, Side::right).image);
-    }
+    for (int i = 0; i < sequence.frames(); ++i) pairs.push_back(sequence.pair(i));
   }
   void track_into(const std::vector<EdgeMap*>& maps) const {
     Device device("auto", kept_programs());
     StereoOdometry odometry(sequence.rig(), device, config);
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const StereoFrame frame{sequence.stamp_ns(static_cast<int>(i)), left[i].view(), right[i].view()};
-      const FrameResult result = odometry.track(frame);
-      for (EdgeMap* map : maps) map->add(frame, result, odometry);
+    for (const StereoPair& pair : pairs) {
+      const FrameResult result = odometry.track(pair.view());
+      for (EdgeMap* map : maps) map->add(pair.view(), result, odometry);
     }
   }
 };

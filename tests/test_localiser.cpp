@@ -20,8 +20,7 @@ LocatedWalk locate_walk(const SavedMap& map, const SyntheticOptions& options, in
   Localiser localiser(map, sequence.rig(), device, {}, follow);
   LocatedWalk walk;
   for (int i = first; i < sequence.frames(); i += step) {
-    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
-    const Localisation found = localiser.locate({sequence.stamp_ns(i), left.view(), right.view()});
+    const Localisation found = localiser.locate(sequence.pair(i).view());
     ++walk.frames;
     CHECK(found.stamp_ns == sequence.stamp_ns(i));
     CHECK(found.map_from_left.has_value() == (found.status == LocalisationStatus::located));
@@ -77,13 +76,12 @@ TEST_CASE("localiser: a recording is followed, and lost frames are found again",
   const SyntheticSequence sequence(saved_maps::walk("room"));
   Device device("0", kept_programs());
   Localiser localiser(saved_maps::room_map(), sequence.rig(), device, {}, true);
-  const Image black(320, 200);
   int followed = 0;
   for (int i = 0; i < 16; ++i) {
     const bool is_black = i == 6;
-    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
-    const Localisation found = localiser.locate(
-        {sequence.stamp_ns(i), is_black ? black.view() : left.view(), is_black ? black.view() : right.view()});
+    StereoPair pair = sequence.pair(i);
+    if (is_black) pair.left = pair.right = Image(320, 200);
+    const Localisation found = localiser.locate(pair.view());
     INFO(i);
     if (is_black) {
       CHECK(found.status == LocalisationStatus::lost_too_few_edges);
@@ -114,8 +112,7 @@ TEST_CASE("localiser: the same frames give the same bytes, and others before the
   const SyntheticSequence sequence(saved_maps::walk("room"));
   Device device("0", kept_programs());
   const auto locate = [&](Localiser& localiser, int i) {
-    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
-    Localisation found = localiser.locate({0, left.view(), right.view()});
+    Localisation found = localiser.locate(sequence.pair(i).view());
     REQUIRE(found.map_from_left);
     return found;
   };
@@ -135,8 +132,8 @@ TEST_CASE("localiser: exchanged cameras do not fit the calibration", "[device]")
   const SyntheticSequence sequence(saved_maps::walk("room"));
   Device device("0", kept_programs());
   Localiser localiser(saved_maps::room_map(), sequence.rig(), device);
-  const Image left = sequence.render(3, Side::left).image, right = sequence.render(3, Side::right).image;
-  const Localisation found = localiser.locate({0, right.view(), left.view()});
+  const StereoPair pair = sequence.pair(3);
+  const Localisation found = localiser.locate({0, pair.right.view(), pair.left.view()});
   CHECK(found.status != LocalisationStatus::located);
 }
 

@@ -27,12 +27,12 @@ Tracked track_room(int frames, int black = -1) {
   bench::OpencvBaseline baseline(sequence.rig());
   Tracked tracked;
   for (int i = 0; i < frames; ++i) {
-    Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
-    if (i == black) left = right = Image(options.width, options.height);
-    tracked.results.push_back(baseline.track({sequence.stamp_ns(i), left.view(), right.view()}));
-    tracked.truth.push_back({sequence.stamp_ns(i), sequence.world_from_left(i)});
+    StereoPair pair = sequence.pair(i);
+    if (i == black) pair.left = pair.right = Image(options.width, options.height);
+    tracked.results.push_back(baseline.track(pair.view()));
+    tracked.truth.push_back({pair.stamp_ns, sequence.world_from_left(i)});
     if (tracked.results.back().tracked)
-      tracked.estimate.push_back({sequence.stamp_ns(i), tracked.results.back().world_from_left});
+      tracked.estimate.push_back({pair.stamp_ns, tracked.results.back().world_from_left});
   }
   return tracked;
 }

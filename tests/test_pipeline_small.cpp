@@ -22,10 +22,7 @@ std::vector<FrameResult> track_small_room(const std::string& device_name) {
   Device device(device_name, kept_programs());
   StereoOdometry odometry(sequence.rig(), device, config);
   std::vector<FrameResult> results;
-  for (int i = 0; i < sequence.frames(); ++i) {
-    const Image left = sequence.render(i, Side::left).image, right = sequence.render(i, Side::right).image;
-    results.push_back(odometry.track({sequence.stamp_ns(i), left.view(), right.view()}));
-  }
+  for (int i = 0; i < sequence.frames(); ++i) results.push_back(odometry.track(sequence.pair(i).view()));
   return results;
 }
 

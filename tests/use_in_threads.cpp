@@ -27,10 +27,7 @@ constexpr unsigned kSeconds = 200;  // time after which a process counts as hung
 /// A rendered room with small images; rendered once per process.
 struct Room {
   Room() : sequence(options()) {
-    for (int i = 0; i < sequence.frames(); ++i) {
-      left.push_back(sequence.render(i, Side::left).image);
-      right.push_back(sequence.render(i, Side::right).image);
-    }
+    for (int i = 0; i < sequence.frames(); ++i) pairs.push_back(sequence.pair(i));
   }
   static SyntheticOptions options() {
     SyntheticOptions small;
@@ -39,12 +36,8 @@ struct Room {
     small.focal = 184;
     return small;
   }
-  StereoFrame frame(int i) const {
-    const auto at = static_cast<std::size_t>(i);
-    return {sequence.stamp_ns(i), left[at].view(), right[at].view()};
-  }
   SyntheticSequence sequence;
-  std::vector<Image> left, right;
+  std::vector<StereoPair> pairs;
 };
 
 struct Tracker {
@@ -56,7 +49,7 @@ struct Tracker {
 /// The last pose's elements.
 std::vector<double> track(Tracker& tracker, const Room& room) {
   FrameResult last;
-  for (int i = 0; i < room.sequence.frames(); ++i) last = tracker.odometry.track(room.frame(i));
+  for (const StereoPair& pair : room.pairs) last = tracker.odometry.track(pair.view());
   if (!is_tracked(last.status)) throw Error(ExitCode::internal, "the last frame is lost");
   const auto& pose = last.world_from_left->matrix();
   return {pose.data(), pose.data() + pose.size()};
@@ -143,13 +136,13 @@ void fork_after_tracking() {
   Tracker tracker(room, "auto");
   track(tracker, room);
   const int status = status_of_fork([&] {
-    require_device_error([&] { tracker.odometry.track(room.frame(2)); });
+    require_device_error([&] { tracker.odometry.track(room.pairs[2].view()); });
     require_device_error([] { Device("auto"); });
     Tracker reference(room, "reference");
     track(reference, room);
   });
   if (status != 0) throw Error(ExitCode::internal, "the child ended with status " + std::to_string(status));
-  tracker.odometry.track(room.frame(2));  // the parent continues
+  tracker.odometry.track(room.pairs[2].view());  // the parent continues
 }
 
 int failures_of(const char* name, int trials, const std::function<void()>& work) {

@@ -90,11 +90,7 @@ struct ReferenceCheck::Small {
     config.stereo.min_depth = 0;
     config.variants.clear();
     if (config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;  // every stage shall run
-    for (int i = 0; i < 2; ++i) {
-      frames[i].stamp_ns = sequence.stamp_ns(i);
-      frames[i].left = sequence.render(i, Side::left).image;
-      frames[i].right = sequence.render(i, Side::right).image;
-    }
+    for (int i = 0; i < 2; ++i) frames[i] = sequence.pair(i);
     Device reference("reference");
     expected = run_frontend(*frontend::make_frontend(sequence.rig(), reference, config), frames[0], frames[1], config);
   }

@@ -122,7 +122,7 @@ class FramePrefetcher::Implementation {
       if (!pair) return std::nullopt;
       data::check_image(pair->left, source_of(*pair, Side::left), left_, max_value_);
       data::check_image(pair->right, source_of(*pair, Side::right), right_, max_value_);
-      static_cast<StereoPair&>(item.frame) = std::move(*pair);
+      item.frame = std::move(*pair);
     } catch (...) {
       item.problem = std::current_exception();
     }

@@ -172,6 +172,10 @@ Eigen::Isometry3d SyntheticSequence::world_from_left(int frame) const {
   return implementation_->path.world_from_left(frame);
 }
 
+StereoPair SyntheticSequence::pair(int frame) const {
+  return {frame, stamp_ns(frame), render(frame, Side::left).image, render(frame, Side::right).image};
+}
+
 RenderedView SyntheticSequence::render(int frame, Side side) const {
   const SyntheticOptions& options = implementation_->options;
   require(frame >= 0 && frame < options.frames, "frame", frame, "0 to frames - 1");

@@ -23,8 +23,7 @@ struct FrameFiles {
 
 /// A sequence or an image pair: cameras, list of frames. Images are not loaded yet.
 struct Dataset {
-  /// kitti | euroc | eth3d-slam | eth3d-two-view | middlebury-2003 | middlebury-2005 | middlebury-2006 |
-  /// middlebury-2014 | viso2-quad; or images | video | pipe, see open_stereo_source()
+  /// One of dataset_formats(); or images | video | pipe, see open_stereo_source().
   std::string format;
   std::string path;  ///< folder of the sequence, or its first file
   std::string name;  ///< short name for tables
@@ -80,9 +79,7 @@ Image read_grey_image(const std::string& path);
 class FramePrefetcher {
  public:
   /// Numbered as in Dataset::frames.
-  struct Frame : StereoPair {
-    StereoFrame view() const { return {stamp_ns, left.view(), right.view()}; }
-  };
+  using Frame = StereoPair;
   /// `ahead`: number of frames decoded in advance. `stop`: called while waiting for a frame (a pipe may never deliver
   /// one); if it returns true, the sequence ends. \throws as PairStream::open().
   explicit FramePrefetcher(const Dataset& dataset, int ahead = 2, std::function<bool()> stop = {});

@@ -14,6 +14,7 @@ struct StereoPair {
   int number = 0;  ///< number of the pair in its stream, from 0
   std::int64_t stamp_ns = 0;
   Image left, right;
+  StereoFrame view() const { return {stamp_ns, left.view(), right.view()}; }  ///< valid as long as the pair
 };
 
 /// Reads pairs in order, each once. To be used by one thread, except for stop().

@@ -8,6 +8,7 @@
 
 #include "quadedge/calibration.hpp"
 #include "quadedge/image.hpp"
+#include "quadedge/pair_stream.hpp"
 #include "quadedge/side.hpp"
 #include "quadedge/trajectory.hpp"
 
@@ -79,6 +80,7 @@ class SyntheticSequence {
   Eigen::Isometry3d world_from_left(
       int frame) const;  ///< exact, at the middle of the exposure; identity for the first frame
   RenderedView render(int frame, Side side) const;  ///< thread-safe
+  StereoPair pair(int frame) const;                 ///< both images of a frame
 
  private:
   class Implementation;

@@ -21,7 +21,7 @@ int checked(const RenderedSequence& self, int frame) {
 FramePrefetcher::Frame render(const RenderedSequence& self, int frame) {
   frame = checked(self, frame);
   const nb::gil_scoped_release released;
-  return {frame, self.stamp_ns(frame), self.render(frame, Side::left).image, self.render(frame, Side::right).image};
+  return self.pair(frame);
 }
 
 nb::object depth(const RenderedSequence& self, int frame, const std::string& side) {
