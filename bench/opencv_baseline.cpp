@@ -2,7 +2,6 @@
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
-#include <opencv2/features2d.hpp>
 
 #include "reference/undistortion.hpp"
 
@@ -15,12 +14,6 @@ constexpr double kReprojection = 1.0;      ///< of a PnP inlier [px]
 constexpr int kIterations = 1000;          ///< limit for RANSAC
 constexpr double kConfidence = 0.999;
 constexpr int kMinInliers = 12;  ///< as in pose.min_inliers
-
-/// Key points of one image with their descriptors, one per row.
-struct Features {
-  std::vector<cv::KeyPoint> points;
-  cv::Mat descriptors;
-};
 
 /// Best matches that are clearly better than the second best. Returns none for a cv::Mat without rows.
 std::vector<cv::DMatch> match(const cv::Mat& from, const cv::Mat& to) {
@@ -52,40 +45,16 @@ Eigen::Matrix3d fundamental_matrix(const StereoRig& rig) {
 
 }  // namespace
 
-class OpencvBaseline::Implementation {
- public:
-  explicit Implementation(const StereoRig& rig)
-      : rig_(rig),
-        fundamental_(fundamental_matrix(rig)),
-        left_projection_(projection(rig.left, Eigen::Isometry3d::Identity())),
-        right_projection_(projection(rig.right, rig.right_from_left)) {
-    cv::eigen2cv(rig.left.matrix(), left_matrix_);
-  }
+OpencvBaseline::OpencvBaseline(const StereoRig& rig)
+    : rig_(rig),
+      fundamental_(fundamental_matrix(rig)),
+      left_projection_(projection(rig.left, Eigen::Isometry3d::Identity())),
+      right_projection_(projection(rig.right, rig.right_from_left)) {
+  check_rig(rig, "stereo rig");
+  cv::eigen2cv(rig.left.matrix(), left_matrix_);
+}
 
-  BaselineResult track(const StereoFrame& frame);
-
- private:
-  /// The left features with depth, in the left camera's frame.
-  struct StereoPoints {
-    std::vector<cv::Point3d> points;
-    cv::Mat descriptors;
-  };
-
-  Features detect(const ImageView& recorded, const UndistortionTable& table) const;
-  StereoPoints triangulate(const Features& left, const Features& right) const;
-  /// current_from_previous; false if PnP finds too few inliers.
-  bool find_motion(const Features& left, BaselineResult& result, Eigen::Isometry3d& motion) const;
-
-  StereoRig rig_;
-  Eigen::Matrix3d fundamental_;
-  cv::Mat left_projection_, right_projection_, left_matrix_;
-  cv::Ptr<cv::SIFT> sift_ = cv::SIFT::create();
-  StereoPoints previous_;
-  bool has_previous_ = false;
-  Eigen::Isometry3d world_from_last_ = Eigen::Isometry3d::Identity(), last_motion_ = Eigen::Isometry3d::Identity();
-};
-
-Features OpencvBaseline::Implementation::detect(const ImageView& recorded, const UndistortionTable& table) const {
+Features OpencvBaseline::detect(const ImageView& recorded, const UndistortionTable& table) const {
   Image pinhole = to_8_bits(table.empty() ? recorded : reference::undistort(recorded, table).view());
   const cv::Mat image(pinhole.height, pinhole.width, CV_8UC1, pinhole.pixels.data());
   Features features;
@@ -93,8 +62,7 @@ Features OpencvBaseline::Implementation::detect(const ImageView& recorded, const
   return features;
 }
 
-OpencvBaseline::Implementation::StereoPoints OpencvBaseline::Implementation::triangulate(const Features& left,
-                                                                                         const Features& right) const {
+OpencvBaseline::StereoPoints OpencvBaseline::triangulate(const Features& left, const Features& right) const {
   StereoPoints result;
   std::vector<cv::Point2d> left_pixels, right_pixels;
   std::vector<int> rows;
@@ -122,8 +90,7 @@ OpencvBaseline::Implementation::StereoPoints OpencvBaseline::Implementation::tri
   return result;
 }
 
-bool OpencvBaseline::Implementation::find_motion(const Features& left, BaselineResult& result,
-                                                 Eigen::Isometry3d& motion) const {
+bool OpencvBaseline::find_motion(const Features& left, BaselineResult& result, Eigen::Isometry3d& motion) const {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
   for (const auto& pair : match(previous_.descriptors, left.descriptors)) {
@@ -157,7 +124,7 @@ bool OpencvBaseline::Implementation::find_motion(const Features& left, BaselineR
   return motion.matrix().allFinite();
 }
 
-BaselineResult OpencvBaseline::Implementation::track(const StereoFrame& frame) {
+BaselineResult OpencvBaseline::track(const StereoFrame& frame) {
   BaselineResult result;
   const Features left = detect(frame.left, rig_.left_undistortion),
                  right = detect(frame.right, rig_.right_undistortion);
@@ -173,12 +140,5 @@ BaselineResult OpencvBaseline::Implementation::track(const StereoFrame& frame) {
   result.world_from_left = world_from_last_;
   return result;
 }
-
-OpencvBaseline::OpencvBaseline(const StereoRig& rig) {
-  check_rig(rig, "stereo rig");
-  implementation_ = std::make_unique<Implementation>(rig);
-}
-OpencvBaseline::~OpencvBaseline() = default;
-BaselineResult OpencvBaseline::track(const StereoFrame& frame) { return implementation_->track(frame); }
 
 }  // namespace quadedge::bench
