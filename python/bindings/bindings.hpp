@@ -8,6 +8,9 @@ namespace quadedge::python {
 namespace nb = nanobind;
 using namespace nb::literals;
 
+/// Of functions that neither take nor make Python objects.
+constexpr auto kReleasesGil = nb::call_guard<nb::gil_scoped_release>();
+
 void bind_errors(nb::module_& module);
 void bind_devices(nb::module_& module);
 void bind_configuration(nb::module_& module);

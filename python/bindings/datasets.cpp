@@ -142,13 +142,8 @@ void bind_datasets(nb::module_& module) {
   module.def(
       "decode_grey_image",
       [](const nb::bytes& bytes, const std::string& name) {
-        auto* image = new Image;
-        const nb::capsule owner(image, [](void* pointer) noexcept { delete static_cast<Image*>(pointer); });
-        {
-          const nb::gil_scoped_release released;
-          *image = decode_grey_image({bytes.c_str(), bytes.size()}, name);
-        }
-        return pixels_of(*image, owner);
+        const std::string_view data(bytes.c_str(), bytes.size());
+        return pixels_of([&] { return decode_grey_image(data, name); });
       },
       "data"_a, "name"_a = "the image",
       nb::sig("def decode_grey_image(data: bytes, name: str = 'the image') -> "
@@ -158,15 +153,7 @@ void bind_datasets(nb::module_& module) {
       "name: of the image, for messages. Raises DataError for data that is truncated or cannot be decoded.");
   module.def(
       "read_grey_image",
-      [](const std::filesystem::path& path) {
-        auto* image = new Image;
-        const nb::capsule owner(image, [](void* pointer) noexcept { delete static_cast<Image*>(pointer); });
-        {
-          const nb::gil_scoped_release released;
-          *image = read_grey_image(path.string());
-        }
-        return pixels_of(*image, owner);
-      },
+      [](const std::filesystem::path& path) { return pixels_of([&] { return read_grey_image(path.string()); }); },
       "path"_a, nb::sig("def read_grey_image(path: str | os.PathLike) -> numpy.typing.NDArray"),
       "Reads an image file as grey values at its full depth: (height, width), uint8 or uint16. Colour is converted to\n"
       "luminance.\n\n"

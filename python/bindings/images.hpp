@@ -39,4 +39,16 @@ class ImageArgument {
 /// The pixels of an image as a read-only array, (height, width), that keeps `owner` alive.
 nb::object pixels_of(const Image& image, nb::handle owner);
 
+/// The pixels of the image that `make()` returns; it runs without the GIL.
+template <class Make>
+nb::object pixels_of(const Make& make) {
+  auto* image = new Image;
+  const nb::capsule owner(image, [](void* pointer) noexcept { delete static_cast<Image*>(pointer); });
+  {
+    const nb::gil_scoped_release released;
+    *image = make();
+  }
+  return pixels_of(*image, owner);
+}
+
 }  // namespace quadedge::python

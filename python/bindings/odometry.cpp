@@ -65,9 +65,9 @@ class Odometry {
     const std::lock_guard<std::mutex> alone(in_use_);
     return map().trajectory();
   }
-  void save_map(const std::string& file) {
+  void save_map(const std::filesystem::path& file) {
     const std::lock_guard<std::mutex> alone(in_use_);
-    write_map(file, map().saved());
+    write_map(file.string(), map().saved());
   }
   StereoEdgesInSpace edges() {
     const std::lock_guard<std::mutex> alone(in_use_);
@@ -355,38 +355,17 @@ void bind_odometry(nb::module_& module) {
            "anything but an array of uint8 or uint16, DataError for images that do not fit the rig and for stamps\n"
            "that go back, DeviceError for a failing device and in a process forked after OpenCL had been used, and\n"
            "UsageError after close(). The odometry's state does not change when DataError or TypeError is raised.")
-      .def(
-          "edges",
-          [](Odometry& self) {
-            const nb::gil_scoped_release released;
-            return self.edges();
-          },
-          "Stereo edges of the last tracked frame; empty before the first one. Raises UsageError after close().")
-      .def(
-          "details",
-          [](Odometry& self) {
-            const nb::gil_scoped_release released;
-            return self.details();
-          },
-          "All edges and quads of the last tracked frame. Raises UsageError after close().")
-      .def(
-          "map_trajectory",
-          [](Odometry& self) {
-            const nb::gil_scoped_release released;
-            return self.map_trajectory();
-          },
-          "The corrected Trajectory, in the frame of the map: all frames that measured motions connect; if the\n"
-          "trajectory broke and no place joins its segments, those of the largest segment. Raises UsageError without\n"
-          "``loops=True`` and after close().")
-      .def(
-          "save_map",
-          [](Odometry& self, const std::filesystem::path& path) {
-            const nb::gil_scoped_release released;
-            self.save_map(path.string());
-          },
-          "path"_a,
-          "Writes the places of these frames to a file, for Map.load() and ``quadedge localise``.\n\n"
-          "Raises DataError if it cannot be written, UsageError without ``loops=True`` and after close().")
+      .def("edges", &Odometry::edges, kReleasesGil,
+           "Stereo edges of the last tracked frame; empty before the first one. Raises UsageError after close().")
+      .def("details", &Odometry::details, kReleasesGil,
+           "All edges and quads of the last tracked frame. Raises UsageError after close().")
+      .def("map_trajectory", &Odometry::map_trajectory, kReleasesGil,
+           "The corrected Trajectory, in the frame of the map: all frames that measured motions connect; if the\n"
+           "trajectory broke and no place joins its segments, those of the largest segment. Raises UsageError without\n"
+           "``loops=True`` and after close().")
+      .def("save_map", &Odometry::save_map, kReleasesGil, "path"_a,
+           "Writes the places of these frames to a file, for Map.load() and ``quadedge localise``.\n\n"
+           "Raises DataError if it cannot be written, UsageError without ``loops=True`` and after close().")
       .def_prop_ro(
           "rig", &Odometry::rig, kView,
           "The pinhole cameras whose pixel coordinates edges are given in: the rig passed to the constructor, or,\n"
@@ -398,22 +377,12 @@ void bind_odometry(nb::module_& module) {
       .def_prop_ro("device", &Odometry::device, "The device in use, a DeviceInfo. Raises UsageError after close().")
       .def_prop_ro("variants", &Odometry::variants,
                    "Kernel variant of every stage, by the stage's name; empty on the plain C++ reference.")
-      .def(
-          "close",
-          [](Odometry& self) {
-            const nb::gil_scoped_release released;
-            self.close();
-          },
-          "Releases the device memory. Results remain valid; track(), edges() and details() raise UsageError\n"
-          "afterwards.")
+      .def("close", &Odometry::close, kReleasesGil,
+           "Releases the device memory. Results remain valid; track(), edges() and details() raise UsageError\n"
+           "afterwards.")
       .def("__enter__", [](nb::handle self) { return nb::borrow(self); })
       .def(
-          "__exit__",
-          [](Odometry& self, nb::handle, nb::handle, nb::handle) {
-            const nb::gil_scoped_release released;
-            self.close();
-          },
-          nb::arg().none(), nb::arg().none(), nb::arg().none());
+          "__exit__", [](Odometry& self, const nb::args&) { self.close(); }, kReleasesGil);
 }
 
 }  // namespace quadedge::python
