@@ -41,6 +41,24 @@ Eigen::Isometry3d shift(double x, double z) {
   return motion;
 }
 
+/// An object 8 m away that moves to the right, over a ratio of the image's width.
+generated::Problem thing_of(int quads, double width_ratio) {
+  generated::Problem thing;
+  thing.quads = quads;
+  thing.width_ratio = width_ratio;
+  thing.motion = shift(0.6, 0);
+  thing.near = thing.far = 8;
+  return thing;
+}
+
+/// The scene behind it, seen from a camera that drives on.
+generated::Problem scene_of(int quads) {
+  generated::Problem scene;
+  scene.quads = quads;
+  scene.motion = shift(0, -1);
+  return scene;
+}
+
 frontend::RigHandle rig_of_frame(int frame) {
   auto rig = std::make_shared<frontend::Rig>();
   rig->start(frame);
@@ -50,13 +68,7 @@ frontend::RigHandle rig_of_frame(int frame) {
 }  // namespace
 
 TEST_CASE("acceptance: an object counts by its area in the image, not by its number of edges", "[odometry]") {
-  generated::Problem thing, scene;
-  thing.quads = 600;
-  thing.width_ratio = 0.1;
-  thing.motion = shift(0.6, 0);
-  thing.near = thing.far = 8;
-  scene.quads = 300;
-  scene.motion = shift(0, -1);
+  generated::Problem thing = thing_of(600, 0.1), scene = scene_of(300);
   TwoMotions seen(thing, scene);
   const double thing_area = seen.area_of(thing.motion), scene_area = seen.area_of(scene.motion);
   CHECK(thing_area > 0.05);
@@ -68,13 +80,7 @@ TEST_CASE("acceptance: an object counts by its area in the image, not by its num
 
 TEST_CASE("acceptance: the moving ratio is a fraction of the image, and motions differ by the quads they share",
           "[odometry]") {
-  generated::Problem thing, scene;
-  thing.quads = 600;
-  thing.width_ratio = 0.1;
-  thing.motion = shift(0.6, 0);
-  thing.near = thing.far = 8;
-  scene.quads = 300;
-  scene.motion = shift(0, -1);
+  generated::Problem thing = thing_of(600, 0.1), scene = scene_of(300);
   TwoMotions seen(thing, scene);
   // Two thirds of the edges belong to the object, where few edges move with the scene; one third belongs to the scene.
   seen.area_of(scene.motion);
@@ -174,13 +180,7 @@ TEST_CASE("acceptance: global matches confirm the motion that they follow", "[od
 }
 
 TEST_CASE("acceptance: what one motion explains beside another is where the other one is wrong", "[odometry]") {
-  generated::Problem thing, scene;
-  thing.quads = 3000;
-  thing.width_ratio = 0.3;
-  thing.motion = shift(0.6, 0);
-  thing.near = thing.far = 8;
-  scene.quads = 3000;
-  scene.motion = shift(0, -1);
+  generated::Problem thing = thing_of(3000, 0.3), scene = scene_of(3000);
   TwoMotions seen(thing, scene);
   const double area = seen.area_of(scene.motion);
   const Config config;
