@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
@@ -21,13 +22,9 @@ std::string decimals(double value, int count) {
 }
 
 std::int64_t median_period(const Dataset& dataset) {
-  std::vector<std::int64_t> periods;
-  for (std::size_t i = 1; i < dataset.frames.size(); ++i) {
-    periods.push_back(dataset.frames[i].stamp_ns - dataset.frames[i - 1].stamp_ns);
-  }
-  if (periods.empty()) return 0;
-  std::nth_element(periods.begin(), periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2), periods.end());
-  return periods[periods.size() / 2];
+  std::vector<std::int64_t> stamps;
+  for (const FrameFiles& frame : dataset.frames) stamps.push_back(frame.stamp_ns);
+  return usual_period(stamps);
 }
 
 void describe_camera(const PinholeCamera& camera, const char* which, DatasetCheck& check) {
@@ -147,10 +144,8 @@ void read_stream(Dataset& dataset, const std::function<void(const Dataset&, cons
   dataset.frames = std::move(frames);
 }
 
-}  // namespace
-
-DatasetCheck check_opened(Dataset dataset, const Findings& findings,
-                          const std::function<void(const Dataset&, const StereoPair&)>& seen) {
+DatasetCheck read_all(Dataset dataset, const Findings& findings,
+                      const std::function<void(const Dataset&, const StereoPair&)>& seen) {
   DatasetCheck of_images, check;
   if (dataset.stream) {
     read_stream(dataset, seen, of_images);
@@ -166,20 +161,28 @@ DatasetCheck check_opened(Dataset dataset, const Findings& findings,
   return check;
 }
 
-}  // namespace data
+}  // namespace
 
-DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options) {
-  data::Findings findings(true);
+DatasetCheck check_opened(const std::string& path, const std::function<Dataset(Findings&)>& open,
+                          const std::function<void(const Dataset&, const StereoPair&)>& seen) {
+  Findings findings(true);
   DatasetCheck check;
   try {
-    return data::check_opened(data::read_dataset(path, options, findings), findings, {});
+    return read_all(open(findings), findings, seen);
   } catch (const DataError& problem) {
     check.errors = findings.errors();
     check.errors.push_back(problem.what());
-  } catch (const std::filesystem::filesystem_error& problem) {
-    check.errors.push_back(data::unreadable_place(path, problem));
+  } catch (const fs::filesystem_error& problem) {
+    check.errors.push_back(unreadable_place(path.empty() ? problem.path1().string() : path, problem));
   }
   return check;
+}
+
+}  // namespace data
+
+DatasetCheck check_dataset(const std::string& path, const DatasetOptions& options) {
+  return data::check_opened(path, [&](data::Findings& findings) { return data::read_dataset(path, options, findings); },
+                            {});
 }
 
 }  // namespace quadedge

@@ -17,7 +17,7 @@ constexpr double kFocalWide = 541.764, kFocalNarrow = 711.499, kTwoViewBaseline 
 constexpr int kWideColumns = 900;
 
 std::string truth_of(const fs::path& folder) {
-  const fs::path clean = fs::absolute(folder / ".").lexically_normal().parent_path();
+  const fs::path clean = whole_path(folder);
   const fs::path beside =
       clean.parent_path().parent_path() / (clean.parent_path().filename().string() + "_gt") / clean.filename();
   for (const auto& place : {clean, beside}) {
@@ -30,7 +30,7 @@ std::string truth_of(const fs::path& folder) {
 
 bool is_eth3d_two_view(const fs::path& folder) {
   if (!fs::exists(folder / "im0.png") && !fs::exists(folder / "im1.png")) return false;
-  const fs::path clean = fs::absolute(folder / ".").lexically_normal().parent_path();
+  const fs::path clean = whole_path(folder);
   return !fs::exists(folder / "calib.txt") || !truth_of(folder).empty() ||
          clean.parent_path().filename().string().rfind("two_view", 0) == 0;
 }

@@ -91,8 +91,7 @@ std::vector<FoundRecording> search_list(const std::string& list) {
 
 /// The last `parts` names of a path, joined; KITTI's two digits are prefixed with the name of the layout.
 std::string name_of(const FoundRecording& recording, int parts) {
-  fs::path rest = fs::absolute(recording.path).lexically_normal();
-  if (!rest.has_filename()) rest = rest.parent_path();
+  fs::path rest = whole_path(recording.path);
   if (recording.source) rest = rest.parent_path() / source_name(*recording.source);
   if (rest.filename() == "mav0") rest = rest.parent_path();
   std::string name = (recording.format == "kitti" ? "kitti_" : "") + rest.filename().string();

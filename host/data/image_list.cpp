@@ -99,13 +99,13 @@ std::vector<std::int64_t> read_times(const std::string& file) {
   return stamps;
 }
 
-double usual_rate(const std::vector<std::int64_t>& stamps_ns) {
+std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns) {
   std::vector<std::int64_t> periods;
   for (std::size_t i = 1; i < stamps_ns.size(); ++i) periods.push_back(stamps_ns[i] - stamps_ns[i - 1]);
   if (periods.empty()) return 0;
   const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
   std::nth_element(periods.begin(), middle, periods.end());
-  return *middle > 0 ? 1e9 / static_cast<double>(*middle) : 0;
+  return *middle;
 }
 
 CameraImages list_images(const fs::path& folder) {

@@ -31,8 +31,8 @@ struct CameraImages {
 /// or a times.txt of another length
 CameraImages list_images(const std::filesystem::path& folder);
 
-/// Rate of timestamps, by their median period [Hz]; 0 for fewer than two.
-double usual_rate(const std::vector<std::int64_t>& stamps_ns);
+/// Median period of timestamps [ns]; 0 for fewer than two.
+std::int64_t usual_period(const std::vector<std::int64_t>& stamps_ns);
 
 /// Natural order: digits in names are compared as numbers.
 bool comes_before(const std::string& a, const std::string& b);

@@ -146,7 +146,7 @@ Dataset read_kitti_odometry(const fs::path& root, const DatasetOptions& options,
     set_sizes_from_first_frame(dataset);
   });
 
-  const fs::path clean = fs::absolute(folder / ".").lexically_normal().parent_path();
+  const fs::path clean = whole_path(folder);
   const fs::path truth = clean.parent_path().parent_path() / "poses" / (clean.filename().string() + ".txt");
   if (fs::exists(truth)) {
     dataset.truth_file = truth.string();

@@ -149,10 +149,9 @@ StereoRig rectified_rig(double focal, double cx, double cy, double right_cx, dou
   return rig;
 }
 
-std::string folder_name(const fs::path& folder) {
-  const fs::path clean = fs::absolute(folder).lexically_normal();
-  return clean.has_filename() ? clean.filename().string() : clean.parent_path().filename().string();
-}
+fs::path whole_path(const fs::path& folder) { return fs::absolute(folder / ".").lexically_normal().parent_path(); }
+
+std::string folder_name(const fs::path& folder) { return whole_path(folder).filename().string(); }
 
 Dataset still_pair(const fs::path& folder, const std::string& left, const std::string& right, Findings& findings) {
   Dataset dataset;

@@ -57,9 +57,9 @@ Dataset read_dataset(const std::string& path, const DatasetOptions& options, Fin
 /// timestamps increase and that the rig is usable. \throws UsageError for a range outside the dataset
 void finish_dataset(Dataset& dataset, int first_frame, int last_frame, Findings& findings);
 
-/// Describes an opened dataset and reads all of it. \param seen called with every pair that could be read; may be empty
-/// \param findings errors found while opening it
-DatasetCheck check_opened(Dataset dataset, const Findings& findings,
+/// Opens a dataset by `open`, describes it and reads all of it. \param seen called with every pair that could be read;
+/// may be empty
+DatasetCheck check_opened(const std::string& path, const std::function<Dataset(Findings&)>& open,
                           const std::function<void(const Dataset&, const StereoPair&)>& seen);
 
 /// Checks the size of an image against the camera's and its depth against the rig's. \throws DataError that names
@@ -121,7 +121,9 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix, const std::strin
 /// Rig of a rectified pair: equal focal lengths, right camera `baseline` metres to the right.
 StereoRig rectified_rig(double focal, double cx, double cy, double right_cx, double baseline);
 
-/// Last part of a path, including paths that end in a slash or are ".".
+/// The absolute path of a folder, without "." and "..", and without a slash at its end.
+fs::path whole_path(const fs::path& folder);
+/// Its last part.
 std::string folder_name(const fs::path& folder);
 
 /// A dataset of one still pair.

@@ -90,8 +90,7 @@ std::string source_name(const StereoSource& source) {
   const std::string first = source.video.empty() ? source.left : source.video;
   std::error_code ignored;
   if (!fs::is_directory(first, ignored)) return fs::path(first).stem().string();
-  fs::path folder = fs::absolute(first).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();
+  fs::path folder = whole_path(first);
   if (folder.filename() == "data") folder = folder.parent_path();
   folder = folder.parent_path();
   if (folder.filename() == "mav0") folder = folder.parent_path();

@@ -114,7 +114,8 @@ void check_count(const std::string& shorter_or_equal, std::size_t found, const s
 
 /// A warning if `fps` differs from the rate of the timestamps, which are used nevertheless; otherwise empty.
 std::string rate_warning(double fps, const CameraImages& images) {
-  const double rate = usual_rate(images.stamps_ns);
+  const std::int64_t period = usual_period(images.stamps_ns);
+  const double rate = period > 0 ? kNanoseconds / static_cast<double>(period) : 0;
   if (!(fps > 0 && rate > 0) || std::abs(fps - rate) <= kSameRate * rate) return {};
   char text[96];
   std::snprintf(text, sizeof text, "--fps %g contradicts the timestamps, whose rate is %.4g Hz; ", fps, rate);
@@ -291,19 +292,10 @@ Dataset open_stereo_source(const StereoSource& source) {
 
 DatasetCheck check_stereo_source(const StereoSource& source,
                                  const std::function<void(const Dataset&, const StereoPair&)>& seen) {
-  data::Findings findings(true);
-  DatasetCheck check;
   StereoSource waiting = source;
   waiting.live = false;  // no pair may be dropped
-  try {
-    return data::check_opened(data::read_source(waiting, findings), findings, seen);
-  } catch (const DataError& problem) {
-    check.errors = findings.errors();
-    check.errors.push_back(problem.what());
-  } catch (const std::filesystem::filesystem_error& problem) {
-    check.errors.push_back(data::unreadable_place(problem.path1().string(), problem));
-  }
-  return check;
+  return data::check_opened(
+      "", [&](data::Findings& findings) { return data::read_source(waiting, findings); }, seen);
 }
 
 }  // namespace quadedge
