@@ -1,12 +1,12 @@
 #include "report/draw_matches.hpp"
 
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "data/find_sequences.hpp"
 #include "quadedge/error.hpp"
 #include "report/canvas.hpp"
 
@@ -54,16 +54,6 @@ void draw_match(const FinalMatch& match, const ClassMark& mark, Canvas& left, Ca
 
 std::string limit(double px) { return fixed(px, px == std::round(px) ? 0 : 2) + " px"; }
 
-/// The name with everything but letters, digits, "-", "_" and "." replaced.
-std::string file_name_of(const std::string& name) {
-  std::string result;
-  for (const char c : name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
-    result += plain ? c : '_';
-  }
-  return result;
-}
-
 }  // namespace
 
 void draw_matches(const std::string& path, const evaluation::DrawnFrame& frame, const std::string& name,
@@ -109,7 +99,7 @@ std::vector<WrittenDrawing> write_match_drawings(const std::string& folder,
   std::map<std::string, int> used;
   for (const auto& result : results) {
     if (!result.drawn) continue;
-    std::string name = file_name_of(result.name);
+    std::string name = data::plain_name(result.name);
     if (const int number = ++used[name]; number > 1) name += "_" + std::to_string(number);
     const std::string file = (std::filesystem::absolute(folder) / (name + ".png")).string();
     draw_matches(file, *result.drawn, result.name, tolerance);

@@ -31,12 +31,6 @@ double stage_ms(const FrameResult& result, const std::string& stage) {
   return sum;
 }
 
-std::string joined_warnings(const FrameResult& result) {
-  std::string text;
-  for (const Warning& warning : result.warnings) text += (text.empty() ? "" : "; ") + warning.text;
-  return text;
-}
-
 FrameColumns columns_of_frames() {
   FrameColumns columns;
   const auto add = [&](const std::string& name, std::function<std::string(const FrameResult&)> field) {
@@ -66,7 +60,7 @@ FrameColumns columns_of_frames() {
     add(std::string(stage) + "_ms",
         [stage](const FrameResult& result) { return milliseconds(stage_ms(result, stage)); });
   }
-  add("warning", &joined_warnings);
+  add("warning", [](const FrameResult& result) { return joined(result.warnings); });
   add("message", [](const FrameResult& result) { return result.message; });
   return columns;
 }

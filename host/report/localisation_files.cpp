@@ -36,11 +36,7 @@ std::vector<Column> columns_of_locations() {
     add_located(kPoseColumns[i],
                 [i](const Localisation& frame) { return data::format_exact(pose_value(*frame.map_from_left, i)); });
   add("latency_ms", [](const Localisation& frame) { return data::format_exact(frame.latency_ms); });
-  add("warning", [](const Localisation& frame) {
-    std::string text;
-    for (const Warning& warning : frame.warnings) text += (text.empty() ? "" : "; ") + warning.text;
-    return text;
-  });
+  add("warning", [](const Localisation& frame) { return joined(frame.warnings); });
   add("message", [](const Localisation& frame) { return frame.message; });
   return columns;
 }
@@ -58,17 +54,7 @@ const std::vector<Column>& locations_csv_columns() {
   return all;
 }
 
-std::string lost_reasons(const std::vector<Localisation>& frames) {
-  std::string text;
-  for (const auto& [status, count] : counts_of(frames)) {
-    if (status == LocalisationStatus::located) continue;
-    std::string reason = to_string(status);  // lost_unknown_place
-    reason = reason.substr(reason.find('_') + 1);
-    std::replace(reason.begin(), reason.end(), '_', ' ');
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
-  }
-  return text;
-}
+std::string lost_reasons(const std::vector<Localisation>& frames) { return lost_reasons(counts_of(frames)); }
 
 double median_latency_ms(const std::vector<Localisation>& frames) {
   std::vector<double> values;

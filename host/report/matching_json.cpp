@@ -7,6 +7,7 @@
 #include "quadedge/filters.hpp"
 #include "report/json_values.hpp"
 #include "report/motion_accuracy.hpp"
+#include "report/run_record.hpp"
 
 namespace quadedge::report {
 namespace {
@@ -130,14 +131,8 @@ Json disparity_errors(const std::vector<evaluation::MatchingResult>& results) {
 Json per_frame(const evaluation::MatchingResult& result) {
   Json list = Json::array();
   for (const auto& frame : result.frames) {
-    Json entry = {{"status", to_string(frame.status)},
-                  {"edges_left", frame.counts.edges_left},
-                  {"edges_right", frame.counts.edges_right},
-                  {"stereo_edges", frame.counts.stereo_edges},
-                  {"temporal_left", frame.counts.temporal_left},
-                  {"temporal_right", frame.counts.temporal_right},
-                  {"quads", frame.counts.quads},
-                  {"inliers", frame.counts.inliers}};
+    Json entry = {{"status", to_string(frame.status)}};
+    for (const auto& [name, count] : named_counts(frame.counts)) entry[name] = count;
     if (!frame.message.empty()) entry["message"] = frame.message;
     if (frame.motion) {
       entry["rotation_error_deg"] = frame.motion->rotation_deg;

@@ -66,16 +66,13 @@ std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& 
 
 std::string lost_reasons(const std::vector<FrameRecord>& frames) {
   std::map<FrameStatus, int> counts;
-  for (const auto& frame : frames) {
-    if (!is_tracked(frame.result.status)) ++counts[frame.result.status];
-  }
+  for (const auto& frame : frames) ++counts[frame.result.status];
+  return lost_reasons(counts);
+}
+
+std::string joined(const std::vector<Warning>& warnings) {
   std::string text;
-  for (const auto& [status, count] : counts) {
-    std::string reason = to_string(status);  // lost_no_consensus
-    reason = reason.substr(reason.find('_') + 1);
-    std::replace(reason.begin(), reason.end(), '_', ' ');
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
-  }
+  for (const Warning& warning : warnings) text += (text.empty() ? "" : "; ") + warning.text;
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file run_record.hpp  All results of one run, before they become files.
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -105,6 +106,21 @@ std::vector<std::vector<StageTime>> stage_times(const std::vector<FrameRecord>& 
 
 /// Why frames were lost: "5 no consensus, 2 too few quads"; empty if there are none.
 std::string lost_reasons(const std::vector<FrameRecord>& frames);
+/// The same from the number of frames of each status.
+template <class Status>
+std::string lost_reasons(const std::map<Status, int>& counts) {
+  std::string text;
+  for (const auto& [status, count] : counts) {
+    std::string reason = to_string(status);  // lost_no_consensus
+    if (reason.rfind("lost_", 0) != 0) continue;
+    std::replace(reason.begin(), reason.end(), '_', ' ');
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + reason.substr(4);
+  }
+  return text;
+}
+
+/// The texts of warnings, separated by semicolons.
+std::string joined(const std::vector<Warning>& warnings);
 
 /// The segments of a run, and the tracked frames with an unknown motion between them: "3 segments: an unknown motion
 /// lies between frames 33 and 35, ..."; empty for a single segment.
