@@ -165,14 +165,13 @@ def _latency_table(summary: dict, sequences: list[Sequence]) -> Table:
         tracked = Cell(share_of(entry["frames_tracked"], entry["frames"]), entry["frames_tracked"])
         if baseline and baseline["frames_tracked"] != entry["frames_tracked"]:
             tracked.beside = f"({entry['frames_tracked'] - baseline['frames_tracked']:+d})"
-        cells = [Cell(significant(entry["latency_ms"][key]), entry["latency_ms"][key],
-                      beside=difference(entry["latency_ms"][key], baseline["latency_ms"][key]) if baseline else "")
-                 for key in LATENCY]
-        table.add(sequence.name, entry["status"], tracked, Cell(str(entry["key_rigs"]), entry["key_rigs"]), *cells)
+        latency, before = entry["latency_ms"], baseline["latency_ms"] if baseline else {}
+        table.add(sequence.name, entry["status"], tracked, entry["key_rigs"],
+                  *[Cell.of(latency[key], beside=difference(latency[key], before.get(key))) for key in LATENCY])
     everything = summary["all"]
     table.add("all", "", Cell(share_of(everything["frames_tracked"], everything["frames"]),
                               everything["frames_tracked"]), "",
-              *[Cell(significant(everything["latency_ms"][key]), everything["latency_ms"][key]) for key in LATENCY])
+              *[Cell.of(everything["latency_ms"][key]) for key in LATENCY])
     table.result_rows = 1
     return table
 

@@ -76,7 +76,7 @@ def _row_cells(row: ErrorRow, group: list[ErrorRow], alignment: str, statistics:
                shared: dict[str, Unit | None]) -> list[Cell]:
     if not row.accuracy:
         return [Cell(DASH)] * (1 + len(ERRORS) * len(statistics))
-    cells = [Cell(str(row.accuracy["matched_poses"]), row.accuracy["matched_poses"])]
+    cells: list[Cell | int] = [row.accuracy["matched_poses"]]
     for key, _ in ERRORS:
         unit = unit_of(key, group, alignment)
         for statistic in statistics:

@@ -63,7 +63,7 @@ def filter_table(name: str, title: str, summary: dict, key: str) -> Table:
     for (pool, _), rows in zip(POOLS, both):
         table.groups.append((f"{pool}: {count(rows[0]['edges']) if rows else 0} edges", 4))
     for paired, everything in zip(*both):
-        cells = [Cell(str(paired["order"]), paired["order"]), Cell(paired["filter"])]
+        cells = [paired["order"], paired["filter"]]
         for row in (paired, everything):
             if row.get("off"):
                 cells += [Cell(OFF)] * 4
@@ -105,7 +105,7 @@ def constraint_table(name: str, summary: dict) -> Table:
     table = Table(name, f"Table 3: pairs of quads after each constraint, {count(rows[0]['pairs'])} pairs drawn",
                   ["", "constraint", "recall [%]", "precision [%]"], text_columns=2, result_rows=1)
     for row in rows:
-        table.add(Cell(str(row["order"]), row["order"]), row["constraint"], _share(row["recall"], row["recall_std"]),
+        table.add(row["order"], row["constraint"], _share(row["recall"], row["recall_std"]),
                   _share(row["precision"], row["precision_std"]))
     return table
 

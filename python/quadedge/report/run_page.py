@@ -2,7 +2,7 @@
 
 from .error_tables import ERRORS, ErrorRow, unit_of
 from .figure import FEWEST_FRAMES
-from .numbers import DASH, count, exists, length_text, length_unit, share_of, significant
+from .numbers import DASH, count, length_text, length_unit, share_of, significant
 from .origin import configuration_rows, device_text, origin
 from .page import Detail, Facts, Figures, Page, Picture, Pictures, Section, Text, reduced
 from .results import Run
@@ -105,7 +105,7 @@ def latency_table(run: Run) -> Table:
     table = Table("latency", "Latency [ms], from both images in host memory to the pose",
                   ["median", "90 %", "99 %", "largest", "first frame"], text_columns=0)
     latency = run.report["latency_ms"]
-    table.add(*[Cell(significant(latency[key]), latency[key]) for key in LATENCY])
+    table.add(*[Cell.of(latency[key]) for key in LATENCY])
     return table
 
 
@@ -120,10 +120,9 @@ def accuracy_tables(run: Run) -> list[Table]:
     for alignment, text in (("origin_aligned", "origin"), ("se3_aligned", "SE(3)")):
         for key, name in ERRORS:
             unit = unit_of(key, [row], alignment)
-            values = [accuracy[alignment][key][statistic] for statistic in ("mean", "std", "rmse", "max")]
-            values = [value * unit.factor if exists(value) else None for value in values]
             table.add(text if key == ERRORS[0][0] else Cell("", text), name, unit.name,
-                      *[Cell(significant(value), value) for value in values])
+                      *[Cell.of(accuracy[alignment][key][statistic], factor=unit.factor)
+                        for statistic in ("mean", "std", "rmse", "max")])
     if accuracy.get("se3_open_rotation"):
         table.notes.append(f"SE(3): no APE rotation, {accuracy['se3_open_rotation']}.")
     tables = [table]
@@ -144,14 +143,12 @@ def segment_tables(accuracy: dict) -> list[Table]:
                   ["segment", "poses", f"path [{path.name}]", "drift [%]",
                    *[f"{name} [{unit.name}]" for (_, name), unit in zip(ERRORS, units)]], text_columns=1)
     for segment in segments:
-        cells = [Cell(str(segment["matched_poses"]), segment["matched_poses"])]
-        values = [segment["path_length_m"] * path.factor, segment["end_drift_percent"]]
+        values = [segment["path_length_m"], segment["end_drift_percent"]]
         values += [segment["origin_aligned"][key]["mean"] for key, _ in ERRORS]
-        factors = [1, 1, *[unit.factor for unit in units]]
-        for value, factor in zip(values, factors):
-            value = value * factor if exists(value) and segment["matched_poses"] > 1 else None
-            cells.append(Cell(significant(value), value))
-        table.add(str(segment["segment"]), *cells)
+        factors = [path.factor, 1, *[unit.factor for unit in units]]
+        several = segment["matched_poses"] > 1
+        table.add(str(segment["segment"]), segment["matched_poses"],
+                  *[Cell.of(value if several else None, factor=factor) for value, factor in zip(values, factors)])
     table.notes.append("The motions between segments are unknown; the table above includes them.")
     return [table]
 
@@ -164,8 +161,7 @@ def consistency_tables(accuracy: dict) -> list[Table]:
         consistency = Table("consistency", "Errors relative to the stated covariances, squared; 1 is consistent",
                             ["poses", "pose", "rotation", "translation"], text_columns=0)
         consistency.add(Cell(count(squared["poses"]), squared["poses"]),
-                        *[Cell(significant(squared[key], 3), squared[key]) for key in ("pose", "rotation",
-                                                                                       "translation")])
+                        *[Cell.of(squared[key], 3) for key in ("pose", "rotation", "translation")])
         tables.append(consistency)
     steps = accuracy.get("consistency", [])
     if steps:
@@ -176,14 +172,11 @@ def consistency_tables(accuracy: dict) -> list[Table]:
         promises.groups = [("motions over", 2), (f"position [{unit.name}]", 2), ("rotation [deg]", 2),
                            ("relative to the covariances", 2)]
         for step in steps:
-            cells = [Cell(str(step["frames"]), step["frames"]), Cell(count(step["motions"]), step["motions"])]
-            for key, factor in (("error_m", unit.factor), ("promised_m", unit.factor), ("error_deg", 1),
-                                ("promised_deg", 1)):
-                value = step[key] * factor if exists(step[key]) else None
-                cells.append(Cell(significant(value, 3), value))
-            for key in ("normalised_error_squared_by_edges", "normalised_error_squared"):
-                cells.append(Cell(significant(step[key]["pose"], 3), step[key]["pose"]))
-            promises.add(*cells)
+            promises.add(step["frames"], Cell(count(step["motions"]), step["motions"]),
+                         *[Cell.of(step[key], 3, unit.factor) for key in ("error_m", "promised_m")],
+                         *[Cell.of(step[key], 3) for key in ("error_deg", "promised_deg")],
+                         *[Cell.of(step[key]["pose"], 3)
+                           for key in ("normalised_error_squared_by_edges", "normalised_error_squared")])
         tables.append(promises)
     return tables
 
@@ -194,7 +187,7 @@ def stage_table(report: dict) -> Table:
     for kind in ("stages_ms", "kernels_ms"):
         for name, times in report.get(kind, {}).items():
             table.add(("kernel " if kind == "kernels_ms" else "") + name,
-                      *[Cell(significant(times[key], 3), times[key]) for key in ("median", "p90")])
+                      *[Cell.of(times[key], 3) for key in ("median", "p90")])
     return table
 
 

@@ -5,7 +5,7 @@ import io
 import math
 from dataclasses import dataclass, field
 
-from .numbers import DASH
+from .numbers import DASH, exists, significant
 
 
 @dataclass
@@ -17,6 +17,12 @@ class Cell:
     bold: bool = False
     beside: str = ""
     """A difference or remark in small print."""
+
+    @classmethod
+    def of(cls, value: float | None, digits: int = 4, factor: float = 1, beside: str = "") -> "Cell":
+        """A number times a factor, with significant digits; a dash for a missing one."""
+        scaled = value * factor if exists(value) else None
+        return cls(significant(scaled, digits), scaled, beside=beside)
 
     def exact(self) -> str:
         """The unrounded value, or the text; empty if the value is missing."""
@@ -46,9 +52,10 @@ class Table:
     """Number of rows at the end that summarise the rows above."""
     kind: str = "table"
 
-    def add(self, *cells: Cell | str) -> None:
+    def add(self, *cells: Cell | str | int) -> None:
         """Adds a row. Raises ValueError if it is not as long as the heading."""
-        row = [cell if isinstance(cell, Cell) else Cell(cell) for cell in cells]
+        row = [cell if isinstance(cell, Cell) else Cell(str(cell), cell if isinstance(cell, int) else None)
+               for cell in cells]
         if len(row) != len(self.columns):
             raise ValueError(f"{self.name}: {len(row)} cells for {len(self.columns)} columns")
         self.rows.append(row)
