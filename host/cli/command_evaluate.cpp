@@ -18,8 +18,6 @@
 namespace quadedge::cli {
 namespace {
 
-constexpr std::int64_t kToleranceNs = 10'000'000;  // as evaluate_trajectory matches
-
 /// A trajectory and whether its stamps are times (TUM, data sets) or row numbers (KITTI).
 struct Loaded {
   Trajectory poses;
@@ -98,7 +96,7 @@ class EvaluateTrajectoryCommand : public Command {
     print_evaluation(result);
     std::optional<evaluation::StepJudgement> steps;
     if (steps_) {
-      const std::int64_t tolerance = row_numbers ? 0 : kToleranceNs,
+      const std::int64_t tolerance = row_numbers ? 0 : kStampToleranceNs,
                          first = result.per_pose.front().stamp_ns - tolerance;
       if (from_frame_ > 0) frames.erase(frames.begin(), std::lower_bound(frames.begin(), frames.end(), first));
       steps = evaluation::judge_steps(estimate.poses, truth, frames, step_limits_, tolerance);

@@ -214,12 +214,11 @@ Trajectory tracked_poses(const report::RunRecord& run) {
 
 /// The poses of the ground truth that can be compared with the run: those of its duration.
 Trajectory truth_of_the_run(const Trajectory& truth, const report::RunRecord& run) {
-  constexpr std::int64_t kToleranceNs = 10'000'000;  // as evaluate_trajectory matches
   Trajectory kept;
   if (run.frames.empty()) return kept;
   for (const auto& pose : truth) {
-    if (pose.stamp_ns >= run.frames.front().result.stamp_ns - kToleranceNs &&
-        pose.stamp_ns <= run.frames.back().result.stamp_ns + kToleranceNs) {
+    if (pose.stamp_ns >= run.frames.front().result.stamp_ns - kStampToleranceNs &&
+        pose.stamp_ns <= run.frames.back().result.stamp_ns + kStampToleranceNs) {
       kept.push_back(pose);
     }
   }

@@ -2,24 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "data/image_list.hpp"
 #include "data/layout.hpp"
 #include "data/text.hpp"
 #include "quadedge/error.hpp"
+#include "quadedge/evaluation.hpp"
 #include "quadedge/pi.hpp"
 
 namespace quadedge {
 namespace data {
 namespace {
-
-std::string decimals(double value, int count) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.*f", count, value);
-  return buffer;
-}
 
 std::int64_t median_period(const Dataset& dataset) {
   std::vector<std::int64_t> stamps;
@@ -29,13 +23,15 @@ std::int64_t median_period(const Dataset& dataset) {
 
 void describe_camera(const PinholeCamera& camera, const char* which, DatasetCheck& check) {
   check.facts.push_back(std::string(which) + " camera: " + std::to_string(camera.width) + " x " +
-                        std::to_string(camera.height) + ", fx " + decimals(camera.fx, 3) + " fy " +
-                        decimals(camera.fy, 3) + " cx " + decimals(camera.cx, 3) + " cy " + decimals(camera.cy, 3));
+                        std::to_string(camera.height) + ", fx " + format_fixed(camera.fx, 3) + " fy " +
+                        format_fixed(camera.fy, 3) + " cx " + format_fixed(camera.cx, 3) + " cy " +
+                        format_fixed(camera.cy, 3));
 }
 
 std::string hidden_part(const PixelMask& mask) {
   const auto hidden = std::count(mask.hidden.begin(), mask.hidden.end(), 1);
-  return decimals(mask.empty() ? 0 : 100.0 * static_cast<double>(hidden) / static_cast<double>(mask.hidden.size()), 1);
+  return format_fixed(mask.empty() ? 0 : 100.0 * static_cast<double>(hidden) / static_cast<double>(mask.hidden.size()),
+                      1);
 }
 
 void describe_lenses(const Dataset& dataset, DatasetCheck& check) {
@@ -44,7 +40,7 @@ void describe_lenses(const Dataset& dataset, DatasetCheck& check) {
     const double fov = 2 * std::atan(0.5 * rig.left.width / rig.left.fx) / kDegree;
     check.facts.push_back("calibration: " + calibration->format + ", " + calibration->files);
     check.facts.push_back(std::string("lenses: ") + to_string(calibration->left.model) + " and " +
-                          to_string(calibration->right.model) + ", field of view " + decimals(fov, 1) + " degrees");
+                          to_string(calibration->right.model) + ", field of view " + format_fixed(fov, 1) + " degrees");
   }
   if (!rig.left_mask.empty() || !rig.right_mask.empty()) {
     check.facts.push_back("hidden: " + hidden_part(rig.left_mask) + " % of the left image, " +
@@ -61,12 +57,12 @@ void describe(const Dataset& dataset, DatasetCheck& check) {
   check.facts.push_back(std::string("images: ") +
                         (dataset.rig.left_undistortion.empty() ? "pinhole" : "distorted, corrected by a table"));
   describe_lenses(dataset, check);
-  check.facts.push_back("baseline: " + decimals(dataset.rig.baseline(), 6) + " m");
-  check.facts.push_back("disparity range at the start: " + decimals(dataset.rig.disparity_range(), 1) + " px");
+  check.facts.push_back("baseline: " + format_fixed(dataset.rig.baseline(), 6) + " m");
+  check.facts.push_back("disparity range at the start: " + format_fixed(dataset.rig.disparity_range(), 1) + " px");
   if (const std::int64_t period = median_period(dataset); period > 0) {
     check.facts.push_back(
-        "rate: " + decimals(1e9 / static_cast<double>(period), 2) + " Hz, " +
-        decimals(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
+        "rate: " + format_fixed(1e9 / static_cast<double>(period), 2) + " Hz, " +
+        format_fixed(static_cast<double>(dataset.frames.back().stamp_ns - dataset.frames[0].stamp_ns) / 1e9, 3) + " s");
   }
   for (const auto& note : dataset.notes) check.facts.push_back("note: " + note);
   check.warnings.insert(check.warnings.end(), dataset.warnings.begin(), dataset.warnings.end());
@@ -78,7 +74,7 @@ void find_gaps(const Dataset& dataset, DatasetCheck& check) {
   for (std::size_t i = 1; period > 0 && i < dataset.frames.size(); ++i) {
     const std::int64_t step = dataset.frames[i].stamp_ns - dataset.frames[i - 1].stamp_ns;
     if (step > 2 * period) {
-      check.warnings.push_back("gap of " + decimals(static_cast<double>(step) / 1e9, 3) + " s before frame " +
+      check.warnings.push_back("gap of " + format_fixed(static_cast<double>(step) / 1e9, 3) + " s before frame " +
                                std::to_string(i) + " (" + dataset.frames[i].left + ")");
     }
   }
@@ -88,10 +84,9 @@ void check_truth(const Dataset& dataset, DatasetCheck& check) {
   if (dataset.truth_file.empty()) {
     check.facts.push_back("ground truth: no poses");
   } else {
-    constexpr std::int64_t kToleranceNs = 10'000'000;  // as in evaluate_trajectory()
     const auto covered = std::count_if(dataset.frames.begin(), dataset.frames.end(), [&](const FrameFiles& frame) {
       return std::any_of(dataset.truth.begin(), dataset.truth.end(), [&](const StampedPose& pose) {
-        return std::abs(pose.stamp_ns - frame.stamp_ns) <= kToleranceNs;
+        return std::abs(pose.stamp_ns - frame.stamp_ns) <= kStampToleranceNs;
       });
     });
     const std::string coverage = std::to_string(covered) + " of " + counted(dataset.frames.size(), "frame");

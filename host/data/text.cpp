@@ -214,6 +214,12 @@ std::string format_seconds(std::int64_t nanoseconds) {
   return (negative ? "-" : "") + std::to_string(magnitude / kPerSecond) + "." + decimals;
 }
 
+std::string format_fixed(double value, int decimals) {
+  char buffer[400];  // the largest double has 309 digits
+  std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
+  return buffer;
+}
+
 std::string format_exact(double value) {
   char buffer[40];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17);

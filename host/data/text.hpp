@@ -71,6 +71,9 @@ std::int64_t parse_nanoseconds(const std::string& token, const std::string& file
 /// Seconds with nine decimals, exactly.
 std::string format_seconds(std::int64_t nanoseconds);
 
+/// A number with so many decimals.
+std::string format_fixed(double value, int decimals);
+
 /// A double with 17 significant digits, which reads back as the same value.
 std::string format_exact(double value);
 

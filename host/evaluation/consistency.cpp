@@ -9,11 +9,10 @@
 #include "common/angles.hpp"
 #include "evaluation/pose_lookup.hpp"
 #include "pose/rig_uncertainty.hpp"
+#include "quadedge/evaluation.hpp"
 
 namespace quadedge::evaluation {
 namespace {
-
-constexpr std::int64_t kToleranceNs = 10'000'000;
 
 /// The left perturbation (rotation, translation) that turns `truth` into `estimate`, as in
 /// FrameResult::relative_covariance.
@@ -84,8 +83,8 @@ StepConsistency judge_length(const std::vector<FrameResult>& results, const Traj
   for (int first = 0; first + frames < static_cast<int>(results.size()); ++first) {
     const auto& from = results[static_cast<std::size_t>(first)];
     const auto& to = results[static_cast<std::size_t>(first + frames)];
-    const auto* true_from = pose_at(truth, from.stamp_ns, kToleranceNs);
-    const auto* true_to = pose_at(truth, to.stamp_ns, kToleranceNs);
+    const auto* true_from = pose_at(truth, from.stamp_ns, kStampToleranceNs);
+    const auto* true_to = pose_at(truth, to.stamp_ns, kStampToleranceNs);
     if (true_from == nullptr || true_to == nullptr || !is_tracked(from.status) || !is_tracked(to.status)) continue;
     const auto motion = motion_between(results, first, first + frames);
     if (!motion || !(motion->covariance.diagonal().minCoeff() > 0)) continue;
@@ -118,8 +117,8 @@ Consistency judge_covariances(const std::vector<FrameResult>& results, const Tra
     const Eigen::Matrix<double, 6, 6>& covariance = *result.relative_covariance;
     if (!(covariance.diagonal().minCoeff() > 0)) continue;
     const auto& reference = results.at(static_cast<std::size_t>(result.reference_frame));
-    const auto* true_reference = pose_at(truth, reference.stamp_ns, kToleranceNs);
-    const auto* true_current = pose_at(truth, result.stamp_ns, kToleranceNs);
+    const auto* true_reference = pose_at(truth, reference.stamp_ns, kStampToleranceNs);
+    const auto* true_current = pose_at(truth, result.stamp_ns, kStampToleranceNs);
     if (true_reference == nullptr || true_current == nullptr) continue;
     const auto error = perturbation(*result.current_from_reference,
                                     true_current->world_from_left.inverse() * true_reference->world_from_left);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "quadedge/evaluation.hpp"
 #include "quadedge/trajectory.hpp"
 
 namespace quadedge::evaluation {
@@ -30,6 +31,6 @@ struct StepJudgement {
 /// ignored.
 StepJudgement judge_steps(const Trajectory& estimate, const Trajectory& truth,
                           const std::vector<std::int64_t>& frames_ns, const StepLimits& limits = {},
-                          std::int64_t max_stamp_difference_ns = 10'000'000);
+                          std::int64_t max_stamp_difference_ns = kStampToleranceNs);
 
 }  // namespace quadedge::evaluation

@@ -1,7 +1,6 @@
 #include "report/canvas.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
 #include "data/atomic_file.hpp"
@@ -48,12 +47,6 @@ int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::
   cv::putText(picture, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
   int baseline = 0;
   return x + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &baseline).width;
-}
-
-std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
 }
 
 void write_png(const std::string& path, const cv::Mat& picture) {

@@ -36,9 +36,6 @@ constexpr int kPositionShift = 4;
 /// Writes text with its baseline at (x, y); returns the x after its end.
 int put_text(cv::Mat& picture, const std::string& text, int x, int y, const cv::Scalar& colour, double size = 0.5);
 
-/// "%.*f".
-std::string fixed(double value, int decimals);
-
 /// Encodes and writes atomically. \throws DataError.
 void write_png(const std::string& path, const cv::Mat& picture);
 void write_jpeg(const std::string& path, const cv::Mat& picture);

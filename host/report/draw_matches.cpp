@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "data/find_sequences.hpp"
+#include "data/text.hpp"
 #include "quadedge/error.hpp"
 #include "report/canvas.hpp"
 
@@ -52,7 +53,7 @@ void draw_match(const FinalMatch& match, const ClassMark& mark, Canvas& left, Ca
   cv::circle(right.picture(), truth, 3 << kPositionShift, mark.colour, 1, cv::LINE_AA, kPositionShift);
 }
 
-std::string limit(double px) { return fixed(px, px == std::round(px) ? 0 : 2) + " px"; }
+std::string limit(double px) { return data::format_fixed(px, px == std::round(px) ? 0 : 2) + " px"; }
 
 }  // namespace
 

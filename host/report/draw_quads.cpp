@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "data/text.hpp"
 #include "report/canvas.hpp"
 #include "report/drawing.hpp"
 #include "report/statistics.hpp"
@@ -125,8 +126,10 @@ void draw_quads(const std::string& path, const ImageView& left, const FrameDetai
   int y = canvas.legend_y(0);
   int x = put_text(picture, "stereo edges by disparity: 0", 10, y, kText) + 6;
   x = colours.draw_bar(picture, x, y + 2);
-  put_text(picture, fixed(colours.largest(), 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)",
-           x + 6, y, kText);
+  put_text(
+      picture,
+      data::format_fixed(colours.largest(), 1) + " px   (" + std::to_string(details.stereo.size()) + " stereo edges)",
+      x + 6, y, kText);
   y = canvas.legend_y(1);
   x = put_text(picture, "motion of quads since the key rig, one per cell of 16 px (dot: now):", 10, y, kText) + 10;
   cv::line(picture, {x, y - 5}, {x + 30, y - 5}, kInlier, 2);

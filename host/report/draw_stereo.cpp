@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "data/text.hpp"
 #include "report/canvas.hpp"
 #include "report/drawing.hpp"
 #include "report/statistics.hpp"
@@ -34,9 +35,9 @@ void draw_stereo(const std::string& path, const ImageView& left, const StereoEdg
   put_text(canvas.picture(), std::to_string(edges.size()) + " stereo edges, coloured by disparity", 10,
            canvas.legend_y(0), white);
   const int y = canvas.legend_y(1);
-  int x = put_text(canvas.picture(), fixed(low, 1) + " px", 10, y, white) + 8;
+  int x = put_text(canvas.picture(), data::format_fixed(low, 1) + " px", 10, y, white) + 8;
   for (int i = 0; i < 256; ++i, ++x) cv::line(canvas.picture(), {x, y - 12}, {x, y + 2}, colour_of(i / 255.0));
-  put_text(canvas.picture(), fixed(high, 1) + " px", x + 8, y, white);
+  put_text(canvas.picture(), data::format_fixed(high, 1) + " px", x + 8, y, white);
   write_png(path, canvas.picture());
 }
 

@@ -1,15 +1,17 @@
 #include "report/edges_csv.hpp"
 
+#include "data/text.hpp"
 #include "report/csv_table.hpp"
-#include "report/number_text.hpp"
 
 namespace quadedge::report {
 namespace {
 
 using Columns = std::vector<CsvColumn<std::size_t>>;
+constexpr int kDecimals = 6;
 
 void add(const char* name, const std::vector<float>& values, Columns& columns) {
-  columns.push_back({name, [&values](std::size_t i) { return six_decimals(static_cast<double>(values[i])); }});
+  columns.push_back(
+      {name, [&values](std::size_t i) { return data::format_fixed(static_cast<double>(values[i]), kDecimals); }});
 }
 
 std::string table(const Columns& columns, std::size_t rows) {
@@ -43,7 +45,7 @@ std::string matches_csv(const StereoMatches& matches, bool depths) {
   for (int axis = 0; axis < 3; ++axis) {
     columns.push_back({names[axis], [&matches, depths, axis](std::size_t i) {
                          const auto& point = matches.points[i];
-                         return depths && point ? six_decimals(point->position[axis]) : std::string();
+                         return depths && point ? data::format_fixed(point->position[axis], kDecimals) : std::string();
                        }});
   }
   return table(columns, edges.size());

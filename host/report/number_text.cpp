@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "data/text.hpp"
+
 namespace quadedge::report {
 namespace {
 
@@ -18,16 +20,8 @@ int decimals_of(double value) {
 
 std::string significant(double value) {
   if (!std::isfinite(value)) return "-";
-  char digits[400];  // the largest double has 309
-  std::snprintf(digits, sizeof digits, "%.*f", decimals_of(value), value);
-  const std::string text = digits;
+  const std::string text = data::format_fixed(value, decimals_of(value));
   return text.find_first_of("123456789") == std::string::npos ? "0" : text;
-}
-
-std::string six_decimals(double value) {
-  char text[400];
-  std::snprintf(text, sizeof text, "%.6f", value);
-  return text;
 }
 
 std::string share_text(int part, int whole) {

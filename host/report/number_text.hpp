@@ -9,9 +9,6 @@ namespace quadedge::report {
 /// does not exist.
 std::string significant(double value);
 
-/// Six decimals, as edges and matches are written.
-std::string six_decimals(double value);
-
 /// "58 / 86 (67.4 %)"; a dash for none of none.
 std::string share_text(int part, int whole);
 

@@ -99,7 +99,7 @@ void bind_evaluation(nb::module_& module) {
                    "(N,): NaN for the first pose of a segment.");
   module.def(
       "evaluate_trajectory", &evaluate_trajectory, "estimate"_a, "truth"_a, "from_frame"_a = 0,
-      "max_stamp_difference_ns"_a = 10'000'000,
+      "max_stamp_difference_ns"_a = kStampToleranceNs,
       "Compares an estimated Trajectory with the ground truth. Every pose is matched at most once, with the nearest "
       "time\n"
       "stamp. The errors of the whole include the unknown motions between segments, except for RPE, which is not\n"
