@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/console.hpp"
 #include "report/statistics.hpp"
 
 namespace quadedge::cli {
@@ -85,9 +86,8 @@ void print_benchmark(const bench::BenchRecord& record) {
 void print_comparison(const bench::BenchComparison& comparison, double noise_percent) {
   std::printf("%-34s %10s %10s %9s\n", "", "before", "after", "change");
   for (const auto& figure : comparison.figures) {
-    char change[16] = "-";
-    if (std::isfinite(figure.change_percent)) std::snprintf(change, sizeof change, "%+.1f %%", figure.change_percent);
-    std::printf("%-34s %10.2f %10.2f %9s %s\n", figure.name.c_str(), figure.before, figure.after, change,
+    std::printf("%-34s %10.2f %10.2f %9s %s\n", figure.name.c_str(), figure.before, figure.after,
+                dashed("%+.1f %%", figure.change_percent).c_str(),
                 figure.worse    ? "WORSE"
                 : figure.judged ? ""
                                 : "(not judged)");

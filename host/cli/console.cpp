@@ -26,12 +26,8 @@ void print_errors(const char* title, const PoseErrors& errors) {
   std::printf("%-22s %12s %12s %12s %12s\n", "", "mean", "std", "rmse", "max");
   const auto row = [](const char* name, const ErrorStatistics& error) {
     std::printf("%-22s", name);
-    for (const double value : {error.mean, error.std, error.rmse, error.max}) {
-      if (std::isfinite(value))
-        std::printf(" %12.7f", value);
-      else
-        std::printf(" %12s", "-");
-    }
+    for (const double value : {error.mean, error.std, error.rmse, error.max})
+      std::printf(" %12s", dashed("%.7f", value).c_str());
     std::printf("\n");
   };
   row("APE rotation [deg]", errors.ape_rotation_deg);
@@ -40,12 +36,7 @@ void print_errors(const char* title, const PoseErrors& errors) {
   row("RPE translation [m]", errors.rpe_translation_m);
 }
 
-/// A time that may not exist.
-std::string milliseconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f ms", value);
-  return std::isfinite(value) ? text : "-";
-}
+std::string milliseconds(double value) { return dashed("%.1f ms", value); }
 
 /// "1.4 frames/s, 2 min 05 s left" for `done` of `total` after a time; empty while nothing is done yet.
 std::string rate_and_rest(int done, int total, const std::string& unit, std::chrono::steady_clock::duration elapsed) {
@@ -67,16 +58,9 @@ void print_segments(const std::vector<TrajectoryEvaluation>& segments) {
     const PoseErrors& errors = segment.origin_aligned;
     std::printf("%-8d %6d %10.3f", segment.segment, segment.matched, segment.path_length_m);
     for (const double value : {errors.ape_rotation_deg.mean, errors.ape_translation_m.mean,
-                               errors.rpe_rotation_deg.mean, errors.rpe_translation_m.mean}) {
-      if (std::isfinite(value))
-        std::printf(" %11.6f", value);
-      else
-        std::printf(" %11s", "-");
-    }
-    if (segment.matched > 1)
-      std::printf(" %9.3f\n", segment.end_drift_percent);
-    else
-      std::printf(" %9s\n", "-");
+                               errors.rpe_rotation_deg.mean, errors.rpe_translation_m.mean})
+      std::printf(" %11s", dashed("%.6f", value).c_str());
+    std::printf(" %9s\n", dashed("%.3f", segment.matched > 1 ? segment.end_drift_percent : NAN).c_str());
   }
 }
 
@@ -158,6 +142,13 @@ void Progress::update(const std::string& what, int done, int total, const std::s
     line += part.empty() ? "" : "  " + part;
   }
   status_.show(line, last);
+}
+
+std::string dashed(const char* format, double value) {
+  if (!std::isfinite(value)) return "-";
+  char text[400];  // the largest double has 309 digits
+  std::snprintf(text, sizeof text, format, value);
+  return text;
 }
 
 std::string duration_text(double seconds) {

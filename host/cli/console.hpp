@@ -47,6 +47,9 @@ class Progress {
   std::chrono::steady_clock::time_point start_, updated_;
 };
 
+/// A number as printf() formats it, or a dash for one that does not exist.
+std::string dashed(const char* format, double value);
+
 /// "47 s", "2 min 05 s", "1 h 03 min".
 std::string duration_text(double seconds);
 

@@ -4,18 +4,16 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/console.hpp"
+
 namespace quadedge::cli {
 namespace {
 
 using evaluation::FilterCounts;
 using evaluation::PooledRow;
 
-/// A number, or a dash where it does not exist.
 std::string decimal(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return dashed(("%." + std::to_string(decimals) + "f").c_str(), value);
 }
 
 /// A share in percent, or a dash where it does not exist.
