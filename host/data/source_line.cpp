@@ -13,28 +13,23 @@ namespace {
 /// An option with a text value.
 struct Word {
   const char* option;
-  std::string& (*value)(StereoSource& source);
+  std::string StereoSource::*value;
   bool is_path;
 };
-constexpr Word kWords[] = {
-    {"--left", [](StereoSource& source) -> std::string& { return source.left; }, true},
-    {"--right", [](StereoSource& source) -> std::string& { return source.right; }, true},
-    {"--video", [](StereoSource& source) -> std::string& { return source.video; }, true},
-    {"--split", [](StereoSource& source) -> std::string& { return source.split; }, false},
-    {"--calibration", [](StereoSource& source) -> std::string& { return source.calibration; }, true},
-    {"--times", [](StereoSource& source) -> std::string& { return source.times; }, true},
-    {"--mask", [](StereoSource& source) -> std::string& { return source.mask; }, true},
-};
+constexpr Word kWords[] = {{"--left", &StereoSource::left, true},
+                           {"--right", &StereoSource::right, true},
+                           {"--video", &StereoSource::video, true},
+                           {"--split", &StereoSource::split, false},
+                           {"--calibration", &StereoSource::calibration, true},
+                           {"--times", &StereoSource::times, true},
+                           {"--mask", &StereoSource::mask, true}};
 
 /// An option with a numeric value.
 struct Number {
   const char* option;
-  double& (*value)(StereoSource& source);
+  double StereoSource::*value;
 };
-constexpr Number kNumbers[] = {
-    {"--fps", [](StereoSource& source) -> double& { return source.fps; }},
-    {"--fov", [](StereoSource& source) -> double& { return source.fov; }},
-};
+constexpr Number kNumbers[] = {{"--fps", &StereoSource::fps}, {"--fov", &StereoSource::fov}};
 
 /// Prepends `folder` to each of the comma-separated paths.
 std::string in_folder(const std::string& paths, const fs::path& folder) {
@@ -59,9 +54,9 @@ StereoSource parse_source_line(const std::string& text, const std::string& folde
   const auto words = words_of(text);
   const auto set = [&](const std::string& option, const std::string& value) {
     for (const auto& word : kWords)
-      if (option == word.option) return word.value(source) = word.is_path ? in_folder(value, folder) : value, true;
+      if (option == word.option) return source.*word.value = word.is_path ? in_folder(value, folder) : value, true;
     for (const auto& number : kNumbers)
-      if (option == number.option) return number.value(source) = parse_number(value, file, line, option), true;
+      if (option == number.option) return source.*number.value = parse_number(value, file, line, option), true;
     return false;
   };
   for (std::size_t i = 0; i < words.size(); i += 2) {
@@ -78,11 +73,10 @@ StereoSource parse_source_line(const std::string& text, const std::string& folde
 
 std::vector<std::string> source_words(const StereoSource& source) {
   std::vector<std::string> words;
-  StereoSource values = source;
   for (const auto& word : kWords)
-    if (!word.value(values).empty()) words.insert(words.end(), {word.option, word.value(values)});
+    if (!(source.*word.value).empty()) words.insert(words.end(), {word.option, source.*word.value});
   for (const auto& number : kNumbers)
-    if (number.value(values) != 0) words.insert(words.end(), {number.option, format_exact(number.value(values))});
+    if (source.*number.value != 0) words.insert(words.end(), {number.option, format_exact(source.*number.value)});
   return words;
 }
 
