@@ -33,3 +33,31 @@ static inline float line_angle_between(float a, float b) {
   const float d = angle_between(a, b);
   return d > 0.5f * PI_F ? PI_F - d : d;
 }
+
+// Vectors at any address of their elements. PoCL splits vload16 into pairs of floats; a packed structure becomes one or
+// two plain loads.
+typedef struct __attribute__((packed)) {
+  float16 lanes;
+} packed16;
+typedef struct __attribute__((packed)) {
+  float8 lanes;
+} packed8;
+#define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
+#define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
+
+// Lanes of a comparison as bits, lane k at bit k. Compilers do not see that AVX-512 has them as bits already.
+static inline uint lane_bits(const int16 lanes) {
+#ifdef __AVX512DQ__
+  return (uint)__builtin_ia32_cvtd2mask512(lanes);
+#else
+  const int16 bits = lanes & (int16)(1, 1 << 1, 1 << 2, 1 << 3, 1 << 4, 1 << 5, 1 << 6, 1 << 7, 1 << 8, 1 << 9, 1 << 10,
+                                     1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15);
+  const int8 eight = bits.lo | bits.hi;
+  const int4 four = eight.lo | eight.hi;
+  const int2 two = four.lo | four.hi;
+  return as_uint(two.x | two.y);
+#endif
+}
+
+// Number of the lowest bit of `bits`, which must not be 0.
+static inline int lowest_bit(const uint bits) { return 31 - (int)clz(bits & -bits); }

@@ -27,16 +27,6 @@
 #define PAD_X (16 * ((RADIUS + 18) / 16))
 #define PAD_Y (RADIUS + 2)
 
-// Vectors at any float's address. PoCL splits vload16 into pairs of floats; a packed structure becomes two plain loads.
-typedef struct __attribute__((packed)) {
-  float16 lanes;
-} packed16;
-typedef struct __attribute__((packed)) {
-  float8 lanes;
-} packed8;
-#define LOAD(pointer) (((global const packed16*)(pointer))->lanes)
-#define LOAD8(pointer) (((global const packed8*)(pointer))->lanes)
-
 // Weights of one phase and order.
 #define SMOOTH_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS)
 #define SLOPE_TAPS(taps, phase) ((taps) + (phase)*2 * PAIRS + PAIRS)
@@ -82,8 +72,9 @@ DEFINE_PROBES(probes16, float16)
 // |gx| >= |gy|, the lower bits the ratio of the smaller to the larger component.
 static inline float direction_code(const float gx, const float gy) {
   const int steep = fabs(gx) >= fabs(gy);
-  const float ratio = steep ? gy / gx : gx / gy;
-  return ((steep ? 512.0f : 0.0f) + rint((ratio + 1.0f) * 255.5f)) * (1.0f / 1024.0f);
+  const float ratio = (steep ? gy : gx) / (steep ? gx : gy);
+  const float code = ((ratio + 1.0f) * 255.5f + 12582912.0f) - 12582912.0f; /* rounds to a whole number */
+  return ((steep ? 512.0f : 0.0f) + code) * (1.0f / 1024.0f);
 }
 
 // Peak of the parabola through the three values. The probes lie magnitude / max(|gx|, |gy|) grid steps away, which

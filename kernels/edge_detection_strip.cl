@@ -1,14 +1,12 @@
 // edge_detection_strip.cl: edge detection for CPUs. One work-item walks along rows, 16 pixels at a time; needs
 // edge_detection.cl.
 
-// Lanes of a comparison as bits: lane k at bit 2 k.
-static inline uint lane_bits(const int16 lanes) {
-  const int16 bits = lanes & (int16)(1, 1 << 2, 1 << 4, 1 << 6, 1 << 8, 1 << 10, 1 << 12, 1 << 14, 1 << 16, 1 << 18,
-                                     1 << 20, 1 << 22, 1 << 24, 1 << 26, 1 << 28, 1 << 30);
-  const int8 eight = bits.lo | bits.hi;
-  const int4 four = eight.lo | eight.hi;
-  const int2 two = four.lo | four.hi;
-  return as_uint(two.x | two.y);
+// The lower 16 bits, each two places above the one before.
+static inline uint spread_bits(uint bits) {
+  bits = (bits | bits << 8) & 0x00ff00ffu;
+  bits = (bits | bits << 4) & 0x0f0f0f0fu;
+  bits = (bits | bits << 2) & 0x33333333u;
+  return (bits | bits << 1) & 0x55555555u;
 }
 
 // Gradient and maximum test of strip_rows rows of the doubled grid per work-item.
@@ -100,15 +98,16 @@ kernel IN_VECTORS void edges_strip_maxima(const DetectionArguments args, global 
                LOAD(below + 2 * line + i + 1), &ahead1, &behind1);
       win0 &= IS_MAXIMUM(m0, ahead0, behind0);
       win1 &= IS_MAXIMUM(m1, ahead1, behind1);
-      uint won = lane_bits(win0) | (lane_bits(win1) << 1);  // bit n: cell n of the 32
-      if (won == 0) continue;
+      const uint won0 = lane_bits(win0), won1 = lane_bits(win1);
+      if ((won0 | won1) == 0) continue;
+      uint won = spread_bits(won0) | spread_bits(won1) << 1;  // bit n: cell n of the 32
       float ahead[32], behind[32];
       vstore16(ahead0, 0, ahead);
       vstore16(ahead1, 1, ahead);
       vstore16(behind0, 0, behind);
       vstore16(behind1, 1, behind);
       for (; won != 0; won &= won - 1) {
-        const int n = 31 - clz(won & -won), lane = n >> 1, phase = n & 1;
+        const int n = lowest_bit(won), lane = n >> 1, phase = n & 1;
         global const float* cell = here + 3 * phase * line + i + lane;
         vstore4(parabola_peak(2 * (margin + i) + n, cell_y, cell[0], cell[line], cell[2 * line],
                               ahead[16 * phase + lane], behind[16 * phase + lane]),

@@ -18,6 +18,9 @@
 // has two of them.
 // chosen: positions and directions of the two images differ slightly, so the searched image also keeps the neighbours,
 // and the maxima of neighbouring densities.
+// weight: the number of edges that a maximum contributes at a spacing of 1 px, times kSelectionUnit.
+#define CONVERT_TO_int convert_int
+#define CONVERT_TO_int16 convert_int16
 #define DEFINE_LATTICE(T, I, SUFFIX)                                                                              \
   static inline T crossing##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code, \
                                    T* step, T* sine) {                                                            \
@@ -56,18 +59,17 @@
       chosen = chosen || meets##SUFFIX(row, step, spacing * density##SUFFIX(sine / args->slack), width);          \
     }                                                                                                             \
     return chosen && sine >= args->min_sine;                                                                      \
+  }                                                                                                               \
+  static inline I weight##SUFFIX(const SelectionArguments* args, const T x, const T y, const T column_and_code) { \
+    T step, sine;                                                                                                 \
+    crossing##SUFFIX(args, x, y, column_and_code, &step, &sine);                                                  \
+    const I weight = CONVERT_TO_##I(rint((float)kSelectionUnit * step / density##SUFFIX(sine)));                  \
+    return select((I)0, weight, sine >= args->min_sine);                                                          \
   }
 DEFINE_LATTICE(float, int, )
 #ifndef IN_CELLS
 DEFINE_LATTICE(float16, int16, 16)
 #endif
-
-// Number of edges that a maximum contributes at a spacing of 1 px, times kSelectionUnit.
-static inline int weight_of(const SelectionArguments* args, const float4 winner) {
-  float step, sine;
-  crossing(args, winner.x, winner.y, winner.w, &step, &sine);
-  return sine < args->min_sine ? 0 : (int)rint((float)kSelectionUnit * step / density(sine));
-}
 
 // spacing[0] = distance of the lattice's lines at which the image with more edges has about `budget` of them [px]; 0:
 // all maxima are kept. The tally starts anew. One work-item.
@@ -92,7 +94,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void edge_selection_we
   const size_t first = (size_t)get_group_id(0) * kSelectionSample * cells;
   int sum = 0;
   for (int i = item; i < cells; i += GROUP)
-    if (flags[first + i]) sum += weight_of(&args, ((global const float4*)winners)[first + i]);
+    if (flags[first + i]) {
+      const float4 winner = ((global const float4*)winners)[first + i];
+      sum += weight(&args, winner.x, winner.y, winner.w);
+    }
   sums[item] = sum;
   for (int distance = GROUP / 2; distance > 0; distance /= 2) {
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -113,21 +118,39 @@ kernel void edge_selection_cells(const SelectionArguments args, global const flo
 
 #else
 
+// x, y and code of the sixteen maxima at `maximum`.
+static inline void transpose_maxima(global const float* maximum, float16* x, float16* y, float16* code) {
+  const float16 a = LOAD(maximum), b = LOAD(maximum + 16), c = LOAD(maximum + 32), d = LOAD(maximum + 48);
+  *x = (float16)(a.s048c, b.s048c, c.s048c, d.s048c);
+  *y = (float16)(a.s159d, b.s159d, c.s159d, d.s159d);
+  *code = (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
+}
+
+// Both kernels take sixteen maxima of a row at a time. Values read beyond the last one are not used (rows at the end of
+// the buffer have no maxima).
+
 // tally[image] += the weights of the maxima of every kSelectionSample-th pair of rows. One work-item per such pair.
 kernel void edge_selection_weigh_rows(const SelectionArguments args, global const float* winners,
                                       global const int* counts, const int image, global int* tally) {
   const int pair = kSelectionSample * (int)get_global_id(0);
   if (pair >= args.height) return;
-  int sum = 0;
+  const int16 lanes = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  int16 sums = 0;
   for (int row = 2 * pair; row < 2 * pair + 2; ++row) {
     global const float* in_row = winners + (size_t)row * 8 * args.width;
-    for (int i = 0; i < counts[row]; ++i) sum += weight_of(&args, vload4(i, in_row));
+    for (int begin = 0; begin < counts[row]; begin += 16) {
+      float16 x, y, code;
+      transpose_maxima(in_row + 4 * begin, &x, &y, &code);
+      sums += weight16(&args, x, y, code) & (begin + lanes < counts[row]);
+    }
   }
-  if (sum > 0) atomic_add(tally + image, sum);
+  const int8 eight = sums.lo + sums.hi;
+  const int4 four = eight.lo + eight.hi;
+  const int2 two = four.lo + four.hi;
+  if (two.x + two.y > 0) atomic_add(tally + image, two.x + two.y);
 }
 
-// Keeps the selected maxima of a row, in their order. One work-item per row of the doubled grid, sixteen maxima at a
-// time. Values read beyond the last maximum are not used (rows at the end of the buffer have no maxima).
+// Keeps the selected maxima of a row, in their order. One work-item per row of the doubled grid.
 kernel void edge_selection_rows(const SelectionArguments args, global const float* spacing_of_frame,
                                 global float* winners, global int* counts) {
   const int row = (int)get_global_id(0);
@@ -137,15 +160,11 @@ kernel void edge_selection_rows(const SelectionArguments args, global const floa
   const int count = counts[row];
   int kept = 0;
   for (int begin = 0; begin < count; begin += 16) {
-    const float16 a = vload16(0, in_row + 4 * begin), b = vload16(1, in_row + 4 * begin),
-                  c = vload16(2, in_row + 4 * begin), d = vload16(3, in_row + 4 * begin);
-    const float16 x = (float16)(a.s048c, b.s048c, c.s048c, d.s048c), y = (float16)(a.s159d, b.s159d, c.s159d, d.s159d),
-                  code = (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
-    int keep[16];
-    vstore16(chosen16(&args, x, y, code, spacing), 0, keep);
-    const int size = min(16, count - begin);
-    for (int lane = 0; lane < size; ++lane)
-      if (keep[lane]) vstore4(vload4(begin + lane, in_row), kept++, in_row);
+    float16 x, y, code;
+    transpose_maxima(in_row + 4 * begin, &x, &y, &code);
+    uint keep = lane_bits(chosen16(&args, x, y, code, spacing));
+    if (count - begin < 16) keep &= (1u << (uint)(count - begin)) - 1u;
+    for (; keep != 0u; keep &= keep - 1u) vstore4(vload4(begin + lowest_bit(keep), in_row), kept++, in_row);
   }
   counts[row] = kept;
 }

@@ -14,7 +14,7 @@ void PixelCorners::prepare(const opencl::Buffer<cl_uchar>& image, int width, int
   height_ = height;
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   values_.ensure(*context_, columns * rows * words_per_pixel_);
-  kernel_({columns, rows, 64, 1}, image, width, height, values_);
+  kernel_({(columns + 15) / 16, rows, 16, 1}, image, width, height, values_);
 }
 
 }  // namespace quadedge::stages
