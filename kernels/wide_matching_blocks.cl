@@ -2,14 +2,16 @@
 // per lane, against ROWS others, so that no product is summed across lanes. All products are whole numbers below 2^24:
 // the same bits as there.
 //
-// wide_transpose  In: descriptors. Out: blocks of sixteen, byte by byte: byte k of descriptor 16 b + lane is element
-//                 (kWideBytes b + k) * 16 + lane; zeros after the last one. One work-item = one block.
+// wide_transpose  In: descriptors. Out: blocks of sixteen, in pairs of bytes: bytes k and k + 1 (k even) of descriptor
+//                 16 b + lane are elements (kWideBytes b + k) * 16 + 2 lane and the next; zeros after the last
+//                 descriptor. One work-item = one block.
 // wide_match      Out per row as in wide_matching.cl. One work-item = ROWS rows.
 
 #ifndef ROWS
 #define ROWS 8
 #endif
-#define LISTED 64         // blocks of columns that may hold a competing match, per row
+#define LISTED 64  // blocks of columns that may hold a competing match, per row
+#define PAIRS_OF_BYTES (kWideBytes / 2)
 #define SQUARE 262144.0f  // 512^2
 
 kernel void wide_transpose(global const uchar* descriptors, const int count, global uchar* blocks) {
@@ -18,39 +20,63 @@ kernel void wide_transpose(global const uchar* descriptors, const int count, glo
   for (int lane = 0; lane < kBlockLanes; ++lane) {
     const int descriptor = block * kBlockLanes + lane;
     for (int k = 0; k < kWideBytes; ++k) {
-      blocks[(size_t)(block * kWideBytes + k) * kBlockLanes + lane] =
+      blocks[(size_t)(block * kWideBytes + (k & ~1)) * kBlockLanes + 2 * lane + (k & 1)] =
           descriptor < count ? descriptors[(size_t)descriptor * kWideBytes + k] : 0;
     }
   }
 }
 
-static inline void wide_load(global const uchar* descriptor, float* values) {
-  for (int k = 0; k < kWideBytes; ++k) values[k] = (float)descriptor[k];
+// Pairs of bytes of sixteen descriptors, and the sums of their products with those of another, which is repeated in
+// every lane. Processors that multiply and add pairs of 16 bits in one instruction are told to, because compilers do not
+// see it.
+#if defined(__AVX512BW__) || defined(__AVX2__)
+typedef uchar Bytes32 __attribute__((ext_vector_type(32)));
+typedef short Shorts32 __attribute__((ext_vector_type(32)));
+#define PAIRS Shorts32
+#define WIDE_PAIRS(block, pair) __builtin_convertvector(((global const Bytes32*)(block))[pair], Shorts32)
+#ifdef __AVX512BW__
+#define PAIR_PRODUCTS(own, pairs) as_int16(__builtin_ia32_pmaddwd512(__builtin_astype((int16)(own), Shorts32), pairs))
+#else
+#define PAIR_PRODUCTS(own, pairs)                                                  \
+  (int16)(as_int8(__builtin_ia32_pmaddwd256(as_short16((int8)(own)), (pairs).lo)), \
+          as_int8(__builtin_ia32_pmaddwd256(as_short16((int8)(own)), (pairs).hi)))
+#endif
+#else
+#define PAIRS ushort16
+#define WIDE_PAIRS(block, pair) (((global const ushort16*)(block))[pair])
+#define PAIR_PRODUCTS(own, pairs) \
+  (convert_int16((pairs) & (ushort)255) * ((own)&65535) + convert_int16((pairs) >> (ushort)8) * ((own) >> 16))
+#endif
+
+// The bytes in pairs of 16 bits.
+static inline void wide_load(global const uchar* descriptor, int* pairs) {
+  for (int k = 0; k < PAIRS_OF_BYTES; ++k) pairs[k] = descriptor[2 * k] | descriptor[2 * k + 1] << 16;
 }
 
 // Products of ROWS descriptors with the sixteen of a block.
-static inline void wide_products(const float* mine, global const uchar* block, float16* products) {
+static inline void wide_products(const int* mine, global const uchar* block, float16* products) {
+  int16 sums[ROWS];
 #pragma unroll
-  for (int row = 0; row < ROWS; ++row) products[row] = 0.0f;
-  for (int k = 0; k < kWideBytes; ++k) {
-    const float16 other = convert_float16(((global const uchar16*)block)[k]);
+  for (int row = 0; row < ROWS; ++row) sums[row] = 0;
+  for (int k = 0; k < PAIRS_OF_BYTES; ++k) {
+    const PAIRS other = WIDE_PAIRS(block, k);
 #pragma unroll
-    for (int row = 0; row < ROWS; ++row)
-      products[row] = fma((float16)(mine[row * kWideBytes + k]), other, products[row]);
+    for (int row = 0; row < ROWS; ++row) sums[row] += PAIR_PRODUCTS(mine[row * PAIRS_OF_BYTES + k], other);
   }
+#pragma unroll
+  for (int row = 0; row < ROWS; ++row) products[row] = convert_float16(sums[row]);
 }
 
 // The same of one descriptor, in CHAINS sums that do not wait for one another.
 #define CHAINS 4
-static inline float16 wide_product(const float* mine, global const uchar* block) {
-  float16 sums[CHAINS] = {0.0f, 0.0f, 0.0f, 0.0f};
-  for (int k = 0; k < kWideBytes; k += CHAINS) {
+static inline float16 wide_product(const int* mine, global const uchar* block) {
+  int16 sums[CHAINS] = {0, 0, 0, 0};
+  for (int k = 0; k < PAIRS_OF_BYTES; k += CHAINS) {
 #pragma unroll
     for (int chain = 0; chain < CHAINS; ++chain)
-      sums[chain] =
-          fma((float16)(mine[k + chain]), convert_float16(((global const uchar16*)block)[k + chain]), sums[chain]);
+      sums[chain] += PAIR_PRODUCTS(mine[k + chain], WIDE_PAIRS(block, k + chain));
   }
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  return convert_float16((sums[0] + sums[1]) + (sums[2] + sums[3]));
 }
 
 static inline float wide_highest(const float16 v) {
@@ -91,14 +117,14 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
   const float neighbourhood = args.neighbourhood, ratio = args.ratio;
   const int first = (int)get_global_id(0) * ROWS;
   if (first >= rows) return;
-  float mine[ROWS * kWideBytes], found[ROWS * kWideBytes];
+  int mine[ROWS * PAIRS_OF_BYTES], found[ROWS * PAIRS_OF_BYTES];
   float16 products[ROWS];
   float highest[ROWS];
   int winner[ROWS], listed[ROWS], list[ROWS][LISTED];
   float listed_highest[ROWS][LISTED];
   bool alone[ROWS];
   for (int r = 0; r < ROWS; ++r) {
-    wide_load(row_descriptors + (size_t)min(first + r, rows - 1) * kWideBytes, mine + r * kWideBytes);
+    wide_load(row_descriptors + (size_t)min(first + r, rows - 1) * kWideBytes, mine + r * PAIRS_OF_BYTES);
     highest[r] = 0.0f;
     winner[r] = -1;
     listed[r] = 0;
@@ -146,13 +172,14 @@ kernel void wide_match(const WideMatchingArguments args, global const uchar* row
       const int block = all ? k : list[r][k];
       if (!all && listed_highest[r][k] <= limit) continue;
       alone[r] = !wide_elsewhere(
-          wide_product(mine + r * kWideBytes, column_blocks + (size_t)block * (kWideBytes * kBlockLanes)), limit, true,
-          block, columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step,
+          wide_product(mine + r * PAIRS_OF_BYTES, column_blocks + (size_t)block * (kWideBytes * kBlockLanes)), limit,
+          true, block, columns, column_edges, column_edges + column_stride, column_step, winner[r] * column_step,
           neighbourhood);
     }
     left += alone[r];
     // Rows without a winner load any descriptor that exists.
-    wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * kWideBytes : row_descriptors, found + r * kWideBytes);
+    wide_load(alone[r] ? column_descriptors + (size_t)winner[r] * kWideBytes : row_descriptors,
+              found + r * PAIRS_OF_BYTES);
   }
   for (int block = 0; left > 0 && block * kBlockLanes < rows; ++block) {
     wide_products(found, row_blocks + (size_t)block * (kWideBytes * kBlockLanes), products);
