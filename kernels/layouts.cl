@@ -174,6 +174,7 @@ typedef struct {
 typedef struct {
   int width, height;
   float offset;  // px from the edge to the middle of a patch
+  int all;       // 0: only the edges that are wanted
   PackedPositions edges;
 } PatchArguments;
 

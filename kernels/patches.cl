@@ -1,8 +1,9 @@
 // patches.cl: two side patches of 7 x 5 samples per edge, mean-free, in 8 bits with their norms (doc/method.md section
 // 2).
 //
-// In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]). Out: kEdgePatchBytes per edge, laid
-// out as in host/reference/patches.hpp. Two forms with the same arithmetic in the same order:
+// In: corners of the image (pixel_corners.cl), edges (x, y [px], direction [rad]), which of them are wanted (not 0).
+// Out: kEdgePatchBytes per edge, laid out as in host/reference/patches.hpp; those of the other edges are left as they
+// were. Two forms with the same arithmetic in the same order:
 //   without GROUP: one work-item = one edge, the samples across the edge of both sides are the lanes of a float16;
 //   with GROUP: kPatchItems work-items per edge, eight per side, one per lane; groups of GROUP work-items, local memory
 //   EXCHANGE_FLOATS floats.
@@ -44,14 +45,14 @@ static inline float2 sums_of_lanes(const float16 v) {
 }
 
 kernel void side_patches(const PatchArguments args, global const uint* corners, global const float* positions,
-                         global char* patches) {
+                         global const int* wanted, global char* patches) {
   const int width = args.width, height = args.height, count = args.edges.count;
   const float offset = args.offset;
   global const float* xs = positions + args.edges.first;
   global const float* ys = xs + args.edges.stride;
   global const float* directions = ys + args.edges.stride;
   const int edge = (int)get_global_id(0);
-  if (edge >= count) return;
+  if (edge >= count || !(args.all || wanted[edge] != 0)) return;
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
   global char* patch = patches + (size_t)edge * kEdgePatchBytes;
@@ -84,6 +85,7 @@ static inline float largest_used(const float8 v) {
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(const PatchArguments args,
                                                                             global const uint* corners,
                                                                             global const float* positions,
+                                                                            global const int* wanted,
                                                                             global char* patches) {
   local float memory[EXCHANGE_FLOATS];
   const int width = args.width, height = args.height, count = args.edges.count;
@@ -93,9 +95,12 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(cons
   global const float* directions = ys + args.edges.stride;
   Exchange exchange = {memory, 0};
   const int lane = lane_of_item(), side = patch_in_group() & 1;
-  const int wanted = (int)(get_global_id(0) / kPatchItems);
-  const int edge =
-      min(wanted, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
+  const int own = (int)(get_global_id(0) / kPatchItems);
+  const int edge = min(own, count - 1);  // surplus work-items repeat the last edge, since all must reach the barriers
+  int any = args.all;                    // edge of the group is wanted
+  const int first = (int)get_group_id(0) * (GROUP / kPatchItems);
+  for (int k = first; k < min(first + GROUP / kPatchItems, count) && any == 0; ++k) any = wanted[k];
+  if (any == 0) return;
   float cosine;
   const float sine = sine_cosine(directions[edge], &cosine);
   float rows[kPatchRows];
@@ -109,7 +114,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void side_patches(cons
     squares += rows[i] * rows[i];
   }
   const float inverse = inverse_norm(sum_lanes(&exchange, squares));
-  if (wanted >= count) return;
+  if (own >= count || !(args.all || wanted[own] != 0)) return;
   global char* patch = patches + (size_t)edge * kEdgePatchBytes;
   for (int i = 0; i < kPatchRows; ++i) patch[16 * i + 8 * side + lane] = lane < kPatchSide ? (char)rows[i] : (char)0;
   if (lane < 2) ((global float*)(patch + kInverseNorms))[2 * lane + side] = lane == 0 ? inverse : 0.0f;

@@ -3,7 +3,8 @@
 //
 // Needs direction.cl and epipolar.cl. In: left and right edges (scan order, with the right rows' starts), packed
 // epipolar geometry.
-// Out: candidate lists in compressed rows, targets in the scan order of the right edges.
+// Out: candidate lists in compressed rows, targets in the scan order of the right edges; which right edges are listed
+// (1, else 0).
 // One work-item = one left edge; with LANES (16) it tests as many right edges at once. Two launches: count, then (after
 // an exclusive scan) fill.
 // Reference: host/reference/stereo_candidates.cpp.
@@ -55,35 +56,21 @@ static inline int visit_row(const Wanted* wanted, global const float* xs, global
 #ifndef LANES
   (void)total;
 #else
-  // The same tests in the same arithmetic: by how much each fails at most. Edges beyond the row's end are read and left
-  // out.
+  // The same tests in the same arithmetic. Edges beyond the row's end are read and left out.
+  const float16 full_turn = 2.0f * PI_F;
   for (const int last = min(end - 1, total - LANES); begin <= last; begin += LANES) {
-    float excess[LANES], lowest = INFINITY;
-    for (int lane = 0; lane < LANES; ++lane) {
-      const float dx = xs[begin + lane] - wanted->line.x, dy = ys[begin + lane] - wanted->line.y;
-      const float s = dx * wanted->line.ex + dy * wanted->line.ey;
-      const float distance = fabs(dx * wanted->nx + dy * wanted->ny);
-      const float turn = angle_between(directions[begin + lane], wanted->direction);
-      excess[lane] =
-          fmax(fmax(distance - wanted->tau, turn - wanted->orientation), fmax(wanted->s_low - s, s - wanted->s_high));
+    const float16 x = LOAD(xs + begin);
+    const float16 dx = x - wanted->line.x, dy = LOAD(ys + begin) - wanted->line.y;
+    const float16 s = dx * wanted->line.ex + dy * wanted->line.ey;
+    const float16 distance = fabs(dx * wanted->nx + dy * wanted->ny);
+    const float16 turn = fabs(LOAD(directions + begin) - wanted->direction);
+    uint passing = lane_bits((distance <= wanted->tau) & (s >= wanted->s_low) & (s <= wanted->s_high) &
+                             (min(turn, full_turn - turn) <= wanted->orientation));
+    if (end - begin < LANES) passing &= (1u << (uint)(end - begin)) - 1u;
+    for (; passing != 0u; passing &= passing - 1u, ++count) {
+      if (count < room) target[count] = begin + lowest_bit(passing);
     }
-    for (int lane = 0; lane < LANES; ++lane) lowest = fmin(lowest, excess[lane]);
-    if (lowest <= 0.0f) {
-      const int lanes = min(LANES, end - begin);
-      if (count + lanes <= room) {  // edges that do not pass are overwritten by the next ones
-        for (int lane = 0; lane < lanes; ++lane) {
-          target[count] = begin + lane;
-          count += excess[lane] <= 0.0f;
-        }
-      } else {
-        for (int lane = 0; lane < lanes; ++lane) {
-          if (!(excess[lane] <= 0.0f)) continue;
-          if (count < room) target[count] = begin + lane;
-          ++count;
-        }
-      }
-    }
-    if (xs[begin + LANES - 1] > to) return count;
+    if (x.sf > to) return count;
   }
 #endif
   for (int j = begin; j < end && xs[j] <= to; ++j) {
@@ -146,9 +133,10 @@ static inline int visit_row_of(const StereoCandidateArguments* args, const int i
 
 kernel void stereo_candidates_count(const StereoCandidateArguments args, global const float* left_edges,
                                     global const float* right_edges, global const int* right_row_first,
-                                    global int* counts, global int* noted) {
+                                    global int* counts, global int* noted, global int* listed) {
   const int i = (int)get_global_id(0);
   if (i >= args.left.count) return;
+  for (int j = i; j < args.right.count; j += args.left.count) listed[j] = 0;
   counts[i] =
       visit_row_of(&args, i, left_edges, right_edges, right_row_first, noted + i * kNotedCandidates, kNotedCandidates);
 }
@@ -158,14 +146,16 @@ kernel void stereo_candidates_count(const StereoCandidateArguments args, global 
 kernel void stereo_candidates_fill(const StereoCandidateArguments args, global const float* left_edges,
                                    global const float* right_edges, global const int* right_row_first,
                                    global const int* first, const int capacity, global const int* noted,
-                                   global int* target) {
+                                   global int* target, global int* listed) {
   const int i = (int)get_global_id(0);
   if (i >= args.left.count) return;
   const int room = min(first[i + 1], capacity) - first[i];
   if (room <= 0) return;
+  global int* own = target + first[i];
   if (room <= kNotedCandidates) {
-    for (int k = 0; k < room; ++k) target[first[i] + k] = noted[i * kNotedCandidates + k];
-    return;
+    for (int k = 0; k < room; ++k) own[k] = noted[i * kNotedCandidates + k];
+  } else {
+    visit_row_of(&args, i, left_edges, right_edges, right_row_first, own, room);
   }
-  visit_row_of(&args, i, left_edges, right_edges, right_row_first, target + first[i], room);
+  for (int k = 0; k < room; ++k) listed[own[k]] = 1;
 }

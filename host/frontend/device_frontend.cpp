@@ -91,8 +91,6 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
 
   left_.patches.prepare(rig.left_image.pixels);
   right_.patches.prepare(rig.right_image.pixels);
-  left_.patches.cut(left_.edges.positions(), rig.left_patches);
-  right_.patches.cut(right_.edges.positions(), right_patches_);
   if (tap_ != nullptr || config_.stereo.sift_max > 0) {
     left_.sift.prepare(rig.left_image.pixels);
     right_.sift.prepare(rig.right_image.pixels);
@@ -120,6 +118,8 @@ void DeviceFrontend::find_stereo_edges(DeviceRig& current) {
   const EpipolarGeometry& geometry = range_.geometry();
   stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
                          range_.probe(left_.edges.host_count), candidates_);
+  left_.patches.cut(left_.edges.positions(), candidates_.counts, rig.left_patches);
+  right_.patches.cut(right_.edges.positions(), stereo_candidates_.listed(), right_patches_);
   filters_.run({rig.left_patches, itself_, left_sift_}, {right_patches_, itself_, right_sift_},
                stereo_limits(config_.stereo), 1, tap_ != nullptr, candidates_);
   refinement_.run(left_.patches.corners(), right_.patches.corners(), left_.edges, right_.edges, rig.left_patches,

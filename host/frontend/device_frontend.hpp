@@ -116,7 +116,7 @@ class DeviceFrontend : public Frontend {
   stages::DevicePointIndex left_index_, right_index_;
   bool indexed_ = false;                   ///< for the current frame
   int wide_rows_ = -1, wide_step_ = 1;     ///< of wide_now_; -1: not yet described
-  opencl::Buffer<cl_char> right_patches_;  ///< of all edges of the right image
+  opencl::Buffer<cl_char> right_patches_;  ///< of the right edges that are candidates
   opencl::Buffer<cl_uchar> left_sift_{context_, 0},
       right_sift_{context_, 0};    ///< of all edges, if the stereo cascade uses SIFT
   opencl::Buffer<cl_int> itself_;  ///< the identity permutation 0, 1, 2 ...

@@ -12,7 +12,7 @@ namespace quadedge::stages {
 /// Candidate lists in compressed rows, with the scores of every candidate. If the capacity is exceeded, the buffers
 /// grow and the sweep runs again, so no candidate is lost.
 struct DeviceCandidates {
-  opencl::Buffer<cl_int> counts;       ///< scratch of the first sweep
+  opencl::Buffer<cl_int> counts;       ///< candidates per row
   opencl::Buffer<cl_int> first;        ///< rows + 1
   opencl::Buffer<cl_int> total;        ///< {candidates that fit, candidates cut off}
   opencl::Buffer<cl_int> target;       ///< index of the other edge

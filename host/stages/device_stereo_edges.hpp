@@ -19,7 +19,7 @@ struct DeviceStereoEdges {
   /// Seven blocks of `stride` floats: left x, y, direction, right x, y, direction [px, rad], left scale drift [px].
   opencl::Buffer<cl_float> packed;
   opencl::Buffer<cl_float> ncc;
-  opencl::Buffer<cl_char> left_patches;   ///< of every edge of the left image, see host/reference/patches.hpp
+  opencl::Buffer<cl_char> left_patches;   ///< of the left edges that have candidates, see host/reference/patches.hpp
   opencl::Buffer<cl_char> right_patches;  ///< of every stereo edge, cut at its refined position
   DeviceImage left_image, right_image;    ///< undistorted, for SIFT descriptors when a search asks for them
   opencl::Buffer<cl_uchar> left_sift,

@@ -11,7 +11,8 @@ Patches::Patches(opencl::Context& context, int width, int height, const PatchesC
       width_(width),
       height_(height),
       offset_(static_cast<float>(config.offset)),
-      corners_(context, max_value) {
+      corners_(context, max_value),
+      unused_(context, 1) {
   const auto& variant = opencl::choose_variant("patches", context, variants);
   local_size_ = static_cast<std::size_t>(variant.local_size);
   items_per_edge_ = variant.form == opencl::Form::groups ? kPatchItems : 1;
@@ -23,12 +24,19 @@ void Patches::prepare(const opencl::Buffer<cl_uchar>& image) {
   corners_.prepare(image, width_, height_);
 }
 
-void Patches::cut(const PositionsView& edges, opencl::Buffer<cl_char>& patches) {
+void Patches::cut(const PositionsView& edges, opencl::Buffer<cl_char>& patches) { cut(edges, true, unused_, patches); }
+
+void Patches::cut(const PositionsView& edges, const opencl::Buffer<cl_int>& wanted, opencl::Buffer<cl_char>& patches) {
+  cut(edges, false, wanted, patches);
+}
+
+void Patches::cut(const PositionsView& edges, bool all, const opencl::Buffer<cl_int>& wanted,
+                  opencl::Buffer<cl_char>& patches) {
   context_.begin_stage("patches");
   const auto count = static_cast<std::size_t>(edges.at.count);
   patches.ensure(context_, count * kEdgePatchBytes);
-  kernel_({count * items_per_edge_, local_size_}, {width_, height_, offset_, edges.at}, corners_.values(), edges.packed,
-          patches);
+  kernel_({count * items_per_edge_, local_size_}, {width_, height_, offset_, all ? 1 : 0, edges.at}, corners_.values(),
+          edges.packed, wanted, patches);
 }
 
 }  // namespace quadedge::stages

@@ -24,6 +24,8 @@ class Patches {
 
   /// Side patches of edges anywhere in the prepared image: kernels/patches.cl.
   void cut(const PositionsView& edges, opencl::Buffer<cl_char>& patches);
+  /// The same of those edges that are `wanted` (not 0); the patches of the others are undefined.
+  void cut(const PositionsView& edges, const opencl::Buffer<cl_int>& wanted, opencl::Buffer<cl_char>& patches);
 
   /// The prepared image for bilinear sampling.
   const PixelCorners& corners() const { return corners_; }
@@ -32,12 +34,16 @@ class Patches {
   template <class T>
   using In = opencl::In<T>;
 
+  void cut(const PositionsView& edges, bool all, const opencl::Buffer<cl_int>& wanted,
+           opencl::Buffer<cl_char>& patches);
+
   opencl::Context& context_;
   int width_, height_;
   float offset_;
   std::size_t local_size_, items_per_edge_;
   PixelCorners corners_;
-  opencl::Kernel<PatchArguments, In<cl_uint>, In<cl_float>, opencl::Out<cl_char>> kernel_;
+  opencl::Buffer<cl_int> unused_;  ///< in place of what is wanted, where all edges are
+  opencl::Kernel<PatchArguments, In<cl_uint>, In<cl_float>, In<cl_int>, opencl::Out<cl_char>> kernel_;
 };
 
 }  // namespace quadedge::stages

@@ -25,13 +25,14 @@ void StereoCandidates::run(const DeviceEdges& left, const DeviceEdges& right, in
   candidates.rows = left.host_count;
   candidates.counts.ensure(context_, static_cast<std::size_t>(left.host_count));
   noted_.ensure(context_, kNotedCandidates * static_cast<std::size_t>(left.host_count));
+  listed_.ensure(context_, static_cast<std::size_t>(right.host_count));
   candidates.reserve(context_, kFirstCapacityPerEdge * left.host_count);
   const opencl::Range range(static_cast<std::size_t>(left.host_count), local_size_);
   const StereoCandidateArguments arguments{left.positions().at, right.positions().at, right_height, geometry, probe};
-  count_(range, arguments, left.packed, right.packed, right.row_first, candidates.counts, noted_);
+  count_(range, arguments, left.packed, right.packed, right.row_first, candidates.counts, noted_, listed_);
   candidates.build(context_, scan_, [&] {
     fill_(range, arguments, left.packed, right.packed, right.row_first, candidates.first, candidates.capacity, noted_,
-          candidates.target);
+          candidates.target, listed_);
   });
 }
 

@@ -20,6 +20,9 @@ class StereoCandidates {
   void run(const DeviceEdges& left, const DeviceEdges& right, int right_height, const EpipolarGeometry& geometry,
            const DisparityProbe& probe, DeviceCandidates& candidates);
 
+  /// Of the last run: which right edges are candidates (1, else 0).
+  const opencl::Buffer<cl_int>& listed() const { return listed_; }
+
  private:
   template <class T>
   using In = opencl::In<T>;
@@ -30,9 +33,12 @@ class StereoCandidates {
   std::size_t local_size_;
   Scan scan_;
   opencl::Buffer<cl_int> noted_;  ///< the first candidates of every row
-  opencl::Kernel<StereoCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>, Out<cl_int>> count_;
-  opencl::Kernel<StereoCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, In<cl_int>,
+  opencl::Buffer<cl_int> listed_;
+  opencl::Kernel<StereoCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, Out<cl_int>, Out<cl_int>,
                  Out<cl_int>>
+      count_;
+  opencl::Kernel<StereoCandidateArguments, In<cl_float>, In<cl_float>, In<cl_int>, In<cl_int>, cl_int, In<cl_int>,
+                 Out<cl_int>, Out<cl_int>>
       fill_;
 };
 
