@@ -215,7 +215,8 @@ inline void append(quadedge::pose::QuadObservations& quads, const quadedge::pose
   both(quads.ncc, others.ncc);
   both(quads.competing_clusters, others.competing_clusters);
   both(quads.match, others.match);
-  for (std::size_t row = 0; row < others.scoring.size(); ++row) quads.scoring.append_row(others.scoring, row);
+  for (auto column : quadedge::pose::kScoringColumns) both(quads.scoring.*column, others.scoring.*column);
+  quads.scoring.half_length = others.scoring.half_length;
 }
 
 /// Rotation angle [rad] of the difference of two motions.

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "generated_quads.hpp"
 #include "pose/least_squares.hpp"
@@ -33,8 +35,24 @@ TEST_CASE("Normal equations that leave a direction undetermined have no solution
 }
 
 TEST_CASE("The scale of errors is their median over the expected one, never zero", "[pose][least_squares]") {
-  std::vector<double> sorted;
-  CHECK(measured_scale({8, 2, 1e9, 4, 3}, 5, 2.0, sorted) == 2.0);
-  CHECK(measured_scale({8, 2, 6, 4, 3}, 3, 2.0, sorted) == 3.0);  // only the first three
-  CHECK(measured_scale({0, 0, 0}, 3, 2.0, sorted) == kSmallestScale);
+  std::vector<double> values;
+  CHECK(measured_scale({8, 2, 1e9, 4, 3}, 5, 2.0, values) == 2.0);
+  CHECK(measured_scale({8, 2, 6, 4, 3}, 3, 2.0, values) == 3.0);  // only the first three
+  CHECK(measured_scale({0, 0, 0}, 3, 2.0, values) == kSmallestScale);
+}
+
+TEST_CASE("The median of many errors is the middle one, also among equal ones", "[pose][least_squares]") {
+  generated::Random random(7);
+  std::vector<double> values;
+  for (const std::size_t count : {1, 2, 16, 17, 100, 1001, 9000}) {
+    for (const int distinct : {1, 3, 1000000}) {
+      std::vector<double> errors(count);
+      for (double& error : errors) error = std::floor(distinct * random.uniform(0, 1)) + 1;
+      const std::size_t every = std::max<std::size_t>(1, count / kScaleErrors);
+      std::vector<double> used;
+      for (std::size_t k = 0; k < count; k += every) used.push_back(errors[k]);
+      std::sort(used.begin(), used.end());
+      CHECK(measured_scale(errors, count, 1.0, values) == used[used.size() / 2]);
+    }
+  }
 }

@@ -63,6 +63,35 @@ TEST_CASE("prediction: points moved by a known motion are predicted at their pro
   }
 }
 
+TEST_CASE("prediction: edges are predicted together as one by one, in every direction", "[odometry][prediction]") {
+  const auto rig = generated::crooked_rig();
+  generated::Random random(6);
+  StereoEdges edges;
+  for (int i = 0; i < 3001; ++i)
+    generated::append(edges, generated::observe(rig, generated::random_point(rig, 1, 20, random)));
+  pose::MeasuredEdges measured;
+  pose::measure_edges(rig, edges, 0.07, measured);
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = Eigen::AngleAxisd(0.3, Vector3d(0.2, 0.1, 1).normalized()).toRotationMatrix();
+  motion.translation() = Vector3d(0.1, -0.2, -1.5);
+  TemporalSearch search;
+  frontend::predict_positions(rig, edges, measured, motion, 3, 2, search);
+  int seen = 0, octants[8] = {};
+  for (std::size_t i = 0; i < measured.size(); i += 2) {
+    const auto expected = measured[i] ? pose::project(rig.left, motion, measured[i]->oriented_point()) : std::nullopt;
+    REQUIRE(std::isnan(search.left.x[i]) == !expected.has_value());
+    if (!expected) continue;
+    ++seen;
+    const double direction = std::atan2(expected->direction.y(), expected->direction.x());
+    ++octants[std::min(7, static_cast<int>((direction + kPi) / (0.25 * kPi)))];
+    CHECK(static_cast<double>(search.left.x[i]) == Approx(expected->pixel.x()).epsilon(1e-6));
+    CHECK(static_cast<double>(search.left.y[i]) == Approx(expected->pixel.y()).epsilon(1e-6));
+    CHECK(std::abs(static_cast<double>(search.left.direction[i]) - direction) < 3e-7);
+  }
+  CHECK(seen > 500);
+  for (const int count : octants) CHECK(count > 20);
+}
+
 TEST_CASE("prediction: without a motion everything is predicted at its previous position", "[odometry][prediction]") {
   const auto rig = generated::car_rig();
   const auto edges =

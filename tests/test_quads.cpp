@@ -5,7 +5,52 @@
 
 using namespace quadedge::pose;
 
-namespace {}  // namespace
+TEST_CASE("Edges measured together are measured as one by one", "[pose][quads]") {
+  for (const quadedge::StereoRig& rig : {generated::car_rig(), generated::crooked_rig()}) {
+    generated::Random random(11);
+    quadedge::StereoEdges edges;
+    std::vector<StereoObservation> observed;
+    for (int i = 0; i < 2003; ++i) {  // more than one block; positions without depth and directions without slope too
+      const auto coordinate = [&](double limit) {
+        return static_cast<double>(static_cast<float>(random.uniform(0, limit)));
+      };
+      const auto direction = [&] { return static_cast<double>(static_cast<float>(random.uniform(-3.14, 3.14))); };
+      StereoObservation edge{{coordinate(700), coordinate(370)},
+                             {coordinate(600), coordinate(370)},
+                             direction(),
+                             direction(),
+                             coordinate(3)};
+      observed.push_back(edge);
+      generated::append(edges, edge);
+      edges.left_scale_drift.push_back(static_cast<float>(edge.left_scale_drift));
+    }
+    MeasuredEdges measured;
+    measure_edges(rig, edges, 0.07, measured);
+    REQUIRE(measured.size() == observed.size());
+    int valid = 0;
+    for (std::size_t i = 0; i < observed.size(); ++i) {
+      const auto one = measure(rig, observed[i], 0.07);
+      REQUIRE(measured[i].has_value() == one.has_value());
+      if (!one) continue;
+      ++valid;
+      const auto same = [&](const auto member) { return (*measured[i]).*member == (*one).*member; };
+      CHECK(same(&StereoMeasurement::ray));
+      CHECK(same(&StereoMeasurement::inverse_depth));
+      CHECK(same(&StereoMeasurement::inverse_depth_per_pixel));
+      CHECK(same(&StereoMeasurement::epipolar_sine));
+      CHECK(same(&StereoMeasurement::direction));
+      CHECK(same(&StereoMeasurement::scale_drift));
+      CHECK(same(&StereoMeasurement::slope));
+      CHECK(same(&StereoMeasurement::slope_per_radian));
+      CHECK(same(&StereoMeasurement::left_edge));
+      CHECK(same(&StereoMeasurement::right_edge));
+      CHECK(same(&StereoMeasurement::left_normal));
+      CHECK(same(&StereoMeasurement::right_normal));
+    }
+    CHECK(valid > 500);
+    CHECK(valid < 1800);
+  }
+}
 
 TEST_CASE("Quads use the detected positions, keep their match's row and skip edges without depth", "[pose][quads]") {
   const quadedge::StereoRig rig = generated::car_rig();

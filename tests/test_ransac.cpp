@@ -2,6 +2,7 @@
 
 #include "generated_quads.hpp"
 #include "pose/constraints.hpp"
+#include "pose/pose_constants.hpp"
 #include "pose/ransac.hpp"
 #include "pose/two_quads.hpp"
 
@@ -82,8 +83,10 @@ TEST_CASE("The search terminates with zero, one and two quads, and when no pair 
   for (StereoMeasurement& after : g.quads.current) after.inverse_depth *= 0.5;
   const Consensus found = search(problem, g, config);
   CHECK_FALSE(found.found);
-  CHECK(found.draws == config.max_draws);
+  CHECK(found.draws == static_cast<int>(kDrawsPerPair * 50 * 49 / 2));
   CHECK(found.hypotheses == 0);
+  config.max_draws = 700;
+  CHECK(search(problem, g, config).draws == 700);
 }
 
 TEST_CASE("An initial guess is an additional hypothesis: it helps when right and does no harm when wrong",

@@ -1,21 +1,11 @@
 #include "frontend/prediction.hpp"
 
 #include <cmath>
-#include <limits>
 
-#include "common/row_blocks.hpp"
-#include "pose/oriented_point.hpp"
+#include "pose/predicted_edges.hpp"
 
 namespace quadedge::frontend {
 namespace {
-
-constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
-
-void set(EdgePositions& edges, std::size_t i, const std::optional<pose::ImageEdge>& edge) {
-  edges.x[i] = edge ? static_cast<float>(edge->pixel.x()) : kNowhere;
-  edges.y[i] = edge ? static_cast<float>(edge->pixel.y()) : kNowhere;
-  edges.direction[i] = edge ? static_cast<float>(std::atan2(edge->direction.y(), edge->direction.x())) : kNowhere;
-}
 
 /// Assigns to vectors that keep their memory.
 void set_without_motion(const StereoEdges& previous, double radius, TemporalSearch& search) {
@@ -44,17 +34,7 @@ void predict_positions(const StereoRig& rig, const StereoEdges& previous, const 
   set_without_motion(previous, radius, search);
   search.step = step;
   if (!current_from_previous) return;
-  const Eigen::Isometry3d right_from_previous = rig.right_from_left * *current_from_previous;
-  const auto predict = [&](std::size_t i) {
-    std::optional<pose::OrientedPoint> point;
-    if (measured[i]) point = measured[i]->oriented_point();
-    set(search.left, i, point ? pose::project(rig.left, *current_from_previous, *point) : std::nullopt);
-    set(search.right, i, point ? pose::project(rig.right, right_from_previous, *point) : std::nullopt);
-  };
-  const auto every = static_cast<std::size_t>(step);
-  for_row_blocks((previous.size() + every - 1) / every, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) predict(row * every);
-  });
+  pose::predict_edges(rig, measured, *current_from_previous, static_cast<std::size_t>(step), search.left, search.right);
 }
 
 int count_in_view(const PinholeCamera& camera, const EdgePositions& edges) {

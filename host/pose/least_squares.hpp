@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -28,16 +27,9 @@ Eigen::Isometry3d perturb(const Vector6d& step, const Eigen::Isometry3d& current
 }
 
 /// Ratio of measured to assumed variance of blocks of residuals, from the median of the first `count` squared errors.
-/// \param sorted a buffer that is kept between calls
-inline double measured_scale(const std::vector<double>& errors, std::size_t count, double median_of_one,
-                             std::vector<double>& sorted) {
-  const std::size_t every = std::max<std::size_t>(1, count / kScaleErrors);
-  sorted.clear();
-  for (std::size_t k = 0; k < count; k += every) sorted.push_back(errors[k]);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return std::max(*middle / median_of_one, kSmallestScale);
-}
+/// \param values a buffer that is kept between calls
+double measured_scale(const std::vector<double>& errors, std::size_t count, double median_of_one,
+                      std::vector<double>& values);
 
 /// Normal equations of Gauss-Newton.
 template <int Size>

@@ -15,6 +15,9 @@ constexpr double kFitTolerance = 0.01;
 /// Number of quads on which all hypotheses are compared. The promising ones are then compared on pose.scoring_quads.
 constexpr std::size_t kPreviewQuads = 512;
 
+/// Draws per pair of quads after which hardly any pair has not been drawn; the same pair gives the same hypothesis.
+constexpr double kDrawsPerPair = 10;
+
 /// Approximate number of quads that determine the inlier selection, and of errors over which a scale is computed as the
 /// median: the median of 4000 is known to 2 %.
 constexpr std::size_t kSelectionQuads = 4000, kScaleErrors = 4000;

@@ -7,13 +7,6 @@ namespace quadedge::pose {
 
 namespace {
 
-/// All columns of the arrays.
-constexpr std::vector<float> ScoringArrays::*kColumns[] = {
-    &ScoringArrays::ray_x,     &ScoringArrays::ray_y,     &ScoringArrays::inverse_depth, &ScoringArrays::tangent_x,
-    &ScoringArrays::tangent_y, &ScoringArrays::tangent_z, &ScoringArrays::left_x,        &ScoringArrays::left_y,
-    &ScoringArrays::left_cos,  &ScoringArrays::left_sin,  &ScoringArrays::right_x,       &ScoringArrays::right_y,
-    &ScoringArrays::right_cos, &ScoringArrays::right_sin};
-
 StereoObservation observation(const StereoEdges& edges, std::size_t i) {
   return {{edges.left_x[i], edges.left_y[i]},
           {edges.right_x[i], edges.right_y[i]},
@@ -27,21 +20,18 @@ StereoObservation observation(const StereoEdges& edges, std::size_t i) {
 QuadLimits::QuadLimits(const Config& config)
     : min_epipolar_angle(config.stereo.min_epipolar_angle_rad()), direction_sigma(config.pose.sigma_direction_rad()) {}
 
-void ScoringArrays::reserve(std::size_t rows) {
-  for (auto column : kColumns) (this->*column).reserve(rows);
-}
-
-void ScoringArrays::clear() {
-  for (auto column : kColumns) (this->*column).clear();
-}
-
-void ScoringArrays::append_row(const ScoringArrays& other, std::size_t row) {
-  for (auto column : kColumns) (this->*column).push_back((other.*column)[row]);
+void ScoringArrays::assign_rows(const ScoringArrays& other, const std::vector<std::int32_t>& rows) {
+  for (auto column : kScoringColumns) {
+    auto& to = this->*column;
+    const auto& from = other.*column;
+    to.resize(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) to[k] = from[static_cast<std::size_t>(rows[k])];
+  }
   half_length = other.half_length;
 }
 
 void ScoringArrays::resize(std::size_t rows) {
-  for (auto column : kColumns) (this->*column).resize(rows);
+  for (auto column : kScoringColumns) (this->*column).resize(rows);
 }
 
 void QuadObservations::resize(std::size_t quads) {
@@ -89,13 +79,6 @@ bool QuadObservations::append(const StereoRig& rig, const StereoObservation& pre
   resize(size() + 1);
   set(size() - 1, *before, *after, current_edge, ncc_value, competing, match_number, limits);
   return true;
-}
-
-void measure_edges(const StereoRig& rig, const StereoEdges& edges, double min_epipolar_angle, MeasuredEdges& measured) {
-  measured.resize(edges.size());
-  for_row_blocks(edges.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) measured[i] = measure(rig, observation(edges, i), min_epipolar_angle);
-  });
 }
 
 QuadObservations build_quads(const StereoRig& rig, const StereoEdges& previous, const StereoEdges& current,

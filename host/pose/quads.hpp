@@ -34,12 +34,17 @@ struct ScoringArrays {
   float half_length = 0;
 
   std::size_t size() const { return ray_x.size(); }
-  void reserve(std::size_t rows);
-  void clear();
   void resize(std::size_t rows);
-  /// Appends row `row` of `other`.
-  void append_row(const ScoringArrays& other, std::size_t row);
+  /// Replaces everything by rows of `other`.
+  void assign_rows(const ScoringArrays& other, const std::vector<std::int32_t>& rows);
 };
+
+/// All columns of the arrays.
+inline constexpr std::vector<float> ScoringArrays::*kScoringColumns[] = {
+    &ScoringArrays::ray_x,     &ScoringArrays::ray_y,     &ScoringArrays::inverse_depth, &ScoringArrays::tangent_x,
+    &ScoringArrays::tangent_y, &ScoringArrays::tangent_z, &ScoringArrays::left_x,        &ScoringArrays::left_y,
+    &ScoringArrays::left_cos,  &ScoringArrays::left_sin,  &ScoringArrays::right_x,       &ScoringArrays::right_y,
+    &ScoringArrays::right_cos, &ScoringArrays::right_sin};
 
 /// Quads: a stereo edge of the previous (or key) rig and the stereo edge of the current rig that shows the same scene
 /// point. All arrays have one row per quad; every point lies in front of both cameras of its rig.

@@ -40,10 +40,10 @@ class Search {
     preview_rows.assign(scored_rows.begin(),
                         scored_rows.begin() + static_cast<std::ptrdiff_t>(std::min(scored_rows.size(), preview)));
     for (auto [numbers, arrays] : {std::pair(&scored_rows, &work_.scored), std::pair(&preview_rows, &work_.preview)}) {
-      std::sort(numbers->begin(), numbers->end());
-      arrays->clear();
-      arrays->reserve(numbers->size());
-      for (std::int32_t row : *numbers) arrays->append_row(quads.scoring, static_cast<std::size_t>(row));
+      work_.mask.assign(quads.size(), 0);
+      for (std::int32_t row : *numbers) work_.mask[static_cast<std::size_t>(row)] = 1;
+      mask_to_rows(work_.mask, *numbers);
+      arrays->assign_rows(quads.scoring, *numbers);
     }
     work_.preview_terms.clear();
     for (std::int32_t row : preview_rows)
@@ -64,7 +64,10 @@ class Search {
     // The pool grows linearly over the first max_hypotheses draws, from the smallest useful subset to all quads.
     const double first_pool = std::min<double>(static_cast<double>(order.size()), config_.min_inliers);
     const double growth = (static_cast<double>(order.size()) - first_pool) / config_.max_hypotheses;
-    while (best_.draws < config_.max_draws && best_.hypotheses < std::min(needed_, config_.max_hypotheses)) {
+    const double pairs = 0.5 * static_cast<double>(order.size()) * static_cast<double>(order.size() - 1);
+    const double useful = std::max<double>(config_.max_hypotheses, kDrawsPerPair * pairs);
+    const int max_draws = useful < config_.max_draws ? static_cast<int>(useful) : config_.max_draws;
+    while (best_.draws < max_draws && best_.hypotheses < std::min(needed_, config_.max_hypotheses)) {
       const double pool_size = std::min(first_pool + growth * best_.draws, static_cast<double>(order.size()));
       const std::size_t pool = std::max<std::size_t>(2, static_cast<std::size_t>(pool_size));
       order.sort_first(pool);

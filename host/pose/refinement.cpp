@@ -32,7 +32,7 @@ std::size_t changed_rows(const std::vector<std::int32_t>& a, const std::vector<s
 
 void measure_scale(RefinementWorkspace& workspace) {
   workspace.reprojection_scale =
-      measured_scale(workspace.terms.error, workspace.terms.size(), kReprojectionMedian, workspace.sorted);
+      measured_scale(workspace.terms.error, workspace.terms.size(), kReprojectionMedian, workspace.scale_values);
 }
 
 /// Gauss-Newton from `current_from_previous`, which is replaced. \returns false if the normal equations have no

@@ -16,7 +16,7 @@ namespace quadedge::pose {
 struct RefinementWorkspace {
   ReprojectionTerms terms;
   std::vector<std::int32_t> rows, last_rows;  ///< quads selected for the current and the last fit
-  std::vector<double> sorted;
+  std::vector<double> scale_values;
   double reprojection_scale = 1;  ///< ratio of measured to assumed variance of the reprojection residuals
   CovarianceWorkspace covariance;
 };

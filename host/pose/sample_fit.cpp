@@ -139,8 +139,9 @@ bool fit_sample(const std::vector<SampleTerm>& terms, const std::vector<std::int
                {workspace.depth.data(), workspace.reprojection_error.data(), workspace.direction_error.data()}, sums);
   };
   const auto measure_scales = [&] {
-    weights.scale = measured_scale(workspace.reprojection_error, rows.size(), kReprojectionMedian, workspace.sorted);
-    direction_scale = measured_scale(workspace.direction_error, rows.size(), kDirectionMedian, workspace.sorted);
+    weights.scale =
+        measured_scale(workspace.reprojection_error, rows.size(), kReprojectionMedian, workspace.scale_values);
+    direction_scale = measured_scale(workspace.direction_error, rows.size(), kDirectionMedian, workspace.scale_values);
   };
   evaluate();
   measure_scales();

@@ -32,7 +32,7 @@ struct SampleWorkspace {
   std::vector<SampleBlock> blocks;
   std::vector<double> depth;                                ///< depth unknown of each quad, see reprojection_residual()
   std::vector<double> reprojection_error, direction_error;  ///< squared Mahalanobis errors
-  std::vector<double> sorted;
+  std::vector<double> scale_values;
 };
 
 /// Gauss-Newton with Student-t weights over the terms `rows`, from `current_from_previous`, which is replaced; ends
