@@ -10,20 +10,25 @@
 namespace quadedge::rig_check {
 namespace {
 
-/// A hash that practically identifies an image.
+/// A hash that practically identifies an image. Four hashes of every fourth word each are computed side by side.
 std::uint64_t fingerprint(const ImageView& image) {
-  std::uint64_t hash = 1469598103934665603U;
+  constexpr std::size_t kHashes = 4, kStep = kHashes * sizeof(std::uint64_t);
+  std::uint64_t hashes[kHashes] = {1469598103934665603U, 2, 3, 4};
+  const auto add = [](std::uint64_t word, std::uint64_t& hash) {
+    hash = (hash ^ word) * 1099511628211U;
+    hash ^= hash >> 29U;
+  };
   const std::size_t bytes = bytes_per_pixel(image.max_value) * static_cast<std::size_t>(image.width);
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* row = image.pixels + y * image.stride;
-    for (std::size_t i = 0; i < bytes; i += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, row + i, std::min(sizeof word, bytes - i));
-      hash = (hash ^ word) * 1099511628211U;
-      hash ^= hash >> 29U;
+    for (std::size_t i = 0; i < bytes; i += kStep) {
+      std::uint64_t words[kHashes] = {};
+      std::memcpy(words, row + i, std::min(kStep, bytes - i));
+      for (std::size_t k = 0; k < kHashes; ++k) add(words[k], hashes[k]);
     }
   }
-  return hash;
+  for (std::size_t k = 1; k < kHashes; ++k) add(hashes[k], hashes[0]);
+  return hashes[0];
 }
 
 /// The transformation of the right image with which a search finds most corners; none if there is no such.
