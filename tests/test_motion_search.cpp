@@ -1,5 +1,7 @@
 #include "frontends.hpp"
+#include "motion/confirmation.hpp"
 #include "motion/motion_search.hpp"
+#include "motion/step_builder.hpp"
 
 using namespace quadedge;
 using namespace matching;
@@ -91,6 +93,33 @@ TEST_CASE("motion search: a good prediction ends it, any other starts the global
   frames.check(turned(frames.truth()));
   CHECK(frames.frontend->coarse == 1);
   CHECK(frames.frontend->global == 1);
+}
+
+TEST_CASE("motion search: a proposal that leads to a confirmed motion is given up", "[odometry]") {
+  TwoFrames frames(3000);
+  motion::StepBuilder steps(frames.scene.config, *frames.offset);
+  const motion::Acceptance acceptance(frames.scene.config, *frames.offset);
+  motion::Confirmation confirmation(frames.scene.config, *frames.frontend, steps, acceptance);
+  const auto confirm = [&](const Eigen::Isometry3d& proposal, const motion::MotionStep* known) {
+    frames.frontend->guided = 0;
+    return confirmation.confirm(frames.query, proposal, false, 0, known);
+  };
+  const auto known = confirm(frames.truth(), nullptr);
+  REQUIRE(known);
+  REQUIRE(known->ok());
+  const auto turn = [](double degrees) { return Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()); };
+  // Half a pixel off: the quads of the known motion show that, without a search.
+  CHECK_FALSE(confirm(turn(0.4) * frames.truth(), known.get()));
+  CHECK(frames.frontend->guided == 0);
+  // Two pixels off: a single search leads there.
+  CHECK_FALSE(confirm(turn(2) * frames.truth(), known.get()));
+  CHECK(frames.frontend->guided == 1);
+  CHECK(confirm(turn(2) * frames.truth(), nullptr)->ok());
+  CHECK(frames.frontend->guided > 1);
+  // A motion that leads nowhere is no known one.
+  const auto wrong = confirm(turned(frames.truth()), known.get());
+  REQUIRE(wrong);
+  CHECK_FALSE(wrong->ok());
 }
 
 TEST_CASE("motion search: without the global search the coarse search widens", "[odometry]") {

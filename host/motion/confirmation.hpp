@@ -21,17 +21,23 @@ class Confirmation {
   /// Returns the motion since the key rig or, if that is out of view, since the base. \param current_from_base the
   /// proposed motion \param closely whether inliers have to lie within a third of the usual distance
   /// \param confident_support below it, the support by the base may replace that by the key rig
+  /// \param known a motion that has been confirmed; null: none \returns null if the proposal leads to that motion
   StepHandle confirm(const MotionQuery& query, const Eigen::Isometry3d& current_from_base, bool closely,
-                     double confident_support);
+                     double confident_support, const MotionStep* known);
 
   /// Confirms a motion with only those edges of the base that it brings to where `other` explains nothing.
   StepHandle confirm_beside(const MotionQuery& query, const Eigen::Isometry3d& current_from_base,
                             const ExplainedCells& other);
 
  private:
-  /// \param other if not null, only edges where it explains nothing are matched
+  /// What is known of other motions.
+  struct Others {
+    const MotionStep* known = nullptr;          ///< see confirm()
+    const ExplainedCells* explained = nullptr;  ///< if not null, only edges where it explains nothing are matched
+    bool must_compete = false;                  ///< whether a motion that explains much less than `known` is given up
+  };
   StepHandle match(const MotionQuery& query, const frontend::RigHandle& base, const PoseConfig& limits,
-                   Eigen::Isometry3d current_from_base, const ExplainedCells* other = nullptr);
+                   Eigen::Isometry3d current_from_base, const Others& others);
 
   void take_support_of_base(const MotionQuery& query, const PoseConfig& limits, MotionStep& by_key);
 
@@ -39,7 +45,7 @@ class Confirmation {
   frontend::Frontend& frontend_;
   StepBuilder& steps_;
   const Acceptance& acceptance_;
-  TemporalSearch search_, next_search_;  ///< kept between calls
+  TemporalSearch search_, next_search_, known_search_;  ///< kept between calls
 };
 
 }  // namespace quadedge::motion

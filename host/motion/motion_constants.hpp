@@ -51,6 +51,10 @@ constexpr double kCheckedMovingRatio = 0.1, kMovingRatioStep = 0.1;
 /// Two motions whose explained areas have a ratio above this are ambiguous.
 constexpr double kCompetingAreaRatio = 0.4;
 
+/// A motion that the first search finds to explain less than this fraction of the area that another one explains is not
+/// searched for again: further rounds have added up to a quarter, which leaves it below kCompetingAreaRatio.
+constexpr double kHopelessAreaRatio = 0.75 * kCompetingAreaRatio;
+
 /// Fraction of the quads that are static although the motion would have moved them. Valid motions reach 0.036 in single
 /// frames and are mostly below 0.001; a stationary camera whose motion was estimated from objects moving in front of it
 /// has 0.07 to 0.36.
@@ -75,5 +79,9 @@ constexpr double kProposalMinInlierRatio = 0.03;
 /// temporal.radius. The mean is computed over every 16th edge, which suffices for an average.
 constexpr double kSettled = 0.3;
 constexpr int kSettledStep = 16;
+
+/// A proposal whose predicted positions are this close on average to those of a confirmed motion [px] is fitted to the
+/// quads of that motion first, which lie within temporal.radius of both.
+constexpr double kNearKnown = 1;
 
 }  // namespace quadedge::motion

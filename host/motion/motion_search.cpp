@@ -63,16 +63,22 @@ void MotionSearch::try_out(Effort effort, const MotionQuery& query, Trials& tria
     if (!trial.proposed) continue;
     if (trial.proposed->ok())
       trial.confirmed = confirmation_.confirm(query, trial.proposed->motion.current_from_previous,
-                                              hypothesis->requires_close_agreement(), record_.confident_support());
+                                              hypothesis->requires_close_agreement(), record_.confident_support(),
+                                              known_motion(trials));
     trials.push_back(std::move(trial));
   }
+}
+
+const MotionStep* MotionSearch::known_motion(const Trials& trials) {
+  for (const Trial& trial : trials)
+    if (trial.is_confirmed() && !trial.hypothesis->requires_close_agreement()) return trial.confirmed.get();
+  return nullptr;
 }
 
 Evidence MotionSearch::evidence_of(const Trials& trials) {
   Evidence evidence;
   for (const Trial& trial : trials) {
-    if (evidence.confirmed == nullptr && trial.confirmed && trial.confirmed->ok())
-      evidence.confirmed = trial.confirmed.get();
+    if (evidence.confirmed == nullptr && trial.is_confirmed()) evidence.confirmed = trial.confirmed.get();
     if (trial.hypothesis->matches_globally()) evidence.global_matches = trial.proposed.get();
   }
   return evidence;
@@ -102,7 +108,7 @@ Selection MotionSearch::choose(const MotionQuery& query, const Trials& trials) c
 Verdict MotionSearch::verdict_of(const Trial& trial, const Evidence& evidence, const MotionQuery& query) const {
   const MotionStep& step = trial.outcome();
   Verdict verdict = step.verdict;
-  verdict.found = step.ok();
+  verdict.found = trial.is_confirmed();
   verdict.has_all_inliers = !trial.hypothesis->requires_close_agreement();
   if (verdict.found && evidence.global_matches != nullptr)
     verdict.agrees_globally =

@@ -38,8 +38,10 @@ class MotionSearch {
   /// A hypothesis, its proposal and the result of the confirmation.
   struct Trial {
     MotionHypothesis* hypothesis = nullptr;
-    StepHandle proposed, confirmed;  ///< `confirmed` is null if the status of the proposal is not ok
+    /// `confirmed` is null if the status of the proposal is not ok, or if it led to the known motion.
+    StepHandle proposed, confirmed;
 
+    bool is_confirmed() const { return confirmed && confirmed->ok(); }
     StepHandle& outcome() { return confirmed ? confirmed : proposed; }
     const MotionStep& outcome() const { return confirmed ? *confirmed : *proposed; }
   };
@@ -48,6 +50,8 @@ class MotionSearch {
   /// Appends the hypotheses up to a level of effort that are not among the trials yet and have a proposal.
   void try_out(Effort effort, const MotionQuery& query, Trials& trials);
   static Evidence evidence_of(const Trials& trials);
+  /// The first confirmed motion with all of its inliers; null if there is none.
+  static const MotionStep* known_motion(const Trials& trials);
   Selection choose(const MotionQuery& query, const Trials& trials) const;
   Verdict verdict_of(const Trial& trial, const Evidence& evidence, const MotionQuery& query) const;
 
