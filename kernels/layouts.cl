@@ -242,6 +242,25 @@ typedef struct {
   float cluster_sigma;
 } StereoClusterArguments;
 
+// coarse_disparity.cl.
+enum {
+  kCoarseLanes = 16,        // levels of a vector
+  kCoarseMostLevels = 256,  // of disparity
+  kCoarseSlope = 30,        // steepest slope along a row that is distinguished
+  kCoarsePlanes = 6         // per pixel: slope, its bounds half-way to either neighbour, grey level, its bounds
+};
+FLOAT_CONSTANT kNoCoarseDisparity = -1e9f;  // px, where it is not known
+typedef struct {
+  int width, height;               // of the half-size left image; that of the right one is as high
+  int right_width;                 // of the half-size right image
+  int levels;                      // disparities of two px of the images, a multiple of kCoarseLanes
+  int shift;                       // at level d the counterpart of column x is x + shift - d
+  int right_front, right_stride;   // a row of a plane of the mirrored right image: places in front of it, and all
+  int right_first;                 // place of the counterpart of column 0 at level 0
+  int step_penalty, jump_penalty;  // of a path, for a change by one level and for any other
+  float first;                     // position on the epipolar line at level 0, px of the images
+} CoarseDisparityArguments;
+
 // stereo_relaxation.cl. Neighbours are found by cells of this size [px], of which each shows one edge: about the
 // distance of the points of a ring from one another, so that they find different edges.
 FLOAT_CONSTANT kRelaxationCell = 4.0f;
@@ -269,6 +288,10 @@ typedef struct {
   float scale;             // of differences of similarity
   float support_weight;    // in similarity; 0: no vote
   float score_min;         // of the chosen candidate
+  float undecided;         // belief below which an edge counts as undecided
+  int coarse_columns, coarse_rows;
+  float coarse_reach;    // px along the epipolar line within which a coarse position speaks for a candidate
+  float coarse_dissent;  // how likely it leaves the edge's other candidates
   EpipolarGeometry geometry;
 } StereoRelaxationArguments;
 

@@ -80,6 +80,46 @@ static inline float vote(global const float* position, global const float* slope
   return most;
 }
 
+// Counts the edges with a candidate, and those of them that are undecided.
+kernel void relaxation_tally(const StereoRelaxationArguments args, global const int* first,
+                             global const int* cluster_count, global const float* belief, global int* tally) {
+  const int i = (int)get_global_id(0);
+  if (i >= args.left.count) return;
+  float highest = 0.0f;
+  for (int k = first[i]; k < first[i] + cluster_count[i]; ++k) highest = fmax(highest, belief[k]);
+  if (highest <= 0.0f) return;
+  atomic_inc(tally);
+  if (highest < args.undecided) atomic_inc(tally + 1);
+}
+
+// Starts the vote again with a coarse disparity of the pair as a witness: where it speaks for a candidate of an edge,
+// the other candidates become less likely. The pixels beside the edge are asked, too: either surface at a contour.
+kernel void relaxation_consult(const StereoRelaxationArguments args, global const int* first,
+                               global const int* cluster_count, global const float* left_edges,
+                               global const float* clusters, global const float* coarse, global float* prior,
+                               global float* belief, global float* next_belief) {
+  const int i = (int)get_global_id(0);
+  if (i >= args.left.count) return;
+  const int begin = first[i], end = begin + cluster_count[i];
+  const int column = (int)(0.5f * left_edges[args.left.first + i]);
+  const int row = (int)(0.5f * left_edges[args.left.first + args.left.stride + i]);
+  const int from = max(column - 1, 0), to = min(column + 1, args.coarse_columns - 1);
+  int speaks = 0;
+  for (int k = begin; k < end; ++k) {
+    int near = 0;
+    for (int x = from; x <= to && row < args.coarse_rows; ++x)
+      near |= fabs(clusters[k] - coarse[row * args.coarse_columns + x]) < args.coarse_reach;
+    next_belief[k] = near ? prior[k] : args.coarse_dissent * prior[k];
+    speaks |= near && prior[k] > 0.0f;
+  }
+  float total = 0.0f;
+  for (int k = begin; k < end; ++k) {
+    if (speaks) prior[k] = next_belief[k];
+    total += prior[k];
+  }
+  for (int k = begin; k < end; ++k) belief[k] = next_belief[k] = total > 0.0f ? prior[k] / total : 0.0f;
+}
+
 // One round for the edges that have a choice: prior * (floor + mean of the neighbours' votes)^2, normalised.
 kernel void relaxation_round(const StereoRelaxationArguments args, global const int* first,
                              global const int* cluster_count, global const float* left_edges,

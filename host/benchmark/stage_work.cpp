@@ -1,6 +1,7 @@
 #include "benchmark/stage_work.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "common/layouts.hpp"
@@ -78,6 +79,12 @@ StageWork stereo_refinement_work(const FrameSize& frame) {
   const double sample = 4 + 8 + 4 + 3 * 2;  // position, bilinear, gain and residual, two sums and the robust weight
   return {frame.pixels + frame.left_edges * kEdgePatchBytes + frame.refined * 3 * sizeof(float),
           frame.refined * (2 * kPatchSamples * sample + kSimilarity)};
+}
+
+/// doc/method.md section 3: at half size, a cost per pixel and level, and a step of four paths.
+StageWork coarse_disparity_work(const FrameSize& frame) {
+  const double cells = frame.pixels / 8 * (frame.disparity_range / 2), cost = 2, step = 4 + 3 + 2;
+  return {frame.pixels + cells * (sizeof(std::uint8_t) + sizeof(std::uint16_t)), cells * (cost + 4 * step)};
 }
 
 StageWork stereo_relaxation_work(const FrameSize& frame, const StereoConfig& config) {
@@ -163,6 +170,7 @@ FrameSize count_frame(frontend::Frontend& frontend, const FramePrefetcher::Frame
     return wanted > 0 ? std::ceil(static_cast<double>(edges) / wide_step(edges, wanted)) : 0;
   };
   size.pixels = static_cast<double>(second.left.pixel_count() + second.right.pixel_count());
+  size.disparity_range = frontend.counts().disparity_range;
   size.left_edges = frontend.counts().edges_left;
   size.edges = size.left_edges + frontend.counts().edges_right;
   size.base_edges = static_cast<double>(base->edges.size());
@@ -188,6 +196,7 @@ StageWork least_work(const std::string& stage, const FrameSize& frame, const Con
   if (stage == "candidate_filters") return candidate_filters_work(frame);
   if (stage == "stereo_refinement") return stereo_refinement_work(frame);
   if (stage == "stereo_clusters") return {frame.refined * 2 * place, frame.refined * (2 + kTurned + 8)};
+  if (stage == "coarse_disparity") return coarse_disparity_work(frame);
   if (stage == "stereo_relaxation") return stereo_relaxation_work(frame, config.stereo);
   if (stage == "stereo_mutual")
     return {frame.left_edges * place + frame.stereo_edges * 3 * place, frame.left_edges * 4};

@@ -10,6 +10,7 @@ namespace quadedge::bench {
 
 /// Size of the problem for a frame that is matched with the previous one. Both images together unless a side is named.
 struct FrameSize {
+  double disparity_range = 0;  ///< [px]
   double pixels = 0, edges = 0, left_edges = 0;
   double stereo_candidates = 0;  ///< after distance, disparity and orientation
   double refined = 0;            ///< of these, similar enough to be refined

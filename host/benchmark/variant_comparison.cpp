@@ -42,6 +42,7 @@ constexpr double kPaperSiftMax = 500;
 /// The configuration with a variant, modified so that it runs the stage.
 Config with_variant(Config config, const std::string& stage, const std::string& name) {
   if (stage == "sift" && config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;
+  if (stage == "coarse_disparity") config.stereo.coarse_ties = 0;
   if (stage == "temporal_candidates" || stage == "temporal_quads") config.variants[kGuidedMatch] = "lists";
   config.variants[stage] = name;
   return config;
@@ -90,6 +91,7 @@ struct ReferenceCheck::Small {
     config.stereo.min_depth = 0;
     config.variants.clear();
     if (config.stereo.sift_max == 0) config.stereo.sift_max = kPaperSiftMax;  // every stage shall run
+    config.stereo.coarse_ties = 0;
     for (int i = 0; i < 2; ++i) frames[i] = sequence.pair(i);
     Device reference("reference");
     expected = run_frontend(*frontend::make_frontend(sequence.rig(), reference, config), frames[0], frames[1], config);

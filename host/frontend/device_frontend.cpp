@@ -3,6 +3,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "common/coarse_search.hpp"
 #include "common/epipolar_rows.hpp"
 #include "common/layouts.hpp"
 
@@ -28,6 +29,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
     : context_(context),
       config_(config),
       range_(rig, config),
+      gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()),
       calibration_(rig),
       left_(context, rig.left, rig.left_undistortion, rig.left_mask, rig.max_value, config),
       right_(context, rig.right, rig.right_undistortion, rig.right_mask, rig.max_value, config),
@@ -38,6 +40,7 @@ DeviceFrontend::DeviceFrontend(const StereoRig& rig, opencl::Context& context, c
       filters_(context, config.variants),
       refinement_(context, config.stereo, config.patches.offset, config.variants, rig.max_value),
       clustering_(context, config.stereo, config.variants),
+      coarse_(context, config.variants, rig.max_value),
       relaxation_(context, rig.left.width, rig.left.height, config.stereo, config.variants),
       mutual_(context, config.stereo, config.variants),
       point_index_(context, config.variants),
@@ -98,8 +101,9 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
     right_.sift.describe(right_.edges.positions(), right_sift_);
   }
   range_.start_frame();
-  do find_stereo_edges(current);
-  while (!range_.suffices(current.edges, left_.edges.host_count));
+  gate_.start_frame();
+  while (!find_stereo_edges(current)) {
+  }
   counts_.disparity_range = range_.disparity();
   rig.has_sift = false;
   current.is_restored = false;
@@ -113,7 +117,15 @@ RigHandle DeviceFrontend::process(const StereoFrame& frame) {
   return rigs_.current_handle();
 }
 
-void DeviceFrontend::find_stereo_edges(DeviceRig& current) {
+const stages::CoarseDisparity* DeviceFrontend::witness(const stages::DeviceStereoEdges& rig) {
+  if (!gate_.is_open()) return nullptr;
+  const auto search = coarse_search(calibration_, range_.geometry());
+  if (!search) return nullptr;
+  coarse_.run(rig.left_image, rig.right_image, *search);
+  return &coarse_;
+}
+
+bool DeviceFrontend::find_stereo_edges(DeviceRig& current) {
   stages::DeviceStereoEdges& rig = current.on_device;
   const EpipolarGeometry& geometry = range_.geometry();
   stereo_candidates_.run(left_.edges, right_.edges, calibration_.right.height, geometry,
@@ -126,8 +138,10 @@ void DeviceFrontend::find_stereo_edges(DeviceRig& current) {
                   geometry, candidates_, refined_);
   clustering_.run(left_.edges, right_.edges, candidates_, refined_, clusters_);
   context_.flush();
-  relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_);
+  relaxation_.run(left_.edges, geometry, candidates_, clusters_, relaxed_, witness(rig));
   mutual_.run(left_.edges, right_.edges, right_.patches, geometry, clusters_, relaxed_, owners_, rig, current.edges);
+  const bool range_suffices = range_.suffices(current.edges, left_.edges.host_count);
+  return gate_.suffices(relaxed_.host_tally) && range_suffices;
 }
 
 void DeviceFrontend::index_current() {

@@ -1,9 +1,11 @@
 #pragma once
 /// \file device_frontend.hpp  The front end on an OpenCL device.
 
+#include "frontend/coarse_gate.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/range_follower.hpp"
 #include "stages/candidate_filters.hpp"
+#include "stages/coarse_disparity.hpp"
 #include "stages/edge_detection.hpp"
 #include "stages/edge_mask.hpp"
 #include "stages/edge_selection.hpp"
@@ -62,8 +64,10 @@ class DeviceFrontend : public Frontend {
 
   /// Detects the edges of both images and waits for their number.
   void detect(DeviceRig& current);
-  /// Stages 4 and 5, within the disparity range that the images need.
-  void find_stereo_edges(DeviceRig& current);
+  /// Stages 4 and 5, within the current disparity range. \returns false if the frame is to be searched again
+  bool find_stereo_edges(DeviceRig& current);
+  /// The coarse disparity of the frame; null where the gate is shut or the rig is not rectified.
+  const stages::CoarseDisparity* witness(const stages::DeviceStereoEdges& rig);
   /// Indexes the current stereo edges of both images, once per frame.
   void index_current();
   /// About `wanted` stereo edges of the current rig with their wide descriptors, which are computed once per frame and
@@ -88,6 +92,7 @@ class DeviceFrontend : public Frontend {
   opencl::Context& context_;
   Config config_;
   RangeFollower range_;
+  CoarseGate gate_;
   StereoRig calibration_;
   Camera left_, right_;
   stages::EdgeThreshold threshold_;
@@ -96,6 +101,7 @@ class DeviceFrontend : public Frontend {
   stages::CandidateFilters filters_;
   stages::StereoRefinement refinement_;
   stages::StereoClusters clustering_;
+  stages::CoarseDisparity coarse_;
   stages::StereoRelaxation relaxation_;
   stages::StereoMutual mutual_;
   stages::PointIndex point_index_;

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "common/coarse_search.hpp"
 #include "common/epipolar_rows.hpp"
 #include "reference/edge_detection.hpp"
 #include "reference/edge_mask.hpp"
@@ -60,7 +61,11 @@ reference::EdgeDescriptions describe(const Image& image, const EdgeSet& edges, c
 }  // namespace
 
 ReferenceFrontend::ReferenceFrontend(const StereoRig& rig, const Config& config)
-    : calibration_(rig), config_(config), threshold_(config.edges), range_(rig, config) {}
+    : calibration_(rig),
+      config_(config),
+      threshold_(config.edges),
+      range_(rig, config),
+      gate_(config.stereo, coarse_search(rig, range_.geometry()).has_value()) {}
 
 void ReferenceFrontend::detect(ReferenceRig& now, double threshold) {
   reference::ReferenceEdges left = reference::outside_mask(
@@ -98,8 +103,9 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   const auto left = describe(now.left, left_edges_, config_), right = describe(now.right, right_edges_, config_);
 
   range_.start_frame();
-  do search_stereo(now, left, right);
-  while (!range_.suffices(now.edges, counts_.edges_left));
+  gate_.start_frame();
+  while (!search_stereo(now, left, right)) {
+  }
   counts_.disparity_range = range_.disparity();
   if (tap_ != nullptr) {
     tap_candidates();
@@ -116,7 +122,7 @@ RigHandle ReferenceFrontend::process(const StereoFrame& frame) {
   return rigs_.current_handle();
 }
 
-void ReferenceFrontend::search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
+bool ReferenceFrontend::search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
                                       const reference::EdgeDescriptions& right) {
   const EpipolarGeometry& geometry = range_.geometry();
   candidates_ = reference::stereo_candidates(left_edges_, right_edges_, geometry, range_.probe(counts_.edges_left));
@@ -125,9 +131,14 @@ void ReferenceFrontend::search_stereo(ReferenceRig& now, const reference::EdgeDe
       reference::stereo_refinement(now.left.view(), now.right.view(), left.patches, left_edges_, right_edges_, geometry,
                                    candidates_, config_.stereo, config_.patches.offset, scores_);
   clusters_ = reference::stereo_clusters(candidates_, scores_, refined, right_edges_, config_.stereo);
+  const auto search = gate_.is_open() ? coarse_search(calibration_, geometry) : std::nullopt;
+  std::optional<reference::CoarseDisparity> witness;
+  if (search) witness = reference::coarse_disparity(now.left.view(), now.right.view(), *search);
   relaxation_ = reference::stereo_relaxation(clusters_, left_edges_, geometry, calibration_.left.width,
-                                             calibration_.left.height, config_.stereo);
+                                             calibration_.left.height, config_.stereo, witness ? &*witness : nullptr);
   now.edges = reference::stereo_mutual(clusters_, relaxation_, left_edges_, geometry, config_.stereo);
+  const bool range_suffices = range_.suffices(now.edges, counts_.edges_left);
+  return gate_.suffices(relaxation_.tally) && range_suffices;
 }
 
 void ReferenceFrontend::match(const Rig& base, const TemporalSearch& search, TemporalMatches& matches) {

@@ -2,6 +2,7 @@
 /// \file reference_frontend.hpp  The front end in C++, used as the reference for the whole pipeline (`--device
 /// reference`).
 
+#include "frontend/coarse_gate.hpp"
 #include "frontend/frontend.hpp"
 #include "frontend/range_follower.hpp"
 #include "reference/candidate_filters.hpp"
@@ -35,8 +36,8 @@ class ReferenceFrontend : public Frontend {
  private:
   /// Detects the edges of both images, limited by the budget.
   void detect(ReferenceRig& now, double threshold);
-  /// The stereo cascade, within the current disparity range.
-  void search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
+  /// The stereo cascade, within the current disparity range. \returns false if the frame is to be searched again
+  bool search_stereo(ReferenceRig& now, const reference::EdgeDescriptions& left,
                      const reference::EdgeDescriptions& right);
   void tap_candidates();
   void tap_clusters();
@@ -45,6 +46,7 @@ class ReferenceFrontend : public Frontend {
   Config config_;
   reference::EdgeThreshold threshold_;
   RangeFollower range_;
+  CoarseGate gate_;
   EdgeSet left_edges_, right_edges_;
   // Of the last search_stereo(), for taps:
   reference::Candidates candidates_;

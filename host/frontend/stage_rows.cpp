@@ -68,7 +68,7 @@ class Collector : public Tap {
       case StereoFilter::sift: add_candidates("patches", lists, kSimilarities); break;
       case StereoFilter::nearly_best_sift: add_candidates("candidate_filters", lists, 0); break;
       case StereoFilter::refinement: add_candidates("stereo_refinement, stereo_clusters", lists, kSimilarities); break;
-      case StereoFilter::relaxation: add_candidates("stereo_relaxation", lists, 0); break;
+      case StereoFilter::relaxation: add_candidates("coarse_disparity, stereo_relaxation", lists, 0); break;
       default: break;
     }
   }
@@ -141,6 +141,7 @@ Config configuration(const SmallSequence& sequence, const std::map<std::string, 
   Config config;
   config.stereo.max_disparity = sequence.max_disparity;
   config.stereo.sift_max = 500;
+  config.stereo.coarse_ties = 0;
   config.temporal.coarse_sift_max = 500;
   config.temporal.coarse_radius = config.temporal.radius;
   config.edges.budget = 200;

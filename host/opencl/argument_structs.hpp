@@ -24,6 +24,7 @@
   VISIT(FilterArguments)               \
   VISIT(StereoRefinementArguments)     \
   VISIT(StereoClusterArguments)        \
+  VISIT(CoarseDisparityArguments)      \
   VISIT(StereoRelaxationArguments)     \
   VISIT(StereoMutualArguments)         \
   VISIT(PointIndexArguments)           \

@@ -40,6 +40,17 @@ class Neighbourhood {
     if (!cell) cell = i;
   }
 
+  /// Whether the witness knows a position near that of a cluster, at edge i or beside it.
+  bool is_seconded(std::size_t i, std::size_t candidate, const CoarseDisparity& witness) const {
+    const int column = static_cast<int>(0.5F * left_.x[i]), row = static_cast<int>(0.5F * left_.y[i]);
+    if (row >= witness.search.height) return false;
+    for (int x = std::max(column - kBeside, 0); x <= std::min(column + kBeside, witness.search.width - 1); ++x) {
+      const float coarse = witness.positions[static_cast<std::size_t>(row * witness.search.width + x)];
+      if (std::abs(static_cast<float>(clusters_.position[candidate]) - coarse) < kCoarseReach) return true;
+    }
+    return false;
+  }
+
   /// Mean vote of the neighbours of edge i for one of its clusters; 0 without neighbours.
   double support(std::size_t i, std::size_t candidate, const std::vector<double>& belief) const {
     double sum = 0;
@@ -66,6 +77,8 @@ class Neighbourhood {
     const auto limit = static_cast<double>(kSlopeMax);
     return std::clamp(cross(dx, dy, cosine, sine) / across - position, -limit, limit);
   }
+
+  static constexpr int kBeside = 1;  // coarse pixels to either side of an edge that are asked, too
 
   /// In single precision, as on the device: an edge must not change its cell by rounding.
   std::optional<std::size_t> cell_of(float x, float y) const {
@@ -102,11 +115,55 @@ void normalise(std::vector<double>& values, std::size_t begin, std::size_t end) 
   for (auto k = begin; k < end && total > 0; ++k) values[k] /= total;
 }
 
+/// One more round of votes for the edges with more than one candidate, `choosers`.
+void vote(const Neighbourhood& neighbourhood, const std::vector<std::size_t>& choosers,
+          const std::vector<double>& prior, std::vector<double>& belief) {
+  std::vector<double> next = belief;
+  for (const auto i : choosers) {
+    for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) {
+      if (prior[k] > 0)
+        next[k] = prior[k] * std::pow(static_cast<double>(kSupportFloor) + neighbourhood.support(i, k, belief), 2);
+    }
+    normalise(next, neighbourhood.begin(i), neighbourhood.end(i));
+  }
+  belief = std::move(next);
+}
+
+RelaxationTally tally_of(const Neighbourhood& neighbourhood, std::size_t edges, const std::vector<double>& belief) {
+  RelaxationTally tally;
+  for (std::size_t i = 0; i < edges; ++i) {
+    double highest = 0;
+    for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) highest = std::max(highest, belief[k]);
+    tally.edges += highest > 0 ? 1 : 0;
+    tally.undecided += highest > 0 && highest < static_cast<double>(kUndecided) ? 1 : 0;
+  }
+  return tally;
+}
+
+/// Makes the candidates of an edge less likely that the witness does not second, if it seconds another one.
+void consult(const Neighbourhood& neighbourhood, std::size_t edges, const CoarseDisparity& witness,
+             std::vector<double>& prior, std::vector<double>& belief) {
+  for (std::size_t i = 0; i < edges; ++i) {
+    const auto begin = neighbourhood.begin(i), end = neighbourhood.end(i);
+    std::vector<bool> seconded;
+    bool speaks = false;
+    for (auto k = begin; k < end; ++k) {
+      seconded.push_back(neighbourhood.is_seconded(i, k, witness));
+      speaks = speaks || (seconded.back() && prior[k] > 0);
+    }
+    for (auto k = begin; k < end; ++k) {
+      if (speaks && !seconded[k - begin]) prior[k] *= static_cast<double>(kCoarseDissent);
+      belief[k] = prior[k];
+    }
+    normalise(belief, begin, end);
+  }
+}
+
 }  // namespace
 
 StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet& left,
-                                   const EpipolarGeometry& geometry, int width, int height,
-                                   const StereoConfig& config) {
+                                   const EpipolarGeometry& geometry, int width, int height, const StereoConfig& config,
+                                   const CoarseDisparity* witness) {
   Neighbourhood neighbourhood(clusters, left, geometry, width, height);
   const auto lowest = static_cast<double>(lowest_similarity(config));
   const auto& similarity = clusters.similarity;
@@ -127,17 +184,11 @@ StereoRelaxation stereo_relaxation(const StereoClusters& clusters, const EdgeSet
     if (candidates > 0) neighbourhood.enter(i);
     if (candidates > 1) choosers.push_back(i);
   }
-  for (int round = 0; round < config.relaxation_rounds; ++round) {
-    std::vector<double> next = result.belief;
-    for (const auto i : choosers) {
-      for (auto k = neighbourhood.begin(i); k < neighbourhood.end(i); ++k) {
-        if (prior[k] > 0)
-          next[k] =
-              prior[k] * std::pow(static_cast<double>(kSupportFloor) + neighbourhood.support(i, k, result.belief), 2);
-      }
-      normalise(next, neighbourhood.begin(i), neighbourhood.end(i));
-    }
-    result.belief = std::move(next);
+  for (int round = 0; round < config.relaxation_rounds; ++round) vote(neighbourhood, choosers, prior, result.belief);
+  result.tally = tally_of(neighbourhood, left.size(), result.belief);
+  if (witness != nullptr) {
+    consult(neighbourhood, left.size(), *witness, prior, result.belief);
+    for (int round = 0; round < config.relaxation_rounds; ++round) vote(neighbourhood, choosers, prior, result.belief);
   }
   for (std::size_t i = 0; i < left.size(); ++i) {
     std::optional<std::size_t> best;

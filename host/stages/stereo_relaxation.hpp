@@ -4,8 +4,10 @@
 #include <map>
 #include <string>
 
+#include "common/coarse_search.hpp"
 #include "opencl/argument_structs.hpp"
 #include "quadedge/config.hpp"
+#include "stages/coarse_disparity.hpp"
 #include "stages/device_candidates.hpp"
 #include "stages/device_edges.hpp"
 #include "stages/stereo_clusters.hpp"
@@ -17,6 +19,8 @@ struct DeviceRelaxation {
   opencl::Buffer<cl_float> prior, belief, next_belief;
   opencl::Buffer<cl_float> slopes;  ///< two blocks: change of the position on the line per px along x, along y
   opencl::Buffer<cl_int> cells;     ///< the first edge with a candidate in every cell of the left image
+  opencl::Buffer<cl_int> tally;     ///< see RelaxationTally
+  RelaxationTally host_tally;       ///< the same, valid after the next wait for the queue
   opencl::Buffer<cl_int> chosen;    ///< cluster per left edge, -1: none
   opencl::Buffer<cl_float> score;   ///< per left edge: similarity of that cluster, and what its support counts
 };
@@ -28,8 +32,9 @@ class StereoRelaxation {
   StereoRelaxation(opencl::Context& context, int width, int height, const StereoConfig& config,
                    const std::map<std::string, std::string>& variants);
 
+  /// `witness`: of the same pair, null: none. The tally is taken before it speaks.
   void run(const DeviceEdges& left, const EpipolarGeometry& geometry, const DeviceCandidates& candidates,
-           const DeviceClusters& clusters, DeviceRelaxation& relaxation);
+           const DeviceClusters& clusters, DeviceRelaxation& relaxation, const CoarseDisparity* witness = nullptr);
 
  private:
   template <class T>
@@ -50,6 +55,10 @@ class StereoRelaxation {
   opencl::Kernel<StereoRelaxationArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_float>, In<cl_float>,
                  In<cl_int>, In<cl_float>, Out<cl_int>, Out<cl_float>>
       choose_;
+  opencl::Kernel<StereoRelaxationArguments, In<cl_int>, In<cl_int>, In<cl_float>, Out<cl_int>> tally_;
+  opencl::Kernel<StereoRelaxationArguments, In<cl_int>, In<cl_int>, In<cl_float>, In<cl_float>, In<cl_float>,
+                 Out<cl_float>, Out<cl_float>, Out<cl_float>>
+      consult_;
 };
 
 }  // namespace quadedge::stages
