@@ -53,7 +53,7 @@ TEST_CASE("localiser: half and double light change nothing", "[device]") {
     INFO(light);
     SyntheticOptions other = saved_maps::walk("room");
     other.light = light;
-    const LocatedWalk walk = locate_walk(saved_maps::room_map(), other, 6);
+    const LocatedWalk walk = locate_walk(saved_maps::room_map(), other, 12);
     CHECK(walk.located >= 0.9 * walk.frames);
   }
 }
