@@ -27,8 +27,8 @@ kernel void wide_transpose(global const uchar* descriptors, const int count, glo
 }
 
 // Pairs of bytes of sixteen descriptors, and the sums of their products with those of another, which is repeated in
-// every lane. Processors that multiply and add pairs of 16 bits in one instruction are told to, because compilers do not
-// see it.
+// every lane. Processors that multiply and add pairs of 16 bits in one instruction are told to, because compilers do
+// not see it.
 #if defined(__AVX512BW__) || defined(__AVX2__)
 typedef uchar Bytes32 __attribute__((ext_vector_type(32)));
 typedef short Shorts32 __attribute__((ext_vector_type(32)));
